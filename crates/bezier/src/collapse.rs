@@ -1,4 +1,4 @@
-//! Sides of a patch that are one point, and how many elements they take from a tessellation.
+//! Collapsed sides of a patch, and the number of elements of its tessellation.
 //!
 //! ```text
 //!     corner 3 --- side 2 --- corner 2        v
@@ -8,11 +8,11 @@
 //!     corner 0 --- side 0 --- corner 1
 //! ```
 //!
-//! A side is collapsed if its boundary curve, sampled at 0, 1/m, ... 1 with m the smaller of 3 and
-//! the number of segments, stays within 1e-12 of the patch's extent of its first point in every
-//! coordinate. (A cubic that has the same value at four parameters is constant: with
-//! three segments or more this says that the side is one point. With fewer it also finds a side
-//! that runs in a loop and would be sampled only where it returns.)
+//! A side is collapsed if all samples of its boundary curve, at 0, 1/m, ... 1 with m the smaller of 3 and
+//! the number of segments, differ from its first point by at most 1e-12 times the patch's extent, in every
+//! coordinate. (A cubic that has the same value at four parameters is constant. So with three or more
+//! segments, a collapsed side is one point. With fewer segments, a side can also be a loop whose samples
+//! coincide.)
 
 use glam::DVec3;
 
@@ -20,20 +20,20 @@ use crate::patch::{cubic, size};
 use crate::weights::Weights;
 use crate::{Counts, Faces, Patch};
 
-/// The part of the extent of a patch below which points coincide.
+/// Points coincide if their distance is at most this, relative to the extent of the patch.
 const TOLERANCE: f64 = 1e-12;
 
-/// Which sides of a patch are one point.
+/// The collapsed sides of a patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Sides {
-    /// In the order of the picture.
+    /// Whether each side is collapsed, in the order of the picture.
     pub(crate) collapsed: [bool; 4],
-    /// Whether all rows or all columns coincide: the patch is a curve or a point.
-    flat: bool,
+    /// Whether all rows or all columns coincide, so that the patch is a curve or a point.
+    has_no_area: bool,
 }
 
 impl Sides {
-    /// Looks at the sides of `patch` when cut into `segments`, which is not 0.
+    /// Finds the collapsed sides of `patch` for a tessellation into `segments`, which must not be 0.
     pub(crate) fn of(patch: &Patch, segments: u32) -> Self {
         let p = patch.points();
         let all = p.as_flattened();
@@ -42,21 +42,21 @@ impl Sides {
         let tolerance = TOLERANCE * size(high - low);
 
         let column = |c: usize| [p[0][c], p[1][c], p[2][c], p[3][c]];
-        let is_point = |side: [DVec3; 4]| {
-            // Differences first: a patch far from the origin loses nothing to rounding.
+        let is_collapsed = |side: [DVec3; 4]| {
+            // Subtract first, so that a patch far from the origin does not lose precision.
             let side = side.map(|q| q - side[0]);
             let m = segments.min(3);
             (1..=m).all(|i| size(cubic(side, Weights::ratio(i, m))) <= tolerance)
         };
-        let reach = patch.reach();
+        let max_steps = patch.max_steps();
         Self {
-            collapsed: [p[0], column(3), p[3], column(0)].map(is_point),
-            flat: reach.x <= tolerance || reach.y <= tolerance,
+            collapsed: [p[0], column(3), p[3], column(0)].map(is_collapsed),
+            has_no_area: max_steps.x <= tolerance || max_steps.y <= tolerance,
         }
     }
 
-    /// For every collapsed side the first side of the chain of collapsed sides it belongs to:
-    /// the points of a chain are one point. Its own number for the other sides.
+    /// Returns, for each collapsed side, the lowest side of its chain. A chain is a set of adjacent collapsed
+    /// sides; together they become one vertex. For any other side, returns the side itself.
     pub(crate) fn chains(self) -> [usize; 4] {
         let mut chain = [0, 1, 2, 3];
         for a in 0..4 {
@@ -72,29 +72,35 @@ impl Sides {
         chain
     }
 
-    /// What a patch with these sides gives, exactly: nothing at all if it gives no face.
+    /// Returns the exact number of elements of the tessellation of a patch with these sides. All counts are zero
+    /// if it has no face.
     ///
-    /// Numbers beyond 64 bits stay at the largest that fits.
+    /// Numbers that exceed 64 bits are given as the largest 64-bit number.
     pub(crate) fn counts(self, segments: u32, faces: Faces) -> Counts {
         let n = u64::from(segments);
         let square = |x: u64| x.saturating_mul(x);
         let collapsed = self.collapsed.iter().filter(|&&side| side).count() as u64;
+        // The corners between two collapsed sides.
         let corners = (0..4)
             .filter(|&a| self.collapsed[a] && self.collapsed[(a + 1) % 4])
             .count();
         let corners = corners as u64;
 
-        // A cell with one collapsed side is a triangle, one with more has no area.
-        let (lost, triangles) = match (n, collapsed) {
+        // A cell with one collapsed side becomes a triangle; a cell with more has no area.
+        let (n_lost, triangles) = match (n, collapsed) {
             (1, 0 | 1) => (0, collapsed),
             (1, _) => (1, 0),
             _ => (corners, n * collapsed - 2 * corners),
         };
-        let cells = if self.flat { 0 } else { square(n) - lost };
+        let cells = if self.has_no_area {
+            0
+        } else {
+            square(n) - n_lost
+        };
         if cells == 0 || (n == 2 && collapsed == 4) {
             return Counts::default();
         }
-        // A chain of k sides has k n + 1 points, all four sides have 4 n: each becomes one.
+        // A chain of k sides has k n + 1 samples, and all four sides have 4 n samples. They become one vertex.
         let merged = n * collapsed - u64::from(collapsed == 4);
         let vertices = square(n.saturating_add(1)) - merged;
         match faces {
@@ -135,19 +141,19 @@ mod tests {
     }
 
     #[test]
-    fn a_loop_is_collapsed_only_where_its_samples_coincide() {
+    fn a_loop_is_collapsed_only_if_its_samples_coincide() {
         let mut points = *Lcg::new(31).patch().points();
         points[0][3] = points[0][0];
         assert!(Sides::of(&Patch::new(points).unwrap(), 1).collapsed[0]);
         assert!(!Sides::of(&Patch::new(points).unwrap(), 2).collapsed[0]);
-        // A figure eight passes its end in the middle.
+        // A figure eight passes through its ends at t = 0.5.
         points[0][2] = points[0][0] * 2.0 - points[0][1];
         assert!(Sides::of(&Patch::new(points).unwrap(), 2).collapsed[0]);
         assert!(!Sides::of(&Patch::new(points).unwrap(), 3).collapsed[0]);
     }
 
     #[test]
-    fn a_pole_far_from_the_origin_or_within_rounding_is_collapsed() {
+    fn a_pole_far_from_the_origin_or_with_rounding_errors_is_collapsed() {
         let mut random = Lcg::new(32);
         let far = octant()
             .points()
@@ -164,11 +170,11 @@ mod tests {
     }
 
     #[test]
-    fn neighboring_collapsed_sides_are_one_chain() {
+    fn adjacent_collapsed_sides_are_one_chain() {
         let chains = |collapsed| {
             Sides {
                 collapsed,
-                flat: false,
+                has_no_area: false,
             }
             .chains()
         };

@@ -6,8 +6,8 @@
 //!      /      r0--m--r1       \        r: level 2
 //!     /      /         \       \       m: level 3, the point of the curve
 //!    q0 ----'           '------ q2
-//!   /                             \    each level cuts the legs of the one before
-//! p0                               p3  in the ratio t : 1 - t
+//!   /                             \    the points of each level divide the legs of the
+//! p0                               p3  level before in the ratio t : 1 - t
 //! ```
 //!
 //! Sources: Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, chapters 4 and 5;
@@ -21,13 +21,13 @@ use glam::{DVec2, DVec3};
 use crate::BezierError;
 use crate::weights::Weights;
 
-/// The most control points that a [`Curve`] takes.
+/// The largest number of control points of a [`Curve`].
 ///
-/// De Casteljau's algorithm makes n (n + 1) / 2 points out of n: this bounds what one evaluation
-/// costs (8 million steps) and what [`Curve::levels`] holds (200 MB).
+/// De Casteljau's algorithm computes n (n + 1) / 2 points for n control points. So this limits the
+/// cost of one evaluation (8 million steps) and the memory of [`Curve::levels`] (200 MB).
 pub const MAX_POINTS: usize = 4096;
 
-/// A point of the plane or of space, and the vectors between such points. The origin is the default.
+/// A point or a vector, in 2D or 3D. The default is the origin.
 pub trait Point:
     Copy
     + Debug
@@ -37,7 +37,7 @@ pub trait Point:
     + Sub<Output = Self>
     + Mul<f64, Output = Self>
 {
-    /// Whether every coordinate is a number and not infinite.
+    /// Whether all coordinates are finite.
     fn is_finite(self) -> bool;
 }
 
@@ -55,23 +55,23 @@ impl Point for DVec3 {
 
 /// A Bezier curve of degree n, given by n + 1 control points.
 ///
-/// It starts at the first control point (t = 0), ends at the last (t = 1), touches the first and
-/// last leg of the control polygon there, and stays inside the convex hull of the control points
-/// between. Parameters outside 0 to 1 are allowed everywhere: they continue the same polynomial.
-/// A parameter that is no number gives points that are no numbers, and never a panic.
+/// The curve starts at the first control point (t = 0) and ends at the last (t = 1). There it is tangent
+/// to the first and the last leg of the control polygon. For t from 0 to 1, it is inside the convex hull
+/// of the control points. Parameters outside this range are allowed everywhere: they continue the same
+/// polynomial. A parameter that is NaN gives points with NaN coordinates, and never causes a panic.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve<P> {
-    /// Never empty, at most [`MAX_POINTS`] of them.
+    /// At least one point and at most [`MAX_POINTS`].
     points: Vec<P>,
 }
 
 impl<P: Point> Curve<P> {
-    /// A curve from its control points, first to last.
+    /// Creates a curve from its control points, first to last.
     ///
     /// # Errors
     ///
-    /// [`BezierError::NoPoints`] without a point, [`BezierError::TooManyPoints`] with more than
-    /// [`MAX_POINTS`], [`BezierError::NotFinite`] for the first point that is not finite.
+    /// [`BezierError::NoPoints`] if the list is empty, [`BezierError::TooManyPoints`] if there are more
+    /// than [`MAX_POINTS`], [`BezierError::NotFinite`] for the first point that is not finite.
     pub fn new(points: Vec<P>) -> Result<Self, BezierError> {
         if points.is_empty() {
             return Err(BezierError::NoPoints);
@@ -87,21 +87,21 @@ impl<P: Point> Curve<P> {
         }
     }
 
-    /// The control points, first to last: at least one.
+    /// Returns the control points, first to last. There is at least one.
     pub fn points(&self) -> &[P] {
         &self.points
     }
 
-    /// One less than the number of control points.
+    /// Returns the degree: the number of control points minus one.
     pub fn degree(&self) -> usize {
         self.points.len() - 1
     }
 
-    /// The same curve with control point `index` moved to `point`.
+    /// Returns the same curve with control point `index` moved to `point`.
     ///
     /// # Errors
     ///
-    /// [`BezierError::NoSuchPoint`] if there is no such control point, [`BezierError::NotFinite`]
+    /// [`BezierError::NoSuchPoint`] if the control point does not exist, [`BezierError::NotFinite`]
     /// if `point` is not finite.
     pub fn with_point(&self, index: usize, point: P) -> Result<Self, BezierError> {
         if index >= self.points.len() {
@@ -115,10 +115,10 @@ impl<P: Point> Curve<P> {
         Self::new(points)
     }
 
-    /// Every level of de Casteljau's algorithm at `t`: degree + 1 of them.
+    /// Returns all degree + 1 levels of de Casteljau's algorithm at `t`.
     ///
-    /// The first holds the control points, each has one point less than the one before, and the
-    /// last holds the point of the curve.
+    /// The first level is the control points. Each level has one point less than the level before. The
+    /// last level is the point of the curve.
     pub fn levels(&self, t: f64) -> Vec<Vec<P>> {
         let mut levels = vec![self.points.clone()];
         for k in 0..self.degree() {
@@ -127,12 +127,13 @@ impl<P: Point> Curve<P> {
         levels
     }
 
-    /// The point of the curve at `t`. The ends (0 and 1) are the end control points, bit for bit.
+    /// Returns the point of the curve at `t`. At 0 and 1, this is the first and the last control point, bit
+    /// for bit.
     pub fn point(&self, t: f64) -> P {
         casteljau(self.points.clone(), Weights::at(t))
     }
 
-    /// The derivative with respect to t: the velocity of the point at `t`, zero for degree 0.
+    /// Returns the derivative with respect to t at `t`; zero for degree 0.
     ///
     /// It is n times the Bezier curve of the differences of the control points (Farin 2002, §5.3).
     pub fn derivative(&self, t: f64) -> P {
@@ -144,10 +145,11 @@ impl<P: Point> Curve<P> {
         }
     }
 
-    /// The points at 0, 1/n, 2/n, ... 1 for n `segments`: n + 1 points, both ends exact.
+    /// Returns the points at 0, 1/n, 2/n, ... 1 for n `segments`: n + 1 points. The first and the last are
+    /// the end control points, exactly.
     ///
-    /// Of 0 segments only the start remains. The reversed curve gives the same points, bit for
-    /// bit, in reverse.
+    /// For 0 segments, returns only the start point. The reversed curve gives the same points, bit for bit,
+    /// in reverse order.
     pub fn sample(&self, segments: u32) -> impl Iterator<Item = P> {
         let points = &self.points;
         (0..=segments).map(move |i| match i {
@@ -157,9 +159,9 @@ impl<P: Point> Curve<P> {
     }
 }
 
-/// One step of de Casteljau's algorithm: (1 - t) a + t b for every pair of neighbors a, b.
+/// Does one step of de Casteljau's algorithm: computes (1 - t) a + t b for each pair of neighbors a, b.
 ///
-/// Gives one point less than it gets, and none for one point or none.
+/// Returns one point less than `points`; an empty list if `points` has at most one point.
 pub fn one_step<P: Point>(points: &[P], t: f64) -> Vec<P> {
     let weights = Weights::at(t);
     points
@@ -168,7 +170,7 @@ pub fn one_step<P: Point>(points: &[P], t: f64) -> Vec<P> {
         .collect()
 }
 
-/// The last level of de Casteljau's algorithm. `points` is not empty.
+/// Returns the point of the last level of de Casteljau's algorithm. `points` must not be empty.
 fn casteljau<P: Point>(mut points: Vec<P>, weights: Weights) -> P {
     if let Some(end) = weights.end() {
         return points[end * (points.len() - 1)];
@@ -187,7 +189,7 @@ mod tests {
     use crate::fixtures::{Lcg, assert_close};
     use crate::oracle;
 
-    /// Random curves of degree 0 to 12.
+    /// Returns random curves of degree 0 to 12.
     fn curves(seed: u64) -> Vec<Curve<DVec3>> {
         let mut random = Lcg::new(seed);
         (1..=13)
@@ -212,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn the_ends_are_the_end_control_points_bit_for_bit() {
+    fn the_ends_equal_the_end_control_points_bit_for_bit() {
         let points = vec![
             DVec2::new(-0.0, 0.1),
             DVec2::new(3.0, 0.7),
@@ -232,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn levels_shrink_to_the_point() {
+    fn each_level_has_one_point_less_and_the_last_is_the_point_of_the_curve() {
         let points = [[0.0, 0.0], [0.0, 4.0], [4.0, 4.0]].map(DVec2::from_array);
         let levels = Curve::new(points.to_vec()).unwrap().levels(0.5);
 
@@ -262,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn the_curve_stays_in_the_box_of_its_control_points() {
+    fn the_curve_is_inside_the_bounding_box_of_its_control_points() {
         for curve in curves(6) {
             let low = curve.points().iter().copied().reduce(DVec3::min).unwrap();
             let high = curve.points().iter().copied().reduce(DVec3::max).unwrap();
@@ -285,13 +287,13 @@ mod tests {
     }
 
     #[test]
-    fn the_reversed_curve_samples_the_same_bits() {
+    fn the_reversed_curve_gives_the_same_samples_bit_for_bit() {
         for curve in curves(8) {
             let reversed = Curve::new(curve.points().iter().rev().copied().collect()).unwrap();
             for n in [1, 3, 7, 49, 100] {
-                let forth: Vec<DVec3> = curve.sample(n).collect();
-                let back: Vec<DVec3> = reversed.sample(n).collect();
-                for (p, q) in forth.iter().zip(back.iter().rev()) {
+                let forward: Vec<DVec3> = curve.sample(n).collect();
+                let backward: Vec<DVec3> = reversed.sample(n).collect();
+                for (p, q) in forward.iter().zip(backward.iter().rev()) {
                     assert_eq!(
                         p.to_array().map(f64::to_bits),
                         q.to_array().map(f64::to_bits)
@@ -338,7 +340,7 @@ mod tests {
     }
 
     #[test]
-    fn parameters_that_are_no_numbers_never_panic() {
+    fn infinite_and_nan_parameters_never_panic() {
         for curve in curves(10) {
             for t in [
                 f64::NAN,

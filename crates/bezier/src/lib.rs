@@ -1,33 +1,34 @@
 //! Bezier curves and patches: de Casteljau's algorithm, derivatives, exact normals, and tessellation of
 //! patches into polygons.
 //!
-//! The crate knows numbers only: no meshes, no files, no operations.
+//! The crate works on points and numbers only. It does not depend on meshes, files or operations.
 //!
-//! - A **Bezier curve** of degree n is the weighted mean of n + 1 *control points*: c(t) is the
-//!   sum of `p_i B(n, i)(t)` with the Bernstein polynomials B(n, i). [`Curve`], in 2D and in 3D.
-//! - **De Casteljau's algorithm** finds c(t) by taking, level after level, the points that cut the
-//!   legs of the control polygon in the ratio t : 1 - t. [`one_step`], [`Curve::levels`].
-//! - A **bicubic patch** is a curve of curves, s(u, v), with 4 by 4 control points: u runs along a
-//!   row, v across the rows. [`Patch`].
+//! - A **Bezier curve** of degree n is a weighted mean of n + 1 *control points*: c(t) is the
+//!   sum of `p_i B(n, i)(t)` with the Bernstein polynomials B(n, i). See [`Curve`], in 2D and 3D.
+//! - **De Casteljau's algorithm** computes c(t) in levels. The points of each level divide the legs
+//!   of the level before in the ratio t : 1 - t. See [`one_step`] and [`Curve::levels`].
+//! - A **bicubic patch** s(u, v) has 4 by 4 control points: u runs along the rows, v across them.
+//!   Each row is a cubic curve in u; the points of these curves are the control points of a cubic
+//!   curve in v. See [`Patch`].
 //! - A **tessellation** samples patches at u = i/n, v = j/n and joins the samples by triangles or
-//!   quads. [`tessellate()`], [`counts`].
+//!   quads. See [`tessellate()`] and [`counts`].
 //!
-//! Faces are counter-clockwise seen from the side of the normal ds/du x ds/dv. Positions that two
-//! patches share are the same bits, collapsed sides become one vertex, and normals are exact
-//! there too.
+//! Faces are counter-clockwise when seen from the side of the normal ds/du x ds/dv. The positions on
+//! a boundary that two patches share are equal bit for bit. A collapsed side (all of its points
+//! coincide) becomes one vertex, with an exact normal.
 //!
 //! # Examples
 //!
 //! ```
 //! use bezier::{Curve, DVec2, DVec3, Faces, Patch, counts, tessellate};
 //!
-//! // A curve, and the construction of its middle point.
+//! // A curve, and the construction of its point at t = 0.5.
 //! let arch = Curve::new(vec![DVec2::ZERO, DVec2::new(0.0, 4.0), DVec2::new(4.0, 4.0)])?;
 //! let levels = arch.levels(0.5);
 //! assert_eq!(levels[1], [DVec2::new(0.0, 2.0), DVec2::new(2.0, 4.0)]);
 //! assert_eq!(levels[2], [arch.point(0.5)]);
 //!
-//! // A hill over a square, in triangles.
+//! // A hill over a square, tessellated into triangles.
 //! let height = [0.0, 1.0, 1.0, 0.0];
 //! let hill = Patch::new([0, 1, 2, 3].map(|r| {
 //!     [0, 1, 2, 3].map(|c| DVec3::new(c as f64, r as f64, height[r] * height[c]))
@@ -44,7 +45,7 @@
 //! - de Casteljau, "Outillages méthodes calcul", Citroën, 1959: the algorithm.
 //! - Farin, "Curves and Surfaces for CAGD", 5th edition, 2002: the names and the formulas.
 //! - Newell, "The utilization of procedure models in digital image synthesis", 1975: the teapot,
-//!   whose lid and bottom have the collapsed sides that every Bezier program meets first.
+//!   whose lid and bottom have collapsed sides.
 
 mod collapse;
 pub mod curve;

@@ -1,89 +1,89 @@
-//! Normals where the derivatives of a patch vanish or are parallel.
+//! Normals at points where the derivatives of a patch are zero or parallel.
 //!
 //! ```text
-//!      v = 1                The pole of a surface of revolution is a whole edge of the patch
-//!        *                  that is one point. Along it du = 0, so du x dv = 0, and yet the
-//!       /|\   lines of      surface has a normal there: the one that du x dv points along as
-//!      / | \  equal u       v comes near the edge.
+//!      v = 1                The pole of a surface of revolution is a whole edge of the patch,
+//!        *                  collapsed to one point. Along this edge du = 0, so du x dv = 0. Still,
+//!       /|\   lines of      the surface has a normal there: the limit of the direction of du x dv
+//!      / | \  equal u       as v approaches the edge.
 //!     /  |  \
 //!    *---+---*  v = 0
 //! ```
 //!
-//! Let N = du x dv, a polynomial in u and v. Walk from the point in a straight line into the
-//! patch, (u + e a, v + e b) for small e > 0. On the way N is a polynomial in e:
+//! Let N = du x dv, a polynomial in u and v. Consider a straight line from the point into the patch,
+//! (u + e a, v + e b) for small e > 0. Along this line, N is a polynomial in e:
 //!
 //! ```text
 //! N(e) = N0 + e N1 + e² N2 + ...      N(e) / |N(e)|  ->  Nk / |Nk|  as e goes to 0,
 //! ```
 //!
-//! where Nk is the first coefficient that is not zero. At a regular point that is N0 = du x dv
-//! itself. On a collapsed edge v = 0, where du = 0 all along, it is N1 = duv x dv with the mixed
-//! derivative duv, the direction in which du leaves zero; on the edge v = 1 the way in is b = -1,
-//! and N1 = -duv x dv. Collapsed corners and edges that collapse to a higher order need N2 and
-//! beyond. N has degree 5 in u and in v, so N10 is the last.
+//! where Nk is the first nonzero coefficient. At a regular point, this is N0 = du x dv. On a collapsed
+//! edge v = 0, where du = 0 along the edge, it is N1 = duv x dv, with the mixed derivative duv. On the
+//! edge v = 1, the line into the patch has b = -1, and N1 = -duv x dv. Collapsed corners, and edges that
+//! collapse to a higher order, need N2 and higher coefficients. N has degree 5 in u and in v, so N10 is
+//! the last.
 //!
-//! The way in is straight across the edge, or along the diagonal from a corner. If the limit
-//! exists, every way gives it. If it does not (the tip of a cone seen from a corner patch, a
-//! cusp), the answer is the limit along this way. If N is zero all along this way, two more ways
-//! beside it are tried; if N is zero there too, there is no normal.
+//! The line runs straight across the edge, or along the diagonal from a corner. If the limit exists, it is
+//! the same along every line. If the limit does not exist (at the tip of a cone at the corner of a patch,
+//! or at a cusp), the result is the limit along this line. If N is zero along the whole line, two more
+//! lines beside it are tried; if N is zero along these too, the point has no normal.
 //!
-//! "Zero" means below [`VANISHING`] when derivatives are measured by the largest difference of
-//! neighboring control points, along u and along v each by its own, so that long thin
-//! patches and tiny ones have their normals.
+//! A coefficient is treated as zero if it is at most [`VANISHING`] after the derivatives were divided by
+//! the largest difference of neighboring control points, separately along u and along v. So thin and tiny
+//! patches have normals too.
 
 use glam::{DVec2, DVec3};
 
 use crate::patch::size;
 
-/// Below this, a coefficient of the scaled normal counts as zero.
+/// A coefficient of the scaled normal that is at most this is treated as zero.
 ///
-/// Well above the rounding of the coefficients (1e-14), and above what an edge that is collapsed
-/// only within the tolerance of [`tessellate`](crate::tessellate()) leaves. So close to a pole
-/// (1e-10 of the patch), the next coefficient is the better answer anyway.
+/// The value is well above the rounding errors of the coefficients (1e-14), and above the coefficients at an
+/// edge that is collapsed only within the tolerance of [`tessellate`](crate::tessellate()). This close to a
+/// pole (1e-10 of the patch), the next coefficient gives a better normal anyway.
 pub const VANISHING: f64 = 1e-10;
 
-/// The limit of the normals on the way into the patch from `at`, if there is one.
+/// Returns the limit of the normals along a line into the patch from `uv`, if there is one.
 ///
-/// `c` holds the Taylor coefficients of the patch there, c\[i\]\[j\] that of x^i y^j; `reach` is
-/// the size of differences along u and v, neither of them zero.
-pub(crate) fn limit(c: &[[DVec3; 4]; 4], reach: DVec2, at: DVec2) -> Option<DVec3> {
-    ways_in(at)
+/// `c` has the Taylor coefficients of the patch at `uv`: c\[i\]\[j\] is that of x^i y^j. `max_steps` is the
+/// result of [`Patch::max_steps`](crate::Patch), which must not be zero.
+pub(crate) fn limit(c: &[[DVec3; 4]; 4], max_steps: DVec2, uv: DVec2) -> Option<DVec3> {
+    inward_directions(uv)
         .into_iter()
-        .find_map(|way| limit_along(c, reach, way))
+        .find_map(|direction| limit_along(c, max_steps, direction))
 }
 
-/// `n` scaled to length 1, unless it counts as zero or is not finite.
+/// Returns `n` scaled to length 1, or `None` if it is treated as zero or is not finite.
 pub(crate) fn unit(n: DVec3) -> Option<DVec3> {
     let size = size(n);
     (size > VANISHING && n.is_finite()).then(|| (n / size).normalize())
 }
 
-/// Three directions in (u, v) that lead from `at` into the patch, the best one first.
-fn ways_in(at: DVec2) -> [DVec2; 3] {
+/// Returns three directions in (u, v) that lead from `uv` into the patch; the first is the preferred one.
+fn inward_directions(uv: DVec2) -> [DVec2; 3] {
     let on_edge = |t: f64| t <= 0.0 || t >= 1.0;
     let inward = |t: f64| if t > 0.5 { -1.0 } else { 1.0 };
-    let way = match (on_edge(at.x), on_edge(at.y)) {
-        (true, false) => DVec2::new(inward(at.x), 0.0),
-        (false, true) => DVec2::new(0.0, inward(at.y)),
-        _ => DVec2::new(inward(at.x), inward(at.y)),
+    let direction = match (on_edge(uv.x), on_edge(uv.y)) {
+        (true, false) => DVec2::new(inward(uv.x), 0.0),
+        (false, true) => DVec2::new(0.0, inward(uv.y)),
+        _ => DVec2::new(inward(uv.x), inward(uv.y)),
     };
-    let beside = way.perp() * 0.5;
-    [way, way + beside, way - beside]
+    let offset = direction.perp() * 0.5;
+    [direction, direction + offset, direction - offset]
 }
 
-/// The first coefficient of N along `way` that is not zero, scaled to length 1.
-fn limit_along(c: &[[DVec3; 4]; 4], reach: DVec2, way: DVec2) -> Option<DVec3> {
-    // The coefficients of du and dv on the way, by powers of e.
+/// Returns the first nonzero coefficient of N along `direction`, scaled to length 1.
+fn limit_along(c: &[[DVec3; 4]; 4], max_steps: DVec2, direction: DVec2) -> Option<DVec3> {
+    // The coefficients of du and dv along the line, by powers of e.
     let mut du = [DVec3::ZERO; 6];
     let mut dv = [DVec3::ZERO; 6];
-    let (a, b) = (powers(way.x), powers(way.y));
+    let (a, b) = (powers(direction.x), powers(direction.y));
     for i in 0..4 {
         for j in 0..4 {
             if i > 0 {
-                du[i - 1 + j] += c[i][j] * (i as f64 * a[i - 1] * b[j] / reach.x);
+                du[i - 1 + j] += c[i][j] * (i as f64 * a[i - 1] * b[j] / max_steps.x);
             }
             if j > 0 {
-                dv[i + j - 1] += c[i][j] * (j as f64 * a[i] * b[j - 1] / reach.y);
+                dv[i + j - 1] += c[i][j] * (j as f64 * a[i] * b[j - 1] / max_steps.y);
             }
         }
     }
@@ -93,7 +93,7 @@ fn limit_along(c: &[[DVec3; 4]; 4], reach: DVec2, way: DVec2) -> Option<DVec3> {
     })
 }
 
-/// 1, x, x², x³.
+/// Returns 1, x, x², x³.
 fn powers(x: f64) -> [f64; 4] {
     [1.0, x, x * x, x * x * x]
 }
@@ -104,8 +104,7 @@ mod tests {
     use crate::Patch;
     use crate::fixtures::{Lcg, assert_close, octant, quarter_turn, squared};
 
-    /// Every normal of the boundary is the limit of normals inside, along the way across the edge
-    /// and along a slanted one.
+    /// Checks that every normal on the boundary is close to normals inside, along three lines.
     fn assert_normals_are_limits(patch: &Patch) {
         for i in 0..=8 {
             let t = f64::from(i) / 8.0;
@@ -124,9 +123,9 @@ mod tests {
         }
     }
 
-    /// The patch walked in all eight ways: reversed in u, in v, and transposed.
-    fn all_ways(patch: &Patch) -> Vec<Patch> {
-        let mut ways = vec![*patch];
+    /// Returns the patch in all eight orientations: reversed in u, in v, and transposed.
+    fn all_orientations(patch: &Patch) -> Vec<Patch> {
+        let mut orientations = vec![*patch];
         let reversed_u = |p: &Patch| {
             let mut points = *p.points();
             for row in &mut points {
@@ -134,14 +133,14 @@ mod tests {
             }
             Patch::new(points).unwrap()
         };
-        ways.push(reversed_u(patch));
-        ways.extend(ways.clone().iter().map(Patch::transposed));
-        ways.extend(ways.clone().iter().map(reversed_u));
-        ways
+        orientations.push(reversed_u(patch));
+        orientations.extend(orientations.clone().iter().map(Patch::transposed));
+        orientations.extend(orientations.clone().iter().map(reversed_u));
+        orientations
     }
 
     #[test]
-    fn the_pole_of_a_sphere_has_its_axis_as_normal() {
+    fn the_normal_at_the_pole_of_a_sphere_is_its_axis() {
         for u in [0.0, 0.3, 0.5, 1.0] {
             assert_close(octant().normal(u, 1.0), DVec3::Z, 1e-12);
             assert_close(octant().transposed().normal(1.0, u), -DVec3::Z, 1e-12);
@@ -150,20 +149,22 @@ mod tests {
 
     #[test]
     fn normals_of_a_collapsed_edge_are_limits() {
-        // A lid whose first and third rows are points, as that of the teapot, and a bottom.
+        // A lid whose first and third rows are points, like the lid of the teapot, and a bottom.
         let lid = quarter_turn([[0.0, 3.15], [0.8, 3.15], [0.0, 2.85], [0.2, 2.7]]);
         let bottom = quarter_turn([[0.0, 0.0], [1.4, 0.0], [1.5, 0.1], [1.5, 0.2]]);
         for patch in [octant(), lid, bottom] {
-            all_ways(&patch).iter().for_each(assert_normals_are_limits);
+            all_orientations(&patch)
+                .iter()
+                .for_each(assert_normals_are_limits);
         }
     }
 
     #[test]
-    fn a_pole_that_collapses_twice_has_a_normal() {
-        // Two rows are one point: du and dv both vanish on the edge.
+    fn a_pole_with_two_collapsed_rows_has_a_normal() {
+        // Two rows are the same point: du and dv are both zero on the edge.
         let patch = quarter_turn([[0.0, 1.0], [0.0, 1.0], [1.0, 1.0], [2.0, 0.5]]);
-        for way in all_ways(&patch) {
-            assert_normals_are_limits(&way);
+        for patch in all_orientations(&patch) {
+            assert_normals_are_limits(&patch);
         }
         assert_close(patch.normal(0.4, 0.0), -DVec3::Z, 1e-12);
     }
@@ -182,12 +183,14 @@ mod tests {
             let exact = DVec3::new(-v * v, -u * u, 1.0).normalize();
             assert_close(patch.normal(u, v), exact, 1e-12);
         }
-        all_ways(&patch).iter().for_each(assert_normals_are_limits);
+        all_orientations(&patch)
+            .iter()
+            .for_each(assert_normals_are_limits);
     }
 
     #[test]
     fn a_corner_with_parallel_derivatives_has_a_normal() {
-        // A plane patch whose corner (0, 0) is a straight angle.
+        // A planar patch whose corner (0, 0) is a straight angle.
         let mut points = *Lcg::new(21).patch().points();
         for (r, row) in points.iter_mut().enumerate() {
             for (c, p) in row.iter_mut().enumerate() {
@@ -203,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn thin_tiny_and_huge_patches_have_their_normals() {
+    fn thin_tiny_and_huge_patches_have_normals() {
         let scales = [
             DVec3::new(1.0, 1e-9, 1.0),
             DVec3::splat(1e-90),
@@ -219,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn an_edge_collapsed_within_rounding_has_the_normal_of_the_pole() {
+    fn an_edge_collapsed_up_to_rounding_has_the_normal_of_the_pole() {
         let mut points = *octant().points();
         let mut random = Lcg::new(22);
         points[3]
@@ -231,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn a_curve_and_a_line_and_a_point_have_no_normal() {
+    fn patches_that_are_a_curve_or_a_line_or_a_point_have_no_normal() {
         let mut random = Lcg::new(23);
         let (p, d) = (random.point(), random.point());
         let point = [[p; 4]; 4];

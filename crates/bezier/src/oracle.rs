@@ -1,4 +1,4 @@
-//! The Bernstein form of curves and patches: an oracle that shares no code with de Casteljau's
+//! The Bernstein form of curves and patches: a test oracle that shares no code with de Casteljau's
 //! algorithm.
 //!
 //! ```text
@@ -10,7 +10,7 @@
 
 use glam::DVec3;
 
-/// B(n, i) at `t`: 0 unless i is between 0 and n.
+/// Returns B(n, i) at `t`; 0 unless i is from 0 to n.
 pub(crate) fn weight(n: i32, i: i32, t: f64) -> f64 {
     if i < 0 || i > n {
         return 0.0;
@@ -20,29 +20,29 @@ pub(crate) fn weight(n: i32, i: i32, t: f64) -> f64 {
     binomial * power(t, i) * power(1.0 - t, n - i)
 }
 
-/// The derivative of B(n, i) at `t`.
+/// Returns the derivative of B(n, i) at `t`.
 pub(crate) fn weight_derivative(n: i32, i: i32, t: f64) -> f64 {
     f64::from(n) * (weight(n - 1, i - 1, t) - weight(n - 1, i, t))
 }
 
-/// The point at `t` of the curve of `points`.
+/// Returns the point at `t` of the curve with control points `points`.
 pub(crate) fn point(points: &[DVec3], t: f64) -> DVec3 {
     sum(points, |n, i| weight(n, i, t))
 }
 
-/// The derivative at `t` of the curve of `points`.
+/// Returns the derivative at `t` of the curve with control points `points`.
 pub(crate) fn derivative(points: &[DVec3], t: f64) -> DVec3 {
     sum(points, |n, i| weight_derivative(n, i, t))
 }
 
-/// The point and the derivatives by u and by v of the patch of `points`.
+/// Returns the point and the derivatives with respect to u and v of the patch with control points `points`.
 pub(crate) fn patch(points: &[[DVec3; 4]; 4], u: f64, v: f64) -> [DVec3; 3] {
     let rows = points.map(|row| point(&row, u));
     let slopes = points.map(|row| derivative(&row, u));
     [point(&rows, v), point(&slopes, v), derivative(&rows, v)]
 }
 
-/// The sum of the points, each times its weight for the degree n and its place i.
+/// Returns the sum of the points, each multiplied by its weight for degree n and index i.
 fn sum(points: &[DVec3], weight: impl Fn(i32, i32) -> f64) -> DVec3 {
     let n = i32::try_from(points.len()).unwrap() - 1;
     (0..=n).zip(points).map(|(i, &p)| p * weight(n, i)).sum()

@@ -1,11 +1,11 @@
 //! Bicubic Bezier patches.
 //!
 //! ```text
-//!   v                                   row r of the control points is the control polygon
-//!   ^   p30 -- p31 -- p32 -- p33        of a cubic in u; the four points of these cubics at u
+//!   v                                   each row of control points is the control polygon
+//!   ^   p30 -- p31 -- p32 -- p33        of a cubic in u; the points of these four cubics at u
 //!   |    |      |      |      |         are the control polygon of a cubic in v
 //!   |   p20 -- p21 -- p22 -- p23
-//!   |    |      |      |      |         rc: row r, column c
+//!   |    |      |      |      |         prc: row r, column c
 //!   |   p10 -- p11 -- p12 -- p13        (u, v) = (0, 0) at p00, (1, 0) at p03,
 //!   |    |      |      |      |                  (0, 1) at p30, (1, 1) at p33
 //!   |   p00 -- p01 -- p02 -- p03
@@ -20,32 +20,32 @@ use crate::BezierError;
 use crate::normal;
 use crate::weights::Weights;
 
-/// The largest coordinate, in magnitude, that a [`Patch`] takes.
+/// The largest magnitude of a coordinate of a [`Patch`].
 ///
-/// Far beyond every model (`f32` ends at 3.4e38), and small enough that products of two
-/// derivatives do not overflow.
+/// This is far larger than in any model (the largest `f32` is 3.4e38), and small enough that products
+/// of two derivatives do not overflow.
 pub const MAX_COORDINATE: f64 = 1e100;
 
 /// A bicubic Bezier patch: a surface in two parameters, u along the rows of its control points
 /// and v across them.
 ///
 /// Parameters outside 0 to 1 are allowed everywhere and continue the same polynomial. A parameter
-/// that is no number gives points that are no numbers and the normal zero, and never a panic.
+/// that is NaN gives points with NaN coordinates and a zero normal, and never causes a panic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Patch {
     points: [[DVec3; 4]; 4],
 }
 
 impl Patch {
-    /// A patch from its control points, `points[row][column]`.
+    /// Creates a patch from its control points, `points[row][column]`.
     ///
     /// # Errors
     ///
     /// [`BezierError::NotFinite`] or [`BezierError::TooLarge`] for the first control point with a
-    /// coordinate that is not finite, or beyond [`MAX_COORDINATE`].
+    /// coordinate that is not finite, or whose magnitude exceeds [`MAX_COORDINATE`].
     #[expect(
         clippy::large_types_passed_by_value,
-        reason = "a constructor takes what it keeps"
+        reason = "the constructor stores the points"
     )]
     pub fn new(points: [[DVec3; 4]; 4]) -> Result<Self, BezierError> {
         for (index, p) in points.as_flattened().iter().enumerate() {
@@ -59,13 +59,12 @@ impl Patch {
         Ok(Self { points })
     }
 
-    /// The control points, `points[row][column]`.
+    /// Returns the control points, `points[row][column]`.
     pub fn points(&self) -> &[[DVec3; 4]; 4] {
         &self.points
     }
 
-    /// The patch with the roles of u and v exchanged: the same surface seen from the other side,
-    /// every normal reversed.
+    /// Returns the patch with u and v exchanged: the same surface with reversed normals.
     #[must_use]
     pub fn transposed(&self) -> Self {
         let p = &self.points;
@@ -74,48 +73,48 @@ impl Patch {
         }
     }
 
-    /// The point at (`u`, `v`): every row at u, then the four points at v.
+    /// Returns the point at (`u`, `v`): evaluates each row at u, then the four resulting points at v.
     ///
-    /// On the boundary it is the point of the curve of the boundary control points, and at a
-    /// corner the control point, bit for bit.
+    /// On the boundary, the result equals, bit for bit, the point of the curve of the boundary control
+    /// points; at a corner, it equals the control point.
     pub fn point(&self, u: f64, v: f64) -> DVec3 {
         self.point_at(Weights::at(u), Weights::at(v))
     }
 
-    /// The derivatives by u and by v at (`u`, `v`), not scaled.
+    /// Returns the derivatives with respect to u and v at (`u`, `v`), not normalized.
     pub fn derivatives(&self, u: f64, v: f64) -> (DVec3, DVec3) {
         self.derivatives_at(Weights::at(u), Weights::at(v))
     }
 
-    /// The unit normal at (`u`, `v`), in the direction of du x dv.
+    /// Returns the unit normal at (`u`, `v`), in the direction of du x dv.
     ///
-    /// Where du x dv vanishes, as at the pole of a surface of revolution, it is the limit of the
-    /// normals inside the patch; see the [module of normals](crate::normal). Zero only
-    /// where the patch has no normal anywhere near: it is a curve or a point.
+    /// If du x dv is zero, as at the pole of a surface of revolution, returns the limit of the normals
+    /// inside the patch; see the module [`normal`](crate::normal). Returns zero only if the patch has no
+    /// normal in the neighborhood of the point, because it is a curve or a point.
     pub fn normal(&self, u: f64, v: f64) -> DVec3 {
-        self.normal_at(Weights::at(u), Weights::at(v), self.reach())
+        self.normal_at(Weights::at(u), Weights::at(v), self.max_steps())
     }
 
-    /// The point at a pair of weights.
+    /// Returns the point at a pair of weights.
     pub(crate) fn point_at(&self, u: Weights, v: Weights) -> DVec3 {
         cubic(self.points.map(|row| cubic(row, u)), v)
     }
 
-    /// The normal at a pair of weights. `reach` is that of [`Patch::reach`].
-    pub(crate) fn normal_at(&self, u: Weights, v: Weights, reach: DVec2) -> DVec3 {
-        if reach.x == 0.0 || reach.y == 0.0 {
+    /// Returns the normal at a pair of weights. `max_steps` is the result of [`Patch::max_steps`].
+    pub(crate) fn normal_at(&self, u: Weights, v: Weights, max_steps: DVec2) -> DVec3 {
+        if max_steps.x == 0.0 || max_steps.y == 0.0 {
             return DVec3::ZERO;
         }
         let (du, dv) = self.derivatives_at(u, v);
-        normal::unit((du / reach.x).cross(dv / reach.y))
-            .or_else(|| normal::limit(&self.expansion(u, v), reach, DVec2::new(u.t, v.t)))
+        normal::unit((du / max_steps.x).cross(dv / max_steps.y))
+            .or_else(|| normal::limit(&self.expansion(u, v), max_steps, DVec2::new(u.t, v.t)))
             .unwrap_or(DVec3::ZERO)
     }
 
-    /// The largest coordinate difference between neighboring control points, along u and along v.
+    /// Returns the largest coordinate difference between neighboring control points, along u and along v.
     ///
-    /// These are the sizes against which derivatives are called zero.
-    pub(crate) fn reach(&self) -> DVec2 {
+    /// Derivatives are compared to these values to decide whether they are zero.
+    pub(crate) fn max_steps(&self) -> DVec2 {
         let along = |patch: &Self| {
             let pairs = patch.points.iter().flat_map(|row| row.windows(2));
             pairs
@@ -125,26 +124,26 @@ impl Patch {
         DVec2::new(along(self), along(&self.transposed()))
     }
 
-    /// The derivatives at a pair of weights.
+    /// Returns the derivatives at a pair of weights.
     fn derivatives_at(&self, u: Weights, v: Weights) -> (DVec3, DVec3) {
         let du = cubic(self.points.map(|row| slope(row, u)), v);
         let dv = slope(self.points.map(|row| cubic(row, u)), v);
         (du, dv)
     }
 
-    /// The Taylor coefficients c: the point at (u + x, v + y) is the sum of c\[i\]\[j\] x^i y^j.
+    /// Returns the Taylor coefficients c: the point at (u + x, v + y) is the sum of c\[i\]\[j\] x^i y^j.
     fn expansion(&self, u: Weights, v: Weights) -> [[DVec3; 4]; 4] {
         let rows = self.points.map(|row| taylor(row, u));
         [0, 1, 2, 3].map(|i| taylor(rows.map(|coefficients| coefficients[i]), v))
     }
 }
 
-/// The largest coordinate in magnitude.
+/// Returns the largest magnitude of a coordinate.
 pub(crate) fn size(p: DVec3) -> f64 {
     p.abs().max_element()
 }
 
-/// The point of a cubic.
+/// Returns the point of a cubic.
 pub(crate) fn cubic(p: [DVec3; 4], w: Weights) -> DVec3 {
     match w.end() {
         Some(0) => p[0],
@@ -153,19 +152,20 @@ pub(crate) fn cubic(p: [DVec3; 4], w: Weights) -> DVec3 {
     }
 }
 
-/// The point of a quadratic.
+/// Returns the point of a quadratic.
 fn quadratic(p: [DVec3; 3], w: Weights) -> DVec3 {
     w.blend(w.blend(p[0], p[1]), w.blend(p[1], p[2]))
 }
 
-/// The derivative of a cubic.
+/// Returns the derivative of a cubic.
 fn slope(p: [DVec3; 4], w: Weights) -> DVec3 {
     quadratic([p[1] - p[0], p[2] - p[1], p[3] - p[2]], w) * 3.0
 }
 
-/// The Taylor coefficients of a cubic: its derivatives of order k divided by k!.
+/// Returns the Taylor coefficients of a cubic: its derivatives of order k divided by k!.
 ///
-/// Order k takes the k-th differences of the control points (Farin 2002, §5.3).
+/// The derivative of order k is computed from the k-th differences of the control points (Farin 2002,
+/// §5.3).
 fn taylor(p: [DVec3; 4], w: Weights) -> [DVec3; 4] {
     let first = [p[1] - p[0], p[2] - p[1], p[3] - p[2]];
     let second = [first[1] - first[0], first[2] - first[1]];
@@ -236,15 +236,15 @@ mod tests {
     #[test]
     fn transposing_reverses_normals_and_keeps_points() {
         let patch = Lcg::new(14).patch();
-        let other = patch.transposed();
+        let transposed = patch.transposed();
 
-        assert_close(other.point(0.2, 0.7), patch.point(0.7, 0.2), 1e-14);
-        assert_close(other.normal(0.2, 0.7), -patch.normal(0.7, 0.2), 1e-12);
-        assert_eq!(other.transposed(), patch);
+        assert_close(transposed.point(0.2, 0.7), patch.point(0.7, 0.2), 1e-14);
+        assert_close(transposed.normal(0.2, 0.7), -patch.normal(0.7, 0.2), 1e-12);
+        assert_eq!(transposed.transposed(), patch);
     }
 
     #[test]
-    fn bad_control_points_are_refused_by_place() {
+    fn errors_for_bad_control_points_have_their_index() {
         let mut points = *Lcg::new(15).patch().points();
         points[2][1].y = -1e101;
         assert_eq!(Patch::new(points), Err(BezierError::TooLarge { index: 9 }));
@@ -253,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn parameters_that_are_no_numbers_never_panic() {
+    fn infinite_and_nan_parameters_never_panic() {
         let patch = Lcg::new(16).patch();
         for t in [f64::NAN, f64::INFINITY, f64::MAX, -f64::MAX] {
             let _ = (patch.point(t, 0.5), patch.derivatives(0.5, t));

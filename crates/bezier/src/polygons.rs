@@ -1,4 +1,4 @@
-//! Lists of polygons, and how long they are.
+//! The result of a tessellation: lists of polygons, and their sizes.
 //!
 //! ```text
 //! offsets   0         4     7                the corners of face f are
@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 
 use crate::BezierError;
 
-/// Polygons made from patches.
+/// Polygons that approximate patches.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tessellation {
     /// The position of every vertex.
@@ -21,13 +21,13 @@ pub struct Tessellation {
     pub normals: Vec<DVec3>,
     /// The parameters (u, v) of every vertex in its patch.
     pub uvs: Vec<DVec2>,
-    /// Where the corners of each face begin in `indices`, and the end: one more than faces.
+    /// For each face, the index of its first corner in `indices`, followed by the length of `indices`.
     pub offsets: Vec<u32>,
     /// The vertices of all faces, face after face, counter-clockwise.
     pub indices: Vec<u32>,
-    /// How many patches were tessellated, with those that gave nothing.
+    /// The number of tessellated patches, including empty ones.
     pub patches: u32,
-    /// The patches that gave nothing because they have no area.
+    /// The indices of patches that gave no elements because they have no area.
     pub empty_patches: Vec<u32>,
 }
 
@@ -46,19 +46,19 @@ impl Default for Tessellation {
 }
 
 impl Tessellation {
-    /// How many faces there are.
+    /// Returns the number of faces.
     pub fn face_count(&self) -> usize {
         self.offsets.len() - 1
     }
 
-    /// The vertices of the faces in order, each counter-clockwise.
+    /// Iterates over the faces in order; each is a list of vertices, counter-clockwise.
     pub fn faces(&self) -> impl Iterator<Item = &[u32]> {
         self.offsets
             .windows(2)
             .map(|ends| &self.indices[ends[0] as usize..ends[1] as usize])
     }
 
-    /// Makes room for `counts` more elements, so that filling them in cannot fail.
+    /// Reserves memory for `counts` additional elements, so that adding them cannot fail.
     pub(crate) fn reserve(&mut self, counts: Counts) -> Result<(), BezierError> {
         let all = [counts.vertices, counts.faces, counts.corners];
         let [vertices, faces, corners] = all.map(|n| usize::try_from(n).unwrap_or(usize::MAX));
@@ -71,7 +71,7 @@ impl Tessellation {
             .map_err(|_| BezierError::OutOfMemory(counts))
     }
 
-    /// What is there already.
+    /// Returns the number of elements.
     pub(crate) fn counts(&self) -> Counts {
         Counts {
             vertices: self.positions.len() as u64,
@@ -80,7 +80,7 @@ impl Tessellation {
         }
     }
 
-    /// Adds a vertex and gives its id. The counts were checked against 32 bits before.
+    /// Adds a vertex and returns its id. The caller must have checked that the counts fit 32 bits.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "checked by tessellate_patch"
@@ -92,8 +92,8 @@ impl Tessellation {
         (self.positions.len() - 1) as u32
     }
 
-    /// Adds a face of the patch at hand, without corners that repeat the one before; nothing if
-    /// fewer than three remain. The counts were checked against 32 bits before.
+    /// Adds a face, without corners that repeat the next one. Adds nothing if fewer than three corners
+    /// remain. The caller must have checked that the counts fit 32 bits.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "checked by tessellate_patch"
@@ -107,31 +107,31 @@ impl Tessellation {
     }
 }
 
-/// How many elements a tessellation has.
+/// The number of elements of a tessellation.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub struct Counts {
-    /// Vertices.
+    /// The number of vertices.
     pub vertices: u64,
-    /// Faces.
+    /// The number of faces.
     pub faces: u64,
-    /// Corners of faces: the sum of their degrees.
+    /// The number of face corners: the sum of the degrees of all faces.
     pub corners: u64,
 }
 
 impl Counts {
-    /// The sums, or the largest numbers that fit.
-    pub(crate) fn plus(&self, more: &Self) -> Self {
+    /// Adds the counts, saturating at the largest number.
+    pub(crate) fn plus(&self, other: &Self) -> Self {
         Self {
-            vertices: self.vertices.saturating_add(more.vertices),
-            faces: self.faces.saturating_add(more.faces),
-            corners: self.corners.saturating_add(more.corners),
+            vertices: self.vertices.saturating_add(other.vertices),
+            faces: self.faces.saturating_add(other.faces),
+            corners: self.corners.saturating_add(other.corners),
         }
     }
 
-    /// Refuses counts that do not fit 32 bits.
+    /// Checks that the counts fit 32 bits.
     pub(crate) fn check(&self) -> Result<(), BezierError> {
-        let most = self.vertices.max(self.faces).max(self.corners);
-        if most > u64::from(u32::MAX) {
+        let max = self.vertices.max(self.faces).max(self.corners);
+        if max > u64::from(u32::MAX) {
             return Err(BezierError::TooManyElements(*self));
         }
         Ok(())

@@ -1,32 +1,32 @@
-//! Patches into polygons.
+//! Tessellating patches into polygons.
 //!
 //! ```text
-//!   (0,n) ------------ (n,n)      every patch is cut into n by n cells at u = i/n, v = j/n
+//!   (0,n) ------------ (n,n)      every patch is divided into n by n cells at u = i/n, v = j/n
 //!     |  |  |  |  |  |  |
 //!     |--d-----c--|--|--|         quads:      a b c d
 //!     |  |   / |  |  |  |         triangles:  a b c  and  a c d, always along this diagonal
 //!     |--a-----b--|--|--|
 //!     |  |  |  |  |  |  |         v
-//!   (0,0) ------------ (n,0)      ^  faces run counter-clockwise seen from the side
+//!   (0,0) ------------ (n,0)      ^  faces are counter-clockwise when seen from the side
 //!                                 +-> u   that du x dv points to
 //! ```
 //!
-//! Vertices are numbered along u first, then along v, patch after patch, and patches share none:
-//! joining them is the business of a weld. For it, patches with the same control points on a
-//! shared boundary, in either direction, get the same positions there, bit for bit.
+//! Vertices are numbered along u first, then along v, patch after patch. Patches share no vertices; weld
+//! the result to join them. If two patches have the same control points on a common boundary, in either
+//! direction, their positions there are equal bit for bit.
 //!
-//! A side of a patch that is one point, as at the poles of a teapot's lid, becomes one vertex
-//! (neighboring collapsed sides together: one). A cell with such a side becomes one triangle, a
-//! cell with more of them no face. The side counts as one point if its boundary curve, sampled at
-//! 0, 1/m, ... 1 with m the smaller of 3 and n, stays within 1e-12 of the extent of the patch's
-//! control points of its first point, in every coordinate. The vertex lies at the start of the
-//! first such side (v = 0, u = 1, v = 1, u = 0); its uv and its normal are those of the middle of
-//! that side. Patches that have no cell left, and patches that are a curve or a point (all rows or
-//! all columns coincide, with the same tolerance), give no vertex and no face and are listed.
+//! A collapsed side, whose points coincide (as at the pole of a teapot's lid), becomes one vertex, and
+//! adjacent collapsed sides together become one vertex. A cell with one collapsed side becomes a triangle;
+//! a cell with more of them becomes no face. A side is collapsed if all samples of its boundary curve, at
+//! 0, 1/m, ... 1 with m the smaller of 3 and n, differ from its first point by at most 1e-12 times the
+//! extent of the patch's control points, in every coordinate. The vertex is at the start of the first of
+//! these sides, in the order v = 0, u = 1, v = 1, u = 0; its UV and normal are those of the middle of that
+//! side. Patches without remaining cells, and patches that are a curve or a point (all rows or all columns
+//! coincide, with the same tolerance), give no vertices and faces, and are listed.
 //!
-//! Nothing else is looked for: a patch that folds onto itself, or one that is cut so coarsely that
-//! the corners of a cell lie in a line (the tip of the teapot's spout in one segment), may have
-//! faces without area.
+//! Other degeneracies are not detected. Faces can have no area if a patch folds onto itself, or if the
+//! segments are so few that the corners of a cell are collinear (as at the tip of the teapot's spout with
+//! one segment).
 
 use std::num::NonZero;
 
@@ -36,10 +36,10 @@ use crate::collapse::Sides;
 use crate::weights::Weights;
 use crate::{BezierError, Counts, Patch, Tessellation};
 
-/// What a cell of a patch becomes.
+/// The faces that a cell of a patch becomes.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Faces {
-    /// Two triangles, cut from the corner (i, j) to the corner (i + 1, j + 1).
+    /// Two triangles, divided by the diagonal from corner (i, j) to corner (i + 1, j + 1).
     Triangles,
     /// One quad.
     Quads,
@@ -47,12 +47,12 @@ pub enum Faces {
 
 /// Tessellates `patches`, each into `segments` by `segments` cells.
 ///
-/// The [module](self) says how vertices are numbered and what becomes of sides that are one
-/// point. For progress or cancelling, loop over [`tessellate_patch`].
+/// The [module](self) documents how vertices are numbered and how collapsed sides are handled. To report
+/// progress or to allow cancellation, call [`tessellate_patch`] in a loop instead.
 ///
 /// # Errors
 ///
-/// Those of [`counts`], before anything is computed, and [`BezierError::OutOfMemory`].
+/// The errors of [`counts`], before anything is computed, and [`BezierError::OutOfMemory`].
 pub fn tessellate(
     patches: &[Patch],
     segments: u32,
@@ -66,11 +66,11 @@ pub fn tessellate(
     Ok(out)
 }
 
-/// Adds one patch to a tessellation, which keeps its ids.
+/// Tessellates one patch and appends it to `out`. Existing ids do not change.
 ///
 /// # Errors
 ///
-/// Those of [`counts`], for what `out` would hold, and [`BezierError::OutOfMemory`]. `out` is
+/// The errors of [`counts`], for the resulting size of `out`, and [`BezierError::OutOfMemory`]. `out` is
 /// unchanged.
 pub fn tessellate_patch(
     patch: &Patch,
@@ -80,22 +80,22 @@ pub fn tessellate_patch(
 ) -> Result<(), BezierError> {
     let n = NonZero::new(segments).ok_or(BezierError::NoSegments)?.get();
     let sides = Sides::of(patch, n);
-    let more = sides.counts(n, faces);
-    out.counts().plus(&more).check()?;
-    out.reserve(more)?;
-    if more.faces == 0 {
+    let added = sides.counts(n, faces);
+    out.counts().plus(&added).check()?;
+    out.reserve(added)?;
+    if added.faces == 0 {
         out.empty_patches.push(out.patches);
     } else {
-        let mut cutter = Cutter {
+        let mut tessellator = PatchTessellator {
             patch,
             n,
             sides,
-            reach: patch.reach(),
+            max_steps: patch.max_steps(),
             collapsed: [None; 4],
         };
-        let mut below = cutter.push_row(0, out);
+        let mut below = tessellator.push_row(0, out);
         for j in 1..=n {
-            let above = cutter.push_row(j, out);
+            let above = tessellator.push_row(j, out);
             push_faces(&below, &above, faces, out);
             below = above;
         }
@@ -104,12 +104,12 @@ pub fn tessellate_patch(
     Ok(())
 }
 
-/// How many elements [`tessellate`] gives, exactly, from the control points alone.
+/// Returns the exact number of elements of the result of [`tessellate`], without computing it.
 ///
 /// # Errors
 ///
-/// [`BezierError::NoSegments`] if `segments` is 0, [`BezierError::TooManyElements`] if the
-/// vertices, faces or face corners do not fit ids of 32 bits.
+/// [`BezierError::NoSegments`] if `segments` is 0, [`BezierError::TooManyElements`] if the number of
+/// vertices, faces or face corners does not fit 32-bit ids.
 pub fn counts(patches: &[Patch], segments: u32, faces: Faces) -> Result<Counts, BezierError> {
     let n = NonZero::new(segments).ok_or(BezierError::NoSegments)?.get();
     let total = patches.iter().fold(Counts::default(), |total, patch| {
@@ -119,19 +119,19 @@ pub fn counts(patches: &[Patch], segments: u32, faces: Faces) -> Result<Counts, 
     Ok(total)
 }
 
-/// A patch on its way into polygons.
-struct Cutter<'a> {
+/// The state of tessellating one patch.
+struct PatchTessellator<'a> {
     patch: &'a Patch,
     n: u32,
     sides: Sides,
-    /// See [`Patch::reach`].
-    reach: DVec2,
+    /// See [`Patch::max_steps`].
+    max_steps: DVec2,
     /// The vertices of collapsed sides, by the first side of their chain.
     collapsed: [Option<u32>; 4],
 }
 
-impl Cutter<'_> {
-    /// Adds the vertices of row `j` that are not there yet. Gives the ids of all, along u.
+impl PatchTessellator<'_> {
+    /// Adds the missing vertices of row `j`. Returns the ids of all vertices of the row, along u.
     fn push_row(&mut self, j: u32, out: &mut Tessellation) -> Vec<u32> {
         let (n, sides) = (self.n, self.sides);
         let chains = sides.chains();
@@ -151,12 +151,12 @@ impl Cutter<'_> {
     /// Adds the vertex at (i/n, j/n).
     fn push_vertex(&self, i: u32, j: u32, out: &mut Tessellation) -> u32 {
         let (u, v) = (Weights::ratio(i, self.n), Weights::ratio(j, self.n));
-        let normal = self.patch.normal_at(u, v, self.reach);
+        let normal = self.patch.normal_at(u, v, self.max_steps);
         out.push_vertex(self.patch.point_at(u, v), normal, DVec2::new(u.t, v.t))
     }
 }
 
-/// Adds the one vertex of a collapsed side.
+/// Adds the vertex of a collapsed side.
 fn push_collapsed(patch: &Patch, side: usize, out: &mut Tessellation) -> u32 {
     let p = patch.points();
     let start = [p[0][0], p[0][3], p[3][3], p[3][0]][side];
@@ -187,8 +187,8 @@ mod tests {
 
     const KINDS: [Faces; 2] = [Faces::Triangles, Faces::Quads];
 
-    /// Patches with none to four collapsed sides, in every position.
-    fn collapsing() -> Vec<Patch> {
+    /// Returns patches with every subset of the sides collapsed.
+    fn collapsed_patches() -> Vec<Patch> {
         let mut random = Lcg::new(41);
         let sides = [
             [(0, 0), (0, 1), (0, 2), (0, 3)],
@@ -199,7 +199,7 @@ mod tests {
         let mut patches = Vec::new();
         for mask in 0..16 {
             let mut points = *random.patch().points();
-            // Twice, so that neighboring sides agree on their corner.
+            // Done twice, so that adjacent sides have the same corner.
             for _ in 0..2 {
                 for (k, side) in sides
                     .iter()
@@ -231,18 +231,18 @@ mod tests {
             .collect()
     }
 
-    /// The positions along a side, in the order of the sides of a patch, along u or v.
+    /// Returns the positions along a side (0 to 3: v = 0, u = 1, v = 1, u = 0), in the direction of u or v.
     fn side_positions(patch: &Patch, n: u32, side: usize) -> Vec<DVec3> {
         let mesh = tessellate(&[*patch], n, Faces::Quads).unwrap();
         let m = n as usize;
-        let at = |i: usize, j: usize| mesh.positions[j * (m + 1) + i];
+        let p = |i: usize, j: usize| mesh.positions[j * (m + 1) + i];
         (0..=m)
-            .map(|k| [at(k, 0), at(m, k), at(k, m), at(0, k)][side])
+            .map(|k| [p(k, 0), p(m, k), p(k, m), p(0, k)][side])
             .collect()
     }
 
     #[test]
-    fn a_patch_of_two_segments_is_eight_triangles_or_four_quads() {
+    fn a_patch_with_two_segments_becomes_eight_triangles_or_four_quads() {
         let patch = Lcg::new(42).patch();
         let triangles = tessellate(&[patch], 2, Faces::Triangles).unwrap();
         let quads = tessellate(&[patch], 2, Faces::Quads).unwrap();
@@ -254,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pole_is_one_vertex_in_a_fan_of_triangles() {
+    fn a_pole_becomes_one_vertex_with_a_fan_of_triangles() {
         let mesh = tessellate(&[octant()], 3, Faces::Quads).unwrap();
         let degrees: Vec<usize> = mesh.faces().map(<[u32]>::len).collect();
 
@@ -267,25 +267,25 @@ mod tests {
 
     #[test]
     fn counts_are_exact_for_every_set_of_collapsed_sides() {
-        for (mask, patch) in collapsing().iter().enumerate() {
+        for (mask, patch) in collapsed_patches().iter().enumerate() {
             for n in 1..6 {
                 for faces in KINDS {
                     let mesh = tessellate(&[*patch], n, faces).unwrap();
-                    let forecast = counts(&[*patch], n, faces).unwrap();
-                    assert_eq!(mesh.counts(), forecast, "sides {mask:04b}, {n} segments");
-                    assert_eq!(mesh.empty_patches.is_empty(), forecast.faces > 0);
-                    // No vertex is left without a face, and no face repeats a vertex.
-                    let mut used = vec![false; mesh.positions.len()];
+                    let expected = counts(&[*patch], n, faces).unwrap();
+                    assert_eq!(mesh.counts(), expected, "sides {mask:04b}, {n} segments");
+                    assert_eq!(mesh.empty_patches.is_empty(), expected.faces > 0);
+                    // Every vertex has a face, and no face repeats a vertex.
+                    let mut is_used = vec![false; mesh.positions.len()];
                     for face in mesh.faces() {
                         for &v in face {
-                            used[v as usize] = true;
+                            is_used[v as usize] = true;
                         }
                         let mut sorted = face.to_vec();
                         sorted.sort_unstable();
                         assert!(sorted.windows(2).all(|pair| pair[0] != pair[1]));
                     }
                     assert!(
-                        used.iter().all(|&used| used),
+                        is_used.iter().all(|&is_used| is_used),
                         "sides {mask:04b}, {n} segments"
                     );
                 }
@@ -294,7 +294,7 @@ mod tests {
     }
 
     #[test]
-    fn faces_have_area_and_agree_with_unit_normals() {
+    fn faces_have_area_and_their_normals_are_near_the_exact_normals() {
         let lid = quarter_turn([[0.0, 3.15], [0.8, 3.15], [0.0, 2.85], [0.2, 2.7]]);
         let bottom = quarter_turn([[0.0, 0.0], [1.4, 0.0], [1.5, 0.1], [1.5, 0.2]]);
         for patch in [octant(), octant().transposed(), bottom, lid, squared()] {
@@ -312,7 +312,7 @@ mod tests {
     }
 
     #[test]
-    fn normals_are_those_of_the_patch() {
+    fn positions_and_normals_are_those_of_the_patch() {
         let patch = Lcg::new(43).patch();
         let mesh = tessellate(&[patch], 5, Faces::Quads).unwrap();
         for ((uv, normal), position) in mesh.uvs.iter().zip(&mesh.normals).zip(&mesh.positions) {
@@ -322,7 +322,7 @@ mod tests {
     }
 
     #[test]
-    fn a_shared_boundary_has_the_same_bits_in_every_direction() {
+    fn a_shared_boundary_is_equal_bit_for_bit_in_every_direction() {
         let mut random = Lcg::new(44);
         for n in [1, 2, 3, 7, 10, 49] {
             let shared = [(); 4].map(|()| random.point() * 100.0 + DVec3::splat(0.1));
@@ -334,12 +334,12 @@ mod tests {
                         let (r, c) = [(0, k), (k, 3), (3, k), (k, 0)][side];
                         points[r][c] = shared[if reversed { 3 - k } else { k }];
                     }
-                    let mut found = side_positions(&Patch::new(points).unwrap(), n, side);
+                    let mut positions = side_positions(&Patch::new(points).unwrap(), n, side);
                     if reversed {
-                        found.reverse();
+                        positions.reverse();
                     }
-                    let found = bits(found);
-                    assert_eq!(&found, expected.get_or_insert_with(|| found.clone()));
+                    let actual = bits(positions);
+                    assert_eq!(&actual, expected.get_or_insert_with(|| actual.clone()));
                 }
             }
         }
@@ -349,19 +349,19 @@ mod tests {
     fn signed_zeros_of_a_shared_boundary_are_kept() {
         let mut random = Lcg::new(45);
         let shared = [1.0, -0.0, 0.0, -0.0].map(|x| DVec3::new(x, -0.0, 0.0));
-        let mut found = Vec::new();
+        let mut sides = Vec::new();
         for _ in 0..2 {
             let mut points = *random.patch().points();
             points[0] = shared;
-            let upright = Patch::new(points).unwrap();
-            found.push(bits(side_positions(&upright, 5, 0)));
-            found.push(bits(side_positions(&upright.transposed(), 5, 3)));
+            let patch = Patch::new(points).unwrap();
+            sides.push(bits(side_positions(&patch, 5, 0)));
+            sides.push(bits(side_positions(&patch.transposed(), 5, 3)));
         }
-        assert!(found.iter().all(|side| *side == found[0]));
+        assert!(sides.iter().all(|side| *side == sides[0]));
     }
 
     #[test]
-    fn patches_follow_each_other_and_say_where_faces_come_from() {
+    fn elements_are_in_the_order_of_patches_and_empty_patches_are_listed() {
         let mut random = Lcg::new(46);
         let patches = [
             random.patch(),
@@ -376,7 +376,7 @@ mod tests {
     }
 
     #[test]
-    fn curves_and_loops_without_area_give_nothing_and_are_listed() {
+    fn patches_without_area_give_no_elements_and_are_listed() {
         let mut random = Lcg::new(47);
         let curve = Patch::new([(); 4].map(|()| [random.point(); 4])).unwrap();
         let mesh = tessellate(&[curve, curve.transposed()], 9, Faces::Triangles).unwrap();
@@ -385,7 +385,7 @@ mod tests {
             (Counts::default(), vec![0, 1])
         );
 
-        // A tube around its axis: with one segment only a line of it would remain.
+        // A tube: with one segment around, only a line would remain.
         let mut points = *random.patch().points();
         for row in &mut points {
             row[3] = row[0];
@@ -399,7 +399,7 @@ mod tests {
     }
 
     #[test]
-    fn sizes_are_refused_before_anything_is_computed() {
+    fn too_many_elements_are_refused_before_anything_is_computed() {
         let patch = [octant()];
         assert_eq!(
             counts(&patch, 0, Faces::Quads),

@@ -1,13 +1,13 @@
-//! The weights of a parameter, symmetric in both directions of a curve.
+//! The weights of a parameter, symmetric in both directions along a curve.
 
 use crate::Point;
 
 /// The weights 1 - t and t of the two ends of a leg.
 ///
-/// Both are kept, because computing one from the other is not symmetric in floating point. With
-/// the pairs of [`Weights::ratio`], walking i/n along a curve and (n - i)/n along the reversed
-/// curve takes the same products and adds them in the other order, which changes no bit. So two
-/// patches that share a boundary, in whatever direction, sample the same points on it.
+/// Both are stored, because computing one from the other is not symmetric in floating point. With
+/// [`Weights::ratio`], evaluating a curve at i/n and the reversed curve at (n - i)/n gives the same
+/// products, added in the opposite order, which does not change any bit of the sum. So two patches
+/// that share a boundary, in either direction, have the same samples on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Weights {
     /// 1 - t.
@@ -17,12 +17,12 @@ pub(crate) struct Weights {
 }
 
 impl Weights {
-    /// The weights at `t`.
+    /// Returns the weights at `t`.
     pub(crate) fn at(t: f64) -> Self {
         Self { s: 1.0 - t, t }
     }
 
-    /// The weights at i/n. `n` is not 0, and `i` is at most `n`.
+    /// Returns the weights at i/n. `n` must not be 0, and `i` must not exceed `n`.
     pub(crate) fn ratio(i: u32, n: u32) -> Self {
         let count = f64::from(n);
         Self {
@@ -31,14 +31,14 @@ impl Weights {
         }
     }
 
-    /// s a + t b.
+    /// Returns s a + t b.
     pub(crate) fn blend<P: Point>(self, a: P, b: P) -> P {
         a * self.s + b * self.t
     }
 
-    /// 0 at the start, 1 at the end, `None` elsewhere.
+    /// Returns 0 at the start of the curve, 1 at its end, `None` elsewhere.
     ///
-    /// At an end the answer is a control point and needs no arithmetic, which would turn -0 into 0
+    /// At an end, the point is a control point. It is used without arithmetic, which could turn -0 into 0,
     /// depending on the other points.
     pub(crate) fn end(self) -> Option<usize> {
         if self.t == 0.0 {
@@ -56,12 +56,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_weights_from_the_other_end_are_the_same_exchanged() {
+    fn the_weights_from_the_other_end_are_exchanged() {
         for n in [1, 3, 10, 49, 1000] {
             for i in 0..=n {
-                let (forth, back) = (Weights::ratio(i, n), Weights::ratio(n - i, n));
-                assert_eq!((forth.s, forth.t), (back.t, back.s));
-                assert!((forth.s + forth.t - 1.0).abs() <= f64::EPSILON);
+                let (forward, backward) = (Weights::ratio(i, n), Weights::ratio(n - i, n));
+                assert_eq!((forward.s, forward.t), (backward.t, backward.s));
+                assert!((forward.s + forward.t - 1.0).abs() <= f64::EPSILON);
             }
         }
     }

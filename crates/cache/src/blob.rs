@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
-use scene::{Arrays, Scene};
+use scene::{ArraySource, Scene};
 use serde::{Deserialize, Serialize};
 
 use crate::folder::{
@@ -35,7 +35,7 @@ pub(crate) struct SceneRef {
 pub(crate) fn store_scene(folder: &Folder, scene: &Scene) -> Option<SceneRef> {
     let mut arrays = Vec::new();
     let mut stored = true;
-    let rest = scene.encode_apart(MIN_BLOB_LEN, &mut |bytes| {
+    let rest = scene.encode_with_separate_arrays(MIN_BLOB_LEN, &mut |bytes| {
         let blob = BlobRef {
             hash: hash(bytes),
             len: bytes.len() as u64,
@@ -66,7 +66,7 @@ struct StoredArrays<'a> {
     failed: Option<Unusable>,
 }
 
-impl Arrays for StoredArrays<'_> {
+impl ArraySource for StoredArrays<'_> {
     fn next_len(&self) -> Option<u64> {
         self.remaining.first().map(|blob| blob.len)
     }

@@ -209,7 +209,7 @@ impl OpError {
             let locations = elements
                 .iter()
                 .filter_map(|&element| ErrorLocation::of(object, mesh, element));
-            *places = locations.take(ErrorLocation::MOST).collect();
+            *places = locations.take(ErrorLocation::MAX_ELEMENTS).collect();
         }
         self
     }

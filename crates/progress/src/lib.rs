@@ -1,4 +1,4 @@
-//! How long computations report progress and are cancelled.
+//! Progress reports and cancellation of long computations.
 //!
 //! ```
 //! use progress::{Cancelled, NoProgress, Progress};
@@ -18,19 +18,19 @@
 
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
-/// Listens to a computation and can cancel it.
+/// A listener that receives the progress of a computation and can cancel it.
 pub trait Progress: Sync {
-    /// Called when `done` of `total` parts of a computation are done; `what` names it in a few words.
-    /// Returns whether to go on.
-    fn advance(&self, what: &str, done: u64, total: u64) -> bool;
+    /// Receives that `done` of `total` parts of a computation are done. `task` names the computation in a few
+    /// words. Returns whether to continue.
+    fn advance(&self, task: &str, done: u64, total: u64) -> bool;
 
-    /// The same for `?`.
+    /// Calls [`advance`](Self::advance) and returns a `Result`, for use with `?`.
     ///
     /// # Errors
     ///
-    /// [`Cancelled`] if the computation is to stop.
-    fn report(&self, what: &str, done: u64, total: u64) -> Result<(), Cancelled> {
-        if self.advance(what, done, total) {
+    /// [`Cancelled`] if the computation must stop.
+    fn report(&self, task: &str, done: u64, total: u64) -> Result<(), Cancelled> {
+        if self.advance(task, done, total) {
             Ok(())
         } else {
             Err(Cancelled)
@@ -38,39 +38,40 @@ pub trait Progress: Sync {
     }
 }
 
-/// Adds up the work of all threads on one computation and reports it.
+/// Adds up the progress that several threads make on one computation, and reports the sum.
 pub struct Meter<'a> {
     listener: &'a dyn Progress,
-    what: &'static str,
+    task: &'static str,
     done: AtomicU64,
     total: u64,
-    /// A report follows when the parts that are done pass a multiple of this.
+    /// Progress is reported whenever the sum passes a multiple of this.
     interval: u64,
 }
 
 impl<'a> Meter<'a> {
-    /// A computation of `total` parts, named by `what`, with none done yet. Every addition is reported.
-    pub fn new(listener: &'a dyn Progress, what: &'static str, total: u64) -> Self {
+    /// Creates a meter for a computation of `total` parts, named by `task`. Reports every addition unless
+    /// [`every`](Self::every) sets an interval.
+    pub fn new(listener: &'a dyn Progress, task: &'static str, total: u64) -> Self {
         Self {
             listener,
-            what,
+            task,
             done: AtomicU64::new(0),
             total,
             interval: 1,
         }
     }
 
-    /// Reports once for every `interval` parts only, for additions of a few.
+    /// Sets how many parts must be done between two reports. For callers that add few parts at a time.
     #[must_use]
     pub fn every(self, interval: u64) -> Self {
         Self { interval, ..self }
     }
 
-    /// Counts `n` more parts as done. Adding 0 only asks whether to go on.
+    /// Adds `n` to the number of parts that are done. Adding 0 always reports, which checks for cancellation.
     ///
     /// # Errors
     ///
-    /// [`Cancelled`] if the computation is to stop.
+    /// [`Cancelled`] if the computation must stop.
     pub fn add(&self, n: usize) -> Result<(), Cancelled> {
         let before = self.done.fetch_add(n as u64, Relaxed);
         let done = before + n as u64;
@@ -78,14 +79,14 @@ impl<'a> Meter<'a> {
             return Ok(());
         }
         self.listener
-            .report(self.what, done.min(self.total), self.total)
+            .report(self.task, done.min(self.total), self.total)
     }
 
     /// Reports that all parts are done.
     ///
     /// # Errors
     ///
-    /// [`Cancelled`] if the computation is to stop.
+    /// [`Cancelled`] if the computation must stop.
     pub fn finish(&self) -> Result<(), Cancelled> {
         self.done.store(self.total, Relaxed);
         self.add(0)

@@ -1,5 +1,5 @@
-//! A scene from its canonical form. The bytes may be anything: lengths are looked at before memory is
-//! taken, and a mesh is only made of arrays that form one.
+//! Decoding a scene from its canonical form. The bytes are not trusted: lengths are checked before memory is
+//! allocated, and the arrays of a mesh are validated.
 
 use std::sync::Arc;
 
@@ -14,74 +14,78 @@ use crate::{
     TextureTransform,
 };
 
-/// Where the long arrays are that [`Scene::encode_apart`] took out.
-pub trait Arrays {
-    /// How many bytes the next array has; `None` if there is none.
+/// A source of the long arrays that [`Scene::encode_with_separate_arrays`] has separated.
+pub trait ArraySource {
+    /// Returns the size of the next array in bytes; `None` if there is none.
     fn next_len(&self) -> Option<u64>;
 
-    /// Reads the next array into `bytes`, which has its length.
+    /// Reads the next array into `bytes`, which must have its length.
     ///
     /// # Errors
     ///
-    /// Why it cannot be read.
+    /// The reason for which the array cannot be read.
     fn read(&mut self, bytes: &mut [u8]) -> Result<(), String>;
 }
 
-/// No arrays apart: for the whole canonical form.
+/// A source without arrays, for a canonical form that contains all arrays.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoArrays;
 
-impl Arrays for NoArrays {
+impl ArraySource for NoArrays {
     fn next_len(&self) -> Option<u64> {
         None
     }
 
     fn read(&mut self, _: &mut [u8]) -> Result<(), String> {
-        Err("there are no arrays apart".to_owned())
+        Err("no separate arrays exist".to_owned())
     }
 }
 
-/// Why bytes are no scene.
+/// Why bytes cannot be decoded as a scene.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DecodeError {
-    /// The bytes end before the scene does.
-    #[error("the bytes end before the scene does")]
+    /// The bytes end before the scene is complete.
+    #[error("the bytes end before the scene is complete")]
     Truncated,
-    /// There are bytes or arrays behind the scene.
-    #[error("expected the end of the scene, found more")]
-    More,
-    /// Something else was expected.
+    /// There are more bytes or arrays after the end of the scene.
+    #[error("expected the end of the scene, found more data")]
+    TrailingData,
+    /// The bytes differ from the expected form.
     #[error("expected {0}")]
     Expected(&'static str),
     /// A long array cannot be read.
     #[error("{0}")]
     Array(String),
-    /// The arrays of a mesh do not form one.
-    #[error("the arrays form no mesh: {0}")]
+    /// The arrays do not form a valid mesh.
+    #[error("the arrays do not form a valid mesh: {0}")]
     Mesh(#[from] Defect),
-    /// Two objects have one name.
+    /// Two objects have the same name.
     #[error(transparent)]
     Name(#[from] DuplicateName),
-    /// The points form no curve or patch.
+    /// The points do not form a valid curve or patch.
     #[error(transparent)]
     Bezier(#[from] BezierError),
 }
 
 impl Scene {
-    /// The scene of this canonical form. Arrays of at least `long` bytes come from `arrays`: `usize::MAX` and
-    /// [`NoArrays`] for the form as [`encode`](Self::encode) gives it.
+    /// Decodes a scene from its canonical form. Arrays of at least `min_long` bytes are read from `arrays`. To
+    /// decode the output of [`encode`](Self::encode), pass `usize::MAX` and [`NoArrays`].
     ///
     /// # Errors
     ///
     /// [`DecodeError`] if the bytes are not the canonical form of a scene.
-    pub fn decode(bytes: &[u8], long: usize, arrays: &mut dyn Arrays) -> Result<Self, DecodeError> {
+    pub fn decode(
+        bytes: &[u8],
+        min_long: usize,
+        arrays: &mut dyn ArraySource,
+    ) -> Result<Self, DecodeError> {
         let mut decoder = Decoder {
             rest: bytes,
-            long,
+            min_long,
             arrays,
         };
         if decoder.text()? != FORM {
-            return Err(DecodeError::Expected("the form of scenes of this version"));
+            return Err(DecodeError::Expected("the scene format of this version"));
         }
         let mut scene = Self::new();
         for _ in 0..decoder.len()? {
@@ -90,15 +94,15 @@ impl Scene {
         if decoder.rest.is_empty() && decoder.arrays.next_len().is_none() {
             Ok(scene)
         } else {
-            Err(DecodeError::More)
+            Err(DecodeError::TrailingData)
         }
     }
 }
 
 struct Decoder<'a> {
     rest: &'a [u8],
-    long: usize,
-    arrays: &'a mut dyn Arrays,
+    min_long: usize,
+    arrays: &'a mut dyn ArraySource,
 }
 
 impl<'a> Decoder<'a> {
@@ -121,33 +125,35 @@ impl<'a> Decoder<'a> {
         std::str::from_utf8(self.take(n)?).map_err(|_| DecodeError::Expected("a text in UTF-8"))
     }
 
-    /// One of several things that are written as their names.
-    fn one_of<T: Copy>(
+    /// Reads a name and returns the value with this name. `expected` describes the value in an error.
+    fn named<T: Copy>(
         &mut self,
         all: &[(&str, T)],
         expected: &'static str,
     ) -> Result<T, DecodeError> {
         let name = self.text()?;
-        let found = all.iter().find(|(other, _)| *other == name);
-        found
+        let entry = all.iter().find(|(other, _)| *other == name);
+        entry
             .map(|(_, value)| *value)
             .ok_or(DecodeError::Expected(expected))
     }
 
-    /// An array of numbers, or of structs of numbers of `width` bytes each.
+    /// Reads an array of numbers, or of structs of numbers, where each number has `width` bytes.
     fn array<T: AnyBitPattern + NoUninit>(&mut self, width: usize) -> Result<Vec<T>, DecodeError> {
         let n = usize::try_from(self.len()?).map_err(|_| DecodeError::Truncated)?;
         let n_bytes = n
             .checked_mul(size_of::<T>())
             .ok_or(DecodeError::Truncated)?;
         let mut values: Vec<T>;
-        if n_bytes < self.long {
+        if n_bytes < self.min_long {
             let bytes = self.take(n_bytes)?;
             values = bytemuck::zeroed_vec(n);
             bytemuck::cast_slice_mut(&mut values).copy_from_slice(bytes);
         } else {
             if self.arrays.next_len() != Some(n_bytes as u64) {
-                return Err(DecodeError::Expected("an array apart of another length"));
+                return Err(DecodeError::Expected(
+                    "a separate array of a different length",
+                ));
             }
             values = mesh::zeroed(n);
             let bytes = bytemuck::cast_slice_mut(&mut values);
@@ -162,20 +168,20 @@ impl<'a> Decoder<'a> {
         Ok(values)
     }
 
-    /// An array of so many numbers.
+    /// Reads an array that must have `N` numbers.
     fn numbers<const N: usize>(&mut self) -> Result<[f64; N], DecodeError> {
         let numbers = self.array::<f64>(8)?;
         numbers
             .try_into()
-            .map_err(|_| DecodeError::Expected("another number of numbers"))
+            .map_err(|_| DecodeError::Expected("an array of a different length"))
     }
 
-    /// A number of things, one after another.
+    /// Reads a list with its length. `next` reads one element.
     fn list<T>(
         &mut self,
         mut next: impl FnMut(&mut Self) -> Result<T, DecodeError>,
     ) -> Result<Vec<T>, DecodeError> {
-        // Not reserved: the number may be any.
+        // No memory is reserved, because the length is not trusted.
         let n = self.len()?;
         (0..n).try_fold(Vec::new(), |mut list, _| {
             list.push(next(self)?);
@@ -217,14 +223,14 @@ impl<'a> Decoder<'a> {
         if m.base_color[3] < 1.0 {
             m.alpha = AlphaMode::Blend;
         }
-        // What else a material has follows behind a length that no text has.
+        // Other properties follow after a marker.
         if !self.rest.starts_with(&MORE.to_le_bytes()) {
             return Ok(m);
         }
         self.len()?;
         for _ in 0..self.len()? {
-            let slot = self.one_of(&TEXTURES, "a texture of a material")?;
-            *slot(&mut m) = Some(self.texture()?);
+            let field = self.named(&TEXTURES, "a texture of a material")?;
+            *field(&mut m) = Some(self.texture()?);
         }
         for _ in 0..self.len()? {
             let name = self.text()?;
@@ -242,7 +248,7 @@ impl<'a> Decoder<'a> {
                 ("alpha", [2.0]) => m.alpha = AlphaMode::Blend,
                 ("double sided", [1.0]) => m.double_sided = true,
                 ("unlit", [1.0]) => m.unlit = true,
-                _ => return Err(DecodeError::Expected("a number of a material")),
+                _ => return Err(DecodeError::Expected("a numeric property of a material")),
             }
         }
         Ok(m)
@@ -255,13 +261,13 @@ impl<'a> Decoder<'a> {
                 mime: self.text()?.to_owned(),
                 bytes: self.array::<u8>(1)?.into(),
             },
-            _ => return Err(DecodeError::Expected("a picture")),
+            _ => return Err(DecodeError::Expected("an image")),
         };
-        let wrap = |code| coded(&WRAPS, code, "how a texture is wrapped");
-        let filter = |code| coded(&FILTERS, code, "how a texture is filtered");
+        let wrap = |code| value_of_code(&WRAPS, code, "the wrap mode of a texture");
+        let filter = |code| value_of_code(&FILTERS, code, "the filter of a texture");
         let codes = self.array::<u32>(4)?;
         let &[uv_set, u, v, magnify, minify, mipmap] = &codes[..] else {
-            return Err(DecodeError::Expected("how a texture is sampled"));
+            return Err(DecodeError::Expected("the sampler of a texture"));
         };
         let sampler = Sampler {
             wrap: [wrap(u)?, wrap(v)?],
@@ -311,14 +317,14 @@ impl<'a> Decoder<'a> {
         let mut domains = Domain::ALL.into_iter();
         let domain = domains.find(|d| d.to_string() == domain);
         let domain = domain.ok_or(DecodeError::Expected("a domain"))?;
-        let rule = self.one_of(&RULES, "a rule")?;
+        let rule = self.named(&RULES, "a rule")?;
         let values = match self.text()? {
             "number" => Values::Float(self.array(8)?),
             "2 numbers" => Values::Vec2(self.array(8)?),
             "3 numbers" => Values::Vec3(self.array(8)?),
             "4 numbers" => Values::Vec4(self.array(8)?),
             "whole number" => Values::Int(self.array(4)?),
-            "tag" => Values::Tag(marks(&self.array(1)?)?),
+            "tag" => Values::Tag(flags(&self.array(1)?)?),
             _ => return Err(DecodeError::Expected("a type of values")),
         };
         let column = Column {
@@ -330,15 +336,15 @@ impl<'a> Decoder<'a> {
     }
 }
 
-/// The value with a number in a list that has all values.
-fn coded<T: Copy>(all: &[T], code: u32, expected: &'static str) -> Result<T, DecodeError> {
+/// Returns the value at index `code` of a list of all values. `expected` describes the value in an error.
+fn value_of_code<T: Copy>(all: &[T], code: u32, expected: &'static str) -> Result<T, DecodeError> {
     let value = all.get(code as usize).copied();
     value.ok_or(DecodeError::Expected(expected))
 }
 
-fn marks(bytes: &[u8]) -> Result<Vec<bool>, DecodeError> {
+fn flags(bytes: &[u8]) -> Result<Vec<bool>, DecodeError> {
     if bytes.iter().any(|&byte| byte > 1) {
-        return Err(DecodeError::Expected("marks of 0 or 1"));
+        return Err(DecodeError::Expected("tag values of 0 or 1"));
     }
     Ok(bytes.iter().map(|&byte| byte == 1).collect())
 }

@@ -1,12 +1,12 @@
 //! The canonical form of a scene as bytes, and its digest.
 //!
-//! The canonical form writes every array with its length, numbers little-endian with all their bits,
-//! and texts with their lengths. Two scenes have the same form exactly if they are the same objects
-//! with the same arrays, in the same order.
+//! The canonical form contains every array with its length, numbers as little-endian with all their bits,
+//! and texts with their lengths. Two scenes have the same canonical form exactly if they have the same
+//! objects with the same arrays, in the same order.
 //!
-//! A material is its name, base color, metalness, roughness and the path of its base color texture. What
-//! else it has follows behind a length that no text has, each thing with its name, so that materials
-//! without it keep the form they had before there was more.
+//! A material is written as its name, base color, metalness, roughness and the path of its base color
+//! texture. If it has other properties, they follow after a marker ([`MORE`]), each with its name. So the
+//! form of a material without other properties is the same as in the first version.
 
 use std::fmt;
 
@@ -18,17 +18,17 @@ use crate::{
     TextureTransform, Wrap,
 };
 
-/// BLAKE3 over the canonical form of a scene, 16 bytes of it.
+/// The first 16 bytes of the BLAKE3 hash of the canonical form of a scene.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Digest([u8; 16]);
 
 impl Digest {
-    /// The digest as bytes.
+    /// Returns the digest as bytes.
     pub const fn to_bytes(self) -> [u8; 16] {
         self.0
     }
 
-    /// The digest of these bytes, as [`to_bytes`](Self::to_bytes) gave them.
+    /// Creates a digest from the bytes that [`to_bytes`](Self::to_bytes) returned.
     pub const fn from_bytes(bytes: [u8; 16]) -> Self {
         Self(bytes)
     }
@@ -47,11 +47,11 @@ impl fmt::Debug for Digest {
 }
 
 impl Scene {
-    /// The digest of the scene: equal for equal scenes, on every machine.
+    /// Returns the digest of the scene. Equal scenes have equal digests, on every machine.
     pub fn digest(&self) -> Digest {
         let mut hasher = blake3::Hasher::new();
         self.encode(&mut |bytes| {
-            // Threads help with long arrays only.
+            // Several threads are faster only for long arrays.
             if bytes.len() < 1 << 17 {
                 hasher.update(bytes);
             } else {
@@ -63,17 +63,22 @@ impl Scene {
         Digest(digest)
     }
 
-    /// Hands the canonical form to `sink`, piece by piece.
+    /// Passes the canonical form to `sink`, piece by piece.
     pub fn encode(&self, sink: &mut impl FnMut(&[u8])) {
         self.encode_to(&mut |bytes, _| sink(bytes));
     }
 
-    /// The canonical form without the contents of arrays of at least `long` bytes, which go to `array`, each
-    /// whole, in their order. [`decode`](Self::decode) puts both together again.
-    pub fn encode_apart(&self, long: usize, array: &mut dyn FnMut(&[u8])) -> Vec<u8> {
+    /// Returns the canonical form without the contents of long arrays. An array is long if it has at least
+    /// `min_long` bytes; each long array is passed to `array` in one piece, in order.
+    /// [`decode`](Self::decode) reads both.
+    pub fn encode_with_separate_arrays(
+        &self,
+        min_long: usize,
+        array: &mut dyn FnMut(&[u8]),
+    ) -> Vec<u8> {
         let mut rest = Vec::new();
         self.encode_to(&mut |bytes, is_array| {
-            if is_array && bytes.len() >= long {
+            if is_array && bytes.len() >= min_long {
                 array(bytes);
             } else {
                 rest.extend_from_slice(bytes);
@@ -93,12 +98,13 @@ impl Scene {
     }
 }
 
-/// The first text of the canonical form.
+/// The first text of the canonical form, with its version.
 pub(crate) const FORM: &str = "meshwright scene 1";
-/// Stands where the length of a text would be, before what else a material has.
+/// The marker before the other properties of a material. It is written in the place of the length of a text,
+/// and no text has this length.
 pub(crate) const MORE: u64 = u64::MAX;
 
-/// A name of the canonical form, and the field of a material that it stands for.
+/// The name of a texture in the canonical form, and the field of the material.
 type NamedTexture = (&'static str, fn(&mut Material) -> &mut Option<Texture>);
 
 /// The textures of a material that are written with their names.
@@ -120,22 +126,23 @@ pub(crate) const RULES: [(&str, Rule); 4] = [
     ("drop", Rule::Drop),
 ];
 
-/// How a texture goes on beyond its edge; the place is the number of each.
+/// All wrap modes; the index of a mode is its code.
 pub(crate) const WRAPS: [Wrap; 3] = [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp];
 
-/// How pixels of a texture are mixed; the place is the number of each.
+/// All filters; the index of a filter is its code.
 pub(crate) const FILTERS: [Option<Filter>; 3] = [None, Some(Filter::Nearest), Some(Filter::Linear)];
 
-/// The number of a value in a list that has all values.
+/// Returns the index of a value in a list of all values.
 fn code<T: PartialEq>(all: &[T], value: &T) -> u32 {
     (0..)
         .zip(all)
-        .find_map(|(i, one)| (one == value).then_some(i))
+        .find_map(|(i, candidate)| (candidate == value).then_some(i))
         .unwrap_or(0)
 }
 
-/// What a material has beside textures and the numbers that are always written.
-fn numbers(m: &Material) -> [(&'static str, Vec<f64>); 7] {
+/// Returns the named numbers of a material: all properties except textures and the numbers that are always
+/// written.
+fn named_numbers(m: &Material) -> [(&'static str, Vec<f64>); 7] {
     let flag = |is: bool| vec![f64::from(u8::from(is))];
     let alpha = match m.alpha {
         AlphaMode::Opaque => vec![0.0],
@@ -154,7 +161,7 @@ fn numbers(m: &Material) -> [(&'static str, Vec<f64>); 7] {
 }
 
 struct Encoder<'a> {
-    /// Takes bytes, and whether they are the content of an array.
+    /// Receives bytes, and whether they are the content of an array.
     sink: &'a mut dyn FnMut(&[u8], bool),
 }
 
@@ -168,18 +175,18 @@ impl Encoder<'_> {
         (self.sink)(text.as_bytes(), false);
     }
 
-    /// An array of numbers, or of structs of numbers of `width` bytes each.
+    /// Writes an array of numbers, or of structs of numbers, where each number has `width` bytes.
     fn array<T: NoUninit>(&mut self, values: &[T], width: usize) {
         self.len(values.len());
         let bytes: &[u8] = bytemuck::cast_slice(values);
         if cfg!(target_endian = "little") {
             (self.sink)(bytes, true);
         } else {
-            let mut turned = bytes.to_vec();
-            for number in turned.chunks_exact_mut(width) {
+            let mut little_endian = bytes.to_vec();
+            for number in little_endian.chunks_exact_mut(width) {
                 number.reverse();
             }
-            (self.sink)(&turned, true);
+            (self.sink)(&little_endian, true);
         }
     }
 
@@ -215,19 +222,21 @@ impl Encoder<'_> {
         let path = m.base_color_texture.as_ref().and_then(Texture::path);
         self.text(path.unwrap_or(""));
 
-        let mut plain = Material::new("");
-        // A transparent color has always meant a transparent surface.
+        let mut default = Material::new("");
+        // In the first version of the form, a transparent base color meant a transparent surface.
         if m.base_color[3] < 1.0 {
-            plain.alpha = AlphaMode::Blend;
+            default.alpha = AlphaMode::Blend;
         }
-        let mut more = m.clone();
-        more.base_color_texture.take_if(|t| is_path(t));
-        let texture = |(name, of): (_, fn(&mut Material) -> &mut Option<Texture>)| {
-            Some((name, of(&mut more).take()?))
+        let mut remaining = m.clone();
+        remaining.base_color_texture.take_if(|t| is_only_path(t));
+        let texture = |(name, field): (_, fn(&mut Material) -> &mut Option<Texture>)| {
+            Some((name, field(&mut remaining).take()?))
         };
         let textures: Vec<_> = TEXTURES.into_iter().filter_map(texture).collect();
-        let numbers = numbers(m).into_iter().zip(numbers(&plain));
-        let numbers: Vec<_> = numbers.filter(|(own, usual)| own != usual).collect();
+        let numbers = named_numbers(m).into_iter().zip(named_numbers(&default));
+        let numbers: Vec<_> = numbers
+            .filter(|(actual, default)| actual != default)
+            .collect();
         if textures.is_empty() && numbers.is_empty() {
             return;
         }
@@ -308,8 +317,8 @@ impl Encoder<'_> {
     }
 }
 
-/// Whether the path is all that there is to a texture.
-fn is_path(texture: &Texture) -> bool {
+/// Whether a texture is fully described by its path.
+fn is_only_path(texture: &Texture) -> bool {
     texture
         .path()
         .is_some_and(|path| !path.is_empty() && *texture == Texture::file(path))
@@ -344,8 +353,8 @@ mod tests {
 
     #[test]
     fn the_digest_of_a_known_scene_never_changes() {
-        // The value that the first version of the canonical form gave. A change of it breaks every
-        // digest that users have recorded, so it needs a new version in the form's first text.
+        // The digest in the first version of the canonical form. A change breaks every digest that users
+        // have recorded, and so requires a new version in `FORM`.
         assert_eq!(
             scene(shapes::square()).digest().to_string(),
             "2387ae96ff730dac6ab311d51d5863e9"
@@ -353,7 +362,7 @@ mod tests {
     }
 
     #[test]
-    fn dead_elements_do_not_count() {
+    fn dead_elements_do_not_change_the_digest() {
         let mut with_dead = shapes::grid(2, 1);
         with_dead.delete_face(mesh::FaceId::new(0)).unwrap();
         with_dead.delete_isolated_vertices();
@@ -362,8 +371,8 @@ mod tests {
         assert_eq!(scene(with_dead).digest(), scene(compacted).digest());
     }
 
-    /// The digest of a square with this material.
-    fn with(change: impl FnOnce(&mut Material)) -> String {
+    /// Returns the digest of a square whose material was changed by `change`.
+    fn digest_with(change: impl FnOnce(&mut Material)) -> String {
         let mut material = Material::new("a");
         change(&mut material);
         let mut scene = Scene::new();
@@ -376,10 +385,10 @@ mod tests {
     }
 
     #[test]
-    fn materials_of_the_first_form_keep_their_digests() {
-        // Recorded before materials had more than a color, two numbers and a path.
-        assert_eq!(with(|_| {}), "ada3f121a9c1a3fae1913ce36d14aef1");
-        let glass = with(|m| {
+    fn materials_without_other_properties_keep_their_digests() {
+        // Recorded when materials had only a color, two numbers and a path.
+        assert_eq!(digest_with(|_| {}), "ada3f121a9c1a3fae1913ce36d14aef1");
+        let glass = digest_with(|m| {
             m.base_color = [0.5, 0.25, 1.0, 0.5];
             m.base_color_texture = Some(Texture::file("wood.png"));
             m.alpha = AlphaMode::Blend;
@@ -396,41 +405,41 @@ mod tests {
                 bytes: bytes.into(),
             }))
         };
-        let of = |change: fn(&mut Texture)| {
+        let texture_digest = |change: fn(&mut Texture)| {
             let mut changed = texture();
             change(&mut changed);
-            with(|m| m.base_color_texture = Some(changed))
+            digest_with(|m| m.base_color_texture = Some(changed))
         };
         let digests = [
-            with(|_| {}),
-            with(|m| m.base_color_texture = Some(texture())),
-            with(|m| m.base_color_texture = Some(Texture::file(""))),
-            with(|m| m.base_color_texture = bytes(b"x")),
-            with(|m| m.base_color_texture = bytes(b"y")),
-            with(|m| m.metallic_roughness_texture = Some(texture())),
-            with(|m| m.normal_texture = Some(texture())),
-            with(|m| m.normal_scale = 0.5),
-            with(|m| m.occlusion_texture = Some(texture())),
-            with(|m| m.occlusion_strength = 0.5),
-            with(|m| m.emissive = [0.5, 0.0, 0.0]),
-            with(|m| m.emissive_strength = 0.5),
-            with(|m| m.emissive_texture = Some(texture())),
-            with(|m| m.alpha = AlphaMode::Mask(0.5)),
-            with(|m| m.alpha = AlphaMode::Mask(0.25)),
-            with(|m| m.alpha = AlphaMode::Blend),
-            with(|m| m.double_sided = true),
-            with(|m| m.unlit = true),
-            of(|t| t.uv_set = 1),
-            of(|t| t.sampler.wrap[0] = Wrap::Clamp),
-            of(|t| t.sampler.wrap[1] = Wrap::Clamp),
-            of(|t| t.sampler.magnify = Some(Filter::Linear)),
-            of(|t| t.sampler.minify = Some(Filter::Linear)),
-            of(|t| t.sampler.mipmap = Some(Filter::Nearest)),
-            of(|t| t.transform.offset[1] = 0.5),
-            of(|t| t.transform.rotation = 0.5),
-            of(|t| t.transform.scale[0] = 0.5),
+            digest_with(|_| {}),
+            digest_with(|m| m.base_color_texture = Some(texture())),
+            digest_with(|m| m.base_color_texture = Some(Texture::file(""))),
+            digest_with(|m| m.base_color_texture = bytes(b"x")),
+            digest_with(|m| m.base_color_texture = bytes(b"y")),
+            digest_with(|m| m.metallic_roughness_texture = Some(texture())),
+            digest_with(|m| m.normal_texture = Some(texture())),
+            digest_with(|m| m.normal_scale = 0.5),
+            digest_with(|m| m.occlusion_texture = Some(texture())),
+            digest_with(|m| m.occlusion_strength = 0.5),
+            digest_with(|m| m.emissive = [0.5, 0.0, 0.0]),
+            digest_with(|m| m.emissive_strength = 0.5),
+            digest_with(|m| m.emissive_texture = Some(texture())),
+            digest_with(|m| m.alpha = AlphaMode::Mask(0.5)),
+            digest_with(|m| m.alpha = AlphaMode::Mask(0.25)),
+            digest_with(|m| m.alpha = AlphaMode::Blend),
+            digest_with(|m| m.double_sided = true),
+            digest_with(|m| m.unlit = true),
+            texture_digest(|t| t.uv_set = 1),
+            texture_digest(|t| t.sampler.wrap[0] = Wrap::Clamp),
+            texture_digest(|t| t.sampler.wrap[1] = Wrap::Clamp),
+            texture_digest(|t| t.sampler.magnify = Some(Filter::Linear)),
+            texture_digest(|t| t.sampler.minify = Some(Filter::Linear)),
+            texture_digest(|t| t.sampler.mipmap = Some(Filter::Nearest)),
+            texture_digest(|t| t.transform.offset[1] = 0.5),
+            texture_digest(|t| t.transform.rotation = 0.5),
+            texture_digest(|t| t.transform.scale[0] = 0.5),
         ];
-        let different: std::collections::BTreeSet<_> = digests.iter().collect();
-        assert_eq!(different.len(), digests.len());
+        let unique: std::collections::BTreeSet<_> = digests.iter().collect();
+        assert_eq!(unique.len(), digests.len());
     }
 }

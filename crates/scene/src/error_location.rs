@@ -1,26 +1,26 @@
-//! Places in a scene that errors are about.
+//! The places in a scene that errors refer to.
 
 use mesh::{DVec3, Element, Mesh};
 
-/// An element as it was when an error named it.
+/// The place of an element at the time of an error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ErrorLocation {
-    /// The object that it is in.
+    /// The name of the object that contains the element.
     pub object: String,
-    /// What it is called, as `e7`; empty for a place that has no name.
+    /// The name of the element, such as `e7`; empty for a place without a name.
     pub name: String,
-    /// Where it is, in scene units: one point, both ends of an edge, or the corners of a face in order.
+    /// The positions, in scene units: one point, both ends of an edge, or the corners of a face in order.
     pub points: Vec<DVec3>,
 }
 
 impl ErrorLocation {
-    /// Of so many elements that an error is about it is kept where they are.
-    pub const MOST: usize = 10_000;
+    /// The largest number of elements of an error for which locations are stored.
+    pub const MAX_ELEMENTS: usize = 10_000;
 
-    /// The name of a place where something should be and is not.
+    /// The name of a place where an element is expected but missing.
     pub const EXPECTED: &'static str = "expected";
 
-    /// The place of an element of an object; `None` if the mesh does not have it.
+    /// Returns the place of an element of an object; `None` if the mesh does not have the element.
     pub fn of(object: &str, mesh: &Mesh, element: impl Into<Element>) -> Option<Self> {
         let element = element.into();
         let points = mesh.element_points(element);

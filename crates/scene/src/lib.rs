@@ -1,8 +1,8 @@
 //! A scene: named objects, each a mesh, Bezier patches, a Bezier curve or polylines.
 //!
-//! All coordinates are those of the scene: a reader applies the placements of its file, and operations
-//! move the points themselves. Names are unique. The [digest](Scene::digest) of a scene is the same on
-//! every machine for the same content.
+//! All coordinates are in scene space: file readers apply the transforms of nodes, and operations move the
+//! points themselves. Object names are unique. The [digest](Scene::digest) of a scene is the same on every
+//! machine for the same content.
 
 mod decode;
 mod digest;
@@ -15,49 +15,48 @@ use bezier::{Curve, Patch};
 use glam::{DVec2, DVec3};
 use mesh::Mesh;
 
-pub use decode::{Arrays, DecodeError, NoArrays};
+pub use decode::{ArraySource, DecodeError, NoArrays};
 pub use digest::Digest;
 pub use error_location::ErrorLocation;
 pub use material::{AlphaMode, Filter, Image, Material, Sampler, Texture, TextureTransform, Wrap};
 
-/// Objects in the order in which they were made.
+/// A list of objects in the order of their creation.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
     objects: Vec<Object>,
 }
 
-/// One thing in a scene.
+/// A named object in a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Object {
     /// The name, unique in its scene.
     pub name: String,
     /// The shape.
     pub geometry: Geometry,
-    /// The materials that the faces of a mesh refer to by their place in this list, through the
-    /// attribute [`mesh::MATERIAL`].
+    /// The materials of the faces of a mesh. The attribute [`mesh::MATERIAL`] has indices into this list.
     pub materials: Vec<Material>,
 }
 
 /// The shape of an object.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Geometry {
-    /// A mesh. Shared until it is changed, so that copies of a scene cost nothing.
+    /// A mesh. It is shared until it is changed, so that copying a scene is cheap.
     Mesh(Arc<Mesh>),
     /// Bicubic Bezier patches.
     Patches(Vec<Patch>),
     /// A Bezier curve in the plane z = 0.
     Curve(Curve<DVec2>),
-    /// Open chains of points.
+    /// Open polylines, each a list of points.
     Polylines(Vec<Vec<DVec3>>),
 }
 
-/// An object of this name is in the scene already.
+/// The scene already has an object with this name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("an object named \"{0}\" is in the scene already")]
+#[error("the scene already has an object named \"{0}\"")]
 pub struct DuplicateName(pub String);
 
 impl Geometry {
-    /// The word for this kind of geometry.
+    /// Returns the word for this kind of geometry.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Mesh(_) => "mesh",
@@ -69,12 +68,12 @@ impl Geometry {
 }
 
 impl Object {
-    /// A mesh without materials.
+    /// Creates a mesh object without materials.
     pub fn mesh(name: impl Into<String>, mesh: Mesh) -> Self {
         Self::new(name, Geometry::Mesh(Arc::new(mesh)))
     }
 
-    /// An object without materials.
+    /// Creates an object without materials.
     pub fn new(name: impl Into<String>, geometry: Geometry) -> Self {
         Self {
             name: name.into(),
@@ -83,7 +82,7 @@ impl Object {
         }
     }
 
-    /// The mesh, if the object is one.
+    /// Returns the mesh, if the object is a mesh.
     pub fn as_mesh(&self) -> Option<&Arc<Mesh>> {
         if let Geometry::Mesh(mesh) = &self.geometry {
             Some(mesh)
@@ -94,22 +93,22 @@ impl Object {
 }
 
 impl Scene {
-    /// An empty scene.
+    /// Creates an empty scene.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// The objects in the order in which they were made.
+    /// Returns the objects in the order of their creation.
     pub fn objects(&self) -> &[Object] {
         &self.objects
     }
 
-    /// The object of this name.
+    /// Returns the object with this name.
     pub fn object(&self, name: &str) -> Option<&Object> {
         self.objects.iter().find(|o| o.name == name)
     }
 
-    /// The geometry and the materials of the object of this name, to be changed.
+    /// Returns the geometry and the materials of the object with this name, mutably.
     pub fn parts_mut(&mut self, name: &str) -> Option<(&mut Geometry, &mut Vec<Material>)> {
         self.objects
             .iter_mut()
@@ -117,11 +116,11 @@ impl Scene {
             .map(|o| (&mut o.geometry, &mut o.materials))
     }
 
-    /// Puts an object behind the others.
+    /// Appends an object.
     ///
     /// # Errors
     ///
-    /// [`DuplicateName`] if there is one of its name. The scene is unchanged.
+    /// [`DuplicateName`] if the scene already has an object with this name. The scene is unchanged.
     pub fn insert(&mut self, object: Object) -> Result<(), DuplicateName> {
         if self.object(&object.name).is_some() {
             return Err(DuplicateName(object.name));
@@ -130,23 +129,23 @@ impl Scene {
         Ok(())
     }
 
-    /// Takes an object out.
+    /// Removes an object and returns it.
     pub fn remove(&mut self, name: &str) -> Option<Object> {
-        let place = self.objects.iter().position(|o| o.name == name)?;
-        Some(self.objects.remove(place))
+        let index = self.objects.iter().position(|o| o.name == name)?;
+        Some(self.objects.remove(index))
     }
 
-    /// Gives an object another name, in its place. Returns whether there was such an object.
+    /// Renames an object, which keeps its position in the list. Returns whether the object exists.
     ///
     /// # Errors
     ///
-    /// [`DuplicateName`] if another object has that name. The scene is unchanged.
+    /// [`DuplicateName`] if a different object has the new name. The scene is unchanged.
     pub fn rename(&mut self, from: &str, to: &str) -> Result<bool, DuplicateName> {
         if from != to && self.object(to).is_some() {
             return Err(DuplicateName(to.to_owned()));
         }
-        let found = self.objects.iter_mut().find(|o| o.name == from);
-        Ok(found.map(|o| to.clone_into(&mut o.name)).is_some())
+        let object = self.objects.iter_mut().find(|o| o.name == from);
+        Ok(object.map(|o| to.clone_into(&mut o.name)).is_some())
     }
 }
 
@@ -156,7 +155,7 @@ mod tests {
     use geometry::shapes;
 
     #[test]
-    fn a_second_object_of_a_name_is_refused_and_nothing_changes() {
+    fn a_second_object_with_the_same_name_is_refused_and_nothing_changes() {
         let mut scene = Scene::new();
         scene.insert(Object::mesh("a", shapes::cube())).unwrap();
         let before = scene.clone();
@@ -168,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn a_renamed_object_keeps_its_place() {
+    fn a_renamed_object_keeps_its_position_in_the_list() {
         let mut scene = Scene::new();
         scene.insert(Object::mesh("a", shapes::cube())).unwrap();
         scene.insert(Object::mesh("b", shapes::cube())).unwrap();

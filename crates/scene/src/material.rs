@@ -1,47 +1,47 @@
-//! How a surface looks, in the terms of glTF's metallic-roughness model.
+//! Materials, as in the metallic-roughness model of glTF.
 
 use std::fmt;
 use std::sync::Arc;
 
-/// A material. Colors are linear; each texture multiplies the value beside it.
+/// A material. Colors are linear. Each texture multiplies the corresponding value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// The name.
     pub name: String,
     /// Linear red, green, blue and alpha, from 0 to 1.
     pub base_color: [f64; 4],
-    /// Multiplies the base color.
+    /// The texture that multiplies the base color.
     pub base_color_texture: Option<Texture>,
-    /// From 0 (no metal) to 1 (metal).
+    /// The metalness, from 0 (not a metal) to 1 (metal).
     pub metallic: f64,
-    /// From 0 (mirror) to 1 (matt).
+    /// The roughness, from 0 (mirror) to 1 (matt).
     pub roughness: f64,
-    /// Its green multiplies the roughness, its blue the metalness.
+    /// The texture whose green channel multiplies the roughness, and whose blue channel multiplies the metalness.
     pub metallic_roughness_texture: Option<Texture>,
-    /// Normals in tangent space.
+    /// The texture with normals in tangent space.
     pub normal_texture: Option<Texture>,
-    /// What the x and y of the normal texture are multiplied with.
+    /// The factor for the x and y components of the normal texture.
     pub normal_scale: f64,
-    /// Its red says how much indirect light arrives.
+    /// The texture whose red channel is the amount of indirect light.
     pub occlusion_texture: Option<Texture>,
-    /// How much the occlusion texture darkens, from 0 (not at all) to 1.
+    /// The strength of the occlusion texture, from 0 (no effect) to 1.
     pub occlusion_strength: f64,
-    /// Linear red, green and blue of the light that the surface gives off, from 0 to 1.
+    /// Linear red, green and blue of the emitted light, from 0 to 1.
     pub emissive: [f64; 3],
-    /// Multiplies the emitted light; may be more than 1.
+    /// The factor for the emitted light; can be greater than 1.
     pub emissive_strength: f64,
-    /// Multiplies the emitted light.
+    /// The texture that multiplies the emitted light.
     pub emissive_texture: Option<Texture>,
-    /// What alpha means.
+    /// How alpha is interpreted.
     pub alpha: AlphaMode,
-    /// Whether the back of a face is seen too.
+    /// Whether back faces are visible.
     pub double_sided: bool,
-    /// Whether the base color is shown as it is, without light.
+    /// Whether the base color is shown without lighting.
     pub unlit: bool,
 }
 
 impl Material {
-    /// A white, matt, opaque material.
+    /// Creates a white, matt, opaque material.
     pub fn new(name: impl Into<String>) -> Self {
         Self {
             name: name.into(),
@@ -64,33 +64,33 @@ impl Material {
     }
 }
 
-/// What the alpha of a material means.
+/// How the alpha of a material is interpreted.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum AlphaMode {
-    /// Nothing: the surface is opaque.
+    /// Alpha is ignored: the surface is opaque.
     #[default]
     Opaque,
-    /// The surface is opaque where alpha is at least this, and not there elsewhere.
+    /// The surface is opaque where alpha is at least this cutoff, and invisible elsewhere.
     Mask(f64),
-    /// What is behind shines through.
+    /// The surface is blended with the background.
     Blend,
 }
 
-/// A picture and how it lies on a surface.
+/// An image and how it is mapped to a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
-    /// The picture.
+    /// The image.
     pub image: Image,
-    /// Which texture coordinates: 0 for the attribute `uv`, n for `uv` with the number n behind it.
+    /// The number of the texture coordinates: 0 for the attribute `uv`, n for `uv` followed by the number n.
     pub uv_set: u32,
-    /// How it is sampled.
+    /// How the image is sampled.
     pub sampler: Sampler,
-    /// How texture coordinates are changed before they are looked up.
+    /// The transform of the texture coordinates before the lookup.
     pub transform: TextureTransform,
 }
 
 impl Texture {
-    /// A picture as it is, on the first texture coordinates.
+    /// Creates a texture with the first texture coordinates, the default sampler and no transform.
     pub fn new(image: Image) -> Self {
         Self {
             image,
@@ -100,12 +100,12 @@ impl Texture {
         }
     }
 
-    /// The picture in a file.
+    /// Creates a texture from an image file.
     pub fn file(path: impl Into<String>) -> Self {
         Self::new(Image::File(path.into()))
     }
 
-    /// The path of the picture, if it is a file.
+    /// Returns the path of the image, if it is a file.
     pub fn path(&self) -> Option<&str> {
         match &self.image {
             Image::File(path) => Some(path),
@@ -114,22 +114,22 @@ impl Texture {
     }
 }
 
-/// A picture.
+/// An image.
 #[derive(Clone, PartialEq)]
 pub enum Image {
-    /// The path of a file as the file that names it gives it, with `/` between its parts, or a URI with a
+    /// The path of an image file, as written in the model file, with `/` as separator; or a URI with a
     /// scheme.
     File(String),
-    /// The bytes of a picture file. Shared, so that copies of a material cost nothing.
+    /// The bytes of an image file. They are shared, so that copying a material is cheap.
     Embedded {
-        /// Its type, such as `image/png`.
+        /// The media type, such as `image/png`.
         mime: String,
-        /// The bytes, as they are in a file of that type.
+        /// The content of the image file.
         bytes: Arc<[u8]>,
     },
 }
 
-/// Without the bytes: nobody reads them.
+/// Writes the number of bytes instead of the bytes.
 impl fmt::Debug for Image {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -142,46 +142,46 @@ impl fmt::Debug for Image {
 /// How a texture is sampled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sampler {
-    /// What lies beyond the picture, along u and along v.
+    /// The wrap mode along u and along v.
     pub wrap: [Wrap; 2],
-    /// How pixels larger than those of the screen are mixed; `None` leaves it to the viewer.
+    /// The filter for image pixels larger than screen pixels; `None` leaves the choice to the viewer.
     pub magnify: Option<Filter>,
-    /// How pixels smaller than those of the screen are mixed; `None` leaves it to the viewer.
+    /// The filter for image pixels smaller than screen pixels; `None` leaves the choice to the viewer.
     pub minify: Option<Filter>,
-    /// How the smaller copies of the picture are mixed; `None` if there are none. Only with `minify`.
+    /// The filter between mipmap levels; `None` without mipmaps. Only used if `minify` is set.
     pub mipmap: Option<Filter>,
 }
 
-/// What lies beyond the edge of a picture.
+/// The content of a texture outside of its image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Wrap {
-    /// The picture again.
+    /// The image is repeated.
     #[default]
     Repeat,
-    /// The picture mirrored, and again.
+    /// The image is repeated, every second copy mirrored.
     Mirror,
-    /// The color of the edge.
+    /// The color of the nearest border pixel.
     Clamp,
 }
 
-/// How pixels are mixed.
+/// How the pixels of a texture are filtered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Filter {
-    /// The nearest one is taken.
+    /// The nearest pixel.
     Nearest,
-    /// Neighbors are mixed.
+    /// Linear interpolation between neighboring pixels.
     Linear,
 }
 
-/// How texture coordinates are changed before a picture is looked up, as `KHR_texture_transform` says it:
-/// scaled, turned and then moved, all with v downwards.
+/// The transform of texture coordinates before the lookup, as in `KHR_texture_transform`: first scaled, then
+/// rotated, then moved, with v pointing down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TextureTransform {
-    /// Added at the end.
+    /// The offset, which is added last.
     pub offset: [f64; 2],
-    /// Counter-clockwise in radians.
+    /// The rotation, counter-clockwise in radians.
     pub rotation: f64,
-    /// Multiplied at first.
+    /// The scale, which is applied first.
     pub scale: [f64; 2],
 }
 

@@ -6,8 +6,8 @@
 //!      /      r0--m--r1       \        r: level 2
 //!     /      /         \       \       m: level 3, the point of the curve
 //!    q0 ----'           '------ q2
-//!   /                             \    each level cuts the legs of the one before
-//! p0                               p3  in the ratio t : 1 - t
+//!   /                             \    the points of each level divide the legs of the
+//! p0                               p3  level before in the ratio t : 1 - t
 //! ```
 //!
 //! Source: Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, chapter 4.
@@ -18,8 +18,8 @@ use scene::Geometry;
 
 /// Replaces curves by the levels of de Casteljau's algorithm.
 ///
-/// A curve of n control points becomes n polylines in the plane z = 0: the control polygon with n
-/// points, and then each level with one point less, down to the one point of the curve at `t`.
+/// A curve with n control points becomes n polylines in the plane z = 0. The first is the control polygon
+/// with n points. Each following level has one point less. The last is the point of the curve at `t`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CurveLevels {
@@ -27,8 +27,8 @@ pub struct CurveLevels {
     pub t: ClosedFraction,
 }
 
-/// The bytes of all levels of a curve of n control points: n (n + 1) / 2 points of 24 bytes. A
-/// curve has at most 4096.
+/// Returns the size in bytes of all levels of a curve with n control points, at most 4096: n (n + 1) / 2
+/// points of 24 bytes each.
 fn bytes(n: u64) -> u64 {
     n.saturating_mul(n.saturating_add(1)) / 2 * 24
 }
@@ -36,7 +36,10 @@ fn bytes(n: u64) -> u64 {
 fn too_large(n: u64, budget: u64) -> Option<String> {
     let needed = bytes(n);
     (needed > budget).then(|| {
-        format!("the levels of {n} control points take {needed} bytes, the budget is {budget}")
+        format!(
+            "the levels of a curve with {n} control points need {needed} bytes, which exceeds the memory \
+             budget of {budget} bytes"
+        )
     })
 }
 
@@ -94,7 +97,7 @@ mod tests {
         op::test::run(&CurveLevels { t }, &mut scene).unwrap();
         match &scene.objects()[0].geometry {
             Geometry::Polylines(lines) => lines.clone(),
-            other => panic!("{}", other.kind()),
+            geometry => panic!("{}", geometry.kind()),
         }
     }
 
@@ -116,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn levels_beyond_the_budget_are_refused_in_plan_and_scene() {
+    fn levels_that_exceed_the_budget_are_refused_by_plan_and_apply() {
         let files = op::Files::default();
         let t = ClosedFraction::literal(0.5);
         let step = CurveLevels { t };

@@ -12,7 +12,7 @@ pub use move_control_point::{MoveControlPoint, PlanePoint};
 pub use sample_curve::SampleCurve;
 pub use tessellate::{Faces, Tessellate};
 
-/// Adds the operations of this group, in the order of the reference.
+/// Registers the operations of this group, in the order of the reference.
 #[rustfmt::skip]
 pub fn register(registry: Registry) -> Registry {
     registry

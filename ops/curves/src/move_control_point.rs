@@ -3,7 +3,7 @@
 //! ```text
 //!                            p1'
 //!      p1 --- p2            /   \
-//!     /  .---. \    --->   / .-.  p2        the whole curve follows, most of it near p1
+//!     /  .---. \    --->   / .-.  p2        the whole curve moves, most of all near p1
 //!    / /      \ \         / /   \  \
 //!   p0          p3       p0        p3
 //! ```
@@ -15,18 +15,18 @@ use scene::Geometry;
 
 /// Moves one control point of curves.
 ///
-/// The others stay where they are. The point of the curve at t moves in the same direction, by the
-/// distance times the Bernstein polynomial of the control point at t.
+/// The other control points do not move. The point of the curve at t moves in the same direction, by the
+/// distance multiplied by the Bernstein polynomial of the control point at t.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MoveControlPoint {
-    /// The number of the control point, from 0. Every curve that the step acts on must have it.
+    /// The index of the control point, from 0. Every curve on which the step acts must have it.
     pub index: u32,
-    /// Where it goes: `(x, y)` in the plane z = 0, in scene units.
+    /// The new position: `(x, y)` in the plane z = 0, in scene units.
     pub to: PlanePoint,
 }
 
-/// A point of the plane z = 0: `(x, y)`, in scene units.
+/// A point in the plane z = 0: `(x, y)`, in scene units.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 pub struct PlanePoint(pub f64, pub f64);
 
@@ -39,7 +39,7 @@ impl Operation for MoveControlPoint {
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
         plan_curves(Self::NAME, plan, cx, |points| {
             let (index, max) = (self.index, points.max);
-            let message = format!("expected a control point below {max}, found {index}");
+            let message = format!("expected a control point index below {max}, found {index}");
             let missing = (u64::from(index) >= max).then(|| Problem::error(message).at(["index"]));
             (
                 PlannedGeometry::Curve(points),
@@ -82,7 +82,7 @@ mod tests {
     }
 
     #[test]
-    fn only_the_named_point_moves() {
+    fn only_the_given_control_point_moves() {
         let mut scene = arch();
         op::test::run(&step("(index: 1, to: (2, -3.5))"), &mut scene).unwrap();
         let mut moved = points();
@@ -94,24 +94,24 @@ mod tests {
     }
 
     #[test]
-    fn a_point_that_is_not_there_or_no_number_is_refused_and_nothing_changes() {
+    fn a_missing_control_point_or_a_nan_is_refused_and_nothing_changes() {
         for text in ["(index: 3, to: (0, 0))", "(index: 0, to: (NaN, 0))"] {
             let mut scene = arch();
-            let moved = op::test::run(&step(text), &mut scene);
-            assert!(matches!(moved, Err(OpError::Parameter(_))));
+            let result = op::test::run(&step(text), &mut scene);
+            assert!(matches!(result, Err(OpError::Parameter(_))));
             assert_eq!(scene, arch());
         }
     }
 
     #[test]
-    fn the_plan_refuses_what_no_curve_of_its_size_has() {
+    fn the_plan_reports_an_index_that_no_curve_can_have() {
         let files = op::Files::default();
         let cx = PlanContext {
             files: &files,
             on: None,
             budget: u64::MAX,
         };
-        let fields = |points, text| {
+        let problem_fields = |points, text| {
             let mut plan = Plan::default();
             assert_eq!(plan.insert("arch", PlannedGeometry::Curve(points)), None);
             let problems = step(text).plan(&mut plan, &cx);
@@ -121,11 +121,10 @@ mod tests {
                 .map(|p| p.path.join("."))
                 .collect::<Vec<_>>()
         };
-        assert_eq!(fields(Range::exactly(3), "(index: 2, to: (0, 0))"), [""; 0]);
-        assert_eq!(
-            fields(Range::exactly(3), "(index: 3, to: (1, 0))"),
-            ["index"]
-        );
-        assert_eq!(fields(Range::ANY, "(index: 3, to: (0, 0))"), [""; 0]);
+        let three = Range::exactly(3);
+        assert_eq!(problem_fields(three, "(index: 2, to: (0, 0))"), [""; 0]);
+        assert_eq!(problem_fields(three, "(index: 3, to: (1, 0))"), ["index"]);
+        let any = Range::ANY;
+        assert_eq!(problem_fields(any, "(index: 3, to: (0, 0))"), [""; 0]);
     }
 }

@@ -1,4 +1,4 @@
-//! Samples a Bezier curve: its points at equal steps of the parameter, joined by a polyline.
+//! Samples a Bezier curve: joins its points at equal steps of the parameter by a polyline.
 //!
 //! ```text
 //!      p1 ------- p2              . --- .
@@ -13,12 +13,12 @@ use scene::Geometry;
 
 /// Replaces curves by polylines through their points.
 ///
-/// Each becomes one polyline of `segments` + 1 points in the plane z = 0, at the parameters 0,
-/// 1 / segments, ... 1. Both ends are the end control points exactly.
+/// Each curve becomes one polyline with `segments` + 1 points in the plane z = 0, at the parameters 0,
+/// 1 / segments, ... 1. The first and the last point are exactly the end control points.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct SampleCurve {
-    /// How many straight segments.
+    /// The number of straight segments.
     pub segments: Count<1, 65536>,
 }
 
@@ -37,12 +37,12 @@ impl Operation for SampleCurve {
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
         let segments = self.segments.get();
         change_curves(Self::NAME, scene, cx, |curve| {
-            // A point takes a time that grows with the square of the degree: ask after about a
-            // million steps of the algorithm whether to go on.
-            let every = 1 + (1 << 20) / (1 + curve.degree() * curve.degree());
+            // The time for a point grows with the square of the degree. Progress is reported about every
+            // million steps of the algorithm.
+            let report_interval = 1 + (1 << 20) / (1 + curve.degree() * curve.degree());
             let mut line = Vec::with_capacity(segments as usize + 1);
             for p in curve.sample(segments) {
-                if line.len() % every == 0 {
+                if line.len() % report_interval == 0 {
                     cx.advance("sample", line.len() as u64, u64::from(segments) + 1)?;
                 }
                 line.push(p.extend(0.0));
@@ -89,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn there_is_one_point_more_than_segments() {
+    fn the_polyline_has_one_point_more_than_segments() {
         let mut scene = arch();
         op::test::run(&sample(65536), &mut scene).unwrap();
         let Geometry::Polylines(lines) = &scene.objects()[0].geometry else {
@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn the_plan_turns_curves_into_polylines_and_misses_them() {
+    fn the_plan_turns_curves_into_polylines_and_reports_missing_curves() {
         let files = op::Files::default();
         let cx = PlanContext {
             files: &files,
@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn an_object_of_on_that_is_no_curve_is_refused() {
+    fn an_object_in_on_that_is_not_a_curve_is_refused() {
         let mut scene = arch();
         scene
             .insert(Object::new("lines", Geometry::Polylines(Vec::new())))

@@ -2,14 +2,14 @@
 //!
 //! ```text
 //!    .-----.-----.            .--.--.--.--.
-//!   /             \           | /| /| /| /|       every patch is cut into
+//!   /             \           | /| /| /| /|       every patch is divided into
 //!  .   a  patch    .   -->    .--.--.--.--.       segments x segments cells
 //!   \             /           | /| /| /| /|
 //!    '-----'-----'            '--'--'--'--'
 //! ```
 //!
-//! How cells are numbered and cut, and what becomes of sides that are one point, is told by the
-//! tessellation of the crate `bezier`.
+//! The module `tessellate` of the crate `bezier` documents how vertices are numbered, how cells are divided,
+//! and how collapsed sides are handled.
 
 use std::sync::Arc;
 
@@ -21,39 +21,39 @@ use scene::Geometry;
 
 /// Turns Bezier patches into a mesh.
 ///
-/// Acts on every object that is patches, or on those named in `on`; each becomes one mesh of the same
-/// name. Every patch is cut into `segments` x `segments` cells, patch after patch. Patches share no
-/// vertices, but where they have the same control points on a common side their positions there are
-/// the same bits: `Weld(distance: 0)` joins them. A side that is one point, as at the pole of a teapot's
-/// lid, becomes one vertex; patches without any area give nothing and are counted. A tessellation has
-/// no UVs and no normals unless they are asked for.
+/// Acts on all objects that consist of patches, or on the objects in `on`. Each object becomes one mesh of
+/// the same name. Every patch is divided into `segments` x `segments` cells. Elements are numbered patch
+/// after patch. Patches share no vertices, but if they have the same control points on a common side, their
+/// positions there are equal bit for bit, so that `Weld(distance: 0)` joins them. A side whose points
+/// coincide, as at the pole of a teapot's lid, becomes one vertex. Patches without area give no faces and
+/// are counted. The mesh has UVs and normals only if they are requested.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tessellate {
-    /// How many cells along each side of a patch.
+    /// The number of cells along each side of a patch.
     #[serde(default = "eight")]
     pub segments: Count<1, 4096>,
-    /// What a cell becomes.
+    /// The faces that a cell becomes.
     #[serde(default)]
     pub faces: Faces,
-    /// Whether to write the parameters (u, v) of each patch as UVs of corners.
+    /// Whether to store the parameters (u, v) of each patch as UVs of corners.
     ///
     /// Each patch covers the whole square from 0 to 1.
     #[serde(default)]
     pub uvs: bool,
-    /// Whether to write the exact unit normals of the patches as normals of vertices.
+    /// Whether to store the exact unit normals of the patches as vertex normals.
     #[serde(default)]
     pub normals: bool,
 }
 
-/// What a cell of a patch becomes.
+/// The faces that a cell of a patch becomes.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Faces {
-    /// Two triangles, cut from the corner of the lowest u and v.
+    /// Two triangles, divided by the diagonal from the corner with the lowest u and v.
     #[default]
     Triangles,
-    /// One quadrilateral; a triangle beside a side that is one point.
+    /// One quad; a triangle at a side whose points coincide.
     Quads,
 }
 
@@ -70,7 +70,7 @@ const fn eight() -> Count<1, 4096> {
     Count::literal(8)
 }
 
-const WANTED: TargetKind = TargetKind {
+const TARGET: TargetKind = TargetKind {
     operation: "Tessellate",
     does: "cuts patches",
     none: "no patches to cut",
@@ -84,7 +84,7 @@ impl Operation for Tessellate {
     const TAKES_ON: bool = true;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
-        WANTED.plan(plan, cx, |geometry| {
+        TARGET.plan(plan, cx, |geometry| {
             let PlannedGeometry::Patches(patches) = *geometry else {
                 return None;
             };
@@ -98,16 +98,16 @@ impl Operation for Tessellate {
         let names = target_names(scene, cx, |g| matches!(g, Geometry::Patches(_)))?;
         let mut report = Report::default();
         for name in &names {
-            let (geometry, _) = scene.parts_mut(name).expect("named above");
+            let (geometry, _) = scene.parts_mut(name).expect("the object was chosen above");
             let Geometry::Patches(patches) = geometry else {
-                let message = WANTED.wrong_kind_message(name, geometry.kind());
+                let message = TARGET.wrong_kind_message(name, geometry.kind());
                 return Err(OpError::Object(message));
             };
             let patches = std::mem::take(patches);
             self.check_budget(name, &patches, scene, cx)?;
-            let (mesh, done) = self.tessellated(&patches, cx)?;
-            report.merge(done);
-            let (geometry, _) = scene.parts_mut(name).expect("named above");
+            let (mesh, mesh_report) = self.tessellated(&patches, cx)?;
+            report.merge(mesh_report);
+            let (geometry, _) = scene.parts_mut(name).expect("the object was chosen above");
             *geometry = Geometry::Mesh(Arc::new(mesh));
         }
         Ok(report)
@@ -115,7 +115,8 @@ impl Operation for Tessellate {
 }
 
 impl Tessellate {
-    /// What at most becomes of so many patches: collapsed sides and empty patches give fewer elements.
+    /// Returns the plan of the mesh for this number of patches. Counts are upper limits: collapsed sides and empty
+    /// patches give fewer elements.
     fn planned(&self, patches: u64) -> MeshPlan {
         let n = u64::from(self.segments.get());
         let at_most = |each| Range::at_most(patches.saturating_mul(each));
@@ -140,7 +141,7 @@ impl Tessellate {
         plan
     }
 
-    /// Refuses what does not fit ids or the budget, before anything is allocated.
+    /// Checks that the elements fit the ids and the memory budget, before anything is allocated.
     fn check_budget(
         &self,
         name: &str,
@@ -149,10 +150,13 @@ impl Tessellate {
         cx: &Context,
     ) -> Result<(), OpError> {
         let counts = counts(patches, self.segments.get(), self.faces.into()).map_err(too_large)?;
-        // Each corner may need an edge of its own.
-        if counts.corners.saturating_mul(2) >= u64::from(u32::MAX) {
+        // Each corner can need a separate edge, and each edge has two half-edges.
+        let max = (u32::MAX - 1) / 2;
+        if counts.corners > u64::from(max) {
             let corners = counts.corners;
-            let message = format!("\"{name}\" would have {corners} corners, more than ids");
+            let message = format!(
+                "\"{name}\" would have {corners} face corners, but a mesh has at most {max}"
+            );
             return Err(OpError::Parameter(message));
         }
         let meshes = scene.objects().iter().filter_map(|o| o.as_mesh());
@@ -161,66 +165,66 @@ impl Tessellate {
         if present.saturating_add(needed) > cx.budget {
             let budget = cx.budget;
             return Err(OpError::Budget(format!(
-                "tessellating \"{name}\" needs up to {needed} bytes beside the {present} of the \
-                 scene, but the budget is {budget}"
+                "tessellating \"{name}\" needs up to {needed} bytes in addition to the {present} bytes of the \
+                 scene, which exceeds the memory budget of {budget} bytes"
             )));
         }
         Ok(())
     }
 
     fn tessellated(&self, patches: &[Patch], cx: &Context) -> Result<(Mesh, Report), OpError> {
-        let mut cut = Tessellation::default();
+        let mut tessellation = Tessellation::default();
         let total = patches.len() as u64;
         for (done, patch) in (0..).zip(patches) {
             cx.advance("tessellate", done, total)?;
-            tessellate_patch(patch, self.segments.get(), self.faces.into(), &mut cut)
-                .map_err(too_large)?;
+            let (segments, faces) = (self.segments.get(), self.faces.into());
+            tessellate_patch(patch, segments, faces, &mut tessellation).map_err(too_large)?;
         }
         cx.advance("tessellate", total, total)?;
         let BuildOutput {
             mut mesh,
-            report: built,
+            report: build_report,
             half_edge_of_corner,
             ..
         } = mesh::build(
-            cut.positions,
-            &cut.offsets,
-            &cut.indices,
+            tessellation.positions,
+            &tessellation.offsets,
+            &tessellation.indices,
             NonManifold::Split,
         )?;
         let mut report = Report::changed(mesh.n_faces());
-        if !cut.empty_patches.is_empty() {
-            let (n, first) = (cut.empty_patches.len(), cut.empty_patches[0]);
+        if let [first, ..] = tessellation.empty_patches[..] {
+            let n = tessellation.empty_patches.len();
             report = report.note(format!(
-                "patches without area, which gave nothing: {n} (first: patch {first})"
+                "patches without area, which have no faces: {n} (first: patch {first})"
             ));
         }
-        if !built.is_clean() {
-            report = report.note(built.summary());
+        if !build_report.is_clean() {
+            report = report.note(build_report.summary());
         }
         if self.uvs {
             let mut uvs = vec![DVec2::ZERO; mesh.n_half_edges()];
-            for (h, &v) in half_edge_of_corner.iter().zip(&cut.indices) {
-                // Corners of faces that were left out have none.
+            for (h, &v) in half_edge_of_corner.iter().zip(&tessellation.indices) {
+                // Corners of dropped faces have no half-edge.
                 if let Some(h) = h.some() {
-                    uvs[h.index()] = cut.uvs[v as usize];
+                    uvs[h.index()] = tessellation.uvs[v as usize];
                 }
             }
             mesh.set(UV, uvs);
         }
         if self.normals {
-            let normals = with_copies(cut.normals, &built);
-            let without = normals.iter().filter(|&&n| n == DVec3::ZERO).count();
-            report = report.count("vertices where the patch has no normal", without);
+            let normals = with_copies(tessellation.normals, &build_report);
+            let n_without = normals.iter().filter(|&&n| n == DVec3::ZERO).count();
+            report = report.count("vertices where the patch has no normal", n_without);
             mesh.set(VERTEX_NORMAL, normals);
         }
         Ok((mesh, report))
     }
 }
 
-/// The values of vertices with those of the copies that the builder put behind them.
-fn with_copies(mut values: Vec<DVec3>, built: &BuildReport) -> Vec<DVec3> {
-    for (original, _) in &built.split_vertices {
+/// Appends the values for the copies of vertices that the builder has appended.
+fn with_copies(mut values: Vec<DVec3>, report: &BuildReport) -> Vec<DVec3> {
+    for (original, _) in &report.split_vertices {
         values.push(values[original.index()]);
     }
     values

@@ -1,10 +1,10 @@
-//! Faces in the place of vertices and edges.
+//! Replacing vertices and edges by faces.
 
 use crate::{EdgeId, EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 
 impl Mesh {
-    /// Puts a face into the place of `v`: each edge there is cut at `fraction` of its length from v, and
-    /// the cuts are joined.
+    /// Replaces `v` by a face: each edge at v is cut at `fraction` of its length from v, and the cuts are
+    /// connected.
     ///
     /// ```text
     ///      \     /              \     /
@@ -14,15 +14,16 @@ impl Mesh {
     ///         |                    |
     /// ```
     ///
-    /// `v` dies. Its n edges keep their ids and end at the cuts. New are, in clockwise order from the first
-    /// edge of [`vertex_half_edges`](Self::vertex_half_edges): n vertices, the n edges from each to the one
-    /// after it, and the face, which begins at the first vertex. V, E and F grow by n - 1, n and 1, and each
-    /// face at v gains a corner for each corner that it had there.
+    /// `v` dies. Its n edges keep their ids and end at the cuts. The new elements are, in clockwise order
+    /// from the first edge of [`vertex_half_edges`](Self::vertex_half_edges): n vertices, the n edges from
+    /// each new vertex to the next, and the face, whose first corner is the first new vertex. V, E and F
+    /// grow by n - 1, n and 1. Each face at v gains one corner for each of its corners at v.
     ///
-    /// Vertex attributes at a cut follow their rules between v and the other end, corners likewise within
-    /// their own face, so that both sides of a seam keep their values; what is copied comes from v. The new
-    /// face has the values of the face to the left of the first edge, and at each corner those of the face
-    /// to the left of the edge there. New edges have zero values.
+    /// At a cut, vertex attributes are interpolated between v and the other end of the edge, and corner
+    /// attributes within their face, so that both sides of a seam keep their values. Attributes that are
+    /// not interpolated are copied from v. The new face has the values of the face to the left of the first
+    /// edge; each of its corners has those of the face to the left of the edge there. New edges have zero
+    /// values.
     ///
     /// Returns the new face.
     ///
@@ -45,7 +46,7 @@ impl Mesh {
         self.bevel_vertex_with(v, |_| fraction)
     }
 
-    /// [`bevel_vertex`](Self::bevel_vertex) with a fraction for each edge.
+    /// Bevels a vertex like [`bevel_vertex`](Self::bevel_vertex), with a separate fraction for each edge.
     ///
     /// # Errors
     ///
@@ -57,7 +58,7 @@ impl Mesh {
     ) -> Result<FaceId, EditError> {
         self.check_vertex(v)?;
         let spokes: Vec<HalfEdgeId> = self.vertex_half_edges(v).collect();
-        self.check_end(v, spokes.len())?;
+        self.check_bevel_end(v, spokes.len())?;
         let cuts = self.check_cuts(&spokes, fraction)?;
         let f = self.face(spokes[0]).expect("v is not on the boundary");
         let new = self.join_cuts(&cuts, f);
@@ -65,39 +66,40 @@ impl Mesh {
         Ok(new)
     }
 
-    /// Puts a face into the place of `e`: the other edges at its ends are cut at `fraction` of their
-    /// lengths from there, and the cuts are joined.
+    /// Replaces `e` by a face: the other edges at its ends are cut at `fraction` of their lengths from
+    /// there, and the cuts are connected.
     ///
     /// ```text
     ///     \               /            \               /
     ///      \             /              1 ----------- 4
-    ///       a --- e --- b      -->      |             |         at three edges at each end
+    ///       a --- e --- b      -->      |             |         (with three edges at each end)
     ///      /             \              2 ----------- 3
     ///     /               \            /               \
     /// ```
     ///
-    /// `e` and its ends a, b die. The n other edges at them keep their ids and end at the cuts. New are, in
-    /// clockwise order around e, from the edge after e at a (the origin of its first half) to the last at b: n
-    /// vertices, the n edges from each to the one after it, and the face, which begins at the first
-    /// vertex. V, E and F grow by n - 2, n - 1 and 1. The faces beside e keep their numbers of corners, the
-    /// other ones at its ends gain one for each corner that they had there.
+    /// `e` and its ends a, b die. The n other edges at a and b keep their ids and end at the cuts. The new
+    /// elements are, in clockwise order around e, from the edge after e at a (the origin of its first half)
+    /// to the last edge at b: n vertices, the n edges from each new vertex to the next, and the face, whose
+    /// first corner is the first new vertex. V, E and F grow by n - 2, n - 1 and 1. The faces beside e keep
+    /// their number of corners; each other face at a or b gains one corner for each of its corners there.
     ///
-    /// Attributes are as in [`bevel_vertex`](Self::bevel_vertex); the new face has the values of the face to
-    /// the left of the first half of e.
+    /// Attributes are set as in [`bevel_vertex`](Self::bevel_vertex). The new face has the values of the face
+    /// to the left of the first half of e.
     ///
     /// Returns the new face.
     ///
     /// # Errors
     ///
-    /// [`EditError::Boundary`] if `e` is on the boundary, [`EditError::BoundaryVertex`] if one of its ends is,
-    /// [`EditError::FewEdges`] if an end has fewer than three edges, [`EditError::DuplicateEdge`] if another
-    /// edge joins the ends, [`EditError::OutsideEdge`] if `fraction` is not strictly between 0 and 1,
-    /// [`EditError::NoSuchEdge`], [`EditError::Full`]. The mesh is unchanged.
+    /// [`EditError::Boundary`] if `e` is on the boundary, [`EditError::BoundaryVertex`] if one of its ends is
+    /// on the boundary, [`EditError::FewEdges`] if an end has fewer than three edges,
+    /// [`EditError::DuplicateEdge`] if another edge joins the ends, [`EditError::OutsideEdge`] if `fraction`
+    /// is not strictly between 0 and 1, [`EditError::NoSuchEdge`], [`EditError::Full`]. The mesh is unchanged.
     pub fn bevel_edge(&mut self, e: EdgeId, fraction: f64) -> Result<FaceId, EditError> {
         self.bevel_edge_with(e, |_| fraction)
     }
 
-    /// [`bevel_edge`](Self::bevel_edge) with a fraction for each edge that is cut.
+    /// Bevels an edge like [`bevel_edge`](Self::bevel_edge), with a separate fraction for each edge that is
+    /// cut.
     ///
     /// # Errors
     ///
@@ -123,7 +125,7 @@ impl Mesh {
                 spokes.push(h);
                 h = self.next(h.twin());
             }
-            self.check_end(self.origin(half), spokes.len() - first + 1)?;
+            self.check_bevel_end(self.origin(half), spokes.len() - first + 1)?;
         }
         let cuts = self.check_cuts(&spokes, fraction)?;
         let new = self.join_cuts(&cuts, f);
@@ -133,7 +135,8 @@ impl Mesh {
         Ok(new)
     }
 
-    fn check_end(&self, v: VertexId, n_edges: usize) -> Result<(), EditError> {
+    /// Checks that a bevel can remove `v`, which has `n_edges` edges.
+    fn check_bevel_end(&self, v: VertexId, n_edges: usize) -> Result<(), EditError> {
         if self.is_boundary_vertex(v) {
             Err(EditError::BoundaryVertex(v))
         } else if n_edges < 3 {
@@ -143,7 +146,7 @@ impl Mesh {
         }
     }
 
-    /// The half-edges with the places where they are cut.
+    /// Returns the half-edges with their fractions, after checking these.
     fn check_cuts(
         &self,
         spokes: &[HalfEdgeId],
@@ -161,10 +164,11 @@ impl Mesh {
         spokes.iter().map(cut).collect()
     }
 
-    /// Cuts off what `cuts` leave, and puts a face there with the values of `f`.
+    /// Cuts the half-edges of `cuts` at their fractions, and connects the cuts by a new face with the values
+    /// of `f`.
     ///
-    /// They are given clockwise: on the face to the right of each, its twin is followed by the next one, or
-    /// by a half-edge to be left out and then that.
+    /// The half-edges must be in clockwise order. On the face to the right of each one, its twin is followed
+    /// by the next half-edge of `cuts`, or by a half-edge of the beveled edge and then by the next one.
     fn join_cuts(&mut self, cuts: &[(HalfEdgeId, f64)], f: FaceId) -> FaceId {
         self.drop_columns_by_rule();
         let n = cuts.len();
@@ -184,8 +188,8 @@ impl Mesh {
         }
         let new = self.push_copy_of_face(f, ring[n - 1][1]);
 
-        // The corners at the cuts: to the right of each edge first, while those to the left still have
-        // their old values.
+        // The corners at the cuts. Those to the right of each edge are first, because they need the old values
+        // of those to the left.
         for (&(h, t), [along, _]) in cuts.iter().zip(&ring) {
             let corner = self.next(h.twin());
             self.copy_values(corner, *along);
@@ -196,17 +200,17 @@ impl Mesh {
         }
 
         for (i, &[along, back]) in ring.iter().enumerate() {
-            let (h, onward) = (cuts[i].0, cuts[(i + 1) % n].0);
-            let left_out = self.next(h.twin());
-            if left_out != onward {
-                self.replace_first_of_face(left_out, along);
+            let (h, next) = (cuts[i].0, cuts[(i + 1) % n].0);
+            let removed = self.next(h.twin());
+            if removed != next {
+                self.replace_first_of_face(removed, along);
             }
             self.set_face(along, self.face(h.twin()));
             self.set_next(h.twin(), along);
-            self.set_next(along, onward);
+            self.set_next(along, next);
             self.set_face(back, Some(new));
             self.set_next(back, ring[(i + n - 1) % n][1]);
-            self.copy_values(onward, back);
+            self.copy_values(next, back);
             self.set_origin(h, ends[i]);
         }
         new

@@ -1,40 +1,40 @@
-//! Joining two holes by a band of faces.
+//! Connecting two holes by a band of faces.
 
 use crate::{EdgeId, EditError, FaceId, HalfEdgeId, Mesh};
 
 impl Mesh {
-    /// Joins the holes of `h` and `g`, half-edges without faces, by a band of faces.
+    /// Connects the holes of `h` and `g`, half-edges without faces, by a band of faces.
     ///
     /// ```text
-    ///    --d <-g-- c--          --d --- c--         a is joined to d, the target of g, and b to c;
-    ///                     -->     |  f  |           f, between h and g, is the first face,
-    ///    --a --h-> b--          --a --- b--         the next ones follow at b
+    ///    --d <-g-- c--          --d --- c--         a is joined to d, the target of g, and b to c.
+    ///                     -->     |  f  |           f, between h and g, is the first face;
+    ///    --a --h-> b--          --a --- b--         the other faces follow from b on
     /// ```
     ///
-    /// The holes may be of one part of the mesh, which gets a handle, or of two, which become one. With n
-    /// edges around the one and m around the other, n at least m, the band has n faces and as many new edges:
-    /// m quads, and n - m triangles spread evenly between them, each at an edge of the longer loop. Quads
-    /// between loops that are turned against each other are not flat: choose h and g for the pair of edges
-    /// that belong together.
+    /// The holes can belong to one component of the mesh, which gets a handle, or to two components, which
+    /// become one. If one loop has n edges and the other m, with n at least m, the band has n faces and n new
+    /// edges: m quads, and n - m triangles spread evenly between them, each at an edge of the longer loop. If
+    /// the loops are rotated against each other, the band is twisted: choose `h` and `g` so that they face
+    /// each other.
     ///
-    /// All ids stay. New edges and faces are numbered along the longer loop (that of `h` if they are equal),
-    /// beginning with a-d and f. A face takes the values of the one beside its edge of the longer loop;
-    /// a corner takes those of the corner at the same vertex in the face beside its edge of the loop, and in
-    /// a triangle whose side is but a point of the shorter loop, beside the edge that the face before it
-    /// had there. Edges get zero values.
+    /// All existing ids stay the same. New edges and faces are numbered along the longer loop (that of `h` if
+    /// both have the same length), starting with a-d and f. A new face has the values of the face beside its
+    /// edge of the longer loop. A corner has the values of the corner at the same vertex, in the face beside
+    /// the loop edge of its own face. In a triangle, which has no edge of the shorter loop, the corner at that
+    /// loop uses the loop edge of the previous face of the band. New edges have zero values.
     ///
-    /// Returns the faces.
+    /// Returns the new faces.
     ///
     /// # Errors
     ///
-    /// [`EditError::NotBoundary`] if one has a face, [`EditError::SameLoop`] if they lie on one loop,
-    /// [`EditError::DuplicateEdge`] if two vertices that would be joined share an edge already,
+    /// [`EditError::NotBoundary`] if `h` or `g` has a face, [`EditError::SameLoop`] if they lie on the same
+    /// loop, [`EditError::DuplicateEdge`] if two vertices that would be joined already share an edge,
     /// [`EditError::NoSuchHalfEdge`], [`EditError::Full`]. The mesh is unchanged.
     ///
     /// # Examples
     ///
     /// ```
-    /// // A tunnel between two faces that lie opposite to each other.
+    /// // A tunnel between two opposite faces.
     /// let mut mesh = geometry::shapes::icosahedron();
     /// let faces = [mesh::FaceId::new(0), mesh::FaceId::new(13)];
     /// let [h, g] = faces.map(|f| mesh.face_half_edge(f));
@@ -56,14 +56,14 @@ impl Mesh {
         if long.len() < short.len() {
             std::mem::swap(&mut long, &mut short);
         }
-        // The loops run against each other, as the sides of a street do.
+        // The loops run in opposite directions.
         short[1..].reverse();
         let (n, m) = (long.len(), short.len());
-        // Where on the short loop the rung ends that begins at the origin of the i-th half-edge of the long
-        // one: rounded up, so that the first face is a quad.
-        let place = |i: usize| (i * m).div_ceil(n);
+        // Rung i joins the origin of half-edge i of the long loop to this place of the short loop. Rounded up,
+        // so that the first face is a quad.
+        let short_index = |i: usize| (i * m).div_ceil(n);
         let rungs: Vec<_> = (0..n)
-            .map(|i| (self.origin(long[i]), self.target(short[place(i) % m])))
+            .map(|i| (self.origin(long[i]), self.target(short[short_index(i) % m])))
             .collect();
         if let Some(&(v, w)) = rungs
             .iter()
@@ -80,18 +80,18 @@ impl Mesh {
             .collect();
         let mut band = Vec::with_capacity(n);
         for i in 0..n {
-            let (at, next_at) = (place(i), place(i + 1));
-            let [onward, _] = rungs[(i + 1) % n].half_edges();
-            let [_, back] = rungs[i].half_edges();
+            let (k, next_k) = (short_index(i), short_index(i + 1));
+            let [next_rung, _] = rungs[(i + 1) % n].half_edges();
+            let [_, rung_back] = rungs[i].half_edges();
             let side = long[i];
-            // Each half-edge with the corner that it takes its values from.
-            let mut sides = vec![(side, self.corner_beside(side)), (onward, side.twin())];
-            if next_at > at {
-                let across = short[at];
-                sides.push((across, self.corner_beside(across)));
-                sides.push((back, across.twin()));
+            // Pairs of a half-edge and the corner whose values it gets.
+            let mut sides = vec![(side, self.corner_beside(side)), (next_rung, side.twin())];
+            if next_k > k {
+                let opposite = short[k];
+                sides.push((opposite, self.corner_beside(opposite)));
+                sides.push((rung_back, opposite.twin()));
             } else {
-                sides.push((back, self.corner_beside(short[at - 1])));
+                sides.push((rung_back, self.corner_beside(short[k - 1])));
             }
             let f = self.push_face(side);
             self.copy_face_beside(side, f);

@@ -1,4 +1,4 @@
-//! Shrinking an edge to a point.
+//! Collapsing an edge to a vertex.
 
 use glam::DVec3;
 
@@ -6,7 +6,7 @@ use super::check_finite;
 use crate::{EdgeId, EditError, HalfEdgeId, Id, Mesh, VertexId};
 
 impl Mesh {
-    /// Shrinks an edge to its midpoint: its two ends become one vertex.
+    /// Collapses an edge to its midpoint: its two ends become one vertex.
     ///
     /// ```text
     ///        c               c                 +-----c           +-----c
@@ -16,40 +16,40 @@ impl Mesh {
     ///        d               d                 d-----+           d-----+
     /// ```
     ///
-    /// v is the end of the lower number; the other one and `e` die. A triangle beside `e` dies, and of its
-    /// other two edges, which become one, the edge at v stays and the other one dies. A larger face
-    /// only loses a corner, and so does a hole. On closed triangles V, E, F shrink by 1, 3, 2 and on the
-    /// boundary by 1, 2, 1, and V - E + F stays. No new id is given, and what lies around other vertices
-    /// keeps its ids.
+    /// v is the end with the lower id; the other end and `e` die. A triangle beside `e` dies, and its other
+    /// two edges become one: the edge at v stays, the other one dies. A larger face loses one corner, and a
+    /// hole loses one edge. Inside a triangle mesh, V, E and F shrink by 1, 3 and 2; on its boundary by 1, 2
+    /// and 1. V - E + F stays the same. No ids are added, and all other elements keep their ids.
     ///
-    /// Vertex attributes follow their rules between the two ends; copied ones stay as they are at v.
-    /// Corners at v of the faces beside `e` likewise within their own face, so that both sides of a
-    /// seam keep their values. A corner of a face at only one end of `e` follows, in each attribute, the
-    /// face beside `e` that has the same value at that end, and stays as it is if neither has. Of two
-    /// edges that become one the larger number counts, so that a crease stays, and a tag of either;
-    /// for other types the value of the one that stays.
+    /// Vertex attributes of v are interpolated between the two ends; attributes that are not interpolated
+    /// stay as they are at v. The corners at v of the faces beside `e` are interpolated within their face,
+    /// so that both sides of a seam keep their values. For a corner of any other face at an end of `e`: if,
+    /// in an attribute, it has the same value as the corner of a face beside `e` at this end, it gets the
+    /// new value of that corner; otherwise it keeps its value. When two edges become one, the larger number
+    /// is kept, so that creases stay, and a tag is set if either edge had it; for other types the remaining
+    /// edge keeps its value.
     ///
-    /// An edge may shrink if that changes neither the shape of the surface nor makes two elements of it
-    /// coincide. The rule is the link condition of Dey, Edelsbrunner, Guha and Nekhayev ("Topology
-    /// preserving edge contraction", 1999), on the surface with holes closed by a cone, for polygons: the
-    /// ends may have a neighbor in common only where a triangle beside `e` has it, and a face only
-    /// where it is beside `e`.
+    /// A collapse is refused if it would change the topology of the surface or make two elements coincide.
+    /// The test is the link condition of Dey, Edelsbrunner, Guha and Nekhayev ("Topology preserving edge
+    /// contraction", 1999), extended to polygons, on the surface with each hole closed by a cone. It allows
+    /// a common neighbor of the ends only if it is a corner of a triangle beside `e`, and a common face of
+    /// the ends only if it is beside `e`.
     ///
     /// Returns v.
     ///
     /// # Errors
     ///
     /// - [`EditError::JoinsBoundaries`] if both ends are on the boundary, but `e` is not.
-    /// - [`EditError::Link`] if the ends have a neighbor in common that no triangle beside `e` has: it
-    ///   would be joined to v twice. Also where `e` is a side of a hole of three.
-    /// - [`EditError::DuplicateEdge`] if the ends are joined by a second edge.
-    /// - [`EditError::VisitsTwice`] if a face that is not beside `e` has both ends: it would visit v
-    ///   twice.
-    /// - [`EditError::Vanishes`] for the sides of a lone triangle, and where two faces would be left
-    ///   back to back, as of a tetrahedron, or nothing.
-    /// - [`EditError::SameFace`] if one face is on both sides of `e`, or would be on both sides of an
-    ///   edge that two become; [`EditError::SameOpposite`] if two triangles beside `e` share a second
-    ///   edge. Such edges could shrink, but only edits make them.
+    /// - [`EditError::Link`] if the ends have a common neighbor that is not a corner of a triangle beside
+    ///   `e`: it would be joined to v twice. Also if `e` is a side of a hole with three edges.
+    /// - [`EditError::DuplicateEdge`] if a second edge joins the ends.
+    /// - [`EditError::VisitsTwice`] if a face that is not beside `e` has both ends as corners: it would
+    ///   visit v twice.
+    /// - [`EditError::Vanishes`] for the edges of a single triangle, and if no faces would be left, or only
+    ///   two faces back to back, as for a tetrahedron.
+    /// - [`EditError::SameFace`] if one face is on both sides of `e`, or would be on both sides of an edge
+    ///   that results from two; [`EditError::SameOpposite`] if two triangles beside `e` share a second edge.
+    ///   A collapse would be possible in both cases, but these edges only result from other edits.
     /// - [`EditError::NoSuchEdge`].
     ///
     /// The mesh is unchanged.
@@ -68,8 +68,8 @@ impl Mesh {
         self.collapse_edge_at(e, 0.5)
     }
 
-    /// [`collapse_edge`](Self::collapse_edge) to the point at `t` on the edge: 0 is the origin of its first
-    /// half, 1 its target.
+    /// Collapses an edge like [`collapse_edge`](Self::collapse_edge), to the point at `t` on the edge: 0 is the
+    /// origin of its first half, 1 its target.
     ///
     /// # Errors
     ///
@@ -84,8 +84,8 @@ impl Mesh {
         self.collapse(e, t, (1.0 - t) * a + t * b)
     }
 
-    /// [`collapse_edge`](Self::collapse_edge) to any point. Attributes are those at the place on the edge
-    /// that is nearest to it; in the middle if the ends lie in one place.
+    /// Collapses an edge like [`collapse_edge`](Self::collapse_edge), to any point. Attributes are those at the
+    /// nearest point on the edge, or at its middle if both ends have the same position.
     ///
     /// # Errors
     ///
@@ -104,7 +104,7 @@ impl Mesh {
         self.check_collapse(e)?;
         let sides = e.half_edges();
         let [a, b] = self.edge_vertices(e);
-        let (v, gone) = (a.min(b), a.max(b));
+        let (v, removed) = (a.min(b), a.max(b));
 
         self.drop_columns_by_rule();
         self.mix_corners_along(e, t, v);
@@ -120,21 +120,21 @@ impl Mesh {
             self.replace_first_of_face(h, after);
         }
         self.kill(e);
-        self.kill(gone);
-        // A triangle has become a lens between two edges. The one that was at the vertex that is gone
-        // comes after the first side if that vertex was b, and after the second if it was a.
+        self.kill(removed);
+        // A triangle has become a face of two edges. On the side of the first half of e, the edge at b comes
+        // after e; on the side of the second half, the edge at a.
         for (i, h) in sides.into_iter().enumerate().filter(|&(i, _)| vanishes[i]) {
             let after = self.next(h);
-            if (gone == b) == (i == 0) {
-                self.close_lens(after, before[i]);
+            if (removed == b) == (i == 0) {
+                self.remove_two_gon(after, before[i]);
             } else {
-                self.close_lens(before[i], after);
+                self.remove_two_gon(before[i], after);
             }
         }
         Ok(v)
     }
 
-    // ---- Whether it may ------------------------------------------------------------------------
+    // ---- Checks --------------------------------------------------------------------------------
 
     fn check_collapse(&self, e: EdgeId) -> Result<(), EditError> {
         let [ab, ba] = e.half_edges();
@@ -150,12 +150,13 @@ impl Mesh {
         }
         self.check_outer_faces(e)?;
 
-        // What the link of the edge has, and what those of both ends may have in common.
+        // The link of the edge: the only vertices that the links of both ends can have in common.
         let apexes = [ab, ba].map(|h| {
             self.is_beside_triangle(h)
                 .then(|| self.target(self.next(h)))
         });
-        let (mut vertices, mut faces) = (Few::new(), Few::new());
+        // The neighbors and faces of b.
+        let (mut vertices, mut faces) = (SmallIdSet::new(), SmallIdSet::new());
         let mut h = self.next(ab);
         while h != ba {
             vertices.push(self.target(h));
@@ -186,8 +187,8 @@ impl Mesh {
             valence += 1;
             h = self.next(h.twin());
         }
-        // Only of parallel edges are there more to an apex than its triangles merge, or a hole of three
-        // whose third corner is an apex.
+        // More edges lead to an apex than the triangles merge only if there are parallel edges, or a hole with
+        // three edges whose third corner is an apex.
         for (i, x) in apexes.into_iter().enumerate() {
             let merged = apexes.iter().filter(|&&apex| apex == x).count();
             if let Some(x) = x.filter(|&x| shared[i].min(vertices.count(x)) > merged) {
@@ -203,15 +204,15 @@ impl Mesh {
             return Err(EditError::VisitsTwice(p, a.min(b)));
         }
         let vanishing = apexes.iter().flatten().count();
-        let left = valence.saturating_sub(vanishing);
-        if vanishing > 0 && left == 2 && at_boundary == [false; 2] && self.would_fold(e, apexes) {
+        let n_left = valence.saturating_sub(vanishing);
+        if vanishing > 0 && n_left == 2 && at_boundary == [false; 2] && self.would_fold(e, apexes) {
             return Err(EditError::Vanishes(e));
         }
         Ok(())
     }
 
-    /// Refuses if one face, or none, would be on both sides of what two edges of a triangle beside `e`
-    /// become, or if two triangles beside it share such an edge.
+    /// Checks, for each triangle beside `e`, the faces beyond its other two edges, which become one edge: they
+    /// must not be the same face, nor both missing, nor be the triangle on the other side of `e`.
     fn check_outer_faces(&self, e: EdgeId) -> Result<(), EditError> {
         for h in e.half_edges() {
             if !self.is_beside_triangle(h) {
@@ -239,11 +240,11 @@ impl Mesh {
         Ok(())
     }
 
-    /// Whether the two faces that would be left at the merged vertex, which has two edges then, would
-    /// lie back to back: if all vertices of one would have two edges.
+    /// Whether the two faces that would be left at the merged vertex, which would have two edges, would lie back
+    /// to back. This is so if all vertices of one of them would have two edges.
     fn would_fold(&self, e: EdgeId, apexes: [Option<VertexId>; 2]) -> bool {
         let [ab, ba] = e.half_edges();
-        // A larger face beside e is left, otherwise the third face at a.
+        // A larger face beside e remains; otherwise the third face at a remains.
         let around = match apexes {
             [None, _] => ab,
             [_, None] => ba,
@@ -252,8 +253,8 @@ impl Mesh {
         let ends = self.edge_vertices(e);
         self.loop_half_edges(around).all(|h| {
             let v = self.origin(h);
-            let lost = apexes.iter().filter(|&&x| x == Some(v)).count();
-            ends.contains(&v) || self.valence(v) == 2 + lost
+            let n_removed = apexes.iter().filter(|&&x| x == Some(v)).count();
+            ends.contains(&v) || self.valence(v) == 2 + n_removed
         })
     }
 
@@ -265,17 +266,17 @@ impl Mesh {
         self.face(h).is_some() && self.is_loop_of_three(h)
     }
 
-    // ---- What it changes -----------------------------------------------------------------------
+    // ---- Changes -------------------------------------------------------------------------------
 
-    /// Lets all half-edges that leave the origin of `h` leave v instead, the target of `h`.
+    /// Moves the outgoing half-edges of the origin of `h` to `v`, the target of `h`.
     fn move_half_edges(&mut self, h: HalfEdgeId, v: VertexId) {
-        let gone = self.origin(h);
-        // On the boundary v leaves along it.
+        let removed = self.origin(h);
+        // On the boundary, the half-edge of v must be the boundary one.
         let hole = [h, h.twin()].into_iter().find(|&h| self.face(h).is_none());
         if let Some(hole) = hole {
             self.set_vertex_half_edge(v, Some(self.next(hole)));
-        } else if self.is_boundary_vertex(gone) {
-            self.set_vertex_half_edge(v, self.vertex_half_edge(gone));
+        } else if self.is_boundary_vertex(removed) {
+            self.set_vertex_half_edge(v, self.vertex_half_edge(removed));
         } else if self.vertex_half_edge(v) == Some(h.twin()) {
             self.set_vertex_half_edge(v, Some(self.next(h)));
         }
@@ -286,38 +287,38 @@ impl Mesh {
         }
     }
 
-    /// Takes away the face between two half-edges that follow each other, and the edge of `x` with it:
-    /// `y` takes the place of the other half of `x`.
-    fn close_lens(&mut self, x: HalfEdgeId, y: HalfEdgeId) {
+    /// Removes the face of two edges that consists of `x` and `y`, and the edge of `x`: `y` replaces the twin
+    /// of `x`.
+    fn remove_two_gon(&mut self, x: HalfEdgeId, y: HalfEdgeId) {
         let outer = x.twin();
         let (before, after) = (self.prev(outer), self.next(outer));
-        let (lens, beyond) = (self.face(x), self.face(outer));
+        let (two_gon, outer_face) = (self.face(x), self.face(outer));
         self.copy_values(outer, y);
         self.merge_values(x.edge(), y.edge());
         self.set_next(before, y);
         self.set_next(y, after);
-        self.set_face(y, beyond);
+        self.set_face(y, outer_face);
         self.replace_first_of_face(outer, y);
         self.replace_first_of_vertex(x, y.twin());
         self.replace_first_of_vertex(outer, y);
         self.kill(x.edge());
-        if let Some(f) = lens {
+        if let Some(f) = two_gon {
             self.kill(f);
         }
     }
 
-    /// Gives the corners at both ends of `e` their values for when it has shrunk to the place `t` on it.
+    /// Sets the values of the corners at both ends of `e` for a collapse to the point at `t` on it.
     fn mix_corners_along(&mut self, e: EdgeId, t: f64, v: VertexId) {
         if !self.has_corner_columns() {
             return;
         }
-        // For the face on each side its corners at a and at b.
+        // For the face on each side, its corners at a and at b.
         let [ab, ba] = e.half_edges();
         let corners = [[ab, self.next(ab)], [self.next(ba), ba]];
         let sides = [0, 1].map(|i| Some(corners[i]).filter(|_| self.face(corners[i][i]).is_some()));
-        for (end, leaving) in [ab, ba].into_iter().enumerate() {
-            let mut h = self.next(leaving.twin());
-            while h != leaving {
+        for (end, outgoing) in [ab, ba].into_iter().enumerate() {
+            let mut h = self.next(outgoing.twin());
+            while h != outgoing {
                 let is_beside = sides.iter().flatten().any(|side| side[end] == h);
                 if self.face(h).is_some() && !is_beside {
                     self.follow_values(sides, end, t, h);
@@ -327,7 +328,7 @@ impl Mesh {
         }
         for (h, side) in [ab, ba].into_iter().zip(sides) {
             if let Some([at_a, at_b]) = side {
-                // Copied values are those at v; the corner that stays is the one after h.
+                // Values that are not interpolated are those at v. The corner after h remains.
                 let at_v = if v == self.origin(ab) { at_a } else { at_b };
                 self.mix_values(at_a, at_b, t, at_v);
                 if at_v == h {
@@ -338,15 +339,15 @@ impl Mesh {
     }
 }
 
-/// A set of ids, on the stack while it is small.
-struct Few<I> {
+/// A multiset of ids that stays on the stack while it is small.
+struct SmallIdSet<I> {
     on_stack: [I; 16],
     n: usize,
-    /// All of them, once they are more.
+    /// All ids, once there are more than fit on the stack.
     on_heap: Vec<I>,
 }
 
-impl<I: Id + Ord> Few<I> {
+impl<I: Id + Ord> SmallIdSet<I> {
     fn new() -> Self {
         Self {
             on_stack: [I::NONE; 16],
@@ -367,7 +368,7 @@ impl<I: Id + Ord> Few<I> {
         self.n += 1;
     }
 
-    /// To be called between the last `push` and the first question.
+    /// Must be called after the last `push`, before `has` and `count`.
     fn sort(&mut self) {
         self.on_heap.sort_unstable();
     }

@@ -1,49 +1,50 @@
-//! Opening a mesh along edges.
+//! Cutting a mesh open along edges.
 
 use super::sorted_unique;
 use crate::{EdgeId, EditError, HalfEdgeId, Mesh, VertexId};
 
 /// A part of the faces around a vertex, between two cuts, or between a cut and the boundary.
 struct Part {
-    /// The half-edges that leave the vertex, clockwise. The first is a boundary one.
-    leaving: Vec<HalfEdgeId>,
-    /// The boundary half-edge that arrives at the vertex.
-    arriving: HalfEdgeId,
+    /// The outgoing half-edges of the vertex, clockwise. The first has no face.
+    outgoing: Vec<HalfEdgeId>,
+    /// The boundary half-edge that ends at the vertex.
+    incoming: HalfEdgeId,
 }
 
 impl Mesh {
-    /// Opens the mesh along edges, whatever they form: paths, loops, trees.
+    /// Cuts the mesh open along edges, which can form any set of paths, loops and trees.
     ///
     /// ```text
     ///    +-----+-----+          +-----+ +-----+
     ///    |     e     |          |     e n     |         e keeps the face of its first half
     ///    +-----v-----+    -->   +-----v w-----+         n is new and gets the other face
     ///    |     e2    |          |     e2 n2   |
-    ///    +-----u-----+          +-----u-----+           u: the end of a cut inside the mesh stays one
+    ///    +-----u-----+          +-----u-----+           u: the end of a cut inside the mesh is not split
     ///    |     |     |          |     |     |
     /// ```
     ///
-    /// Where the faces around a vertex fall into several parts, the part with the lowest face keeps the
-    /// vertex; each other part gets a copy, in order of their lowest faces. New vertices are numbered in
-    /// the order of the old ones, new edges in the order of `edges`. Faces stay. The copies of vertices and
-    /// edges have the values of the old ones, and corners keep theirs. Nothing moves: the sides of the cut
-    /// lie on each other until something moves them. [`stitch_edges`](Self::stitch_edges) is the inverse.
+    /// If the cuts divide the faces around a vertex into several parts, the part with the lowest face id keeps
+    /// the vertex; each other part gets a copy of it, in order of their lowest face ids. New vertices are
+    /// numbered in the order of the old ones, new edges in the order of `edges`. Faces keep their ids. The
+    /// copies of vertices and edges have the values of the originals, and corners keep their values. Positions
+    /// do not change: both sides of a cut coincide. [`stitch_edges`](Self::stitch_edges) is the inverse.
     ///
-    /// An edge whose ends both stay one vertex is refused: the hole of two edges could not be opened, and
-    /// could not be told from a closed one in a list of polygons. [`slits`](Self::slits) lists them.
+    /// An edge is refused if neither of its ends would be split: the cut would be a hole with two edges (a
+    /// slit), which could not be opened, and which a list of polygons cannot represent.
+    /// [`slits`](Self::slits) lists these edges.
     ///
     /// Returns the new edges: the other sides of `edges`, in the same order.
     ///
     /// # Errors
     ///
-    /// [`EditError::Boundary`] if one of them is on the boundary, [`EditError::DuplicateEdge`] for the ends
+    /// [`EditError::Boundary`] if an edge is on the boundary, [`EditError::DuplicateEdge`] with the ends
     /// of an edge that would be a slit, [`EditError::EdgeListedTwice`], [`EditError::NoElements`],
     /// [`EditError::NoSuchEdge`], [`EditError::Full`]. The mesh is unchanged.
     ///
     /// # Examples
     ///
     /// ```
-    /// // The ring around the middle of an octahedron: two pyramids.
+    /// // Cutting the ring around the middle of an octahedron gives two pyramids.
     /// let mut mesh = geometry::shapes::octahedron();
     /// let ring: Vec<_> = mesh
     ///     .edges()
@@ -75,7 +76,7 @@ impl Mesh {
         self.check_room(2 * edges.len())?;
 
         self.drop_columns_by_rule();
-        // The fans of faces are read before the edges along them are doubled.
+        // The fans are read before the edges are duplicated.
         let vertices = sorted_unique(sorted.iter().flat_map(|&e| self.edge_vertices(e)));
         let is_cut = |h: HalfEdgeId| sorted.binary_search(&h.edge()).is_ok();
         let fans: Vec<Vec<HalfEdgeId>> = vertices
@@ -83,26 +84,26 @@ impl Mesh {
             .map(|&v| self.fan_from_gap(v, is_cut))
             .collect();
 
-        let new: Vec<EdgeId> = edges.iter().map(|&e| self.double(e)).collect();
+        let new: Vec<EdgeId> = edges.iter().map(|&e| self.duplicate_edge(e)).collect();
         let mut copies: Vec<(EdgeId, EdgeId)> =
             edges.iter().copied().zip(new.iter().copied()).collect();
         copies.sort_unstable();
         let copy_of = |h: HalfEdgeId| {
-            let at = copies.binary_search_by_key(&h.edge(), |&(old, _)| old);
-            at.ok().map(|i| copies[i].1)
+            let index = copies.binary_search_by_key(&h.edge(), |&(old, _)| old);
+            index.ok().map(|i| copies[i].1)
         };
         for (v, fan) in vertices.into_iter().zip(fans) {
             let mut parts = parts(&fan, copy_of);
-            parts.sort_by_key(|part| part.leaving.iter().filter_map(|&h| self.face(h)).min());
+            parts.sort_by_key(|part| part.outgoing.iter().filter_map(|&h| self.face(h)).min());
             for (i, part) in parts.into_iter().enumerate() {
                 let owner = if i == 0 {
                     v
                 } else {
                     self.push_copy_of_vertex(v)
                 };
-                self.set_next(part.arriving, part.leaving[0]);
-                self.set_vertex_half_edge(owner, Some(part.leaving[0]));
-                for h in part.leaving {
+                self.set_next(part.incoming, part.outgoing[0]);
+                self.set_vertex_half_edge(owner, Some(part.outgoing[0]));
+                for h in part.outgoing {
                     self.set_origin(h, owner);
                 }
             }
@@ -110,12 +111,12 @@ impl Mesh {
         Ok(new)
     }
 
-    /// Those of `edges` along which nothing would open if all were cut: both ends lie inside the mesh, and
-    /// no other edge of `edges` goes on there. In order of their numbers.
+    /// Returns the edges of `edges` that would become slits if all of `edges` were cut: both ends are inside
+    /// the mesh, and no other edge of `edges` is at them. In order of ids.
     ///
     /// # Panics
     ///
-    /// If one is not an edge of the mesh.
+    /// If an edge does not exist.
     pub fn slits(&self, edges: &[EdgeId]) -> Vec<EdgeId> {
         let mut edges = sorted_unique(edges.iter().copied());
         let mut ends: Vec<VertexId> = edges.iter().flat_map(|&e| self.edge_vertices(e)).collect();
@@ -128,7 +129,7 @@ impl Mesh {
         edges
     }
 
-    /// The half-edges that leave `v`, clockwise from the boundary or else from a cut.
+    /// Returns the outgoing half-edges of `v`, clockwise from the boundary, or from a cut if `v` is inside.
     fn fan_from_gap(&self, v: VertexId, is_cut: impl Fn(HalfEdgeId) -> bool) -> Vec<HalfEdgeId> {
         let mut fan: Vec<HalfEdgeId> = self.vertex_half_edges(v).collect();
         if !self.is_boundary_vertex(v) {
@@ -138,9 +139,8 @@ impl Mesh {
         fan
     }
 
-    /// Gives the face of the second half of `e` to a new edge. The halves that lose their faces are linked
-    /// to nothing yet.
-    fn double(&mut self, e: EdgeId) -> EdgeId {
+    /// Adds an edge that gets the face of the second half of `e`. The halves without a face are not linked yet.
+    fn duplicate_edge(&mut self, e: EdgeId) -> EdgeId {
         let [_, old] = e.half_edges();
         let (before, after, face) = (self.prev(old), self.next(old), self.face(old));
         let new = self.push_edge(self.target(old), self.origin(old));
@@ -156,33 +156,33 @@ impl Mesh {
     }
 }
 
-/// The parts of a fan, which begins at a gap, after its cut edges were doubled.
+/// Returns the parts of a fan, which starts at a gap, after its cut edges were duplicated.
 fn parts(fan: &[HalfEdgeId], copy_of: impl Fn(HalfEdgeId) -> Option<EdgeId>) -> Vec<Part> {
-    // Of the two edges that a cut one became, the half that leaves the vertex on the face before, seen
-    // clockwise, and the boundary half that leaves it after the cut.
+    // For a cut edge and its copy: the outgoing half of the part before the cut (clockwise), and the outgoing
+    // boundary half of the part after the cut.
     let sides = |h: HalfEdgeId| {
         let [first, second] = copy_of(h)?.half_edges();
         let is_first = h == h.edge().half_edge();
         Some(if is_first { (h, first) } else { (second, h) })
     };
     let mut parts = Vec::new();
-    let mut leaving = Vec::new();
+    let mut outgoing = Vec::new();
     for (i, &h) in fan.iter().enumerate() {
         let Some((before, after)) = sides(h) else {
-            leaving.push(h);
+            outgoing.push(h);
             continue;
         };
         if i > 0 {
-            leaving.push(before);
-            let arriving = before.twin();
-            parts.push(Part { leaving, arriving });
+            outgoing.push(before);
+            let incoming = before.twin();
+            parts.push(Part { outgoing, incoming });
         }
-        leaving = vec![after];
+        outgoing = vec![after];
     }
-    // The last part ends at the boundary, or at the cut where the first one began.
-    leaving.extend(sides(fan[0]).map(|(before, _)| before));
-    let arriving = leaving[leaving.len() - 1].twin();
-    parts.push(Part { leaving, arriving });
+    // The last part ends at the boundary, or at the cut where the first part starts.
+    outgoing.extend(sides(fan[0]).map(|(before, _)| before));
+    let incoming = outgoing[outgoing.len() - 1].twin();
+    parts.push(Part { outgoing, incoming });
     parts
 }
 

@@ -2,9 +2,9 @@
 
 use crate::{EditError, FaceId, HalfEdgeId, Mesh};
 
-/// The parts of a polygon with `n` corners that diagonals leave, each as its half-edges in order. Corners
-/// are counted from 0 along the face. Half-edges below `n` are the sides, each from the corner of its
-/// number; n + 2k is diagonal k from its first corner to its second, n + 2k + 1 is the way back.
+/// Returns the parts into which diagonals divide a polygon with `n` corners, each as its half-edges in order.
+/// Corners are numbered from 0 along the face. Half-edge i below `n` is the side that starts at corner i;
+/// half-edge n + 2k is diagonal k from its first corner to its second, and n + 2k + 1 is its twin.
 ///
 /// ```text
 ///    3 --- 2 --- 2        n = 4, diagonals [[0, 2]]:
@@ -14,27 +14,27 @@ use crate::{EditError, FaceId, HalfEdgeId, Mesh};
 ///    0 --- 0 --- 1
 /// ```
 ///
-/// They come in order of their lowest half-edge, and begin with it. `None` if diagonals cross, or a part
-/// would have fewer than three sides.
+/// Each part starts with its lowest half-edge, and the parts are ordered by these. Returns `None` if diagonals
+/// cross, or if a part would have fewer than three sides.
 pub fn polygon_parts(n: usize, diagonals: &[[u32; 2]]) -> Option<Vec<Vec<usize>>> {
-    // The half-edges that leave each corner inside the polygon, counter-clockwise from its side: those to
-    // the nearest corners ahead come first.
-    let mut leaving: Vec<(usize, usize, usize)> = Vec::with_capacity(2 * diagonals.len());
+    // The diagonals at each corner, counter-clockwise from its side: the diagonal to the nearest corner ahead
+    // is first. Each is (corner, distance to the other corner, half-edge).
+    let mut outgoing: Vec<(usize, usize, usize)> = Vec::with_capacity(2 * diagonals.len());
     for (k, diagonal) in diagonals.iter().enumerate() {
         let [a, b] = diagonal.map(|corner| corner as usize);
-        leaving.push((a, (b + n - a) % n, n + 2 * k));
-        leaving.push((b, (a + n - b) % n, n + 2 * k + 1));
+        outgoing.push((a, (b + n - a) % n, n + 2 * k));
+        outgoing.push((b, (a + n - b) % n, n + 2 * k + 1));
     }
-    leaving.sort_unstable();
-    // What arrives at a corner goes on along the half-edge clockwise of it.
+    outgoing.sort_unstable();
+    // A half-edge that ends at a corner is followed by the outgoing half-edge clockwise of it.
     let mut next: Vec<usize> = (1..=n).map(|i| i % n).collect();
-    next.resize(n + leaving.len(), 0);
+    next.resize(n + outgoing.len(), 0);
     let twin = |h: usize| n + ((h - n) ^ 1);
     let mut clockwise = 0;
-    for (i, &(corner, _, h)) in leaving.iter().enumerate() {
-        let is_first = i == 0 || leaving[i - 1].0 != corner;
+    for (i, &(corner, _, h)) in outgoing.iter().enumerate() {
+        let is_first = i == 0 || outgoing[i - 1].0 != corner;
         next[twin(h)] = if is_first { corner } else { clockwise };
-        // Until another one follows, the side that arrives goes on here.
+        // The side that ends at the corner is followed by the last diagonal: later diagonals overwrite this.
         next[(corner + n - 1) % n] = h;
         clockwise = h;
     }
@@ -53,30 +53,30 @@ pub fn polygon_parts(n: usize, diagonals: &[[u32; 2]]) -> Option<Vec<Vec<usize>>
             parts.push(part);
         }
     }
-    // Euler's formula: crossing diagonals would join parts.
+    // By Euler's formula, crossing diagonals would give fewer parts.
     let is_flat = parts.len() == diagonals.len() + 1;
     (is_flat && parts.iter().all(|part| part.len() >= 3)).then_some(parts)
 }
 
 impl Mesh {
-    /// Cuts a face along diagonals, given as pairs of its corners: the parts are [`polygon_parts`].
+    /// Cuts a face along diagonals, given as pairs of corner numbers. The parts are those of [`polygon_parts`].
     ///
-    /// The diagonals become edges in their order, each from its first corner to its second. The first part
-    /// keeps the face and its first corner, the others are new faces in their order with the values of the
-    /// old one. Corners at diagonals have the values of the corners they come from; edges have zero values.
-    /// A diagonal may join two vertices that share an edge already.
+    /// The diagonals become edges, in order, each from its first corner to its second. The first part keeps
+    /// the id and the first corner of the face; the other parts become new faces, in order, with the values
+    /// of the old face. Corners at diagonals have the values of the old corners; new edges have zero values.
+    /// A diagonal can join two vertices that already share an edge.
     ///
     /// Returns the faces.
     ///
     /// # Errors
     ///
-    /// [`EditError::Pinch`] if a diagonal begins and ends at one vertex, which the face passes twice,
-    /// [`EditError::NoCut`] if diagonals cross, repeat or follow a side, [`EditError::NoSuchFace`],
-    /// [`EditError::Full`]. The mesh is unchanged.
+    /// [`EditError::Pinch`] if a diagonal starts and ends at the same vertex, which the face visits twice;
+    /// [`EditError::NoCut`] with the ends of the first diagonal if diagonals cross, repeat or follow a side,
+    /// [`EditError::NoSuchFace`], [`EditError::Full`]. The mesh is unchanged.
     ///
     /// # Panics
     ///
-    /// If a diagonal names a corner that the face does not have.
+    /// If the face does not have a corner that a diagonal names.
     pub fn cut_face(
         &mut self,
         f: FaceId,
@@ -123,13 +123,13 @@ mod tests {
         assert_eq!(polygon_parts(3, &[]).unwrap(), [[0, 1, 2]]);
         assert_eq!(polygon_parts(4, &[[0, 2]]).unwrap(), [[0, 1, 5], [2, 3, 4]]);
         assert_eq!(polygon_parts(4, &[[2, 0]]).unwrap(), [[0, 1, 4], [2, 3, 5]]);
-        // A triangle inside a hexagon has no side of it.
+        // The inner triangle of a hexagon has no side of the hexagon.
         let inner = polygon_parts(6, &[[0, 2], [2, 4], [0, 4]]).unwrap();
         assert_eq!(inner, [[0, 1, 7], [2, 3, 9], [4, 5, 10], [6, 8, 11]]);
     }
 
     #[test]
-    fn diagonals_that_cross_or_repeat_or_follow_a_side_are_no_parts() {
+    fn diagonals_that_cross_or_repeat_or_follow_a_side_give_no_parts() {
         for diagonals in [
             vec![[0, 2], [1, 3]],
             vec![[0, 2], [2, 0]],

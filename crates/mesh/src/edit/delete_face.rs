@@ -1,10 +1,10 @@
-//! Taking faces away.
+//! Deleting faces.
 
 use super::{first_repeated, sorted_unique};
 use crate::{EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 
 impl Mesh {
-    /// Takes a face away and leaves a hole.
+    /// Deletes a face, which leaves a hole.
     ///
     /// ```text
     ///    +-----+-----+          +-----+
@@ -12,35 +12,36 @@ impl Mesh {
     ///    +-----+-----+          +-----+
     /// ```
     ///
-    /// The face dies, and so do edges that have no other face. Vertices stay, isolated if they have
-    /// no other edge. No id changes and no attribute value.
+    /// Edges that have no other face are deleted too. Vertices stay, and are isolated if they have no other
+    /// edge. Other ids and attribute values do not change.
     ///
     /// # Errors
     ///
-    /// [`EditError::Pinch`] if the faces left around a corner would not form one fan: its vertex is on
-    /// the boundary, but neither edge of `f` there is. [`EditError::NoSuchFace`]. The mesh is unchanged.
+    /// [`EditError::Pinch`] if the remaining faces around a vertex would not form one fan: the vertex is on
+    /// the boundary, but neither edge of `f` at this vertex is. [`EditError::NoSuchFace`]. The mesh is
+    /// unchanged.
     pub fn delete_face(&mut self, f: FaceId) -> Result<(), EditError> {
         self.delete_faces(&[f])
     }
 
-    /// Takes several faces away at once: all of them, or none.
+    /// Deletes several faces at once: all of them, or none.
     ///
     /// ```text
     ///    +---+---+---+                  +---+
     ///    | f | g |   |                  |   |
-    ///    +---v---+---+    -->   +---v   +---+       f alone would leave two fans at v, at the corner of
-    ///    |   |...|   |          |   |   |   |       a hole; f and g together leave one
+    ///    +---v---+---+    -->   +---v   +---+       the dotted face is a hole. Deleting f alone would
+    ///    |   |...|   |          |   |   |   |       leave two fans at v; deleting f and g leaves one
     ///    +---+---+---+          +---+   +---+
     /// ```
     ///
-    /// Faces that could not go alone may go together: only the result counts. The faces die, and so do
-    /// edges that have no other face. Vertices stay, isolated if they have no other edge. No id changes
-    /// and no attribute value. No faces are nothing to do. Takes time in proportion to the faces named
-    /// and the edges at their corners.
+    /// Faces that cannot be deleted alone can be deleted together: only the result is checked. Edges that
+    /// have no other face are deleted too. Vertices stay, and are isolated if they have no other edge. Other
+    /// ids and attribute values do not change. An empty list changes nothing. Takes time proportional to the
+    /// number of listed faces and of edges at their corners.
     ///
     /// # Errors
     ///
-    /// [`EditError::Pinch`] with the lowest vertex around which the faces left would not form one fan,
+    /// [`EditError::Pinch`] with the lowest vertex around which the remaining faces would not form one fan,
     /// [`EditError::FaceListedTwice`], [`EditError::NoSuchFace`]. The mesh is unchanged.
     ///
     /// # Examples
@@ -49,7 +50,7 @@ impl Mesh {
     /// use geometry::shapes;
     /// use mesh::FaceId;
     ///
-    /// // Of four squares around a vertex two opposite ones would be left.
+    /// // Two opposite squares at the middle vertex would be left: two fans.
     /// let mut mesh = shapes::grid(2, 2);
     /// assert!(mesh.delete_faces(&[0, 3].map(FaceId::new)).is_err());
     /// mesh.delete_faces(&[0, 1, 3].map(FaceId::new))?;
@@ -66,76 +67,83 @@ impl Mesh {
         if faces.is_empty() {
             return Ok(());
         }
-        let doomed = sorted_unique(faces.iter().copied());
-        let stays = |h: HalfEdgeId| {
+        let deleted = sorted_unique(faces.iter().copied());
+        let is_kept = |h: HalfEdgeId| {
             self.face(h)
-                .is_some_and(|f| doomed.binary_search(&f).is_err())
+                .is_some_and(|f| deleted.binary_search(&f).is_err())
         };
-        let sides: Vec<HalfEdgeId> = doomed
+        let sides: Vec<HalfEdgeId> = deleted
             .iter()
             .flat_map(|&f| self.face_half_edges(f))
             .collect();
         let corners = sorted_unique(sides.iter().map(|&h| self.origin(h)));
         let rims = corners
             .iter()
-            .map(|&v| self.rim_at(v, stays))
+            .map(|&v| self.rim_at(v, is_kept))
             .collect::<Result<Vec<_>, _>>()?;
-        let lone: Vec<HalfEdgeId> = sides.iter().copied().filter(|h| !stays(h.twin())).collect();
+        let without_face = sides.iter().copied().filter(|h| !is_kept(h.twin()));
+        let without_face: Vec<HalfEdgeId> = without_face.collect();
 
         self.drop_columns_by_rule();
         for (&v, rim) in corners.iter().zip(rims) {
-            self.set_vertex_half_edge(v, rim.map(|[_, out]| out));
-            if let Some([into, out]) = rim {
-                self.set_next(into, out);
+            self.set_vertex_half_edge(v, rim.map(|[_, outgoing]| outgoing));
+            if let Some([incoming, outgoing]) = rim {
+                self.set_next(incoming, outgoing);
             }
         }
         for h in sides {
             self.set_face(h, None);
         }
-        for h in lone {
+        for h in without_face {
             self.kill(h.edge());
         }
-        for f in doomed {
+        for f in deleted {
             self.kill(f);
         }
         Ok(())
     }
 
-    /// The boundary half-edges into `v` and out of it when only the faces of half-edges that `stay` are
-    /// left; `None` if none is. An error if these would form several fans.
+    /// Returns the incoming and the outgoing boundary half-edge of `v` after the deletion; `None` if no face
+    /// is left at `v`. `is_kept` tells whether the face of a half-edge is kept.
     ///
     /// ```text
-    ///     out   stays   into       walking clockwise around v, `out` is the side from faces that go to
-    ///        \    |    /           those that stay, and `into` the twin of that from those to these
-    ///          \  |  /
-    ///     goes    v    goes
+    ///     outgoing    incoming     clockwise around v, `outgoing` is the edge between the last deleted and
+    ///         \  kept  /           the first kept face; `incoming` is the edge between the last kept and the
+    ///           \    /             first deleted face
+    ///   deleted   v   deleted
     /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`EditError::Pinch`] if the kept faces would form several fans.
     fn rim_at(
         &self,
         v: VertexId,
-        stays: impl Fn(HalfEdgeId) -> bool,
+        is_kept: impl Fn(HalfEdgeId) -> bool,
     ) -> Result<Option<[HalfEdgeId; 2]>, EditError> {
-        let (mut into, mut out) = (None, None);
+        let (mut incoming, mut outgoing) = (None, None);
         for h in self.vertex_half_edges(v) {
-            match (stays(h), stays(h.twin())) {
-                (true, false) => into = Some(h.twin()),
-                (false, true) if out.is_some() => return Err(EditError::Pinch(v)),
-                (false, true) => out = Some(h),
+            match (is_kept(h), is_kept(h.twin())) {
+                (true, false) => incoming = Some(h.twin()),
+                (false, true) if outgoing.is_some() => return Err(EditError::Pinch(v)),
+                (false, true) => outgoing = Some(h),
                 _ => {}
             }
         }
-        Ok(into.zip(out).map(|(into, out)| [into, out]))
+        Ok(incoming
+            .zip(outgoing)
+            .map(|(incoming, outgoing)| [incoming, outgoing]))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::edit::testing::{shapes_to_try, undone_and_redone};
+    use crate::edit::testing::{checked_edit_mesh, sample_shapes};
     use crate::shapes;
 
     #[test]
-    fn a_face_of_a_closed_mesh_leaves_one_hole() {
+    fn deleting_a_face_of_a_closed_mesh_leaves_one_hole() {
         let mut mesh = shapes::cube();
         mesh.delete_face(FaceId::new(2)).unwrap();
         assert_eq!(mesh.defects(), []);
@@ -146,22 +154,22 @@ mod tests {
     }
 
     #[test]
-    fn faces_go_one_by_one_until_only_isolated_vertices_are_left() {
+    fn faces_are_deleted_one_by_one_until_only_isolated_vertices_are_left() {
         for shape in [shapes::grid(3, 3), shapes::cube(), shapes::octahedron()] {
             let mut mesh = shape.clone();
-            let mut left = shape.n_faces();
-            // A face that is refused now can go later, when its neighbors are gone.
-            while left > 0 {
-                let before = left;
+            let mut n_left = shape.n_faces();
+            // A face that is refused can be deleted later, when its neighbors are deleted.
+            while n_left > 0 {
+                let before = n_left;
                 for f in shape.faces() {
                     let unchanged = mesh.clone();
                     match mesh.delete_face(f) {
-                        Ok(()) => left -= 1,
+                        Ok(()) => n_left -= 1,
                         Err(_) => assert_eq!(mesh, unchanged),
                     }
                     assert_eq!(mesh.defects(), []);
                 }
-                assert!(left < before, "some face can always go");
+                assert!(n_left < before, "it must be possible to delete a face");
             }
             assert_eq!((mesh.n_faces(), mesh.n_edges()), (0, 0));
             assert_eq!(mesh.delete_isolated_vertices(), shape.n_vertices());
@@ -174,13 +182,13 @@ mod tests {
         let mut mesh = shapes::grid(3, 3);
         mesh.delete_face(FaceId::new(4)).unwrap();
         let before = mesh.clone();
-        let refused = mesh.delete_face(FaceId::new(0));
-        assert!(matches!(refused, Err(EditError::Pinch(_))), "{refused:?}");
+        let result = mesh.delete_face(FaceId::new(0));
+        assert!(matches!(result, Err(EditError::Pinch(_))), "{result:?}");
         assert_eq!(mesh, before);
     }
 
     #[test]
-    fn faces_that_pinch_alone_go_together() {
+    fn faces_that_pinch_a_vertex_alone_can_be_deleted_together() {
         let mut mesh = shapes::grid(3, 3);
         mesh.delete_face(FaceId::new(4)).unwrap();
         let [corner, beside] = [0, 1].map(FaceId::new);
@@ -201,28 +209,28 @@ mod tests {
     }
 
     #[test]
-    fn any_set_of_faces_goes_as_a_mesh_without_them_would_be_built() {
-        for shape in shapes_to_try() {
-            // Every set of up to eight faces.
+    fn deleting_faces_gives_the_mesh_that_is_built_without_them() {
+        for shape in sample_shapes() {
+            // Every subset of the first eight faces.
             let n = shape.n_faces().min(8);
             for set in 0..1_usize << n {
-                let (gone, rest): (Vec<_>, Vec<_>) = shape
+                let (deleted, kept): (Vec<_>, Vec<_>) = shape
                     .faces()
                     .partition(|f| f.index() < n && set >> f.index() & 1 == 1);
                 let corner = |v: VertexId| u32::try_from(v.index()).unwrap();
-                let rest: Vec<Vec<u32>> = rest
+                let kept: Vec<Vec<u32>> = kept
                     .iter()
                     .map(|&f| shape.face_vertices(f).map(corner).collect())
                     .collect();
                 let (built, report) =
-                    Mesh::from_polygons(shape.positions().to_vec(), &rest).unwrap();
+                    Mesh::from_polygons(shape.positions().to_vec(), &kept).unwrap();
                 let mut mesh = shape.clone();
-                let done = mesh.delete_faces(&gone);
+                let result = mesh.delete_faces(&deleted);
                 assert_eq!(mesh.defects(), []);
-                // Building splits a vertex between two fans.
-                assert_eq!(done.is_ok(), report.is_clean(), "{done:?}");
-                if let Err(refused) = done {
-                    assert!(matches!(refused, EditError::Pinch(_)));
+                // The builder splits vertices with two fans, which the deletion refuses.
+                assert_eq!(result.is_ok(), report.is_clean(), "{result:?}");
+                if let Err(error) = result {
+                    assert!(matches!(error, EditError::Pinch(_)));
                     assert_eq!(mesh, shape);
                 } else {
                     let counts = |m: &Mesh| {
@@ -240,23 +248,23 @@ mod tests {
     }
 
     #[test]
-    fn every_face_of_every_shape_goes_and_comes_back() {
-        for shape in shapes_to_try() {
+    fn deleting_any_face_can_be_undone_and_redone() {
+        for shape in sample_shapes() {
             for f in shape.faces() {
-                let refused = undone_and_redone(&shape, |mesh| mesh.delete_face(f)).err();
-                // At these corners the face touches the boundary, but has no side there.
+                let error = checked_edit_mesh(&shape, |mesh| mesh.delete_face(f)).err();
+                // Corners on the boundary at which the face has no boundary edge.
                 let pinched = shape.face_half_edges(f).filter(|&h| {
                     let sides = [h, shape.prev(h)].map(|h| shape.is_boundary_edge(h.edge()));
                     shape.is_boundary_vertex(shape.origin(h)) && sides == [false; 2]
                 });
                 let lowest = pinched.map(|h| shape.origin(h)).min();
-                assert_eq!(refused, lowest.map(EditError::Pinch));
+                assert_eq!(error, lowest.map(EditError::Pinch));
             }
         }
     }
 
     #[test]
-    fn faces_that_are_not_there_or_there_twice_are_refused() {
+    fn missing_faces_and_faces_listed_twice_are_refused() {
         let mut mesh = shapes::cube();
         let [f, g, missing] = [0, 1, 6].map(FaceId::new);
         let twice = Err(EditError::FaceListedTwice(f));

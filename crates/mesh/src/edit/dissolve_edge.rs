@@ -1,9 +1,9 @@
-//! Taking an edge out from between two faces, which become one.
+//! Removing an edge and merging its two faces.
 
 use crate::{EdgeId, EditError, FaceId, HalfEdgeId, Mesh, Seams, VertexId};
 
 impl Mesh {
-    /// Takes an edge out and merges the faces beside it.
+    /// Removes an edge and merges the faces beside it.
     ///
     /// ```text
     ///    +-----b-----+          +-----b-----+
@@ -11,20 +11,19 @@ impl Mesh {
     ///    +-----a-----+          +-----a-----+
     /// ```
     ///
-    /// Of the two faces the one of the lower id survives, with its values; `e` and the other face die.
-    /// V stays, E and F shrink by one, V - E + F stays. All other ids, and all other values, stay. The
+    /// The face with the lower id remains, with its values; `e` and the other face die. V stays the same, E
+    /// and F shrink by one, and V - E + F stays the same. All other ids and values stay the same. This is the
     /// inverse of [`split_face`](Self::split_face).
     ///
-    /// Returns the face that is left.
+    /// Returns the remaining face.
     ///
     /// # Errors
     ///
-    /// [`EditError::Boundary`] if `e` has a face on one side only, [`EditError::SameFace`] if that on
-    /// both is the same, [`EditError::FewEdges`] if an end of `e` has only two edges (take such
-    /// vertices out first, by [`dissolve_vertex`](Self::dissolve_vertex)),
-    /// [`EditError::RepeatedVertex`] if the faces have another corner in common,
-    /// [`EditError::Seam`] if corner attributes differ across `e`, [`EditError::NoSuchEdge`]. The mesh is
-    /// unchanged.
+    /// [`EditError::Boundary`] if `e` has a face on only one side, [`EditError::SameFace`] if the same face is
+    /// on both sides, [`EditError::FewEdges`] if an end of `e` has only two edges (remove that vertex first,
+    /// with [`dissolve_vertex`](Self::dissolve_vertex)), [`EditError::RepeatedVertex`] if the faces have
+    /// another vertex in common, [`EditError::Seam`] if corner attributes differ across `e`,
+    /// [`EditError::NoSuchEdge`]. The mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -39,8 +38,8 @@ impl Mesh {
         self.dissolve_edge_with(e, Seams::Refuse)
     }
 
-    /// [`dissolve_edge`](Self::dissolve_edge) with a choice for seams. Where one is dropped, the corners
-    /// at the ends of the edge have the values that the surviving face had there.
+    /// Removes an edge like [`dissolve_edge`](Self::dissolve_edge), with a choice for seams. If a seam is
+    /// dropped, the corners at the ends of the edge keep the values of the remaining face.
     ///
     /// # Errors
     ///
@@ -54,7 +53,7 @@ impl Mesh {
         if f == g {
             return Err(EditError::SameFace(e));
         }
-        // The half that stays with the surviving face, here called f, and the other one.
+        // f is the remaining face, and ab the half-edge on it.
         let ([ab, ba], [f, g]) = if f < g {
             (sides, [f, g])
         } else {
@@ -75,7 +74,7 @@ impl Mesh {
         }
 
         self.drop_columns_by_rule();
-        // At b the corner of f stays, at a that of g, which takes the value of f's.
+        // At b, the corner of f remains. At a, the corner of g remains and gets the values of that of f.
         self.copy_values(ab, after_a);
         let moved: Vec<HalfEdgeId> = self.face_half_edges(g).collect();
         for h in moved {
@@ -91,8 +90,9 @@ impl Mesh {
         Ok(f)
     }
 
-    /// A vertex that is a corner of both faces beside the edge of `h`, and no end of that edge. Looks
-    /// around the corners of the smaller face, so that many small ones can be merged into a large one.
+    /// Returns a vertex that both faces beside the edge of `h` have in common, other than the ends of that edge.
+    /// Searches around the corners of the smaller face, so that merging many small faces into a large one is
+    /// fast.
     fn other_common_corner(&self, h: HalfEdgeId) -> Option<VertexId> {
         let (mut x, mut y) = (self.next(h), self.next(h.twin()));
         while x != h && y != h.twin() {
@@ -111,23 +111,25 @@ impl Mesh {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::edit::testing::{dressed, polygons, ring, shapes_to_try, spur, undone_and_redone};
+    use crate::edit::testing::{
+        checked_edit_mesh, polygons, ring, sample_shapes, spur, with_attributes,
+    };
     use crate::{COLOR, MATERIAL, UV, shapes};
     use glam::DVec2;
 
-    /// The edit is refused, and every array stays bit-identical.
+    /// Returns the reason for which the edit is refused, after checking that the mesh is unchanged.
     fn refused(mesh: &Mesh, e: EdgeId) -> EditError {
-        undone_and_redone(mesh, |mesh| mesh.dissolve_edge(e).map(drop)).unwrap_err()
+        checked_edit_mesh(mesh, |mesh| mesh.dissolve_edge(e).map(drop)).unwrap_err()
     }
 
-    /// The edge between two vertices.
+    /// Returns the edge between two vertices.
     fn between(mesh: &Mesh, v: usize, w: usize) -> EdgeId {
         let h = mesh.find_half_edge(VertexId::new(v), VertexId::new(w));
         h.expect("the vertices share an edge").edge()
     }
 
     #[test]
-    fn two_squares_become_one_face_of_six_corners() {
+    fn two_squares_become_one_face_with_six_corners() {
         let mut mesh = shapes::grid(2, 1);
         let e = between(&mesh, 1, 4);
         assert_eq!(mesh.dissolve_edge(e), Ok(FaceId::new(0)));
@@ -137,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn the_lower_face_survives_whichever_side_it_is_on() {
+    fn the_face_with_the_lower_id_remains_on_either_side() {
         let cube = shapes::cube();
         for e in cube.edges() {
             let mut mesh = cube.clone();
@@ -154,7 +156,7 @@ mod tests {
 
     #[test]
     fn it_is_the_inverse_of_split_face() {
-        for shape in shapes_to_try() {
+        for shape in sample_shapes() {
             for f in shape.faces() {
                 let sides: Vec<HalfEdgeId> = shape.face_half_edges(f).collect();
                 for (&x, &y) in sides.iter().flat_map(|x| sides.iter().map(move |y| (x, y))) {
@@ -181,35 +183,35 @@ mod tests {
     }
 
     #[test]
-    fn every_edge_of_every_shape_dissolves_if_it_has_two_faces_and_no_seam() {
-        for shape in shapes_to_try() {
+    fn every_edge_of_every_shape_dissolves_if_it_has_two_faces_and_is_not_a_seam() {
+        for shape in sample_shapes() {
             for e in shape.edges() {
                 let expected = match shape.edge_faces(e) {
                     [Some(_), Some(_)] if shape.is_seam(e) => Err(EditError::Seam(e)),
                     [Some(_), Some(_)] => Ok(()),
                     _ => Err(EditError::Boundary(e)),
                 };
-                let done = undone_and_redone(&shape, |mesh| mesh.dissolve_edge(e).map(drop));
-                if let Ok(mesh) = &done {
+                let result = checked_edit_mesh(&shape, |mesh| mesh.dissolve_edge(e).map(drop));
+                if let Ok(mesh) = &result {
                     assert_eq!(mesh.euler_characteristic(), shape.euler_characteristic());
                     assert_eq!(mesh.n_boundary_loops(), shape.n_boundary_loops());
                     assert_eq!(mesh.n_faces() + 1, shape.n_faces());
                 }
-                assert_eq!(done.map(drop), expected);
+                assert_eq!(result.map(drop), expected);
             }
         }
     }
 
     #[test]
-    fn a_seam_is_dropped_only_when_told_to() {
-        let seam = dressed(shapes::grid(2, 1));
+    fn a_seam_is_dropped_only_with_seams_drop() {
+        let seam = with_attributes(shapes::grid(2, 1));
         let e = between(&seam, 1, 4);
         assert_eq!(refused(&seam, e), EditError::Seam(e));
         let mut mesh = seam.clone();
         let f = mesh.dissolve_edge_with(e, Seams::Drop).unwrap();
         for h in mesh.face_half_edges(f) {
             let v = mesh.origin(h);
-            // The corners of the lower face keep its values, those at the ends of the edge too.
+            // The corners of face 0 keep their values, including those at the ends of the edge.
             let shift = if [2, 5].contains(&v.index()) {
                 10.0
             } else {
@@ -221,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn a_vertex_with_two_edges_is_not_left_hanging() {
+    fn an_edge_at_a_vertex_with_two_edges_is_refused() {
         let mut mesh = shapes::cube();
         let e = EdgeId::new(0);
         let m = mesh.split_edge(e, 0.5).unwrap();
@@ -231,8 +233,8 @@ mod tests {
     }
 
     #[test]
-    fn faces_that_meet_in_another_vertex_do_not_merge() {
-        // The last one of the three squares around a tube meets the two others on both sides.
+    fn faces_with_another_common_vertex_are_not_merged() {
+        // The last of three squares around a tube meets the merged other two on both sides.
         let mut tube = shapes::cylinder(3, false);
         tube.dissolve_edge(between(&tube, 1, 4)).unwrap();
         let refused = refused(&tube, between(&tube, 2, 5));
@@ -248,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn an_edge_that_is_not_there_is_refused() {
+    fn a_missing_edge_is_refused() {
         let e = EdgeId::new(12);
         assert_eq!(refused(&shapes::cube(), e), EditError::NoSuchEdge(e));
     }

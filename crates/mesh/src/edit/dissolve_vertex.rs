@@ -1,10 +1,10 @@
-//! Taking a vertex out of the faces around it, which become one.
+//! Removing a vertex and merging the faces around it.
 
 use super::first_repeated;
 use crate::{EditError, FaceId, HalfEdgeId, Mesh, Seams, VertexId};
 
 impl Mesh {
-    /// Takes a vertex out and merges the faces around it.
+    /// Removes a vertex and merges the faces around it.
     ///
     /// ```text
     ///    +-----+-----+        +-----+-----+        inside: all faces around v become one
@@ -13,32 +13,33 @@ impl Mesh {
     ///    |  f  |     |        |           |
     ///    +-----+-----+        +-----+-----+
     ///
-    ///    +-----+-----+        +-----+-----+        on the boundary: likewise, and the two edges
-    ///    |  f  |     |  -->   |     f     |        there become one
+    ///    +-----+-----+        +-----+-----+        on the boundary: the same, and the two boundary
+    ///    |  f  |     |  -->   |     f     |        edges become one
     ///    a-----v-----b        a-----------b
     ///
-    ///    +-----------+        +-----------+        v with two edges: they become one, and the
+    ///    +-----------+        +-----------+        v has two edges: they become one, and the
     ///    |           |  -->   |           |        faces beside them lose a corner
     ///    a-----v-----b        a-----------b
     ///    |           |        |           |
     /// ```
     ///
-    /// Of faces that become one the one of the lowest id survives, of edges likewise, with their values.
-    /// `v` dies with its other edges. V - E + F stays. All other ids, and all other values, stay. The
-    /// inverse of [`poke_face`](Self::poke_face), and of [`split_edge`](Self::split_edge) where that made
-    /// no cuts.
+    /// When faces are merged, the one with the lowest id remains, with its values; the same applies to edges.
+    /// `v` and its other edges die. V - E + F stays the same. All other ids and values stay the same. This is
+    /// the inverse of [`poke_face`](Self::poke_face), and of [`split_edge`](Self::split_edge) if that cut no
+    /// triangles.
     ///
-    /// Returns the merged face; for a `v` with two edges the face of the lower id beside them.
+    /// Returns the merged face. If `v` has two edges, returns the face with the lower id beside them.
     ///
     /// # Errors
     ///
-    /// - [`EditError::FewEdges`] with `v` if it is isolated or has a single edge, or with a neighbor that
-    ///   would be left with a single one, in the middle of the merged face: take that vertex out first.
-    /// - [`EditError::RepeatedVertex`] if a face passes `v` twice, or the merged face would pass another
+    /// - [`EditError::FewEdges`] with `v` if it is isolated or has a single edge; with a neighbor of `v` if
+    ///   that would be left with a single edge inside the merged face (remove that vertex first).
+    /// - [`EditError::RepeatedVertex`] if a face visits `v` twice, or the merged face would visit another
     ///   vertex twice.
-    /// - [`EditError::DuplicateEdge`] if the edge that two become would join vertices that share one.
+    /// - [`EditError::DuplicateEdge`] if two edges would become one between vertices that already share an
+    ///   edge.
     /// - [`EditError::FewCorners`] if a face would be left with fewer than three corners.
-    /// - [`EditError::Seam`] with an edge at `v` if corner attributes differ across its other end.
+    /// - [`EditError::Seam`] with an edge at `v` if corner attributes differ across it at its other end.
     /// - [`EditError::NoSuchVertex`].
     ///
     /// The mesh is unchanged.
@@ -56,9 +57,9 @@ impl Mesh {
         self.dissolve_vertex_with(v, Seams::Refuse)
     }
 
-    /// [`dissolve_vertex`](Self::dissolve_vertex) with a choice for seams. Where one is dropped, the
-    /// corner at the other end of the edge keeps the value that it had in the face counter-clockwise of
-    /// the edge, seen from `v`.
+    /// Removes a vertex like [`dissolve_vertex`](Self::dissolve_vertex), with a choice for seams. If a seam is
+    /// dropped, the corner at the other end of the edge keeps its value in the face that is
+    /// counter-clockwise of the edge around `v`.
     ///
     /// # Errors
     ///
@@ -81,7 +82,7 @@ impl Mesh {
         if first_repeated(&faces).is_some() {
             return Err(EditError::RepeatedVertex(v));
         }
-        // On the boundary the first and the last spoke stay, to become one edge.
+        // On the boundary, the first and the last spoke become one edge.
         let on_boundary = self.is_boundary_vertex(v);
         let last = spokes.len() - 1;
         let inner = if on_boundary {
@@ -97,7 +98,7 @@ impl Mesh {
         let rim = self.rim_around(&spokes);
         let mut corners: Vec<VertexId> = rim.iter().map(|&h| self.origin(h)).collect();
         if on_boundary {
-            // The rim is open: it ends where the first spoke does.
+            // The rim is open: it ends at the target of the first spoke.
             corners.push(self.target(spokes[0]));
         }
         if let Some(v) = first_repeated(&corners) {
@@ -130,10 +131,10 @@ impl Mesh {
             self.kill(f);
         }
         if on_boundary {
-            let (into, out) = (spokes[0].twin(), spokes[last]);
-            self.set_face(into, Some(merged));
-            self.set_face(out, Some(merged));
-            self.set_next(into, out);
+            let (incoming, outgoing) = (spokes[0].twin(), spokes[last]);
+            self.set_face(incoming, Some(merged));
+            self.set_face(outgoing, Some(merged));
+            self.set_next(incoming, outgoing);
             self.join_edges(spokes[0], spokes[last]);
         } else {
             self.kill(v);
@@ -141,7 +142,7 @@ impl Mesh {
         Ok(merged)
     }
 
-    /// The sides of the faces of `spokes`, which leave one vertex, without those at that vertex.
+    /// Returns the half-edges of the faces of `spokes` that are not at the origin of the spokes.
     fn rim_around(&self, spokes: &[HalfEdgeId]) -> Vec<HalfEdgeId> {
         let mut rim = Vec::new();
         for &spoke in spokes.iter().filter(|&&h| self.face(h).is_some()) {
@@ -154,11 +155,11 @@ impl Mesh {
         rim
     }
 
-    /// Whether the edges of `x` and `y`, the only ones that leave a vertex, can become one.
+    /// Checks that the edges of `x` and `y`, the only outgoing half-edges of a vertex, can become one edge.
     fn check_joint(&self, x: HalfEdgeId, y: HalfEdgeId) -> Result<(), EditError> {
-        let lost = if self.face(x) == self.face(y) { 2 } else { 1 };
+        let n_lost = if self.face(x) == self.face(y) { 2 } else { 1 };
         for f in [x, y].into_iter().filter_map(|h| self.face(h)) {
-            if self.face_half_edges(f).nth(lost + 2).is_none() {
+            if self.face_half_edges(f).nth(n_lost + 2).is_none() {
                 return Err(EditError::FewCorners(f));
             }
         }
@@ -175,8 +176,8 @@ impl Mesh {
         Ok(())
     }
 
-    /// Makes one edge of those of `x` and `y`, the only ones that leave a vertex, which dies. The edge of
-    /// the lower id survives.
+    /// Merges the edges of `x` and `y`, the only outgoing half-edges of a vertex, which dies. The edge with the
+    /// lower id remains.
     ///
     /// ```text
     ///    a <--x-- v --y--> b     -->     a <---x--- b
@@ -184,12 +185,12 @@ impl Mesh {
     /// ```
     fn join_edges(&mut self, x: HalfEdgeId, y: HalfEdgeId) {
         let (x, y) = if x.edge() < y.edge() { (x, y) } else { (y, x) };
-        let (into, out) = (self.prev(y.twin()), self.next(y));
+        let (before, after) = (self.prev(y.twin()), self.next(y));
         let (v, b) = (self.origin(x), self.target(y));
-        // The corner at b on the side of x is that of y's twin.
+        // The corner of x moves to b, where the corner of the twin of y was.
         self.copy_values(y.twin(), x);
-        self.set_next(x.twin(), out);
-        self.set_next(into, x);
+        self.set_next(x.twin(), after);
+        self.set_next(before, x);
         self.set_origin(x, b);
         self.replace_first_of_vertex(y.twin(), x);
         self.replace_first_of_face(y, x.twin());

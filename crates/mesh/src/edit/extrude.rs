@@ -1,4 +1,4 @@
-//! Moving faces out of the surface, with side faces between the old place and the new.
+//! Extruding faces.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,44 +8,44 @@ use super::{check_finite, sorted_unique};
 use crate::{EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 
 impl Mesh {
-    /// Moves faces by `offset` and joins them to their old place by side faces. Faces that share an
-    /// edge move together.
+    /// Extrudes faces: moves them by `offset` and connects them to their old boundary by side faces. Faces
+    /// that share an edge move together.
     ///
     /// ```text
     ///                                  w'------ v'
-    ///                                 /   f   / |          f has moved, v and w stayed
-    ///        w ------- v             +------ +  v          h, which was on f, runs from v to w still
-    ///       /    f    /     -->      |   s   | /           and lies on a side face (v, w, w', v')
+    ///                                 /   f   / |          f has moved, v and w have not.
+    ///        w ------- v             +------ +  v          h, which was on f, still runs from v to w,
+    ///       /    f    /     -->      |   s   | /           and now lies on a side face (v, w, w', v')
     ///      +-------- +               +------ +
     /// ```
     ///
-    /// The rim are the half-edges h of the faces whose other side has no face of them: one without a face
-    /// counts too. V, E and F grow by n, 2n and n, the number of half-edges of the rim.
+    /// The rim consists of the half-edges h of `faces` whose twin has no face, or a face that is not listed.
+    /// If the rim has n half-edges, V, E and F grow by n, 2n and n.
     ///
-    /// **Ids.** The faces keep theirs and the order of their corners, so that the same ones can be moved
-    /// again; so do the edges and vertices inside of them. The vertices and edges of the rim stay where
-    /// they were, with the rest of the mesh: there the moved faces get new ones. New are, for each h in
-    /// order of `faces` and counter-clockwise from their first half-edge: the vertex v', then the edges
-    /// v'-w' and v-v' (those of the first h before those of the second), and the side face, which begins
-    /// with h.
+    /// **Ids.** The faces keep their ids and the order of their corners, so that the same faces can be
+    /// extruded again. The edges and vertices inside the faces keep their ids too. The vertices and edges of
+    /// the rim stay in place with the rest of the mesh, and the moved faces get new ones. The new elements
+    /// are, for each h in order of `faces` and counter-clockwise from the first half-edge of each face: the
+    /// vertex v', then the edges v'-w' and v-v' (those of the first h before those of the second), and the
+    /// side face, whose half-edge is h.
     ///
-    /// Where only a vertex joins the faces, each fan of them gets its own copy of it. A sheet with all its
-    /// faces becomes a box that is open where the sheet was. Of a closed part with all its faces there is
-    /// no rim: it only moves. Two edges of the rim that join the same two vertices have two that do so in
-    /// the new place.
+    /// If faces meet only at a vertex, each of their fans gets a separate copy of the vertex. A sheet of which
+    /// all faces are extruded becomes a box that is open where the sheet was. A closed component of which all
+    /// faces are extruded has no rim: it only moves. If two edges of the rim join the same two vertices, so do
+    /// their copies.
     ///
-    /// **Attributes.** New vertices and the new edges of the rim have the values of the old ones, edges
-    /// along the sides zero values. A side face has the values of the face that it came from, and at both
-    /// of its corners over v those that f had there, so that there is no seam between top and side.
-    /// Normals stay as they are.
+    /// **Attributes.** New vertices and the new edges of the rim have the values of the old ones; the edges
+    /// v-v' have zero values. A side face has the values of the face f at its rim edge. Both of its corners
+    /// at v and v' have the values that the corner of f had at v, so that there is no seam between f and the
+    /// side face. Normals do not change.
     ///
     /// Returns the side faces, in order of the rim.
     ///
     /// # Errors
     ///
-    /// [`EditError::NoElements`] if no face is given, [`EditError::FaceListedTwice`], [`EditError::NoSuchFace`],
-    /// [`EditError::BadNumber`] if a moved coordinate would not be finite, [`EditError::Full`]. The mesh
-    /// is unchanged.
+    /// [`EditError::NoElements`] if `faces` is empty, [`EditError::FaceListedTwice`],
+    /// [`EditError::NoSuchFace`], [`EditError::BadNumber`] if a moved coordinate would not be finite,
+    /// [`EditError::Full`]. The mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -78,7 +78,7 @@ impl Mesh {
         Ok(sides)
     }
 
-    /// Takes faces off the mesh along their rim and puts side faces between, without moving anything.
+    /// Separates faces from the mesh along their rim and adds side faces between, without changing positions.
     pub(super) fn raise(&mut self, rim: &Rim) -> Vec<FaceId> {
         self.drop_columns_by_rule();
         let bases = rim.bases.iter();
@@ -92,7 +92,7 @@ impl Mesh {
             edges.push((top.half_edges(), upright.half_edges()));
         }
 
-        // Values first, while each face still has all its corners.
+        // Values are copied first, while each face still has all its corners.
         let mut sides = Vec::with_capacity(rim.bases.len());
         for (i, &h) in rim.bases.iter().enumerate() {
             let ([top, top_back], [_, down]) = edges[i];
@@ -110,12 +110,12 @@ impl Mesh {
             sides.push(self.push_copy_of_face(f, h));
         }
 
-        // The faces turn to their new edges and vertices.
-        let in_new_place = |h| rim.place.get(&h).map_or(h, |&i| edges[i].0[0]);
+        // Link the faces to their new edges and vertices.
+        let raised_half_edge = |h| rim.index_of_base.get(&h).map_or(h, |&i| edges[i].0[0]);
         let links: Vec<_> = rim
             .half_edges
             .iter()
-            .map(|&h| (in_new_place(h), in_new_place(self.next(h))))
+            .map(|&h| (raised_half_edge(h), raised_half_edge(self.next(h))))
             .collect();
         for (h, next) in links {
             self.set_next(h, next);
@@ -137,18 +137,18 @@ impl Mesh {
     }
 }
 
-/// The half-edges of some faces, and which of them are the rim.
+/// The half-edges of a set of faces, and their rim.
 pub(super) struct Rim {
     /// All half-edges of the faces, in order.
     half_edges: Vec<HalfEdgeId>,
-    /// Those whose other side has no face of them.
+    /// The half-edges of the rim, here called bases: the twin has no face, or a face outside of the set.
     pub(super) bases: Vec<HalfEdgeId>,
-    /// The places in `bases`.
-    place: BTreeMap<HalfEdgeId, usize>,
-    /// For each base the place of the one that leaves its target in the same fan of the faces.
+    /// The index in `bases` of each base.
+    index_of_base: BTreeMap<HalfEdgeId, usize>,
+    /// For each base, the index of the base that leaves its target in the same fan of faces.
     after: Vec<usize>,
-    /// The half-edges that leave the rim inwards, and the place of the base that leaves the same vertex
-    /// in the same fan.
+    /// The half-edges that lead from a vertex of the rim into the set, each with the index of the base that
+    /// leaves the same vertex in the same fan.
     inner: Vec<(HalfEdgeId, usize)>,
 }
 
@@ -170,28 +170,28 @@ impl Rim {
             .flat_map(|&f| mesh.face_half_edges(f))
             .collect();
         let bases: Vec<_> = half_edges.iter().copied().filter(is_base).collect();
-        let place: BTreeMap<_, _> = bases.iter().copied().zip(0..).collect();
+        let index_of_base: BTreeMap<_, _> = bases.iter().copied().zip(0..).collect();
 
         let mut after = Vec::with_capacity(bases.len());
         let mut inner = Vec::new();
         for &h in &bases {
-            // Clockwise around the target of h: a fan that begins at the rim ends there.
+            // Clockwise around the target of h: a fan that starts at the rim also ends at the rim.
             let first = inner.len();
-            let mut leaving = mesh.next(h);
+            let mut outgoing = mesh.next(h);
             let i = loop {
-                if let Some(&i) = place.get(&leaving) {
+                if let Some(&i) = index_of_base.get(&outgoing) {
                     break i;
                 }
-                inner.push((leaving, usize::MAX));
-                leaving = mesh.next(leaving.twin());
+                inner.push((outgoing, usize::MAX));
+                outgoing = mesh.next(outgoing.twin());
             };
-            inner[first..].iter_mut().for_each(|(_, place)| *place = i);
+            inner[first..].iter_mut().for_each(|(_, base)| *base = i);
             after.push(i);
         }
         Ok(Self {
             half_edges,
             bases,
-            place,
+            index_of_base,
             after,
             inner,
         })

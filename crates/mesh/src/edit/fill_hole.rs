@@ -1,4 +1,4 @@
-//! Filling a hole with one face, or with triangles.
+//! Filling a hole with a single face, or with triangles.
 
 #[cfg(test)]
 mod tests;
@@ -7,30 +7,30 @@ use super::{first_repeated, sorted_unique};
 use crate::{EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 
 impl Mesh {
-    /// Puts one face over the hole of `h`, a half-edge without a face.
+    /// Fills the hole of `h`, a half-edge without a face, with a single face.
     ///
     /// ```text
     ///    +-----+-----+          +-----+-----+
     ///    |     |     |          |     |     |
-    ///    +-----+--h--+    -->   +-----+-----+       f: as many corners as the hole had edges
+    ///    +-----+--h--+    -->   +-----+-----+       f has as many corners as the hole had edges
     ///    |     |                |     |  f  |
     ///    +-----+-----+          +-----+-----+
     /// ```
     ///
-    /// The rim of an open sheet is a hole as well: filled, the sheet is the front of a closed mesh and the
-    /// face its back. No vertex and no edge is made, and all ids stay.
+    /// The outer boundary of an open sheet is a hole too: filling it gives a closed mesh, with the sheet as
+    /// its front and the new face as its back. No vertices or edges are added, and all ids stay the same.
     ///
-    /// The face takes the values of the one beside `h`. Each corner takes those of the corner at the same
-    /// vertex of the face beside its own edge, the one that leaves it, so that no seam lies along an edge
-    /// where there is none at its ends.
+    /// The new face has the values of the face beside `h`. Each corner has the values of the corner at the
+    /// same vertex in the face on the other side of the edge that leaves the corner. So no seam is added
+    /// along an edge if its ends have no seams.
     ///
-    /// Returns the face.
+    /// Returns the new face.
     ///
     /// # Errors
     ///
     /// [`EditError::NotBoundary`] if `h` has a face, [`EditError::ShortLoop`] if the hole has two edges
-    /// (glue them), [`EditError::Pinch`] if it visits a vertex twice, [`EditError::NoSuchHalfEdge`]. The
-    /// mesh is unchanged.
+    /// (use [`stitch_edges`](Self::stitch_edges) instead), [`EditError::Pinch`] if the hole visits a vertex
+    /// twice, [`EditError::NoSuchHalfEdge`]. The mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -54,31 +54,32 @@ impl Mesh {
         Ok(f)
     }
 
-    /// Covers the hole of `h`, a half-edge without a face, with triangles: each number in `ears` is the place
-    /// on the rim, counted from `h`, of a vertex that is cut off by the edge between the two beside it that
-    /// are left.
+    /// Fills the hole of `h`, a half-edge without a face, with triangles, by cutting off ears. Each number in
+    /// `ears` is the index of a vertex on the rim, counted from the origin of `h`. The vertex is cut off by a
+    /// triangle with its two remaining neighbors on the rim.
     ///
     /// ```text
     ///    +-----+-----+          +-----+-----+
     ///    |           |          | \       / |
-    ///    |           |    -->   |   \   /   |       n edges around it: n - 2 triangles, n - 3 new edges
-    ///    |           |          |     \/    |
+    ///    |           |    -->   |   \   /   |       a hole with n edges gets n - 2 triangles
+    ///    |           |          |     \/    |       and n - 3 new edges
     ///    +-----+--h--+          +-----+-----+
     /// ```
     ///
-    /// All ids stay; the new faces and edges are numbered in the order of `ears`. Faces take the values of the
-    /// one beside `h`, and edges zero values. All corners at a vertex take those of one corner, as in
-    /// [`fill_hole`](Self::fill_hole).
+    /// All ids stay the same; the new faces and edges are numbered in the order of `ears`. New faces have the
+    /// values of the face beside `h`; new edges have zero values. All new corners at a vertex have the values
+    /// of the same corner as in [`fill_hole`](Self::fill_hole).
     ///
     /// Returns the triangles.
     ///
     /// # Errors
     ///
-    /// [`EditError::Full`], and those of [`fill_hole`](Self::fill_hole). The mesh is unchanged.
+    /// [`EditError::Full`], and the errors of [`fill_hole`](Self::fill_hole). The mesh is unchanged.
     ///
     /// # Panics
     ///
-    /// If `ears` are not as many different places as the hole has edges, less two.
+    /// If `ears` does not have exactly n - 2 different numbers, where n is the number of edges of the hole, or
+    /// if a number is not below n.
     pub fn fill_hole_by_ears(
         &mut self,
         h: HalfEdgeId,
@@ -87,17 +88,17 @@ impl Mesh {
         let rim = self.rim(h)?;
         let n = rim.len();
         self.check_room(2 * n)?;
-        let n_different = sorted_unique(ears.iter()).len();
+        let n_unique = sorted_unique(ears.iter()).len();
         assert_eq!(
-            [n_different, ears.len()],
+            [n_unique, ears.len()],
             [n - 2; 2],
-            "n - 2 different ears"
+            "a hole with n edges needs n - 2 different ears"
         );
         self.drop_columns_by_rule();
         let corners: Vec<HalfEdgeId> = rim.iter().map(|&h| self.corner_beside(h)).collect();
         let mut next: Vec<usize> = (1..n).chain([0]).collect();
         let mut before: Vec<usize> = [n - 1].into_iter().chain(0..n - 1).collect();
-        // For each vertex that is left the half-edge to the next one, on the side of the hole.
+        // For each remaining vertex, the half-edge to the next one, on the side of the hole.
         let mut front = rim.clone();
         let mut triangles = Vec::with_capacity(ears.len());
         for &ear in ears {
@@ -119,11 +120,11 @@ impl Mesh {
         Ok(triangles)
     }
 
-    /// The half-edges around the hole of `h`, beginning with it.
+    /// Returns the half-edges around the hole of `h`, starting with `h`.
     ///
     /// # Errors
     ///
-    /// Those of [`fill_hole`](Self::fill_hole).
+    /// The errors of [`fill_hole`](Self::fill_hole).
     pub fn rim(&self, h: HalfEdgeId) -> Result<Vec<HalfEdgeId>, EditError> {
         self.check_hole(h)?;
         let rim: Vec<HalfEdgeId> = self.loop_half_edges(h).collect();
@@ -137,12 +138,12 @@ impl Mesh {
         }
     }
 
-    /// The corner at the origin of a boundary half-edge, in the face on the other side of its edge.
+    /// Returns the corner at the origin of a boundary half-edge, in the face on the other side of its edge.
     pub(super) fn corner_beside(&self, h: HalfEdgeId) -> HalfEdgeId {
         self.next(h.twin())
     }
 
-    /// Gives the new face `f` the values of the face on the other side of a boundary half-edge.
+    /// Copies the values of the face on the other side of a boundary half-edge to the new face `f`.
     pub(super) fn copy_face_beside(&mut self, h: HalfEdgeId, f: FaceId) {
         if let Some(beside) = self.face(h.twin()) {
             self.copy_values(beside, f);

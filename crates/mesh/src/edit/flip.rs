@@ -1,19 +1,19 @@
-//! Turning the edge between two faces.
+//! Flipping the edge between two faces.
 
 use crate::{EdgeId, EditError, HalfEdgeId, Mesh};
 
-/// What to do when corner attributes differ between the two sides of an edge that is flipped.
+/// How an edit handles an edge whose corner attributes differ between its two sides.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Seams {
-    /// Refuse with [`EditError::Seam`].
+    /// Refuse the edit with [`EditError::Seam`].
     #[default]
     Refuse,
-    /// Flip, and give each triangle the corner values of the side that its vertex was on.
+    /// Do the edit. Each edit documents which values remain.
     Drop,
 }
 
 impl Mesh {
-    /// Turns the edge between two faces counter-clockwise: each end moves on by one corner.
+    /// Flips the edge between two faces: rotates it counter-clockwise, so that each end moves to the next corner.
     ///
     /// ```text
     ///        c                   c                 +-----c           +-----c
@@ -23,18 +23,18 @@ impl Mesh {
     ///        d                   d                 d-----+             d----+     (e from d to c)
     /// ```
     ///
-    /// Between triangles that is their other diagonal, and four flips of an edge are none. All ids stay.
-    /// `e` ran from a to b and runs from d to c afterwards, where c follows b on face f and d follows a
-    /// on face g; its first half keeps face f. Attributes of vertices, edges and faces stay with their
-    /// ids; corners at c and d get the values of the same vertex in the other face.
+    /// Between two triangles, the edge becomes the other diagonal, and four flips of an edge restore the mesh.
+    /// All ids stay the same. Before the flip, `e` runs from a to b; afterwards from d to c, where c follows b
+    /// on face f, and d follows a on face g. The first half of `e` stays on f. Attributes of vertices, edges
+    /// and faces stay with their ids. The new corners at c and d get the values of the corner at the same
+    /// vertex in the other face.
     ///
     /// # Errors
     ///
-    /// [`EditError::Boundary`] if `e` has a face on one side only, [`EditError::SameFace`] if that on
-    /// both is the same, [`EditError::SameOpposite`] if c is d, [`EditError::FewEdges`] if an end of `e`
-    /// has only two edges, [`EditError::DuplicateEdge`] if c and d already share an edge,
-    /// [`EditError::Seam`] if corner attributes differ across `e`, [`EditError::NoSuchEdge`]. The mesh is
-    /// unchanged.
+    /// [`EditError::Boundary`] if `e` has a face on only one side, [`EditError::SameFace`] if the same face is
+    /// on both sides, [`EditError::SameOpposite`] if c is d, [`EditError::FewEdges`] if an end of `e` has
+    /// only two edges, [`EditError::DuplicateEdge`] if c and d already share an edge, [`EditError::Seam`] if
+    /// corner attributes differ across `e`, [`EditError::NoSuchEdge`]. The mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -52,7 +52,7 @@ impl Mesh {
         self.flip_edge_with(e, Seams::Refuse)
     }
 
-    /// [`flip_edge`](Self::flip_edge) with a choice for seams.
+    /// Flips an edge like [`flip_edge`](Self::flip_edge), with a choice for seams.
     ///
     /// # Errors
     ///
@@ -110,7 +110,7 @@ impl Mesh {
         Ok(())
     }
 
-    /// The half-edge before `h` on its face.
+    /// Returns the half-edge before `h` on its face.
     #[inline]
     pub(super) fn prev_on_face(&self, h: HalfEdgeId) -> HalfEdgeId {
         let mut before = self.next(h);
@@ -127,10 +127,10 @@ mod tests {
     use crate::{FaceId, UV, VertexId, shapes};
     use glam::{DVec2, DVec3};
 
-    /// a = 0, b = 1, c = 2, d = 3 of the picture; the edge is e0.
+    /// The mesh of the picture: a = 0, b = 1, c = 2, d = 3; the edge is e0.
     fn rhombus() -> Mesh {
-        let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
-        let positions = vec![at(-1., 0.), at(1., 0.), at(0., 1.), at(0., -1.)];
+        let p = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+        let positions = vec![p(-1., 0.), p(1., 0.), p(0., 1.), p(0., -1.)];
         Mesh::from_polygons(positions, &[[0, 1, 2], [1, 0, 3]])
             .unwrap()
             .0
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn a_flip_turns_the_edge_to_the_other_diagonal() {
+    fn a_flip_replaces_the_edge_by_the_other_diagonal() {
         let mut mesh = rhombus();
         mesh.flip_edge(EdgeId::new(0)).unwrap();
         assert_eq!(mesh.defects(), []);
@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn four_flips_are_none() {
+    fn four_flips_restore_the_mesh() {
         let mut mesh = shapes::icosahedron();
         let uvs = mesh
             .half_edges()
@@ -167,7 +167,7 @@ mod tests {
         mesh.set(UV, uvs);
         let before = mesh.clone();
         for e in before.edges() {
-            // On an icosahedron the opposite vertices are never joined.
+            // On an icosahedron, opposite vertices never share an edge.
             for _ in 0..4 {
                 mesh.flip_edge(e).unwrap();
                 assert_eq!(mesh.defects(), []);
@@ -194,7 +194,7 @@ mod tests {
         }
     }
 
-    /// The edit is refused for this reason, and every array stays bit-identical.
+    /// Returns the reason for which the edit is refused, after checking that the mesh is unchanged.
     fn refused(mesh: &Mesh, e: EdgeId) -> EditError {
         let mut edited = mesh.clone();
         let reason = edited.flip_edge(e).unwrap_err();
@@ -211,17 +211,17 @@ mod tests {
     }
 
     #[test]
-    fn an_edge_between_quads_turns_by_one_corner_and_six_turns_are_none() {
+    fn an_edge_between_quads_moves_by_one_corner_and_six_flips_restore_the_mesh() {
         let cube = shapes::cube();
         for e in cube.edges() {
             let mut mesh = cube.clone();
             let [h, twin] = e.half_edges();
             let ends = [mesh.target(mesh.next(twin)), mesh.target(mesh.next(h))];
-            for turn in 1..=6 {
+            for n_flips in 1..=6 {
                 mesh.flip_edge(e).unwrap();
                 assert_eq!(mesh.defects(), []);
                 assert!(mesh.faces().all(|f| mesh.degree(f) == 4));
-                if turn == 1 {
+                if n_flips == 1 {
                     assert_eq!(mesh.edge_vertices(e), ends);
                 }
             }
@@ -231,15 +231,15 @@ mod tests {
     }
 
     #[test]
-    fn an_edge_does_not_leave_a_vertex_that_has_only_two() {
-        // The new vertex on the edge of a cube has two edges; turning one would leave a spur.
+    fn an_edge_at_a_vertex_with_two_edges_does_not_flip() {
+        // The new vertex on the edge of a cube has two edges; a flip would leave it with one.
         let mut mesh = shapes::cube();
         let m = mesh.split_edge(EdgeId::new(0), 0.5).unwrap();
         assert_eq!(refused(&mesh, EdgeId::new(0)), EditError::FewEdges(m));
     }
 
     #[test]
-    fn an_edge_whose_opposite_vertices_are_joined_does_not_flip() {
+    fn an_edge_whose_opposite_vertices_share_an_edge_does_not_flip() {
         let mesh = shapes::tetrahedron();
         assert!(
             mesh.edges()
@@ -248,7 +248,7 @@ mod tests {
     }
 
     #[test]
-    fn an_edge_whose_opposite_vertices_coincide_does_not_flip() {
+    fn an_edge_with_one_vertex_opposite_on_both_sides_does_not_flip() {
         let positions = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
         let (mesh, _) = Mesh::from_polygons(positions, &[[0, 1, 2], [0, 2, 1]]).unwrap();
         let e = EdgeId::new(0);
@@ -259,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn a_seam_flips_only_when_told_to() {
+    fn a_seam_flips_only_with_seams_drop() {
         let mut mesh = rhombus();
         let mut uvs = vec![DVec2::ZERO; mesh.n_half_edges()];
         uvs[0] = DVec2::X;
@@ -271,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn an_edge_that_is_not_there_is_refused() {
+    fn a_missing_edge_is_refused() {
         let e = EdgeId::new(99);
         assert_eq!(refused(&rhombus(), e), EditError::NoSuchEdge(e));
         assert_eq!(

@@ -1,4 +1,4 @@
-//! A smaller copy of a face inside it, flat or raised.
+//! Insetting a face: adding a smaller copy of it inside, flat or raised.
 
 use glam::DVec3;
 
@@ -7,7 +7,7 @@ use super::extrude::Rim;
 use crate::{EditError, FaceId, HalfEdgeId, Id, Mesh, VertexId};
 
 impl Mesh {
-    /// Puts a smaller copy of `f` into it, with a ring of four-cornered faces around.
+    /// Insets `f`: shrinks it towards its center and surrounds it by a ring of quads.
     ///
     /// ```text
     ///    w ------------- v              w ------------- v
@@ -19,17 +19,18 @@ impl Mesh {
     ///    + ------------- +              + ------------- +
     /// ```
     ///
-    /// V, E and F grow by n, 2n and n, where f has n corners. `f` keeps its id, is the inner face and begins
-    /// at the same corner; all that was there stays where it was. New are, for each half-edge h of `f`
-    /// counter-clockwise, the vertex v', then the edges v'-w' and v-v' (those of the first h before those
-    /// of the second), and the face (v, w, w', v'), which begins with h: as in
-    /// [`extrude_faces`](Self::extrude_faces).
+    /// V, E and F grow by n, 2n and n, where f has n corners. The inner face keeps the id of `f` and its first
+    /// corner. Existing vertices and edges do not move. The new elements are, as in
+    /// [`extrude_faces`](Self::extrude_faces), for each half-edge h of `f` counter-clockwise: the vertex v',
+    /// then the edges v'-w' and v-v' (those of the first h before those of the second), and the face
+    /// (v, w, w', v'), whose half-edge is h.
     ///
-    /// Attributes at the new vertices, and at corners there, lie between those of the outer corner and the
-    /// mean of all corners of the face, at t; those that are copied come from the outer corner. Inner
-    /// edges have the values of the outer ones, the edges between them zero values, the ring those of `f`.
+    /// Attributes of the new vertices and of the corners at them are interpolated at t between the outer corner
+    /// and the mean of all corners of the face. Attributes that are not interpolated are copied from the outer
+    /// corner. Inner edges have the values of the outer edges, the edges v-v' have zero values, and the faces
+    /// of the ring have the values of `f`.
     ///
-    /// Returns the ring, in that order.
+    /// Returns the faces of the ring, in that order.
     ///
     /// # Errors
     ///
@@ -51,12 +52,13 @@ impl Mesh {
         self.inset(f, fraction, DVec3::ZERO)
     }
 
-    /// [`inset_face`](Self::inset_face), with the inner face raised by `height` along the normal that `f` had;
-    /// below 0 it is lowered. A face without area has no normal and stays flat.
+    /// Insets a face like [`inset_face`](Self::inset_face), and raises the inner face by `height` along the
+    /// normal of `f`, in scene units. A negative height lowers it. A face without area has no normal and stays
+    /// flat.
     ///
     /// # Errors
     ///
-    /// As [`inset_face`](Self::inset_face); [`EditError::BadNumber`] also if `height` or a raised coordinate
+    /// As [`inset_face`](Self::inset_face); also [`EditError::BadNumber`] if `height` or a raised coordinate
     /// is not finite.
     pub fn bevel_face(
         &mut self,
@@ -80,14 +82,14 @@ impl Mesh {
         self.check_room(4 * corners.len())?;
         let vertices: Vec<VertexId> = self.face_vertices(f).collect();
         let center = self.face_center(f);
-        let inner_place = |&v: &VertexId| (1.0 - t) * self.position(v) + t * center + offset;
-        let places: Vec<DVec3> = vertices.iter().map(inner_place).collect();
-        check_finite(&places)?;
+        let inner_position = |&v: &VertexId| (1.0 - t) * self.position(v) + t * center + offset;
+        let positions: Vec<DVec3> = vertices.iter().map(inner_position).collect();
+        check_finite(&positions)?;
 
         let ring = self.raise(&rim);
         let inner_corners: Vec<HalfEdgeId> = self.face_half_edges(f).collect();
         let inner: Vec<VertexId> = self.face_vertices(f).collect();
-        for (&v, p) in inner.iter().zip(places) {
+        for (&v, p) in inner.iter().zip(positions) {
             self.set_position(v, p);
         }
         self.mix_with_mean(&vertices, t, &inner);
@@ -101,10 +103,11 @@ impl Mesh {
         Ok(ring)
     }
 
-    /// Gives each of `to` the values between those of its like in `from` and the mean of all of `from`.
+    /// Sets the interpolated values of each element of `to` to those at `t` between the corresponding element of
+    /// `from` and the mean of all of `from`.
     fn mix_with_mean<I: Id>(&mut self, from: &[I], t: f64, to: &[I]) {
         let &[.., last] = to else { return };
-        // The last one holds the mean until its turn comes.
+        // The last element stores the mean until it is set itself.
         self.average_values(from, last);
         for (&from, &to) in from.iter().zip(to) {
             self.mix_values(from, last, t, to);
@@ -176,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bevelled_face_rises_along_its_normal() {
+    fn a_beveled_face_is_raised_along_its_normal() {
         for (f, normal) in [(1, DVec3::Z), (2, DVec3::NEG_Y), (3, DVec3::X)] {
             let (mesh, _) = inset(&shapes::cube(), f, 0.5, 0.75);
             assert_eq!(mesh.face_center(FaceId::new(f)), 1.75 * normal);
@@ -219,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn every_face_of_every_shape_is_inset_and_taken_back() {
+    fn every_inset_can_be_undone_and_redone() {
         for shape in [
             shapes::grid(2, 2),
             shapes::cube(),
@@ -238,9 +241,9 @@ mod tests {
                 mesh.begin();
                 mesh.bevel_face(f, 0.25, 0.5).unwrap();
                 let change = mesh.commit().unwrap();
-                let again = mesh.revert(change);
+                let redo = mesh.revert(change);
                 assert_eq!(mesh, shape);
-                mesh.revert(again);
+                mesh.revert(redo);
                 assert_eq!(mesh, after);
             }
         }
@@ -270,11 +273,8 @@ mod tests {
         let ring = crate::edit::extrude::tests::slit_ring();
         let f = FaceId::new(0);
         let mut mesh = ring.clone();
-        let refused = mesh.inset_face(f, 0.5);
-        assert!(
-            matches!(refused, Err(EditError::SameFace(_))),
-            "{refused:?}"
-        );
+        let result = mesh.inset_face(f, 0.5);
+        assert!(matches!(result, Err(EditError::SameFace(_))), "{result:?}");
         assert_eq!(mesh, ring);
     }
 }

@@ -1,4 +1,4 @@
-//! Putting a vertex into a face.
+//! Poking a face: adding a vertex inside it.
 
 use glam::DVec3;
 
@@ -6,7 +6,7 @@ use super::{check_finite, first_repeated};
 use crate::{EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 
 impl Mesh {
-    /// Puts a vertex at the mean of the corners of `f` and joins it to all of them.
+    /// Adds a vertex at the mean of the corners of `f` and joins it to all of them.
     ///
     /// ```text
     ///    d-----c          d-----c
@@ -16,20 +16,20 @@ impl Mesh {
     ///    a-----b          a-----b
     /// ```
     ///
-    /// A face with n corners becomes n triangles: V, E, F grow by 1, n and n - 1, and V - E + F stays.
-    /// With a the first corner, that of [`face_half_edge`](Self::face_half_edge): `f` keeps its id as
-    /// (a, b, m); new are the edges m-a, m-b, ... and the faces (b, c, m), ... in the order of the
-    /// corners. A new edge runs from m.
+    /// A face with n corners becomes n triangles: V, E and F grow by 1, n and n - 1, and V - E + F stays the
+    /// same. Let a be the first corner, at [`face_half_edge`](Self::face_half_edge). The triangle (a, b, m)
+    /// keeps the id of `f`. The new elements are the edges m-a, m-b, ... and the faces (b, c, m), ... in the
+    /// order of the corners. The first half of a new edge starts at m.
     ///
-    /// Vertex attributes at m are the mean of those of the corners where their rule says interpolate,
-    /// and zero otherwise; the corners at m have the mean of the corner values of the face, the other
-    /// ones keep theirs; new faces take the values of `f`, new edges have zero values.
+    /// Vertex attributes at m are the mean of those of the corners if they are interpolated, and zero
+    /// otherwise. The corners at m get the mean of the corner values of the face; the other corners keep
+    /// their values. New faces have the values of `f`, new edges have zero values.
     ///
-    /// Returns m. [`dissolve_vertex`](Self::dissolve_vertex) takes it out again.
+    /// Returns m. [`dissolve_vertex`](Self::dissolve_vertex) is the inverse.
     ///
     /// # Errors
     ///
-    /// [`EditError::VisitsTwice`] if the face passes a vertex twice, which would be joined to m twice,
+    /// [`EditError::VisitsTwice`] if the face visits a vertex twice, which would be joined to m twice,
     /// [`EditError::NoSuchFace`], [`EditError::BadNumber`] if the mean of the corners is not finite,
     /// [`EditError::Full`]. The mesh is unchanged.
     ///
@@ -47,12 +47,12 @@ impl Mesh {
         self.poke_face_at(f, self.face_center(f))
     }
 
-    /// [`poke_face`](Self::poke_face) with the vertex at `position`, in scene units. Its attributes and
-    /// those of its corners are means all the same, wherever it lies.
+    /// Pokes a face like [`poke_face`](Self::poke_face), with the vertex at `position`, in scene units. The
+    /// attributes at the vertex are means too, and do not depend on `position`.
     ///
     /// # Errors
     ///
-    /// As [`poke_face`](Self::poke_face), with [`EditError::BadNumber`] if `position` is not finite.
+    /// As [`poke_face`](Self::poke_face), and [`EditError::BadNumber`] if `position` is not finite.
     pub fn poke_face_at(&mut self, f: FaceId, position: DVec3) -> Result<VertexId, EditError> {
         self.check_face(f)?;
         check_finite(&[position])?;
@@ -74,7 +74,7 @@ impl Mesh {
         self.average_values(&sides, spokes[0]);
 
         for (i, (&side, &spoke)) in sides.iter().zip(&spokes).enumerate() {
-            // The triangle (this corner, the following one, m).
+            // The triangle of this corner, the following corner, and m.
             let following = (i + 1) % sides.len();
             let to_m = spokes[following].twin();
             self.copy_values(sides[following], to_m);
@@ -93,7 +93,7 @@ impl Mesh {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::edit::testing::{dressed, shapes_to_try, undone_and_redone};
+    use crate::edit::testing::{checked_edit_mesh, sample_shapes, with_attributes};
     use crate::{COLOR, CREASE, Domain, EdgeId, MATERIAL, UV, shapes};
     use glam::{DVec2, DVec4};
 
@@ -130,11 +130,11 @@ mod tests {
     }
 
     #[test]
-    fn every_face_of_every_shape_can_be_poked_and_the_poke_taken_back() {
-        for shape in shapes_to_try() {
+    fn poking_any_face_can_be_undone_and_redone() {
+        for shape in sample_shapes() {
             for f in shape.faces() {
                 let degree = shape.degree(f);
-                let mesh = undone_and_redone(&shape, |mesh| mesh.poke_face(f).map(drop)).unwrap();
+                let mesh = checked_edit_mesh(&shape, |mesh| mesh.poke_face(f).map(drop)).unwrap();
                 assert_eq!(mesh.defects(), []);
                 assert_eq!(mesh.euler_characteristic(), shape.euler_characteristic());
                 assert_eq!(mesh.n_faces(), shape.n_faces() + degree - 1);
@@ -156,38 +156,38 @@ mod tests {
 
     #[test]
     fn attributes_follow_their_rules() {
-        let mut mesh = dressed(shapes::grid(2, 1));
+        let mut mesh = with_attributes(shapes::grid(2, 1));
         mesh.set(CREASE, vec![3.0; mesh.n_edges()]);
         let f = FaceId::new(1);
         let m = mesh.poke_face_at(f, mesh.face_center(f)).unwrap();
-        // Fields that are linear on each face stay linear, and both sides of the seam keep theirs.
+        // Values that are linear on each face stay linear, and both sides of the seam keep their values.
         for h in mesh.half_edges() {
             let Some(face) = mesh.face(h) else { continue };
             let shift = if face == FaceId::new(0) { 0.0 } else { 10.0 };
             let expected = mesh.position(mesh.origin(h)).truncate() + DVec2::splat(shift);
             assert_eq!(mesh.get(UV).unwrap()[h.index()], expected, "{h}");
         }
-        let place = mesh.position(m);
+        let p = mesh.position(m);
         assert_eq!(
             mesh.get(COLOR).unwrap()[m.index()],
-            DVec4::new(place.x, place.y, 0.0, 1.0)
+            DVec4::new(p.x, p.y, 0.0, 1.0)
         );
         assert_eq!(mesh.get(MATERIAL).unwrap(), [5, 6, 6, 6, 6]);
         let creases = mesh.get(CREASE).unwrap();
         assert_eq!(creases[7..], [0.0; 4]);
-        assert!(mesh.attributes().column(Domain::Face, "passing").is_none());
+        assert!(mesh.attributes().column(Domain::Face, "dropped").is_none());
     }
 
     #[test]
-    fn what_cannot_be_poked_is_refused_and_nothing_changes() {
-        let mesh = dressed(shapes::grid(2, 1));
+    fn bad_positions_and_missing_faces_are_refused_and_nothing_changes() {
+        let mesh = with_attributes(shapes::grid(2, 1));
         let f = FaceId::new(0);
         let mut edited = mesh.clone();
-        let far = DVec3::new(0.0, f64::INFINITY, 0.0);
-        let refused = edited.poke_face_at(f, far);
-        assert_eq!(refused, Err(EditError::BadNumber(f64::INFINITY)));
-        let refused = edited.poke_face_at(f, DVec3::splat(f64::NAN));
-        assert!(matches!(refused, Err(EditError::BadNumber(_))));
+        let infinite = DVec3::new(0.0, f64::INFINITY, 0.0);
+        let result = edited.poke_face_at(f, infinite);
+        assert_eq!(result, Err(EditError::BadNumber(f64::INFINITY)));
+        let result = edited.poke_face_at(f, DVec3::splat(f64::NAN));
+        assert!(matches!(result, Err(EditError::BadNumber(_))));
         let missing = FaceId::new(2);
         assert_eq!(
             edited.poke_face(missing),

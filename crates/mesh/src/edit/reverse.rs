@@ -1,11 +1,11 @@
-//! Turning components over.
+//! Reversing the orientation of components.
 
 use crate::marks::Marks;
 use crate::{EditError, FaceId, HalfEdgeId, Mesh};
 
 impl Mesh {
-    /// Turns faces over, so that their other side is the outside. They must be whole components,
-    /// because the two faces at an edge run along it in opposite directions.
+    /// Reverses the orientation of faces, so that inside and outside are exchanged. The faces must be whole
+    /// components, because the two faces at an edge must run along it in opposite directions.
     ///
     /// ```text
     ///       c                    c
@@ -15,46 +15,46 @@ impl Mesh {
     ///  a --- h -> b         a <- h --- b
     /// ```
     ///
-    /// All ids stay, and the first corner of a face stays the first; the others follow in reverse.
-    /// Values of corners stay with their vertex and face. Normals (columns of [`Rule::Normal`]) of the
-    /// vertices and corners are turned over too. Other components do not change.
+    /// All ids stay the same. The first corner of a face stays the first; the other corners follow in
+    /// reverse order. Values of corners stay with their vertex and face. Normals (columns of
+    /// [`Rule::Normal`]) of the vertices and corners are negated. Other components do not change.
     ///
-    /// [`reverse`](Self::reverse) turns the whole mesh, and faster.
+    /// To reverse the whole mesh, [`reverse`](Self::reverse) is faster.
     ///
     /// [`Rule::Normal`]: crate::Rule::Normal
     ///
     /// # Errors
     ///
-    /// [`EditError::PartOfComponent`] if a face that is not in the list shares an edge with one that is;
-    /// it names the latter. [`EditError::FaceListedTwice`], [`EditError::NoElements`] for an empty list,
+    /// [`EditError::PartOfComponent`] with a listed face that shares an edge with a face that is not listed,
+    /// [`EditError::FaceListedTwice`], [`EditError::NoElements`] for an empty list,
     /// [`EditError::NoSuchFace`]. The mesh is unchanged.
     pub fn reverse_faces(&mut self, faces: &[FaceId]) -> Result<(), EditError> {
-        let mut is_named = Marks::default();
+        let mut is_listed = Marks::default();
         for &f in faces {
             self.check_face(f)?;
-            if is_named.has(f.index()) {
+            if is_listed.has(f.index()) {
                 return Err(EditError::FaceListedTwice(f));
             }
-            is_named.add(f.index());
+            is_listed.add(f.index());
         }
         if faces.is_empty() {
             return Err(EditError::NoElements);
         }
-        // All half-edges of the components: those of the faces, and those around their holes.
+        // All half-edges of the components, including those around holes.
         let mut half_edges: Vec<HalfEdgeId> = Vec::new();
         for &f in faces {
             for h in self.face_half_edges(f) {
                 half_edges.push(h);
                 match self.face(h.twin()) {
                     None => half_edges.push(h.twin()),
-                    Some(g) if is_named.has(g.index()) => {}
+                    Some(g) if is_listed.has(g.index()) => {}
                     Some(_) => return Err(EditError::PartOfComponent(f)),
                 }
             }
         }
 
         self.drop_columns_by_rule();
-        // Values move on by one corner: they stay where the next half-edge left, which now arrives.
+        // Values move by one half-edge: the corner at the origin of next(h) is now stored at h.
         for &f in faces {
             let corners: Vec<HalfEdgeId> = self.face_half_edges(f).collect();
             for pair in corners.windows(2) {
@@ -66,7 +66,7 @@ impl Mesh {
             .map(|&h| (h, self.next(h), self.target(h)))
             .collect();
         for (h, next, target) in old {
-            // h arrives where next leaves, and stands there for it from now on.
+            // h ends where next starts, and so replaces it as the half-edge of that vertex.
             if self.vertex_half_edge(target) == Some(next) {
                 self.set_vertex_half_edge(target, Some(h));
                 self.negate_normals(target);
@@ -76,7 +76,7 @@ impl Mesh {
         }
         for &f in faces {
             let first = self.face_half_edge(f);
-            // Written above: what follows a half-edge now came before it.
+            // `next` was reversed above.
             self.set_face_half_edge(f, self.next(first));
             let corners: Vec<HalfEdgeId> = self.face_half_edges(f).collect();
             for h in corners {
@@ -92,7 +92,7 @@ mod tests {
     use super::*;
     use crate::{CORNER_NORMAL, DVec2, DVec3, UV, VERTEX_NORMAL, shapes};
 
-    /// Several shapes in one mesh, each beside the one before, with corner values and normals.
+    /// Returns a mesh with several shapes as components, side by side, with corner values and normals.
     fn side_by_side(shapes: &[Mesh]) -> Mesh {
         let mut positions = Vec::new();
         let mut polygons = Vec::new();
@@ -114,7 +114,7 @@ mod tests {
         mesh
     }
 
-    fn three() -> (Mesh, [Vec<FaceId>; 3]) {
+    fn three_components() -> (Mesh, [Vec<FaceId>; 3]) {
         let shapes = [
             shapes::cube(),
             shapes::grid(2, 2),
@@ -131,8 +131,8 @@ mod tests {
     }
 
     #[test]
-    fn all_faces_one_by_one_are_the_whole_mesh() {
-        let (before, components) = three();
+    fn reversing_all_faces_reverses_the_whole_mesh() {
+        let (before, components) = three_components();
         let mut mesh = before.clone();
         let mut all = components.concat();
         all.reverse();
@@ -143,8 +143,8 @@ mod tests {
     }
 
     #[test]
-    fn one_component_turns_and_the_others_stay() {
-        let (before, components) = three();
+    fn one_component_is_reversed_and_the_others_stay() {
+        let (before, components) = three_components();
         for (k, faces) in components.iter().enumerate() {
             let mut mesh = before.clone();
             mesh.reverse_faces(faces).unwrap();
@@ -173,8 +173,8 @@ mod tests {
     }
 
     #[test]
-    fn a_turned_component_can_be_taken_back_and_done_again() {
-        let (before, components) = three();
+    fn reversing_a_component_can_be_undone_and_redone() {
+        let (before, components) = three_components();
         for faces in &components {
             let mut mesh = before.clone();
             mesh.begin();
@@ -186,23 +186,23 @@ mod tests {
             mesh.reverse_faces(faces).unwrap();
             let after = mesh.clone();
             let change = mesh.commit().unwrap();
-            let again = mesh.revert(change);
+            let redo = mesh.revert(change);
             assert_eq!(mesh, before);
-            mesh.revert(again);
+            mesh.revert(redo);
             assert_eq!(mesh, after);
         }
     }
 
     #[test]
-    fn what_is_no_whole_component_is_refused() {
-        let (mesh, [cube, grid, _]) = three();
-        let foreign = FaceId::new(mesh.n_faces());
+    fn parts_of_components_are_refused() {
+        let (mesh, [cube, grid, _]) = three_components();
+        let missing = FaceId::new(mesh.n_faces());
         for (faces, refusal) in [
             (&cube[1..], EditError::PartOfComponent(cube[2])),
             (&grid[..1], EditError::PartOfComponent(grid[0])),
             (&[], EditError::NoElements),
             (&[cube[0], cube[0]], EditError::FaceListedTwice(cube[0])),
-            (&[foreign], EditError::NoSuchFace(foreign)),
+            (&[missing], EditError::NoSuchFace(missing)),
         ] {
             let mut edited = mesh.clone();
             assert_eq!(edited.reverse_faces(faces), Err(refusal));

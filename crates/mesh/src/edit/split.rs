@@ -1,9 +1,9 @@
-//! Putting a vertex on an edge.
+//! Splitting an edge by a vertex.
 
 use crate::{Domain, EdgeId, EditError, Mesh, VertexId};
 
 impl Mesh {
-    /// Puts a vertex on `e` and joins it to the far corners of the triangles beside it.
+    /// Splits `e` by a vertex and joins the vertex to the opposite corners of the triangles beside `e`.
     ///
     /// ```text
     ///        c                 c
@@ -13,17 +13,17 @@ impl Mesh {
     ///        d                 d
     /// ```
     ///
-    /// `e` keeps its id and becomes a-m. New are, in this order, the edges m-b, m-c (on the side of
-    /// the first half of `e`) and m-d, and the faces at b: (m, b, c) and (b, m, d). f and g stay at a.
-    /// A side without a face gets no new edge, and a face with more than three corners only gains m as
-    /// a corner. So on closed triangles V, E, F grow by 1, 3, 2 and on the boundary by 1, 2, 1, and
-    /// V - E + F stays.
+    /// `e` keeps its id and becomes a-m. The new elements are, in this order, the edges m-b, m-c (on the side
+    /// of the first half of `e`) and m-d, and the faces at b: (m, b, c) and (b, m, d). f and g remain at a.
+    /// A side without a face gets no new edge. A face with more than three corners is not cut: it gains m as
+    /// a corner. Inside a triangle mesh, V, E and F grow by 1, 3 and 2; on its boundary by 1, 2 and 1.
+    /// V - E + F stays the same.
     ///
-    /// Vertex attributes at m follow their rules between a and b; corners at m likewise within their
-    /// own face, so that both sides of a seam keep their values; m-b takes the edge values of `e`; new
-    /// faces take those of f and g.
+    /// Vertex attributes at m are interpolated between a and b, and corner attributes at m within their face,
+    /// so that both sides of a seam keep their values. m-b has the edge values of `e`. The new faces have the
+    /// values of f and g.
     ///
-    /// Where both triangles have the same vertex opposite (c is d), m and c are joined twice.
+    /// If both triangles have the same opposite vertex (c is d), two edges join m and c.
     ///
     /// Returns m.
     ///
@@ -48,7 +48,7 @@ impl Mesh {
         let cuts = [am, ma].map(|h| self.face(h).is_some_and(|f| self.is_triangle(f)));
 
         let [mb, bm] = self.insert_vertex(e, t)?.half_edges();
-        // The cuts to the far corners: b's part of each triangle becomes a new face.
+        // Cut to the opposite corners: the part of each triangle at b becomes a new face.
         if cuts[0] {
             let opposite = self.next(self.next(mb));
             self.insert_edge(mb, opposite, mb);
@@ -60,8 +60,8 @@ impl Mesh {
         Ok(self.origin(mb))
     }
 
-    /// Puts a vertex m on `e`, from a to b, as [`split_edge`](Self::split_edge), but lets the faces beside it
-    /// gain a corner, triangles too.
+    /// Splits `e`, from a to b, by a vertex m, like [`split_edge`](Self::split_edge), but does not cut the faces
+    /// beside `e`: m becomes an additional corner of these faces, even of triangles.
     ///
     /// Returns the new edge m-b, whose first half begins at m.
     ///
@@ -89,7 +89,7 @@ impl Mesh {
         self.set_face(bm, self.face(ma));
         self.copy_values(ma, bm);
         self.mix_values(am, after_b, t, mb);
-        // The corner at m on the other side lies between that at b, now of bm, and that at a.
+        // The corner of ma is now at m, between the corner at b, which is now that of bm, and the corner at a.
         let at_a = self.next(ma);
         self.mix_values(bm, at_a, 1.0 - t, ma);
         self.set_next(am, mb);
@@ -107,7 +107,7 @@ impl Mesh {
         Ok(new)
     }
 
-    /// Marks all isolated vertices dead and returns how many there were.
+    /// Deletes all isolated vertices and returns their number.
     pub fn delete_isolated_vertices(&mut self) -> usize {
         let n = self.n_vertices();
         for v in 0..self.domain_len(Domain::Vertex) {
@@ -126,8 +126,8 @@ mod tests {
     use glam::{DVec2, DVec3, DVec4};
 
     fn triangles(polygons: &[[u32; 3]]) -> Mesh {
-        let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
-        let positions = vec![at(-1., 0.), at(1., 0.), at(0., 1.), at(0., -1.)];
+        let p = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+        let positions = vec![p(-1., 0.), p(1., 0.), p(0., 1.), p(0., -1.)];
         Mesh::from_polygons(positions, polygons).unwrap().0
     }
 
@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn an_edge_of_one_triangle_splits_into_ten_half_edges() {
+    fn splitting_an_edge_of_one_triangle_gives_ten_half_edges() {
         for e in 0..3 {
             let mut mesh = triangles(&[[0, 1, 2]]);
             split(&mut mesh, e, 0.5);
@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn the_edge_of_two_triangles_splits_into_sixteen_half_edges() {
+    fn splitting_the_edge_of_two_triangles_gives_sixteen_half_edges() {
         let mut mesh = triangles(&[[0, 1, 2], [1, 0, 3]]);
         let m = split(&mut mesh, 0, 0.5);
         assert_eq!(mesh.n_half_edges(), 16);
@@ -182,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn every_edge_of_every_shape_splits() {
+    fn every_edge_of_every_shape_can_be_split() {
         for shape in [
             shapes::grid(2, 2),
             shapes::cube(),
@@ -208,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn an_edge_that_ends_inside_a_face_splits() {
+    fn an_edge_that_ends_inside_a_face_can_be_split() {
         let mut mesh = crate::edit::testing::spur();
         let m = split(&mut mesh, 4, 0.5);
         let around: Vec<_> = mesh.vertex_neighbors(m).map(VertexId::index).collect();
@@ -255,12 +255,12 @@ mod tests {
     }
 
     #[test]
-    fn a_place_outside_the_edge_is_refused() {
+    fn a_position_outside_the_edge_is_refused() {
         let mesh = triangles(&[[0, 1, 2]]);
         for t in [0.0, 1.0, -0.5, 2.0, f64::NAN, f64::INFINITY] {
             let mut edited = mesh.clone();
-            let refused = edited.split_edge(EdgeId::new(0), t).unwrap_err();
-            assert!(matches!(refused, EditError::OutsideEdge(_)), "{t}");
+            let error = edited.split_edge(EdgeId::new(0), t).unwrap_err();
+            assert!(matches!(error, EditError::OutsideEdge(_)), "{t}");
             assert_eq!(edited, mesh);
         }
         let mut edited = mesh.clone();

@@ -1,30 +1,30 @@
-//! Cutting a face in two.
+//! Splitting a face in two.
 
 use crate::{EdgeId, EditError, HalfEdgeId, Mesh, VertexId};
 
 impl Mesh {
-    /// Cuts a face in two by an edge between two of its corners.
+    /// Splits a face in two by an edge between two of its corners.
     ///
     /// ```text
     ///    +-----b           +-----b
     ///    |  f  |           | g / |         a, b: the origins of x and y
-    ///    |     |    -->    |  /  |         f keeps its id on the side of y, a to b,
-    ///    a-----+           a/--f-+         g is the new face with x after b to a
+    ///    |     |    -->    |  /  |         f has y and the half-edge a-b,
+    ///    a-----+           a/--f-+         g is new and has x and the half-edge b-a
     /// ```
     ///
-    /// `x` and `y` are half-edges of the face, and stand for the corners at their origins. The new edge
-    /// runs from the origin of `x` to that of `y`; its first half and `y` stay on the old face, its
-    /// second half and `x` are on the new one. The corners of the new edge have the values of the corners that
-    /// they come from, the new face those of the old one, the edge zero values.
+    /// `x` and `y` are half-edges of the face and denote the corners at their origins. The new edge runs
+    /// from the origin of `x` to the origin of `y`. Its first half and `y` are on the old face, its second
+    /// half and `x` on the new face. The corners of the new edge have the values of the corners at which they
+    /// are, the new face has the values of the old face, and the new edge has zero values.
     ///
     /// Returns the new edge.
     ///
     /// # Errors
     ///
-    /// [`EditError::WrongCorner`] if `x` has no face or `y` is not on it, [`EditError::Adjacent`] if the
-    /// corners are the same, neighbors, or of one vertex, [`EditError::DuplicateEdge`] if the vertices
-    /// share an edge outside the face, [`EditError::NoSuchHalfEdge`], [`EditError::Full`]. The mesh is
-    /// unchanged.
+    /// [`EditError::WrongCorner`] if `x` has no face or `y` is not on the same face, [`EditError::Adjacent`]
+    /// if the corners are the same, adjacent, or at the same vertex, [`EditError::DuplicateEdge`] if the
+    /// vertices share an edge outside the face, [`EditError::NoSuchHalfEdge`], [`EditError::Full`]. The mesh
+    /// is unchanged.
     ///
     /// # Examples
     ///
@@ -57,20 +57,19 @@ impl Mesh {
         Ok(self.insert_edge(x, y, x))
     }
 
-    /// Cuts the one face that has two vertices as corners by an edge between them: [`split_face`] for
-    /// those who know the vertices.
+    /// Splits the face that has both vertices as corners, by an edge between them. Works like [`split_face`],
+    /// but takes vertices.
     ///
-    /// The new edge runs from `v` to `w`. The sides passed on the way counter-clockwise from `v` to `w` go
-    /// to the new face, those from `w` to `v` stay. Takes time in proportion to the corners of the faces
-    /// around `v`.
+    /// The new edge runs from `v` to `w`. The sides counter-clockwise from `v` to `w` go to the new face;
+    /// those from `w` to `v` stay. Takes time proportional to the number of corners of the faces around `v`.
     ///
     /// Returns the new edge.
     ///
     /// # Errors
     ///
     /// [`EditError::DuplicateEdge`] if the vertices share an edge, [`EditError::NoCut`] if no face has both
-    /// as corners or they are the same, [`EditError::SeveralCuts`] if there is more than one such face, or
-    /// one that passes a vertex twice, [`EditError::NoSuchVertex`], [`EditError::Full`]. The mesh is
+    /// as corners, or if they are the same, [`EditError::SeveralCuts`] if several faces have both as corners,
+    /// or one face visits a vertex twice, [`EditError::NoSuchVertex`], [`EditError::Full`]. The mesh is
     /// unchanged.
     ///
     /// [`split_face`]: Self::split_face
@@ -90,16 +89,16 @@ impl Mesh {
             let opposite = self.loop_half_edges(x).filter(|&y| self.origin(y) == w);
             opposite.map(move |y| (x, y))
         });
-        let (cut, other) = (cuts.next(), cuts.next());
-        let (x, y) = cut.ok_or(EditError::NoCut(v, w))?;
-        if other.is_some() {
+        let (first, second) = (cuts.next(), cuts.next());
+        let (x, y) = first.ok_or(EditError::NoCut(v, w))?;
+        if second.is_some() {
             return Err(EditError::SeveralCuts(v, w));
         }
         self.split_face(x, y)
     }
 
     /// Joins the origins of `x` and `y`, half-edges of one face. The part of the face with `moved`
-    /// becomes a new face; the other part keeps the old one.
+    /// becomes a new face; the other part keeps the id of the face.
     pub(super) fn insert_edge(
         &mut self,
         x: HalfEdgeId,
@@ -137,16 +136,16 @@ impl Mesh {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::edit::testing::{polygons, ring, shapes_to_try, undone_and_redone};
+    use crate::edit::testing::{checked_edit_mesh, polygons, ring, sample_shapes};
     use crate::{FaceId, shapes};
 
     fn connect(mesh: &Mesh, v: usize, w: usize) -> Result<Mesh, EditError> {
         let [v, w] = [v, w].map(VertexId::new);
-        undone_and_redone(mesh, |mesh| mesh.connect_vertices(v, w).map(drop))
+        checked_edit_mesh(mesh, |mesh| mesh.connect_vertices(v, w).map(drop))
     }
 
     #[test]
-    fn the_edge_runs_from_the_first_vertex_and_the_part_behind_it_keeps_the_face() {
+    fn the_edge_runs_from_the_first_vertex_and_the_part_after_the_second_keeps_the_face() {
         let mut mesh = shapes::grid(2, 1);
         let [v, w] = [5, 1].map(VertexId::new);
         let e = mesh.connect_vertices(v, w).unwrap();
@@ -159,20 +158,20 @@ mod tests {
 
     #[test]
     fn any_two_corners_of_any_face_are_joined_unless_they_share_an_edge() {
-        for shape in shapes_to_try() {
+        for shape in sample_shapes() {
             for f in shape.faces() {
                 let corners: Vec<VertexId> = shape.face_vertices(f).collect();
                 for (&v, &w) in corners
                     .iter()
                     .flat_map(|v| corners.iter().map(move |w| (v, w)))
                 {
-                    let done = connect(&shape, v.index(), w.index());
+                    let result = connect(&shape, v.index(), w.index());
                     if v == w {
-                        assert_eq!(done, Err(EditError::NoCut(v, w)));
+                        assert_eq!(result, Err(EditError::NoCut(v, w)));
                     } else if shape.find_half_edge(v, w).is_some() {
-                        assert_eq!(done, Err(EditError::DuplicateEdge(v, w)));
+                        assert_eq!(result, Err(EditError::DuplicateEdge(v, w)));
                     } else {
-                        assert_eq!(done.unwrap().n_faces(), shape.n_faces() + 1);
+                        assert_eq!(result.unwrap().n_faces(), shape.n_faces() + 1);
                     }
                 }
             }
@@ -180,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn vertices_without_a_face_in_common_or_with_several_are_refused() {
+    fn vertices_without_a_common_face_or_with_several_are_refused() {
         let v = VertexId::new;
         assert_eq!(
             connect(&shapes::cube(), 0, 7),
@@ -188,7 +187,7 @@ mod tests {
         );
         let missing = connect(&shapes::cube(), 0, 8);
         assert_eq!(missing, Err(EditError::NoSuchVertex(v(8))));
-        // Both halves of a tube.
+        // A tube of two faces.
         let mut tube = shapes::cylinder(4, false);
         for e in [
             tube.find_half_edge(v(1), v(5)),
@@ -200,7 +199,7 @@ mod tests {
             connect(&tube, 0, 6),
             Err(EditError::SeveralCuts(v(0), v(6)))
         );
-        // The two corners of one face at its vertex 3.
+        // The face has two corners at vertex 3.
         assert_eq!(
             connect(&ring(), 1, 3),
             Err(EditError::SeveralCuts(v(1), v(3)))

@@ -1,4 +1,4 @@
-//! Drawing a vertex out into an edge.
+//! Splitting a vertex into an edge.
 
 use glam::DVec3;
 
@@ -6,29 +6,28 @@ use super::check_finite;
 use crate::{EdgeId, EditError, HalfEdgeId, Mesh};
 
 impl Mesh {
-    /// Draws a vertex out into an edge between two of its corners: a new vertex takes the edges from `x`
-    /// clockwise to the last one before `y`.
+    /// Splits a vertex into an edge between two of its corners: a new vertex gets the edges from `x` clockwise
+    /// to the last edge before `y`.
     ///
     /// ```text
     ///      \  f  |x             \  f  |x
     ///       \    |               \    |          v: the origin of x and y
     ///   ----- v -----    -->   -- v-->w ----     f: the face of x, g: the face of y
-    ///         |    \              |    \         w is new and has the edges of x and between
+    ///         |    \              |    \         w is new and has the edges from x to before y
     ///        y|  g  \            y|  g  \
     /// ```
     ///
-    /// `x` and `y` stand for the corners at their origin: `x` for the one in f, `y` for the one in g.
-    /// Between these the new edge runs from v to w; its first half is on f, its second on g, and both
-    /// gain a corner. Either may be a hole: then the edge is on the boundary. So V and E grow by 1. If the new vertex
-    /// takes one edge only, it has two. All ids stay.
+    /// `x` and `y` denote the corners at their origin: `x` the corner in f, `y` the corner in g. The new edge
+    /// runs from v to w. Its first half is on f, its second half on g, and both faces gain a corner. f or g can
+    /// be a hole; then the edge is on the boundary. V and E grow by 1. All existing ids stay the same.
     ///
-    /// This is for vertices what [`split_face`](Self::split_face) is for faces, and the inverse of
-    /// [`collapse_edge_to`](Self::collapse_edge_to) the old position, which is always allowed, except
-    /// where v was joined twice to some vertex or a face visits it twice. Where a triangle vanished in a
-    /// collapse, a `split_face` after this one brings it back.
+    /// [`split_face`](Self::split_face) is the corresponding edit for faces. The inverse is
+    /// [`collapse_edge_to`](Self::collapse_edge_to) the old position. It is always allowed, unless two edges
+    /// joined v to the same vertex or a face visits v twice. To undo a collapse that removed triangles, call
+    /// `split_face` after this.
     ///
-    /// The new vertex is at `position`, with the attributes of v; both corners at the new edge on each
-    /// side have the values of the one corner that was there; the edge has zero values.
+    /// The new vertex is at `position` and has the attributes of v. On each side, both corners at the new edge
+    /// have the values of the old corner. The edge has zero values.
     ///
     /// Returns the new edge.
     ///
@@ -96,8 +95,8 @@ impl Mesh {
             self.set_face(new, face);
         }
 
-        // A boundary half-edge of v that moved is that of w. If it is x, the new edge is on the boundary
-        // at v; if it is y, at w.
+        // If the half-edge of v has moved to w, it becomes that of w, and v gets vw. Otherwise w gets wv. Either
+        // is a boundary half-edge if the vertex is on the boundary.
         let old = self.vertex_half_edge(v);
         let is_moved = old.is_some_and(|h| self.origin(h) == w);
         let first = if is_moved { old } else { Some(wv) };
@@ -115,7 +114,7 @@ mod tests {
     use crate::{COLOR, FaceId, UV, VertexId, shapes};
     use glam::{DVec2, DVec4};
 
-    /// The faces by id, each beginning at its lowest corner.
+    /// Returns the faces by id, each starting at its lowest corner.
     fn faces(mesh: &Mesh) -> Vec<(FaceId, Vec<VertexId>)> {
         let corners = |f| {
             let mut corners: Vec<VertexId> = mesh.face_vertices(f).collect();
@@ -140,7 +139,7 @@ mod tests {
         ]
     }
 
-    /// All pairs of different half-edges that leave one vertex.
+    /// Returns all pairs of different outgoing half-edges of the same vertex.
     fn pairs(mesh: &Mesh) -> Vec<(HalfEdgeId, HalfEdgeId)> {
         let of = |v| {
             let pairs = move |x| mesh.vertex_half_edges(v).map(move |y| (x, y));
@@ -186,7 +185,7 @@ mod tests {
 
     #[test]
     fn a_split_undoes_a_collapse() {
-        let mut undone = 0;
+        let mut n_undone = 0;
         for shape in samples() {
             for e in shape.edges() {
                 let mut mesh = shape.clone();
@@ -194,28 +193,29 @@ mod tests {
                     continue;
                 }
                 undo_collapse(&mut mesh, &shape, e);
-                undone += 1;
+                n_undone += 1;
                 assert_eq!(mesh.defects(), []);
                 mesh.compact();
                 assert_eq!(mesh.n_vertices(), shape.n_vertices());
-                assert_eq!(places(&mesh), places(&shape));
+                assert_eq!(face_positions(&mesh), face_positions(&shape));
             }
         }
-        assert!(undone > 100, "{undone}");
+        assert!(n_undone > 100, "{n_undone}");
     }
 
     /// Splits the vertex that `e` of `shape` became in `mesh`.
     fn undo_collapse(mesh: &mut Mesh, shape: &Mesh, e: EdgeId) {
-        // h runs from v to the vertex that is gone.
+        // h runs from v to the removed vertex.
         let [h, twin] = e.half_edges();
         let h = if mesh.has_vertex(shape.origin(h)) {
             h
         } else {
             twin
         };
-        let (v, gone) = (shape.origin(h), shape.target(h));
+        let (v, removed) = (shape.origin(h), shape.target(h));
         let triangles = [h, h.twin()].map(|h| shape.face(h).is_some_and(|f| shape.is_triangle(f)));
-        // The first and the last edge that go back to it. Those of triangles became one with edges of v.
+        // The first and the last edge to be moved back to the removed vertex. Those of vanished triangles were
+        // merged with edges of v.
         let [mut first, mut last] = [shape.next(h), shape.prev(h.twin()).twin()];
         if triangles[0] {
             first = shape.prev(h).twin();
@@ -231,24 +231,24 @@ mod tests {
         }
         let mut x = first;
         let mut y = mesh.next(last.twin());
-        // A triangle comes back on either side of its edge, but not where there is a hole.
-        let left_stays = triangles[0] && (mesh.face(x).is_none() || x == y);
-        if left_stays {
+        // A triangle can be restored on either side of its merged edge, but not in a hole.
+        let keep_left = triangles[0] && (mesh.face(x).is_none() || x == y);
+        if keep_left {
             x = mesh.next(x.twin());
         }
-        let right_stays = triangles[1] && mesh.face(y).is_none();
-        if right_stays {
+        let keep_right = triangles[1] && mesh.face(y).is_none();
+        if keep_right {
             y = last;
         }
-        let new = mesh.split_vertex(x, y, shape.position(gone)).unwrap();
+        let new = mesh.split_vertex(x, y, shape.position(removed)).unwrap();
         mesh.set_position(v, shape.position(v));
         let [vw, wv] = new.half_edges();
-        for (h, is_triangle, stays) in [
-            (vw, triangles[0], left_stays),
-            (wv, triangles[1], right_stays),
+        for (h, is_triangle, keep) in [
+            (vw, triangles[0], keep_left),
+            (wv, triangles[1], keep_right),
         ] {
-            // The far corner comes after the new edge if its edge left with the new vertex on that side.
-            let is_after = (h == vw) != stays;
+            // The opposite corner comes after the new edge if the merged edge moved to the new vertex.
+            let is_after = (h == vw) != keep;
             if is_triangle && is_after {
                 mesh.split_face(h, mesh.next(mesh.next(h))).unwrap();
             } else if is_triangle {
@@ -257,16 +257,16 @@ mod tests {
         }
     }
 
-    /// The faces as places in space, in an order that does not depend on ids.
-    fn places(mesh: &Mesh) -> Vec<Vec<[u64; 3]>> {
-        let place = |&v: &VertexId| mesh.position(v).to_array().map(f64::to_bits);
+    /// Returns the corner positions of the faces, in an order that does not depend on ids.
+    fn face_positions(mesh: &Mesh) -> Vec<Vec<[u64; 3]>> {
+        let position = |&v: &VertexId| mesh.position(v).to_array().map(f64::to_bits);
         let mut all: Vec<Vec<_>> = faces(mesh)
             .iter()
             .map(|(_, corners)| {
-                let mut places: Vec<_> = corners.iter().map(place).collect();
-                let low = (0..places.len()).min_by_key(|&i| places[i]);
-                places.rotate_left(low.unwrap_or(0));
-                places
+                let mut positions: Vec<_> = corners.iter().map(position).collect();
+                let low = (0..positions.len()).min_by_key(|&i| positions[i]);
+                positions.rotate_left(low.unwrap_or(0));
+                positions
             })
             .collect();
         all.sort();
@@ -274,7 +274,7 @@ mod tests {
     }
 
     #[test]
-    fn the_new_edge_may_lie_on_the_boundary() {
+    fn the_new_edge_is_on_the_boundary_if_a_corner_is_in_a_hole() {
         for shape in samples() {
             for (x, y) in pairs(&shape) {
                 let is_hole = [x, y].map(|h| shape.face(h).is_none());
@@ -286,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn values_are_those_of_the_vertex_and_its_corners() {
+    fn new_elements_have_the_values_of_the_vertex_and_its_corners() {
         let mut mesh = shapes::octahedron();
         let n = mesh.n_half_edges();
         mesh.set(UV, (0..n).map(|i| DVec2::splat(i as f64)).collect());
@@ -305,7 +305,7 @@ mod tests {
     }
 
     #[test]
-    fn a_split_can_be_taken_back_and_done_again() {
+    fn a_split_can_be_undone_and_redone() {
         for shape in samples() {
             for (x, y) in pairs(&shape) {
                 let mut mesh = shape.clone();
@@ -317,16 +317,16 @@ mod tests {
                 mesh.begin();
                 mesh.split_vertex(x, y, DVec3::ONE).unwrap();
                 let change = mesh.commit().unwrap();
-                let again = mesh.revert(change);
+                let redo = mesh.revert(change);
                 assert_eq!(mesh, shape);
-                mesh.revert(again);
+                mesh.revert(redo);
                 assert_eq!(mesh, after);
             }
         }
     }
 
     #[test]
-    fn corners_that_are_not_two_of_one_vertex_are_refused() {
+    fn half_edges_that_are_not_two_corners_of_one_vertex_are_refused() {
         let mesh = shapes::cube();
         let mut edited = mesh.clone();
         let mut refused = |x, y, p| edited.split_vertex(x, y, p).unwrap_err();
@@ -334,18 +334,19 @@ mod tests {
         let next = mesh.next(h);
         assert_eq!(refused(h, next, DVec3::ZERO), EditError::WrongCorner(next));
         assert_eq!(refused(h, h, DVec3::ZERO), EditError::Adjacent(h, h));
-        let far = HalfEdgeId::new(99);
-        assert_eq!(refused(h, far, DVec3::ZERO), EditError::NoSuchHalfEdge(far));
-        assert_eq!(refused(far, h, DVec3::ZERO), EditError::NoSuchHalfEdge(far));
+        let missing = HalfEdgeId::new(99);
+        let no_such = EditError::NoSuchHalfEdge(missing);
+        assert_eq!(refused(h, missing, DVec3::ZERO), no_such);
+        assert_eq!(refused(missing, h, DVec3::ZERO), no_such);
         let other = mesh.next(h.twin());
-        let bad = refused(h, other, DVec3::X * f64::INFINITY);
-        assert!(matches!(bad, EditError::BadNumber(_)));
+        let error = refused(h, other, DVec3::X * f64::INFINITY);
+        assert!(matches!(error, EditError::BadNumber(_)));
         assert_eq!(edited, mesh);
     }
 
     #[test]
     fn two_corners_of_one_face_are_refused() {
-        // Two faces that share two edges. One of these turned, the second face visits vertex 2 twice.
+        // Two faces that share two edges. After one of these is flipped, the second face visits vertex 2 twice.
         let polygons: [&[u32]; 2] = [&[0, 1, 2, 3], &[1, 0, 4, 3, 2, 5]];
         let (mut mesh, _) = Mesh::from_polygons(vec![DVec3::ZERO; 6], &polygons).unwrap();
         let e = mesh.find_half_edge(VertexId::new(0), VertexId::new(1));
@@ -355,8 +356,8 @@ mod tests {
         let around = mesh.vertex_half_edges(VertexId::new(2));
         let corners: Vec<_> = around.filter(is_corner).collect();
         let before = mesh.clone();
-        let refused = mesh.split_vertex(corners[0], corners[1], DVec3::ZERO);
-        assert_eq!(refused, Err(EditError::FaceListedTwice(f)));
+        let result = mesh.split_vertex(corners[0], corners[1], DVec3::ZERO);
+        assert_eq!(result, Err(EditError::FaceListedTwice(f)));
         assert_eq!(mesh, before);
     }
 }

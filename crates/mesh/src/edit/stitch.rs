@@ -1,12 +1,13 @@
-//! Gluing two boundary edges into one.
+//! Stitching two boundary edges together.
 
 use crate::{EdgeId, EditError, HalfEdgeId, Mesh, VertexId};
 
-/// Two half-edges without faces that are to become one edge: the end of each is the origin of the other.
+/// Two half-edges without faces that are to become one edge: the origin of each is merged with the target of
+/// the other.
 type Pair = [HalfEdgeId; 2];
 
 impl Mesh {
-    /// Glues two boundary edges into one.
+    /// Stitches two boundary edges: they become one edge.
     ///
     /// ```text
     ///       \   /                   \   /
@@ -16,25 +17,26 @@ impl Mesh {
     ///       /   \                   /   \
     /// ```
     ///
-    /// a and a' become one vertex, and so do b and b'; either pair may be one vertex already. The vertex of
-    /// the lower number stays where it is and keeps its values, the other dies; so do the edges: the one of
-    /// the lower number keeps its values and gets both faces. Corners keep theirs, so that UVs that differ
-    /// become a seam. Where the boundary edges that follow become a hole of two edges, they are glued too:
-    /// it could not be told from a closed one in a list of polygons. So a cut is closed from its end, edge
-    /// by edge.
+    /// a and a' become one vertex, and so do b and b'; either pair can already be one vertex. Of each pair, the
+    /// vertex with the lower id remains, with its position and values; the other one dies. Of the two edges,
+    /// the one with the lower id remains, with its values, and gets both faces; the other one dies. Corners
+    /// keep their values, so that different UVs become a seam. If the adjacent boundary edges would become a
+    /// hole with two edges, they are stitched too, because a list of polygons cannot represent such a hole. So
+    /// a cut is closed from its end, edge by edge.
     ///
-    /// The order of the two makes no difference. Faces are never turned: both half-edges have the surface
-    /// on their right, so it always fits.
+    /// The order of `h` and `g` does not matter. The orientation of the faces always matches, because both
+    /// half-edges have the surface on their right.
     ///
-    /// Returns the edge.
+    /// Returns the remaining edge.
     ///
     /// # Errors
     ///
-    /// [`EditError::NotBoundary`] if one has a face, [`EditError::EdgeListedTwice`] if they are one and the same,
-    /// [`EditError::SameFace`] if one face is beside both (or beside both of the next two where these are
-    /// glued too), [`EditError::SelfLoop`] if two vertices that are to become one share an edge,
-    /// [`EditError::VisitsTwice`] if they share a face, [`EditError::DuplicateEdge`] if both are joined to a
-    /// third one by edges that are not glued too, [`EditError::NoSuchHalfEdge`]. The mesh is unchanged.
+    /// [`EditError::NotBoundary`] if `h` or `g` has a face, [`EditError::EdgeListedTwice`] if they are the
+    /// same, [`EditError::SameFace`] if the same face is beside both edges of a pair that would be stitched,
+    /// [`EditError::SelfLoop`] if two vertices that would be merged share an edge,
+    /// [`EditError::VisitsTwice`] if they share a face, [`EditError::DuplicateEdge`] if both are joined to
+    /// the same vertex by edges that would not be stitched, [`EditError::NoSuchHalfEdge`]. The mesh is
+    /// unchanged.
     ///
     /// # Examples
     ///
@@ -56,7 +58,7 @@ impl Mesh {
         if h == g {
             return Err(EditError::EdgeListedTwice(h.edge()));
         }
-        // At each end two vertices meet: with the half-edge of h's loop there and the one of g's.
+        // The vertices that are merged at each end: first that of h, then that of g.
         let at_origin = [self.origin(h), self.target(g)];
         let at_target = [self.target(h), self.origin(g)];
         let (before_h, after_h) = (self.prev(h), self.next(h));
@@ -84,15 +86,15 @@ impl Mesh {
             self.set_next(before_h, after_g);
             self.set_next(g, h);
         }
-        let edges: Vec<EdgeId> = pairs.into_iter().map(|pair| self.close(pair)).collect();
+        let pairs = pairs.into_iter();
+        let edges: Vec<EdgeId> = pairs.map(|pair| self.merge_edges(pair)).collect();
         for x in edges.iter().flat_map(|e| e.half_edges()) {
-            self.begin_at_boundary(x);
+            self.reset_vertex_half_edge(x);
         }
         Ok(edges[0])
     }
 
-    /// Refuses what would not be a clean mesh when the edges of the pairs and the vertices of the ends
-    /// become one.
+    /// Checks that the mesh stays valid when the edges of each pair and the vertices of each end are merged.
     fn check_stitch(&self, pairs: &[Pair], ends: [[VertexId; 2]; 2]) -> Result<(), EditError> {
         for [x, y] in pairs {
             if self.face(x.twin()) == self.face(y.twin()) {
@@ -114,18 +116,20 @@ impl Mesh {
             }
             let mut neighbors: Vec<_> = self.vertex_neighbors(v).map(merged).collect();
             neighbors.sort_unstable();
-            let is_glued = |h: HalfEdgeId| pairs.iter().any(|pair| pair[1].edge() == h.edge());
-            let mut others = self.vertex_half_edges(w).filter(|&h| !is_glued(h));
-            if let Some(h) =
-                others.find(|&h| neighbors.binary_search(&merged(self.target(h))).is_ok())
-            {
+            let is_stitched = |h: HalfEdgeId| pairs.iter().any(|pair| pair[1].edge() == h.edge());
+            let is_shared = |h: HalfEdgeId| {
+                let neighbor = merged(self.target(h));
+                neighbors.binary_search(&neighbor).is_ok()
+            };
+            let mut remaining = self.vertex_half_edges(w).filter(|&h| !is_stitched(h));
+            if let Some(h) = remaining.find(|&h| is_shared(h)) {
                 return Err(EditError::DuplicateEdge(w, self.target(h)));
             }
         }
         Ok(())
     }
 
-    /// Gives all half-edges that leave `from` to `to`, and takes `from` away.
+    /// Moves all outgoing half-edges of `from` to `to`, and removes `from`.
     fn move_fan(&mut self, from: VertexId, to: VertexId) {
         let fan: Vec<HalfEdgeId> = self.vertex_half_edges(from).collect();
         for h in fan {
@@ -134,24 +138,24 @@ impl Mesh {
         self.kill(from);
     }
 
-    /// Closes a hole of two edges. The one of the lower number stays.
-    fn close(&mut self, [h, g]: Pair) -> EdgeId {
-        let (kept, gone) = (h.min(g), h.max(g));
-        // The half-edge that stays takes the place of the one on the face of the other edge.
-        let old = gone.twin();
+    /// Merges the two edges of a hole. The edge with the lower id remains.
+    fn merge_edges(&mut self, [h, g]: Pair) -> EdgeId {
+        let (kept, removed) = (h.min(g), h.max(g));
+        // The kept half-edge replaces the half-edge of the removed edge that has a face.
+        let old = removed.twin();
         let (before, after, face) = (self.prev(old), self.next(old), self.face(old));
         self.set_next(before, kept);
         self.set_next(kept, after);
         self.set_face(kept, face);
         self.copy_values(old, kept);
         self.replace_first_of_face(old, kept);
-        self.kill(gone.edge());
+        self.kill(removed.edge());
         kept.edge()
     }
 
-    /// Makes the boundary half-edge that leaves the origin of `h`, if there is one, the first of that
-    /// vertex; otherwise `h`.
-    fn begin_at_boundary(&mut self, h: HalfEdgeId) {
+    /// Sets the half-edge of the origin of `h`: to its outgoing boundary half-edge if there is one, otherwise to
+    /// `h`.
+    fn reset_vertex_half_edge(&mut self, h: HalfEdgeId) {
         let v = self.origin(h);
         self.set_vertex_half_edge(v, Some(h));
         let boundary = self.vertex_half_edges(v).find(|&h| self.face(h).is_none());

@@ -1,4 +1,4 @@
-//! What the tests of the edits share.
+//! Fixtures and checks for the tests of the edits.
 
 use std::fmt::Debug;
 
@@ -9,12 +9,12 @@ use crate::{
     VertexId, shapes,
 };
 
-/// Closed and open meshes of triangles, squares and larger faces, with attributes on some of them.
-pub(super) fn shapes_to_try() -> Vec<Mesh> {
+/// Returns closed and open meshes of triangles, squares and larger faces; some have attributes.
+pub(super) fn sample_shapes() -> Vec<Mesh> {
     vec![
         shapes::square(),
-        dressed(shapes::grid(3, 2)),
-        dressed(shapes::fans(&shapes::grid(3, 2))),
+        with_attributes(shapes::grid(3, 2)),
+        with_attributes(shapes::fans(&shapes::grid(3, 2))),
         shapes::cube(),
         shapes::tetrahedron(),
         shapes::octahedron(),
@@ -25,13 +25,13 @@ pub(super) fn shapes_to_try() -> Vec<Mesh> {
     ]
 }
 
-/// The mesh with UVs and colors that are linear in x and y, and a seam of the UVs: on face 0 they are
-/// x and y, on the others 10 more. Materials are 5, 6, 6, ..., and a face column has the rule drop.
-pub(super) fn dressed(mut mesh: Mesh) -> Mesh {
-    let place = |h| mesh.position(mesh.origin(h)).truncate();
+/// Adds UVs and colors that are linear in x and y. The UVs have a seam: on face 0 they are x and y, on the
+/// other faces x + 10 and y + 10. Materials are 5, 6, 6, ... The face column "dropped" has the rule drop.
+pub(super) fn with_attributes(mut mesh: Mesh) -> Mesh {
+    let position = |h| mesh.position(mesh.origin(h)).truncate();
     let uv = |h| match mesh.face(h) {
-        Some(f) if f.index() == 0 => place(h),
-        Some(_) => place(h) + DVec2::splat(10.0),
+        Some(f) if f.index() == 0 => position(h),
+        Some(_) => position(h) + DVec2::splat(10.0),
         None => DVec2::ZERO,
     };
     let uvs = mesh.half_edges().map(uv).collect();
@@ -44,17 +44,17 @@ pub(super) fn dressed(mut mesh: Mesh) -> Mesh {
         MATERIAL,
         (0..n).map(|f| if f == 0 { 5 } else { 6 }).collect(),
     );
-    let passing = Column {
-        name: "passing".to_owned(),
+    let dropped = Column {
+        name: "dropped".to_owned(),
         rule: Rule::Drop,
         values: Values::Float(vec![0.5; n]),
     };
-    mesh.insert_column(Domain::Face, passing);
+    mesh.insert_column(Domain::Face, dropped);
     mesh
 }
 
-/// One face with a hole in it, and edge e3 from vertex 0 on its rim to vertex 3 of the hole: the face is on
-/// both sides of that, and passes both vertices twice.
+/// Returns a mesh of one face with a hole. Edge e3 joins vertex 0 on the outer boundary to vertex 3 of the
+/// hole. The face is on both sides of e3, and visits both vertices twice.
 ///
 /// ```text
 ///    2---------1
@@ -72,7 +72,7 @@ pub(super) fn ring() -> Mesh {
     )
 }
 
-/// A square with edge e4 from its corner 0 to vertex 4 in its middle, which has no other edge.
+/// Returns a square with edge e4 from corner 0 to vertex 4 in the middle, which has no other edge.
 pub(super) fn spur() -> Mesh {
     of_one_face(
         &[[0, 1], [1, 2], [2, 3], [3, 0], [0, 4]],
@@ -81,11 +81,11 @@ pub(super) fn spur() -> Mesh {
     )
 }
 
-/// A mesh of these edges and loops of half-edges, of which the first is a face; `leaving` has a half-edge
-/// for each vertex.
-fn of_one_face(edges: &[[usize; 2]], loops: &[&[usize]], leaving: &[usize]) -> Mesh {
+/// Returns a mesh with these edges and loops of half-edges. The first loop is the only face. `outgoing` has a
+/// half-edge for each vertex.
+fn of_one_face(edges: &[[usize; 2]], loops: &[&[usize]], outgoing: &[usize]) -> Mesh {
     let mut mesh = Mesh::default();
-    let vertices: Vec<VertexId> = (0..leaving.len())
+    let vertices: Vec<VertexId> = (0..outgoing.len())
         .map(|i| mesh.push_vertex(DVec3::splat(i as f64)))
         .collect();
     for &[v, w] in edges {
@@ -101,14 +101,14 @@ fn of_one_face(edges: &[[usize; 2]], loops: &[&[usize]], leaving: &[usize]) -> M
     loops[0]
         .iter()
         .for_each(|&h| mesh.set_face(half_edge(h), Some(f)));
-    for (&v, &h) in vertices.iter().zip(leaving) {
+    for (&v, &h) in vertices.iter().zip(outgoing) {
         mesh.set_vertex_half_edge(v, Some(half_edge(h)));
     }
     assert_eq!(mesh.defects(), []);
     mesh
 }
 
-/// The faces in order of their ids, each as the numbers of its vertices from the lowest one on.
+/// Returns the faces in order of ids, each as its vertex indices starting with the lowest.
 pub(super) fn polygons(mesh: &Mesh) -> Vec<Vec<usize>> {
     let corners = |f| {
         let mut corners: Vec<_> = mesh.face_vertices(f).map(VertexId::index).collect();
@@ -119,18 +119,18 @@ pub(super) fn polygons(mesh: &Mesh) -> Vec<Vec<usize>> {
     mesh.faces().map(corners).collect()
 }
 
-/// [`tried`] for the edited mesh alone.
-pub(super) fn undone_and_redone(
+/// Like [`checked_edit`], but returns only the edited mesh.
+pub(super) fn checked_edit_mesh(
     before: &Mesh,
     edit: impl Fn(&mut Mesh) -> Result<(), EditError>,
 ) -> Result<Mesh, EditError> {
-    tried(before, edit).map(|(mesh, ())| mesh)
+    checked_edit(before, edit).map(|(mesh, ())| mesh)
 }
 
-/// Tries an edit. A refusal must leave every array as it was; an edit must leave a valid mesh
-/// without new pairs of parallel edges, and must be taken back, done again and taken back again to the
-/// same bytes.
-pub(super) fn tried<T: Debug>(
+/// Applies an edit to a copy of the mesh and checks the result. A refused edit must leave every array
+/// unchanged. Otherwise the mesh must be valid and have no additional parallel edges, and undo and redo must
+/// restore the same bytes.
+pub(super) fn checked_edit<T: Debug>(
     mesh: &Mesh,
     edit: impl Fn(&mut Mesh) -> Result<T, EditError>,
 ) -> Result<(Mesh, T), EditError> {
@@ -143,9 +143,9 @@ pub(super) fn tried<T: Debug>(
     let edited = rolled_back.clone();
     rolled_back.rollback();
     assert_eq!(&rolled_back, mesh, "rolled back");
-    let made = result?;
-    assert_eq!(edited.defects(), [], "after {made:?}");
-    assert!(n_parallel(&edited) <= n_parallel(mesh), "after {made:?}");
+    let output = result?;
+    assert_eq!(edited.defects(), [], "after {output:?}");
+    assert!(n_parallel(&edited) <= n_parallel(mesh), "after {output:?}");
 
     let mut reverted = mesh.clone();
     reverted.begin();
@@ -156,10 +156,10 @@ pub(super) fn tried<T: Debug>(
         change = reverted.revert(change);
         assert_eq!(&reverted, expected, "reverted");
     }
-    Ok((reverted, made))
+    Ok((reverted, output))
 }
 
-/// How many edges join two vertices that an edge before joins.
+/// Returns the number of edges whose ends are already joined by an earlier edge.
 pub(super) fn n_parallel(mesh: &Mesh) -> usize {
     let mut ends: Vec<[VertexId; 2]> = mesh.edges().map(|e| mesh.edge_vertices(e)).collect();
     for pair in &mut ends {
@@ -169,13 +169,13 @@ pub(super) fn n_parallel(mesh: &Mesh) -> usize {
     ends.windows(2).filter(|pair| pair[0] == pair[1]).count()
 }
 
-/// The half-edge from the vertex of number `v` to that of number `w`.
+/// Returns the half-edge from the vertex with index `v` to the vertex with index `w`.
 pub(super) fn half_edge(mesh: &Mesh, v: usize, w: usize) -> HalfEdgeId {
     mesh.find_half_edge(VertexId::new(v), VertexId::new(w))
-        .expect("an edge")
+        .expect("the vertices share an edge")
 }
 
-/// The mesh with an edge opened between ends that stay: a hole of two edges. Both ends must be inside.
+/// Cuts an edge without splitting its ends, which gives a hole with two edges. Both ends must be inside.
 pub(super) fn with_slit(mut mesh: Mesh, e: EdgeId) -> Mesh {
     let [_, old] = e.half_edges();
     let (before, after, face) = (mesh.prev(old), mesh.next(old), mesh.face(old).unwrap());

@@ -10,7 +10,7 @@ use super::subject::{Subject, selected, smallest_corner_angle};
 use super::{Expectation, symmetry};
 
 impl Expectation {
-    /// Returns the places in the scene that violate the expectation, at most [`ErrorLocation::MOST`]. Empty for
+    /// Returns the places in the scene that violate the expectation, at most [`ErrorLocation::MAX_ELEMENTS`]. Empty for
     /// expectations that are not about elements, and for `Not`.
     pub fn places(&self, subject: Subject) -> Vec<ErrorLocation> {
         let mut places = Vec::new();
@@ -21,7 +21,7 @@ impl Expectation {
                 mesh,
             };
             places.extend(found.places(self));
-            places.truncate(ErrorLocation::MOST);
+            places.truncate(ErrorLocation::MAX_ELEMENTS);
         }
         if let Self::Point {
             line, index, is, ..
@@ -138,7 +138,7 @@ impl CheckedMesh<'_> {
         let places = elements.into_iter();
         places
             .filter_map(|element| ErrorLocation::of(&self.object.name, self.mesh, element))
-            .take(ErrorLocation::MOST)
+            .take(ErrorLocation::MAX_ELEMENTS)
             .collect()
     }
 
@@ -151,9 +151,9 @@ impl CheckedMesh<'_> {
         }));
         let missing = other.vertices().map(|v| other.position(v));
         // Each mesh gets half of the places.
-        places.truncate(ErrorLocation::MOST / 2);
+        places.truncate(ErrorLocation::MAX_ELEMENTS / 2);
         let missing = missing.filter(|&p| !these.any_near(p, tolerance));
-        places.extend(missing.map(expected).take(ErrorLocation::MOST / 2));
+        places.extend(missing.map(expected).take(ErrorLocation::MAX_ELEMENTS / 2));
         places
     }
 

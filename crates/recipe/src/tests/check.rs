@@ -98,7 +98,7 @@ fn a_problem_is_shown_at_its_parameter() {
     one_problem(
         &steps("Sheet(columns: 1), (id: \"again\", run: Sheet(columns: 1))"),
         "Sheet",
-        "an object named \"sheet\" is in the scene already",
+        "the scene already has an object named \"sheet\"",
         "",
     );
 }
@@ -129,7 +129,7 @@ fn what_follows_from_a_broken_step_is_not_reported() {
     one_problem(
         &text,
         "\"a\"",
-        "an object named \"a\" is in the scene already",
+        "the scene already has an object named \"a\"",
         "",
     );
 }

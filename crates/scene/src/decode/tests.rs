@@ -6,10 +6,10 @@ use mesh::{FaceId, HalfEdgeId, Rule, VertexId};
 use proptest::prelude::*;
 use std::collections::VecDeque;
 
-/// The arrays that were taken out, in order.
-struct Kept(VecDeque<Vec<u8>>);
+/// The arrays that were separated, in order.
+struct SeparateArrays(VecDeque<Vec<u8>>);
 
-impl Arrays for Kept {
+impl ArraySource for SeparateArrays {
     fn next_len(&self) -> Option<u64> {
         self.0.front().map(|array| array.len() as u64)
     }
@@ -21,16 +21,17 @@ impl Arrays for Kept {
     }
 }
 
-fn whole(scene: &Scene) -> Vec<u8> {
+fn encoded(scene: &Scene) -> Vec<u8> {
     let mut bytes = Vec::new();
     scene.encode(&mut |piece| bytes.extend_from_slice(piece));
     bytes
 }
 
-fn apart(scene: &Scene, long: usize) -> (Vec<u8>, Kept) {
+fn encoded_with_separate_arrays(scene: &Scene, min_long: usize) -> (Vec<u8>, SeparateArrays) {
     let mut arrays = VecDeque::new();
-    let rest = scene.encode_apart(long, &mut |array| arrays.push_back(array.to_vec()));
-    (rest, Kept(arrays))
+    let rest =
+        scene.encode_with_separate_arrays(min_long, &mut |array| arrays.push_back(array.to_vec()));
+    (rest, SeparateArrays(arrays))
 }
 
 fn insert(scene: &mut Scene, name: &str, geometry: Geometry, materials: Vec<Material>) {
@@ -41,8 +42,8 @@ fn insert(scene: &mut Scene, name: &str, geometry: Geometry, materials: Vec<Mate
     scene.insert(object).unwrap();
 }
 
-/// Every kind of geometry, attribute and material.
-fn everything() -> Scene {
+/// Returns a scene with every kind of geometry, attribute and material property.
+fn full_scene() -> Scene {
     let mut scene = Scene::new();
     let mut mesh = shapes::grid(3, 2);
     let n = |domain| mesh.domain_len(domain);
@@ -97,12 +98,7 @@ fn everything() -> Scene {
         Geometry::Mesh(Arc::new(mesh)),
         materials,
     );
-    insert(
-        &mut scene,
-        "nothing",
-        Geometry::Mesh(Arc::default()),
-        vec![],
-    );
+    insert(&mut scene, "empty", Geometry::Mesh(Arc::default()), vec![]);
     let cube = shapes::cube();
     insert(&mut scene, "cube", Geometry::Mesh(Arc::new(cube)), vec![]);
     let patch = Patch::new([[DVec3::X; 4]; 4]).unwrap();
@@ -115,40 +111,40 @@ fn everything() -> Scene {
 }
 
 #[test]
-fn what_is_decoded_is_what_was_encoded() {
-    let scene = everything();
-    let decoded = Scene::decode(&whole(&scene), usize::MAX, &mut NoArrays).unwrap();
+fn decoding_restores_the_encoded_scene() {
+    let scene = full_scene();
+    let decoded = Scene::decode(&encoded(&scene), usize::MAX, &mut NoArrays).unwrap();
     assert_eq!(decoded, scene);
-    assert_eq!(whole(&decoded), whole(&scene));
-    for long in [0, 1, 48, 200, 1000] {
-        let (rest, mut arrays) = apart(&scene, long);
-        let decoded = Scene::decode(&rest, long, &mut arrays).unwrap();
-        assert_eq!(decoded, scene, "arrays of {long} bytes apart");
+    assert_eq!(encoded(&decoded), encoded(&scene));
+    for min_long in [0, 1, 48, 200, 1000] {
+        let (rest, mut arrays) = encoded_with_separate_arrays(&scene, min_long);
+        let decoded = Scene::decode(&rest, min_long, &mut arrays).unwrap();
+        assert_eq!(decoded, scene, "separate arrays of {min_long} bytes");
         assert_eq!(decoded.digest(), scene.digest());
     }
 }
 
 #[test]
-fn whatever_is_cut_off_is_missed() {
-    let bytes = whole(&everything());
+fn truncated_bytes_and_trailing_data_are_refused() {
+    let bytes = encoded(&full_scene());
     for n in 0..bytes.len() {
         assert!(
             Scene::decode(&bytes[..n], usize::MAX, &mut NoArrays).is_err(),
             "{n}"
         );
     }
-    let more = [&bytes[..], b"x"].concat();
+    let longer = [&bytes[..], b"x"].concat();
     assert_eq!(
-        Scene::decode(&more, usize::MAX, &mut NoArrays),
-        Err(DecodeError::More)
+        Scene::decode(&longer, usize::MAX, &mut NoArrays),
+        Err(DecodeError::TrailingData)
     );
 }
 
 #[test]
-fn a_length_beyond_all_memory_is_refused() {
-    let mut bytes = whole(&Scene::new());
-    let at = bytes.len() - 8;
-    bytes[at..].copy_from_slice(&u64::MAX.to_le_bytes());
+fn a_length_that_exceeds_the_memory_is_refused() {
+    let mut bytes = encoded(&Scene::new());
+    let start = bytes.len() - 8;
+    bytes[start..].copy_from_slice(&u64::MAX.to_le_bytes());
     assert_eq!(
         Scene::decode(&bytes, usize::MAX, &mut NoArrays),
         Err(DecodeError::Truncated)
@@ -156,15 +152,15 @@ fn a_length_beyond_all_memory_is_refused() {
     // The first array of a mesh.
     let mut scene = Scene::new();
     scene.insert(Object::mesh("a", shapes::cube())).unwrap();
-    let (mut rest, mut arrays) = apart(&scene, 1);
+    let (mut rest, mut arrays) = encoded_with_separate_arrays(&scene, 1);
     let n = 24_u64.to_le_bytes();
-    let at = rest.windows(8).position(|w| w == n).unwrap();
-    rest[at..at + 8].copy_from_slice(&(1_u64 << 60).to_le_bytes());
+    let start = rest.windows(8).position(|w| w == n).unwrap();
+    rest[start..start + 8].copy_from_slice(&(1_u64 << 60).to_le_bytes());
     assert!(Scene::decode(&rest, 1, &mut arrays).is_err());
 }
 
-/// What is said of the arrays of a grid in which one thing was changed.
-fn after(change: impl FnOnce(&mut Connectivity, &mut Vec<DVec3>)) -> Option<Defect> {
+/// Changes the arrays of a grid and returns the defect that is reported.
+fn defect_after(change: impl FnOnce(&mut Connectivity, &mut Vec<DVec3>)) -> Option<Defect> {
     let mesh = shapes::grid(2, 2);
     let (mut c, mut positions) = (mesh.connectivity().clone(), mesh.positions().to_vec());
     assert!(mesh.is_valid());
@@ -173,27 +169,30 @@ fn after(change: impl FnOnce(&mut Connectivity, &mut Vec<DVec3>)) -> Option<Defe
 }
 
 #[test]
-fn arrays_that_form_no_mesh_are_refused() {
-    assert!(after(|c, _| assert!(c.origin.pop().is_some())).is_some());
-    assert!(after(|c, _| c.next[3] = HalfEdgeId::new(999)).is_some());
-    assert!(after(|c, _| c.next[0] = c.next[2]).is_some());
-    assert!(after(|c, _| c.face[0] = FaceId::new(3)).is_some());
-    assert!(after(|c, _| c.origin[1] = c.origin[0]).is_some());
-    assert!(after(|c, _| c.face_half_edge[1] = c.face_half_edge[0]).is_some());
-    assert!(after(|c, _| c.face_half_edge[1] = HalfEdgeId::NONE).is_some());
-    assert!(after(|c, _| c.vertex_half_edge[4] = HalfEdgeId::NONE).is_some());
-    assert!(after(|c, _| c.vertex_half_edge[0] = c.next[c.vertex_half_edge[0].index()]).is_some());
-    assert!(after(|_, p| p[3].x = f64::NAN).is_some());
+fn arrays_that_do_not_form_a_mesh_are_refused() {
+    assert!(defect_after(|c, _| assert!(c.origin.pop().is_some())).is_some());
+    assert!(defect_after(|c, _| c.next[3] = HalfEdgeId::new(999)).is_some());
+    assert!(defect_after(|c, _| c.next[0] = c.next[2]).is_some());
+    assert!(defect_after(|c, _| c.face[0] = FaceId::new(3)).is_some());
+    assert!(defect_after(|c, _| c.origin[1] = c.origin[0]).is_some());
+    assert!(defect_after(|c, _| c.face_half_edge[1] = c.face_half_edge[0]).is_some());
+    assert!(defect_after(|c, _| c.face_half_edge[1] = HalfEdgeId::NONE).is_some());
+    assert!(defect_after(|c, _| c.vertex_half_edge[4] = HalfEdgeId::NONE).is_some());
+    assert!(
+        defect_after(|c, _| c.vertex_half_edge[0] = c.next[c.vertex_half_edge[0].index()])
+            .is_some()
+    );
+    assert!(defect_after(|_, p| p[3].x = f64::NAN).is_some());
     let origin = VertexId::new(8);
-    assert!(after(|c, _| c.origin[5] = origin).is_some());
+    assert!(defect_after(|c, _| c.origin[5] = origin).is_some());
 }
 
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// The fast check says what the slow one says, for a mesh with some entries changed.
+    /// `is_valid` and `defects` agree for a mesh with some changed entries.
     #[test]
-    fn arrays_are_refused_exactly_if_they_have_defects(
+    fn a_mesh_is_valid_exactly_if_it_has_no_defects(
         changes in prop::collection::vec((0..5_usize, 0..200_usize, 0..60_usize), 0..4),
         shape in 0..3,
     ) {
@@ -203,29 +202,29 @@ proptest! {
             _ => shapes::square(),
         };
         let mut c = mesh.connectivity().clone();
-        for (array, at, to) in changes {
-            // Mostly a value that is there.
+        for (array, index, id) in changes {
+            // Most ids belong to an existing element.
             match array {
-                0 => { let n = c.next.len(); c.next[at % n] = HalfEdgeId::new(to % (n + 1)); }
-                1 => { let n = c.origin.len(); c.origin[at % n] = VertexId::new(to % (mesh.n_vertices() + 1)); }
-                2 => { let n = c.face.len(); c.face[at % n] = if to == 0 { FaceId::NONE } else { FaceId::new(to % mesh.n_faces()) }; }
-                3 => { let n = c.vertex_half_edge.len(); c.vertex_half_edge[at % n] = HalfEdgeId::new(to % c.next.len()); }
-                _ => { let n = c.face_half_edge.len(); c.face_half_edge[at % n] = HalfEdgeId::new(to % c.next.len()); }
+                0 => { let n = c.next.len(); c.next[index % n] = HalfEdgeId::new(id % (n + 1)); }
+                1 => { let n = c.origin.len(); c.origin[index % n] = VertexId::new(id % (mesh.n_vertices() + 1)); }
+                2 => { let n = c.face.len(); c.face[index % n] = if id == 0 { FaceId::NONE } else { FaceId::new(id % mesh.n_faces()) }; }
+                3 => { let n = c.vertex_half_edge.len(); c.vertex_half_edge[index % n] = HalfEdgeId::new(id % c.next.len()); }
+                _ => { let n = c.face_half_edge.len(); c.face_half_edge[index % n] = HalfEdgeId::new(id % c.next.len()); }
             }
         }
         let mesh = Mesh::from_arrays(c, mesh.positions().to_vec());
         prop_assert_eq!(mesh.is_valid(), mesh.defects().is_empty());
     }
 
-    /// Nonsense is refused without a panic, and what is not refused is a valid scene.
+    /// Corrupted bytes never cause a panic, and a decoded scene is always valid.
     #[test]
     fn changed_bytes_give_an_error_or_a_valid_scene(
         changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..4),
     ) {
-        let mut bytes = whole(&everything());
-        for (at, byte) in changes {
-            let at = at.index(bytes.len());
-            bytes[at] = byte;
+        let mut bytes = encoded(&full_scene());
+        for (index, byte) in changes {
+            let index = index.index(bytes.len());
+            bytes[index] = byte;
         }
         if let Ok(scene) = Scene::decode(&bytes, usize::MAX, &mut NoArrays) {
             for mesh in scene.objects().iter().filter_map(Object::as_mesh) {

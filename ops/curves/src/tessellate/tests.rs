@@ -1,21 +1,19 @@
-//! Tests of the operation.
-
 use super::*;
 use mesh::VertexId;
 use op::{Files, NoProgress, Progress};
 use scene::Object;
 
-/// A patch over the unit square: the height of control point (row, column) is given.
+/// Returns a patch over the unit square. `height(row, column)` is the height of a control point.
 fn hill(height: impl Fn(usize, usize) -> f64) -> Patch {
-    let at = |i: usize| i as f64 / 3.0;
-    let point = |r: usize, c: usize| DVec3::new(at(c), at(r), height(r, c));
+    let third = |i: usize| i as f64 / 3.0;
+    let point = |r: usize, c: usize| DVec3::new(third(c), third(r), height(r, c));
     Patch::new([0, 1, 2, 3].map(|r| [0, 1, 2, 3].map(|c| point(r, c)))).unwrap()
 }
 
-/// The same patch with sides shrunk to points: bit k of `mask` for v = 0, u = 1, v = 1, u = 0.
+/// Returns a patch with collapsed sides: bits 0 to 3 of `mask` are the sides v = 0, u = 1, v = 1, u = 0.
 fn collapsed(mask: u32) -> Patch {
     let mut points = *hill(|r, c| ((r * 5 + c * 3) % 7) as f64 * 0.1).points();
-    // Twice, so that neighboring sides agree on their corner.
+    // Done twice, so that adjacent sides have the same corner.
     for _ in 0..2 {
         for k in (0..4).filter(|k| mask & (1 << k) != 0) {
             let side = [0, 1, 2, 3].map(|i| [(0, i), (i, 3), (3, 3 - i), (3 - i, 0)][k]);
@@ -49,7 +47,7 @@ fn run(operation: &Tessellate, patches: Vec<Patch>) -> (Mesh, Report) {
     (mesh.as_ref().clone(), report)
 }
 
-fn planned(operation: &Tessellate, plan: &mut Plan, on: Option<&[String]>) -> Vec<Problem> {
+fn problems(operation: &Tessellate, plan: &mut Plan, on: Option<&[String]>) -> Vec<Problem> {
     let files = Files::default();
     let cx = PlanContext {
         files: &files,
@@ -66,7 +64,7 @@ fn patches_plan(n: u64) -> Plan {
 }
 
 #[test]
-fn a_flat_patch_becomes_a_grid_of_its_parameters() {
+fn a_flat_patch_becomes_a_regular_grid() {
     let (mesh, report) = run(
         &parse("(segments: 4, faces: Quads)"),
         vec![hill(|_, _| 0.0)],
@@ -84,7 +82,7 @@ fn a_flat_patch_becomes_a_grid_of_its_parameters() {
 }
 
 #[test]
-fn counts_lie_within_the_plan_whatever_sides_are_points() {
+fn counts_are_within_the_plan_for_all_sets_of_collapsed_sides() {
     for mask in 0..16 {
         for n in 1..6 {
             for faces in [Faces::Triangles, Faces::Quads] {
@@ -95,23 +93,23 @@ fn counts_lie_within_the_plan_whatever_sides_are_points() {
                 };
                 let (mesh, _) = run(&operation, vec![collapsed(mask)]);
                 let plan = operation.planned(1);
-                let named = format!("sides {mask:04b}, {n} segments, {faces:?}");
-                assert!(plan.vertices.contains(mesh.n_vertices() as u64), "{named}");
-                assert!(plan.edges.contains(mesh.n_edges() as u64), "{named}");
-                assert!(plan.faces.contains(mesh.n_faces() as u64), "{named}");
-                let within = |f| plan.degrees.contains(mesh.degree(f) as u64);
-                assert!(mesh.faces().all(within), "{named}");
+                let case = format!("sides {mask:04b}, {n} segments, {faces:?}");
+                assert!(plan.vertices.contains(mesh.n_vertices() as u64), "{case}");
+                assert!(plan.edges.contains(mesh.n_edges() as u64), "{case}");
+                assert!(plan.faces.contains(mesh.n_faces() as u64), "{case}");
+                let is_planned = |f| plan.degrees.contains(mesh.degree(f) as u64);
+                assert!(mesh.faces().all(is_planned), "{case}");
                 assert_eq!(MeshPlan::of(&mesh).attributes.len(), plan.attributes.len());
             }
         }
     }
-    let whole = parse("(segments: 5)").planned(1);
+    let plan = parse("(segments: 5)").planned(1);
     let (mesh, _) = run(&parse("(segments: 5)"), vec![collapsed(0)]);
-    assert_eq!(whole.edges.max, mesh.n_edges() as u64);
+    assert_eq!(plan.edges.max, mesh.n_edges() as u64);
 }
 
 #[test]
-fn nothing_but_positions_is_written_unless_asked_for() {
+fn the_mesh_has_no_attributes_by_default() {
     let (mesh, _) = run(&parse("()"), vec![hill(|r, c| (r * c) as f64)]);
     assert_eq!(mesh.n_faces(), 128);
     assert_eq!(mesh.attributes().iter().count(), 0);
@@ -133,7 +131,7 @@ fn uvs_and_normals_are_those_of_the_patch() {
 }
 
 #[test]
-fn patches_follow_each_other_and_share_no_vertices() {
+fn vertices_are_in_the_order_of_patches_and_not_shared() {
     let (mesh, _) = run(
         &parse("(segments: 2)"),
         vec![hill(|_, _| 0.0), hill(|_, _| 1.0)],
@@ -143,19 +141,19 @@ fn patches_follow_each_other_and_share_no_vertices() {
 }
 
 #[test]
-fn empty_patches_and_no_patches_are_told() {
+fn empty_patches_are_reported_and_no_patches_give_an_empty_mesh() {
     let point = Patch::new([[DVec3::ONE; 4]; 4]).unwrap();
     let (mesh, report) = run(&parse("()"), vec![point, hill(|_, _| 0.0), point]);
     assert_eq!(mesh.n_faces(), 128);
     assert_eq!(
         report.notes,
-        ["patches without area, which gave nothing: 2 (first: patch 0)"]
+        ["patches without area, which have no faces: 2 (first: patch 0)"]
     );
     assert_eq!(run(&parse("()"), Vec::new()).0, Mesh::default());
 }
 
 #[test]
-fn other_objects_stay_and_named_ones_must_be_patches() {
+fn other_objects_do_not_change_and_objects_in_on_must_be_patches() {
     let mut scene = scene_of(vec![hill(|_, _| 0.0)]);
     scene
         .insert(Object::mesh("cube", geometry::shapes::cube()))
@@ -169,22 +167,22 @@ fn other_objects_stay_and_named_ones_must_be_patches() {
     let on = ["cube".to_owned()];
     let mut cx = Context::new(&NoProgress, &files);
     cx.on = Some(&on);
-    let refused = parse("()").apply(&mut before.clone(), &mut cx).unwrap_err();
+    let error = parse("()").apply(&mut before.clone(), &mut cx).unwrap_err();
     assert_eq!(
-        refused.to_string(),
+        error.to_string(),
         "Tessellate cuts patches, but \"cube\" is mesh"
     );
     let mut plan = patches_plan(1);
     plan.insert("cube", PlannedGeometry::Mesh(MeshPlan::unknown()));
-    let problems = planned(&parse("()"), &mut plan, Some(&on));
-    assert_eq!(problems[0].message, refused.to_string());
+    let problems = problems(&parse("()"), &mut plan, Some(&on));
+    assert_eq!(problems[0].message, error.to_string());
 }
 
 #[test]
 fn the_plan_turns_patches_into_a_mesh() {
     let mut plan = patches_plan(32);
     assert_eq!(
-        planned(&parse("(segments: 10, uvs: true)"), &mut plan, None),
+        problems(&parse("(segments: 10, uvs: true)"), &mut plan, None),
         []
     );
     let PlannedGeometry::Mesh(mesh) = &plan.objects()[0].geometry else {
@@ -193,39 +191,40 @@ fn the_plan_turns_patches_into_a_mesh() {
     assert_eq!(mesh.faces, Range::at_most(6400));
     assert!(mesh.is_triangles());
     assert_eq!(mesh.attributes[0].name, "uv");
-    // There are no patches any more.
-    assert_eq!(planned(&parse("()"), &mut plan, None).len(), 1);
+    // The plan has no patches left, which is a problem.
+    assert_eq!(problems(&parse("()"), &mut plan, None).len(), 1);
 }
 
 #[test]
-fn sizes_are_refused_before_anything_is_made() {
+fn too_many_elements_are_refused_before_anything_is_computed() {
     let many = vec![hill(|_, _| 0.0); 50];
-    let refused = op::test::run(&parse("(segments: 4096)"), &mut scene_of(many));
-    assert!(matches!(refused, Err(OpError::Parameter(_))), "{refused:?}");
+    let result = op::test::run(&parse("(segments: 4096)"), &mut scene_of(many));
+    assert!(matches!(result, Err(OpError::Parameter(_))), "{result:?}");
 
     let files = Files::default();
     let mut cx = Context::new(&NoProgress, &files);
     cx.budget = 1000;
-    let refused = parse("()").apply(&mut scene_of(vec![hill(|_, _| 0.0)]), &mut cx);
-    assert!(matches!(refused, Err(OpError::Budget(_))), "{refused:?}");
+    let result = parse("()").apply(&mut scene_of(vec![hill(|_, _| 0.0)]), &mut cx);
+    assert!(matches!(result, Err(OpError::Budget(_))), "{result:?}");
 }
 
 #[test]
 fn it_can_be_cancelled_between_patches() {
-    struct Stop;
-    impl Progress for Stop {
+    struct CancelAfterFirst;
+    impl Progress for CancelAfterFirst {
         fn advance(&self, _: &str, done: u64, _: u64) -> bool {
             done < 1
         }
     }
     let files = Files::default();
     let mut scene = scene_of(vec![hill(|_, _| 0.0); 3]);
-    let stopped = parse("()").apply(&mut scene, &mut Context::new(&Stop, &files));
-    assert!(matches!(stopped, Err(OpError::Cancelled)));
+    let mut cx = Context::new(&CancelAfterFirst, &files);
+    let result = parse("()").apply(&mut scene, &mut cx);
+    assert!(matches!(result, Err(OpError::Cancelled)));
 }
 
 #[test]
-fn a_recipe_may_leave_out_everything() {
+fn all_parameters_have_defaults() {
     let operation = parse("()");
     assert_eq!(
         (operation.segments, operation.faces),

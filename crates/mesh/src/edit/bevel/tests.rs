@@ -23,8 +23,9 @@ fn corners(mesh: &Mesh, f: FaceId) -> Vec<usize> {
     mesh.face_vertices(f).map(VertexId::index).collect()
 }
 
-/// What holds for a bevel that cuts n edges and takes away so many vertices and edges.
-fn check(before: &Mesh, after: &Mesh, new: FaceId, [vertices, edges]: [usize; 2]) {
+/// Checks the result of a bevel. `n_removed` has the numbers of removed vertices and edges.
+fn check(before: &Mesh, after: &Mesh, new: FaceId, n_removed: [usize; 2]) {
+    let [vertices, edges] = n_removed;
     assert_eq!(after.defects(), []);
     let n = after.degree(new);
     let [v, e, f] = counts(before);
@@ -40,23 +41,23 @@ fn check(before: &Mesh, after: &Mesh, new: FaceId, [vertices, edges]: [usize; 2]
     assert_eq!(after.boundary_loops(), before.boundary_loops());
 }
 
-/// Does an edit, takes it back, does it again, takes that back, and does it once more.
-fn back_and_forth(mesh: &Mesh, edit: impl Fn(&mut Mesh) -> Result<FaceId, EditError>) {
+/// Checks rollback, undo and redo of an edit.
+fn check_undo_redo(mesh: &Mesh, edit: impl Fn(&mut Mesh) -> Result<FaceId, EditError>) {
     let mut edited = mesh.clone();
     edited.begin();
-    let done = edit(&mut edited);
+    let result = edit(&mut edited);
     let after = edited.clone();
     edited.rollback();
     assert_eq!(&edited, mesh);
-    if done.is_err() {
+    if result.is_err() {
         return;
     }
     edited.begin();
     edit(&mut edited).unwrap();
     let change = edited.commit().unwrap();
-    let again = edited.revert(change);
+    let redo = edited.revert(change);
     assert_eq!(&edited, mesh);
-    edited.revert(again);
+    edited.revert(redo);
     assert_eq!(edited, after);
 }
 
@@ -74,9 +75,9 @@ fn a_vertex_of_a_cube_becomes_a_triangle() {
     }
     let ends = |e| mesh.edge_vertices(EdgeId::new(e)).map(VertexId::index);
     assert_eq!([12, 13, 14].map(ends), [[8, 9], [9, 10], [10, 8]]);
-    // Outwards.
+    // The normal points outwards.
     assert!(mesh.face_normal(new).dot(DVec3::ONE) > 1.7);
-    // A corner with three edges of length 1/2 is missing.
+    // The bevel removes a tetrahedron with three orthogonal edges of length 1/2.
     assert!(
         (crate::geometry::volume(&cube) - crate::geometry::volume(&mesh) - 1.0 / 48.0).abs()
             < 1e-13
@@ -84,7 +85,7 @@ fn a_vertex_of_a_cube_becomes_a_triangle() {
 }
 
 #[test]
-fn every_vertex_inside_every_shape_is_bevelled() {
+fn every_inner_vertex_of_every_shape_can_be_beveled() {
     for shape in shapes() {
         for v in shape.vertices() {
             let mut mesh = shape.clone();
@@ -94,13 +95,13 @@ fn every_vertex_inside_every_shape_is_bevelled() {
                     assert_eq!(mesh.degree(new), shape.valence(v));
                     assert!(!mesh.has_vertex(v));
                 }
-                Err(refused) => {
-                    assert_eq!(refused, EditError::BoundaryVertex(v));
+                Err(error) => {
+                    assert_eq!(error, EditError::BoundaryVertex(v));
                     assert!(shape.is_boundary_vertex(v));
                     assert_eq!(mesh, shape);
                 }
             }
-            back_and_forth(&shape, |mesh| mesh.bevel_vertex(v, 0.25));
+            check_undo_redo(&shape, |mesh| mesh.bevel_vertex(v, 0.25));
         }
     }
 }
@@ -108,7 +109,6 @@ fn every_vertex_inside_every_shape_is_bevelled() {
 #[test]
 fn an_edge_of_a_cube_becomes_a_quad() {
     let cube = shapes::cube();
-    // From 5 to 7.
     let h = cube
         .find_half_edge(VertexId::new(5), VertexId::new(7))
         .unwrap();
@@ -118,9 +118,9 @@ fn an_edge_of_a_cube_becomes_a_quad() {
     assert_eq!(mesh.degree(new), 4);
     assert!(mesh.faces().filter(|&f| mesh.degree(f) == 5).count() == 2);
     assert!(mesh.face_normal(new).dot(DVec3::new(1.0, 0.0, 1.0)) > 1.4);
-    // A wedge of length 2 is missing.
+    // The bevel removes a wedge of length 2.
     assert!((crate::geometry::volume(&cube) - crate::geometry::volume(&mesh) - 0.25).abs() < 1e-13);
-    // The face begins at the first new vertex and goes counter-clockwise, the vertices clockwise.
+    // The face starts at the first new vertex and runs counter-clockwise; the vertices are numbered clockwise.
     assert_eq!(corners(&mesh, new), [8, 11, 10, 9]);
     let a = cube.origin(h.edge().half_edges()[0]);
     let first = mesh.position(VertexId::new(8));
@@ -128,7 +128,7 @@ fn an_edge_of_a_cube_becomes_a_quad() {
 }
 
 #[test]
-fn every_edge_inside_every_shape_is_bevelled() {
+fn every_inner_edge_of_every_shape_can_be_beveled() {
     for shape in shapes() {
         for e in shape.edges() {
             let mut mesh = shape.clone();
@@ -143,29 +143,28 @@ fn every_edge_inside_every_shape_is_bevelled() {
                         assert_eq!(mesh.degree(f), shape.degree(f));
                     }
                 }
-                Err(refused) => {
-                    assert!(at_boundary, "{refused}");
+                Err(error) => {
+                    assert!(at_boundary, "{error}");
                     assert_eq!(mesh, shape);
                 }
             }
-            back_and_forth(&shape, |mesh| mesh.bevel_edge(e, 0.25));
+            check_undo_redo(&shape, |mesh| mesh.bevel_edge(e, 0.25));
         }
     }
 }
 
 #[test]
-fn all_edges_and_vertices_can_be_bevelled_one_after_the_other() {
+fn all_edges_and_vertices_can_be_beveled_one_after_the_other() {
     for shape in shapes() {
         let mut mesh = shape.clone();
         for e in shape.edges() {
-            // Edges whose ends died keep their ids.
             let unchanged = mesh.clone();
             if mesh.bevel_edge(e, 0.25).is_err() {
                 assert_eq!(mesh, unchanged);
             }
             assert_eq!(mesh.defects(), []);
         }
-        for v in shape.vertices().chain(unnumbered(&mesh, &shape)) {
+        for v in shape.vertices().chain(new_vertices(&mesh, &shape)) {
             let unchanged = mesh.clone();
             if mesh.bevel_vertex(v, 0.25).is_err() {
                 assert_eq!(mesh, unchanged);
@@ -176,14 +175,14 @@ fn all_edges_and_vertices_can_be_bevelled_one_after_the_other() {
     }
 }
 
-/// The vertices that are new in `mesh`.
-fn unnumbered(mesh: &Mesh, before: &Mesh) -> Vec<VertexId> {
+/// Returns the vertices of `mesh` that are not in `before`.
+fn new_vertices(mesh: &Mesh, before: &Mesh) -> Vec<VertexId> {
     let n = before.n_vertices();
     mesh.vertices().filter(|v| v.index() >= n).collect()
 }
 
 #[test]
-fn linear_values_stay_linear_and_others_are_copied() {
+fn linear_values_stay_linear_and_other_values_are_copied() {
     let uv = |p: DVec3| DVec2::new(0.5 * p.x - p.y + 3.0, 2.0 * p.y + 0.25 * p.x);
     let mut flat = shapes::fans(&shapes::grid(4, 4));
     let (n_vertices, n_edges, n_faces) = (flat.n_vertices(), flat.n_edges(), flat.n_faces());
@@ -213,9 +212,9 @@ fn linear_values_stay_linear_and_others_are_copied() {
     mesh.bevel_edge(e, 0.375).unwrap();
     mesh.bevel_vertex(v, 0.25).unwrap();
     for h in mesh.half_edges().filter(|&h| mesh.face(h).is_some()) {
-        let found = mesh.get(UV).unwrap()[h.index()];
+        let actual = mesh.get(UV).unwrap()[h.index()];
         let expected = uv(mesh.position(mesh.origin(h)));
-        assert!((found - expected).length() < 1e-14, "{h}");
+        assert!((actual - expected).length() < 1e-14, "{h}");
     }
     for v in mesh.vertices() {
         let color: DVec4 = mesh.get(COLOR).unwrap()[v.index()];
@@ -230,29 +229,29 @@ fn linear_values_stay_linear_and_others_are_copied() {
 
 #[test]
 fn both_sides_of_a_seam_keep_their_values() {
-    // Each face of the cube has its own square of the texture.
+    // Each face of the cube has a separate square of the texture.
     let mut cube = shapes::cube();
-    let place = |mesh: &Mesh, h: HalfEdgeId| {
+    let uv = |mesh: &Mesh, h: HalfEdgeId| {
         let f = mesh.face(h).unwrap();
         let p = mesh.position(mesh.origin(h));
         let [x, y] = [[p.x, p.y], [p.y, p.z], [p.z, p.x]][[0, 0, 2, 1, 2, 1][f.index()]];
         DVec2::new(x + 10.0 * f.index() as f64, y)
     };
-    let uvs = cube.half_edges().map(|h| place(&cube, h)).collect();
+    let uvs = cube.half_edges().map(|h| uv(&cube, h)).collect();
     cube.set(UV, uvs);
     for e in cube.edges() {
         let mut mesh = cube.clone();
         let new = mesh.bevel_edge(e, 0.25).unwrap();
         for h in mesh.half_edges().filter(|&h| mesh.face(h) != Some(new)) {
-            // Cuts lie on edges of the face, so that it stays flat.
-            let found = mesh.get(UV).unwrap()[h.index()];
-            assert!((found - place(&mesh, h)).length() < 1e-14, "{e}: {h}");
+            // Cuts are on edges of the face, so the face stays planar.
+            let actual = mesh.get(UV).unwrap()[h.index()];
+            assert!((actual - uv(&mesh, h)).length() < 1e-14, "{e}: {h}");
         }
     }
 }
 
 #[test]
-fn each_edge_can_have_its_own_fraction() {
+fn each_edge_can_have_a_different_fraction() {
     let mut mesh = shapes::cube();
     let v = VertexId::new(0);
     let edges: Vec<EdgeId> = mesh.vertex_half_edges(v).map(HalfEdgeId::edge).collect();
@@ -263,7 +262,7 @@ fn each_edge_can_have_its_own_fraction() {
 }
 
 #[test]
-fn an_edge_with_one_face_on_both_sides_is_bevelled() {
+fn an_edge_with_one_face_on_both_sides_can_be_beveled() {
     let mut ring = crate::edit::extrude::tests::slit_ring();
     ring.extrude_faces(&[FaceId::new(0)], DVec3::Z).unwrap();
     let same_face = |e: &EdgeId| ring.edge_faces(*e) == [Some(FaceId::new(0)); 2];
@@ -275,7 +274,7 @@ fn an_edge_with_one_face_on_both_sides_is_bevelled() {
     let mut mesh = ring.clone();
     let new = mesh.bevel_vertex(v, 0.25).unwrap();
     check(&ring, &mesh, new, [1, 0]);
-    back_and_forth(&ring, |mesh| mesh.bevel_edge(e, 0.25));
+    check_undo_redo(&ring, |mesh| mesh.bevel_edge(e, 0.25));
 }
 
 #[test]
@@ -319,26 +318,26 @@ fn bad_input_is_refused_and_changes_nothing() {
 }
 
 #[test]
-fn an_edge_beside_one_with_the_same_ends_is_refused_and_their_end_is_not() {
-    // A tetrahedron with the edge from 0 to 1 turned, so that it joins 2 and 3 once more.
+fn an_edge_with_a_parallel_edge_is_refused_but_its_ends_can_be_beveled() {
+    // A tetrahedron in which the edge from 0 to 1 is flipped, so that two edges join 2 and 3.
     let positions = shapes::tetrahedron().positions().to_vec();
     let faces: [&[u32]; 3] = [&[0, 3, 1, 2], &[0, 2, 3], &[1, 3, 2]];
-    let (mut doubled, _) = Mesh::from_polygons(positions, &faces).unwrap();
-    let quad = doubled.face_half_edge(FaceId::new(0));
+    let (mut with_parallel_edge, _) = Mesh::from_polygons(positions, &faces).unwrap();
+    let quad = with_parallel_edge.face_half_edge(FaceId::new(0));
     let corner = |v| {
-        doubled
+        with_parallel_edge
             .loop_half_edges(quad)
-            .find(|&h| doubled.origin(h) == v)
+            .find(|&h| with_parallel_edge.origin(h) == v)
     };
     let [c, d] = [2, 3].map(VertexId::new);
     let (x, y) = (corner(c).unwrap(), corner(d).unwrap());
-    let e = doubled.insert_edge(x, y, x);
+    let e = with_parallel_edge.insert_edge(x, y, x);
 
-    let mut mesh = doubled.clone();
-    let refused = mesh.bevel_edge(e, 0.25).unwrap_err();
-    assert!(matches!(refused, EditError::DuplicateEdge(..)), "{refused}");
-    assert_eq!(mesh, doubled);
+    let mut mesh = with_parallel_edge.clone();
+    let error = mesh.bevel_edge(e, 0.25).unwrap_err();
+    assert!(matches!(error, EditError::DuplicateEdge(..)), "{error}");
+    assert_eq!(mesh, with_parallel_edge);
     let new = mesh.bevel_vertex(c, 0.25).unwrap();
-    check(&doubled, &mesh, new, [1, 0]);
+    check(&with_parallel_edge, &mesh, new, [1, 0]);
     assert_eq!(mesh.degree(new), 4);
 }

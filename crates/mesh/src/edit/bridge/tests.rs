@@ -1,9 +1,10 @@
 use super::*;
-use crate::edit::testing::tried;
+use crate::edit::testing::checked_edit;
 use crate::{MATERIAL, UV, VertexId, shapes};
 use glam::{DVec2, DVec3};
 
-/// Two regular polygons that face away from each other: of `n` corners at z = 1, of `m` at z = -1.
+/// Returns two regular polygons that face away from each other: one with `n` corners at z = 1, one with `m`
+/// corners at z = -1.
 fn two_disks(n: u32, m: u32) -> Mesh {
     let top = shapes::cylinder(n, false);
     let bottom = shapes::cylinder(m, false);
@@ -19,8 +20,8 @@ fn rims(mesh: &Mesh) -> Vec<HalfEdgeId> {
         .collect()
 }
 
-/// A half-edge without a face that leaves `v`, and one that arrives at `w`.
-fn at(mesh: &Mesh, v: usize, w: usize) -> (HalfEdgeId, HalfEdgeId) {
+/// Returns the boundary half-edge that leaves `v`, and the one that ends at `w`.
+fn boundary_half_edges_at(mesh: &Mesh, v: usize, w: usize) -> (HalfEdgeId, HalfEdgeId) {
     let [h, after] = [v, w].map(|v| mesh.vertex_half_edge(VertexId::new(v)).unwrap());
     (h, mesh.prev(after))
 }
@@ -28,8 +29,8 @@ fn at(mesh: &Mesh, v: usize, w: usize) -> (HalfEdgeId, HalfEdgeId) {
 #[test]
 fn two_squares_become_a_box() {
     let mesh = two_disks(4, 4);
-    let (h, g) = at(&mesh, 0, 4);
-    let (cube, band) = tried(&mesh, |m| m.bridge_loops(h, g)).unwrap();
+    let (h, g) = boundary_half_edges_at(&mesh, 0, 4);
+    let (cube, band) = checked_edit(&mesh, |m| m.bridge_loops(h, g)).unwrap();
     assert_eq!(band.len(), 4);
     assert_eq!((cube.n_faces(), cube.n_edges()), (6, 12));
     assert!(cube.is_closed());
@@ -42,12 +43,12 @@ fn two_squares_become_a_box() {
 }
 
 #[test]
-fn loops_of_any_two_lengths_are_joined_by_as_many_faces_as_the_longer_has_edges() {
+fn the_band_has_as_many_faces_as_the_longer_loop_has_edges() {
     for n in 3..=9_u32 {
         for m in 3..=9_u32 {
             let mesh = two_disks(n, m);
-            let (h, g) = at(&mesh, 0, n as usize);
-            let (joined, band) = tried(&mesh, |m| m.bridge_loops(h, g)).unwrap();
+            let (h, g) = boundary_half_edges_at(&mesh, 0, n as usize);
+            let (joined, band) = checked_edit(&mesh, |m| m.bridge_loops(h, g)).unwrap();
             assert!(joined.is_closed());
             assert_eq!(joined.euler_characteristic(), 2);
             let quads = band.iter().filter(|&&f| joined.degree(f) == 4).count();
@@ -58,9 +59,13 @@ fn loops_of_any_two_lengths_are_joined_by_as_many_faces_as_the_longer_has_edges(
                 (joined.face(h), joined.face(g)),
                 (Some(band[0]), Some(band[0]))
             );
-            // Spread evenly: no vertex of the shorter loop has more than its share.
-            let share = (n.max(m)).div_ceil(n.min(m)) as usize;
-            assert!(joined.vertices().all(|v| joined.valence(v) <= 2 + share));
+            // The triangles are spread evenly over the vertices of the shorter loop.
+            let max_rungs = (n.max(m)).div_ceil(n.min(m)) as usize;
+            assert!(
+                joined
+                    .vertices()
+                    .all(|v| joined.valence(v) <= 2 + max_rungs)
+            );
             assert!(crate::geometry::volume(&joined) > 0.0);
         }
     }
@@ -76,18 +81,18 @@ fn every_pair_of_edges_on_two_loops_is_joined_or_refused() {
     for f in [0, 1, 21, 22, 23] {
         torus.delete_face(FaceId::new(f)).unwrap();
     }
-    let (mut joined, mut refused) = (0, 0);
+    let (mut n_joined, mut n_refused) = (0, 0);
     for mesh in [two_disks(3, 5), tunnel, torus, shapes::cylinder(5, false)] {
         for &h in &rims(&mesh) {
             for &g in &rims(&mesh) {
-                let result = tried(&mesh, |m| m.bridge_loops(h, g));
+                let result = checked_edit(&mesh, |m| m.bridge_loops(h, g));
                 if mesh.loop_half_edges(h).any(|x| x == g) {
                     assert_eq!(result.unwrap_err(), EditError::SameLoop(h, g));
                     continue;
                 }
                 match result {
                     Ok((after, band)) => {
-                        joined += 1;
+                        n_joined += 1;
                         assert_eq!(after.n_edges(), mesh.n_edges() + band.len());
                         assert_eq!(after.euler_characteristic(), mesh.euler_characteristic());
                         assert_eq!(after.n_boundary_loops() + 2, mesh.n_boundary_loops());
@@ -98,20 +103,20 @@ fn every_pair_of_edges_on_two_loops_is_joined_or_refused() {
                         );
                     }
                     Err(EditError::DuplicateEdge(v, w)) => {
-                        refused += 1;
+                        n_refused += 1;
                         assert!(mesh.find_half_edge(v, w).is_some());
                     }
-                    Err(other) => panic!("{other}"),
+                    Err(error) => panic!("{error}"),
                 }
             }
         }
     }
-    assert!(joined > 100 && refused > 5, "{joined} {refused}");
+    assert!(n_joined > 100 && n_refused > 5, "{n_joined} {n_refused}");
 }
 
 #[test]
-fn a_linear_field_stays_linear_and_materials_are_those_of_the_longer_loop() {
-    // A sheet without the ring around its middle square: a hole of 12 edges around one of 4.
+fn linear_uvs_stay_linear_and_materials_are_those_of_the_longer_loop() {
+    // A sheet without the ring around its middle square: a boundary loop of 12 edges around one of 4.
     let mut mesh = shapes::grid(5, 5);
     let uv = |h| mesh.position(mesh.origin(h)).truncate() * 2.0 + DVec2::X;
     mesh.set(UV, mesh.half_edges().map(uv).collect());
@@ -127,7 +132,7 @@ fn a_linear_field_stays_linear_and_materials_are_those_of_the_longer_loop() {
         .find(|&h| mesh.loop_half_edges(h).count() == 12)
         .unwrap();
     for (h, g) in [(middle, outer), (outer, middle)] {
-        let (joined, band) = tried(&mesh, |m| m.bridge_loops(h, g)).unwrap();
+        let (joined, band) = checked_edit(&mesh, |m| m.bridge_loops(h, g)).unwrap();
         assert_eq!(band.len(), 12);
         for f in band {
             let beside = joined.face(joined.face_half_edge(f).twin()).unwrap();
@@ -135,22 +140,22 @@ fn a_linear_field_stays_linear_and_materials_are_those_of_the_longer_loop() {
             assert_eq!(materials[f.index()], materials[beside.index()]);
             assert_ne!(materials[f.index()], 12);
             for h in joined.face_half_edges(f) {
-                let place = joined.position(joined.origin(h)).truncate();
-                assert_eq!(joined.get(UV).unwrap()[h.index()], place * 2.0 + DVec2::X);
+                let p = joined.position(joined.origin(h)).truncate();
+                assert_eq!(joined.get(UV).unwrap()[h.index()], p * 2.0 + DVec2::X);
             }
         }
     }
 }
 
 #[test]
-fn half_edges_with_a_face_or_that_are_not_there_are_refused() {
+fn missing_half_edges_and_those_with_a_face_are_refused() {
     let mesh = two_disks(3, 3);
-    let (h, g) = at(&mesh, 0, 3);
-    let refused = |h, g| tried(&mesh, |m| m.bridge_loops(h, g)).unwrap_err();
+    let (h, g) = boundary_half_edges_at(&mesh, 0, 3);
+    let refused = |h, g| checked_edit(&mesh, |m| m.bridge_loops(h, g)).unwrap_err();
     assert_eq!(refused(h.twin(), g), EditError::NotBoundary(h.edge()));
     assert_eq!(refused(h, g.twin()), EditError::NotBoundary(g.edge()));
     assert_eq!(refused(h, h), EditError::SameLoop(h, h));
-    let far = HalfEdgeId::new(99);
-    assert_eq!(refused(far, g), EditError::NoSuchHalfEdge(far));
+    let missing = HalfEdgeId::new(99);
+    assert_eq!(refused(missing, g), EditError::NoSuchHalfEdge(missing));
     assert_eq!(mesh.position(VertexId::new(0)), DVec3::new(1.0, 0.0, 1.0));
 }

@@ -10,29 +10,29 @@ use crate::{
     COLOR, CREASE, Column, Domain, FaceId, MATERIAL, Rule, UV, VERTEX_NORMAL, Values, shapes,
 };
 
-fn at(x: f64, y: f64) -> DVec3 {
+fn point(x: f64, y: f64) -> DVec3 {
     DVec3::new(x, y, 0.0)
 }
 
-fn of(positions: &[DVec3], polygons: &[&[u32]]) -> Mesh {
+fn mesh_of(positions: &[DVec3], polygons: &[&[u32]]) -> Mesh {
     let (mesh, report) = Mesh::from_polygons(positions.to_vec(), polygons).unwrap();
     assert!(report.is_clean());
     mesh
 }
 
-/// Polygons over vertices whose places do not matter.
-fn over(n: usize, polygons: &[&[u32]]) -> Mesh {
-    of(&vec![DVec3::ZERO; n], polygons)
+/// Returns a mesh of polygons with `n` vertices, all at the origin.
+fn topology(n: usize, polygons: &[&[u32]]) -> Mesh {
+    mesh_of(&vec![DVec3::ZERO; n], polygons)
 }
 
 fn edge(mesh: &Mesh, v: usize, w: usize) -> EdgeId {
     let [v, w] = [v, w].map(VertexId::new);
     mesh.find_half_edge(v, w)
-        .expect("they share an edge")
+        .expect("the vertices share an edge")
         .edge()
 }
 
-/// The faces by id, each beginning at its lowest corner.
+/// Returns the faces by id, each starting at its lowest corner.
 fn faces(mesh: &Mesh) -> Vec<(usize, Vec<usize>)> {
     let corners = |f| mesh.face_vertices(f).map(VertexId::index).collect();
     mesh.faces()
@@ -46,7 +46,7 @@ fn lowest_first(mut face: Vec<usize>) -> Vec<usize> {
     face
 }
 
-/// The edit is refused for this reason, and every array stays as it was.
+/// Returns the reason for which the edit is refused, after checking that the mesh is unchanged.
 fn refused(mesh: &Mesh, e: EdgeId) -> EditError {
     let mut edited = mesh.clone();
     let reason = edited.collapse_edge(e).unwrap_err();
@@ -54,17 +54,17 @@ fn refused(mesh: &Mesh, e: EdgeId) -> EditError {
     reason
 }
 
-/// Two triangles and what lies around them: a = 1, b = 5, c = 2, d = 3 of the picture, in a strip.
+/// Returns the two triangles of the picture and their neighbors: a = 1, b = 5, c = 2, d = 3.
 fn strip() -> Mesh {
     let positions = [
-        at(-2., 0.),
-        at(-1., 0.),
-        at(0., 1.),
-        at(0., -1.),
-        at(2., 0.),
-        at(1., 0.),
+        point(-2., 0.),
+        point(-1., 0.),
+        point(0., 1.),
+        point(0., -1.),
+        point(2., 0.),
+        point(1., 0.),
     ];
-    let around: [&[u32]; 6] = [
+    let polygons: [&[u32]; 6] = [
         &[1, 5, 2],
         &[5, 1, 3],
         &[1, 2, 0],
@@ -72,40 +72,40 @@ fn strip() -> Mesh {
         &[5, 4, 2],
         &[5, 3, 4],
     ];
-    of(&positions, &around)
+    mesh_of(&positions, &polygons)
 }
 
 #[test]
-fn two_triangles_vanish_and_ids_stay_as_documented() {
+fn two_triangles_vanish_and_the_documented_ids_remain() {
     let mut mesh = strip();
     let [e, bc, bd] = [(1, 5), (5, 2), (5, 3)].map(|(v, w)| edge(&mesh, v, w));
     let [ac, ad] = [(1, 2), (1, 3)].map(|(v, w)| edge(&mesh, v, w));
     assert_eq!(mesh.collapse_edge(e), Ok(VertexId::new(1)));
     assert_eq!(mesh.defects(), []);
-    assert_eq!(mesh.position(VertexId::new(1)), at(0., 0.));
+    assert_eq!(mesh.position(VertexId::new(1)), point(0., 0.));
     assert!(!mesh.has_vertex(VertexId::new(5)));
     assert_eq!([e, bc, bd].map(|e| mesh.has_edge(e)), [false; 3]);
     assert_eq!([ac, ad].map(|e| mesh.has_edge(e)), [true; 2]);
-    let left = [
+    let remaining = [
         (2, vec![0, 1, 2]),
         (3, vec![0, 3, 1]),
         (4, vec![1, 4, 2]),
         (5, vec![1, 3, 4]),
     ];
-    assert_eq!(faces(&mesh), left);
+    assert_eq!(faces(&mesh), remaining);
 }
 
 #[test]
-fn the_lower_number_survives_whichever_end_it_is() {
-    for turned in [false, true] {
+fn the_end_with_the_lower_id_remains() {
+    for is_reversed in [false, true] {
         // The edge runs from 0 to 1 on the first face, or from 1 to 0.
-        let polygons: [&[u32]; 2] = if turned {
+        let polygons: [&[u32]; 2] = if is_reversed {
             [&[1, 0, 2, 3], &[0, 1, 4]]
         } else {
             [&[0, 1, 2, 3], &[1, 0, 4]]
         };
-        let mut mesh = over(5, &polygons);
-        // The edge is inside and both ends are on the boundary: a face behind each makes one inner.
+        let mut mesh = topology(5, &polygons);
+        // The edge is inside and both of its ends are on the boundary.
         let e = edge(&mesh, 0, 1);
         assert_eq!(refused(&mesh, e), EditError::JoinsBoundaries(e));
         let e = edge(&mesh, 1, 4);
@@ -129,18 +129,18 @@ fn larger_faces_lose_a_corner() {
 }
 
 #[test]
-fn a_boundary_edge_takes_its_triangle_along() {
-    // The lowest three of a fan of triangles over a row of points.
-    for gone in [0, 1, 2, 3] {
-        let points: Vec<DVec3> = (0..5).map(|i| at(f64::from(i), 0.)).collect();
-        let positions = [&points[..], &[at(2., 2.)]].concat();
-        let mut mesh = of(
+fn collapsing_a_boundary_edge_removes_its_triangle() {
+    // The outer edges of a fan of four triangles over a row of points.
+    for first in [0, 1, 2, 3] {
+        let points: Vec<DVec3> = (0..5).map(|i| point(f64::from(i), 0.)).collect();
+        let positions = [&points[..], &[point(2., 2.)]].concat();
+        let mut mesh = mesh_of(
             &positions,
             &[&[0, 1, 5], &[1, 2, 5], &[2, 3, 5], &[3, 4, 5]],
         );
-        let e = edge(&mesh, gone, gone + 1);
+        let e = edge(&mesh, first, first + 1);
         let v = mesh.collapse_edge(e).unwrap();
-        assert_eq!(v, VertexId::new(gone));
+        assert_eq!(v, VertexId::new(first));
         assert_eq!(mesh.defects(), []);
         assert_eq!(
             (mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()),
@@ -153,12 +153,12 @@ fn a_boundary_edge_takes_its_triangle_along() {
 // ---- Refusals ------------------------------------------------------------------------------------
 
 #[test]
-fn nothing_is_folded_onto_itself_or_emptied() {
-    let pillow = over(3, &[&[0, 1, 2], &[0, 2, 1]]);
-    let triangle = over(3, &[&[0, 1, 2]]);
-    // Two squares back to back would be left, and two triangles.
-    let squares = over(5, &[&[0, 1, 2], &[1, 0, 3], &[0, 2, 4, 3], &[1, 3, 4, 2]]);
-    let tent = over(4, &[&[0, 1, 2], &[1, 0, 2, 3], &[1, 3, 2]]);
+fn collapses_that_leave_no_faces_or_faces_back_to_back_are_refused() {
+    let pillow = topology(3, &[&[0, 1, 2], &[0, 2, 1]]);
+    let triangle = topology(3, &[&[0, 1, 2]]);
+    // Two squares back to back would be left, or two triangles.
+    let squares = topology(5, &[&[0, 1, 2], &[1, 0, 3], &[0, 2, 4, 3], &[1, 3, 4, 2]]);
+    let tent = topology(4, &[&[0, 1, 2], &[1, 0, 2, 3], &[1, 3, 2]]);
     for mesh in [pillow, triangle, shapes::tetrahedron()] {
         for e in mesh.edges() {
             assert_eq!(refused(&mesh, e), EditError::Vanishes(e));
@@ -168,17 +168,17 @@ fn nothing_is_folded_onto_itself_or_emptied() {
         let e = edge(&mesh, 0, 1);
         assert_eq!(refused(&mesh, e), EditError::Vanishes(e));
     }
-    // Faces that are back to back already only lose a corner.
-    let mut pillow = over(4, &[&[0, 1, 2, 3], &[3, 2, 1, 0]]);
+    // Faces that are already back to back only lose a corner.
+    let mut pillow = topology(4, &[&[0, 1, 2, 3], &[3, 2, 1, 0]]);
     pillow.collapse_edge(EdgeId::new(0)).unwrap();
     assert_eq!(pillow.defects(), []);
     assert_eq!(pillow.n_faces(), 2);
 }
 
 #[test]
-fn a_neighbor_in_common_beyond_the_triangles_is_refused() {
-    // The waist of two tetrahedra that share a face, which is not there.
-    let mesh = over(
+fn a_common_neighbor_outside_the_triangles_is_refused() {
+    // The waist of two tetrahedra that are glued at a face, which is not in the mesh.
+    let mesh = topology(
         5,
         &[
             &[0, 1, 3],
@@ -194,9 +194,9 @@ fn a_neighbor_in_common_beyond_the_triangles_is_refused() {
 }
 
 #[test]
-fn a_neighbor_in_common_on_the_same_polygon_is_refused() {
-    // 2 is the neighbor of 1 on the square and of 0 beyond it.
-    let mesh = over(
+fn a_common_neighbor_on_the_same_polygon_is_refused() {
+    // 2 is a neighbor of 1 on the square, and a neighbor of 0 outside of it.
+    let mesh = topology(
         5,
         &[
             &[0, 1, 2, 3],
@@ -211,7 +211,7 @@ fn a_neighbor_in_common_on_the_same_polygon_is_refused() {
 }
 
 #[test]
-fn a_hole_of_three_does_not_close() {
+fn an_edge_of_a_hole_with_three_edges_is_refused() {
     let mut mesh = shapes::octahedron();
     mesh.delete_face(FaceId::new(0)).unwrap();
     let rim = mesh.half_edges().find(|&h| mesh.face(h).is_none()).unwrap();
@@ -221,9 +221,9 @@ fn a_hole_of_three_does_not_close() {
 }
 
 #[test]
-fn a_face_that_touches_both_ends_elsewhere_is_refused() {
-    // The square has 0 and 1 as opposite corners, and two triangles at their edge close it.
-    let mesh = over(4, &[&[0, 2, 1, 3], &[0, 1, 2], &[1, 0, 3]]);
+fn a_common_face_that_is_not_beside_the_edge_is_refused() {
+    // 0 and 1 are opposite corners of the square. Two triangles at the edge 0-1 close the mesh.
+    let mesh = topology(4, &[&[0, 2, 1, 3], &[0, 1, 2], &[1, 0, 3]]);
     let e = edge(&mesh, 0, 1);
     let twice = EditError::VisitsTwice(FaceId::new(0), VertexId::new(0));
     assert_eq!(refused(&mesh, e), twice);
@@ -231,8 +231,8 @@ fn a_face_that_touches_both_ends_elsewhere_is_refused() {
 
 #[test]
 fn a_second_edge_between_the_ends_is_refused() {
-    // A split where both triangles have the same corner opposite joins it twice.
-    let mut mesh = over(3, &[&[0, 1, 2], &[0, 2, 1]]);
+    // If both triangles have the same opposite corner, a split joins it to the new vertex by two edges.
+    let mut mesh = topology(3, &[&[0, 1, 2], &[0, 2, 1]]);
     let m = mesh.split_edge(edge(&mesh, 0, 1), 0.5).unwrap();
     let half = edge(&mesh, 0, m.index());
     assert_eq!(
@@ -242,23 +242,23 @@ fn a_second_edge_between_the_ends_is_refused() {
     for end in [0, 1] {
         mesh.split_edge(edge(&mesh, end, 2), 0.5).unwrap();
     }
-    let twice = edge(&mesh, m.index(), 2);
-    let [v, w] = mesh.edge_vertices(twice);
-    assert_eq!(refused(&mesh, twice), EditError::DuplicateEdge(v, w));
+    let parallel = edge(&mesh, m.index(), 2);
+    let [v, w] = mesh.edge_vertices(parallel);
+    assert_eq!(refused(&mesh, parallel), EditError::DuplicateEdge(v, w));
 }
 
 #[test]
-fn bad_places_and_edges_are_refused() {
+fn bad_positions_and_missing_edges_are_refused() {
     let mesh = shapes::octahedron();
     let mut edited = mesh.clone();
     let e = EdgeId::new(0);
     for t in [-0.1, 1.1, f64::NAN] {
-        let refused = edited.collapse_edge_at(e, t);
-        assert!(matches!(refused, Err(EditError::OutsideEdge(_))));
+        let result = edited.collapse_edge_at(e, t);
+        assert!(matches!(result, Err(EditError::OutsideEdge(_))));
     }
     for x in [f64::NAN, f64::INFINITY] {
-        let refused = edited.collapse_edge_to(e, DVec3::new(0.0, x, 0.0));
-        assert!(matches!(refused, Err(EditError::BadNumber(_))));
+        let result = edited.collapse_edge_to(e, DVec3::new(0.0, x, 0.0));
+        assert!(matches!(result, Err(EditError::BadNumber(_))));
     }
     assert_eq!(edited, mesh);
     for e in [EdgeId::new(99), EdgeId::NONE] {

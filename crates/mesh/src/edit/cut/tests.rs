@@ -1,5 +1,5 @@
 use super::*;
-use crate::edit::testing::{half_edge, polygons, tried};
+use crate::edit::testing::{checked_edit, half_edge, polygons};
 use crate::{CREASE, Domain, FaceId, MATERIAL, UV, VERTEX_NORMAL, shapes};
 use glam::{DVec2, DVec3};
 
@@ -20,14 +20,14 @@ fn meshes() -> Vec<Mesh> {
     ]
 }
 
-/// The same faces in the same order with the same vertices, and as many elements.
-fn assert_same(mesh: &Mesh, original: &Mesh) {
+/// Checks that both meshes have the same faces and the same numbers of elements.
+fn assert_same_topology(mesh: &Mesh, original: &Mesh) {
     assert_eq!(polygons(mesh), polygons(original));
     let counts = |m: &Mesh| (m.n_vertices(), m.n_edges(), m.n_faces());
     assert_eq!(counts(mesh), counts(original));
 }
 
-/// Glues the two sides of each cut edge, unless that happened together with another one.
+/// Stitches the two sides of each cut edge, unless they were stitched together with a previous edge.
 fn stitch_all(mesh: &mut Mesh, edges: &[EdgeId], new: &[EdgeId]) {
     for (e, new) in edges.iter().zip(new) {
         let ([_, h], [g, _]) = (e.half_edges(), new.half_edges());
@@ -39,18 +39,18 @@ fn stitch_all(mesh: &mut Mesh, edges: &[EdgeId], new: &[EdgeId]) {
 }
 
 #[test]
-fn a_path_from_the_boundary_opens_like_a_zip() {
+fn a_path_from_the_boundary_splits_its_vertices() {
     // 12 13 14 15
     //  8  9 10 11      cut: 13 - 9 - 5
     //  4  5  6  7
     //  0  1  2  3
     let mesh = shapes::grid(3, 3);
     let path = [edge(&mesh, 13, 9), edge(&mesh, 9, 5)];
-    let (cut, new) = tried(&mesh, |m| m.cut_edges(&path)).unwrap();
+    let (cut, new) = checked_edit(&mesh, |m| m.cut_edges(&path)).unwrap();
     assert_eq!((cut.n_vertices(), cut.n_edges()), (18, 26));
     assert_eq!((cut.n_faces(), cut.n_boundary_loops()), (9, 1));
     assert_eq!(cut.euler_characteristic(), 1);
-    // The faces to the left of the path have lower numbers than those to the right: they keep 9 and 13.
+    // The faces to the left of the path have lower ids than those to the right, so they keep 9 and 13.
     let v = VertexId::new;
     assert_eq!(polygons(&cut)[3], [4, 5, 9, 8]);
     assert_eq!(polygons(&cut)[4], [5, 6, 10, 16]);
@@ -65,11 +65,11 @@ fn a_path_from_the_boundary_opens_like_a_zip() {
 }
 
 #[test]
-fn a_loop_cuts_a_piece_out_and_a_star_opens_one_hole() {
+fn a_loop_separates_a_component_and_a_star_opens_one_hole() {
     let mesh = shapes::grid(3, 3);
     let middle = mesh.face_half_edges(FaceId::new(4));
     let ring: Vec<EdgeId> = middle.map(HalfEdgeId::edge).collect();
-    let (cut, _) = tried(&mesh, |m| m.cut_edges(&ring)).unwrap();
+    let (cut, _) = checked_edit(&mesh, |m| m.cut_edges(&ring)).unwrap();
     assert_eq!(
         (crate::geometry::n_components(&cut), cut.n_boundary_loops()),
         (2, 3)
@@ -82,7 +82,7 @@ fn a_loop_cuts_a_piece_out_and_a_star_opens_one_hole() {
         .map(HalfEdgeId::edge)
         .collect();
     for k in 2..=5 {
-        let (cut, _) = tried(&mesh, |m| m.cut_edges(&star[..k])).unwrap();
+        let (cut, _) = checked_edit(&mesh, |m| m.cut_edges(&star[..k])).unwrap();
         assert_eq!((cut.n_vertices(), cut.n_boundary_loops()), (12 + k - 1, 1));
         let rim = cut.loop_half_edges(cut.boundary_loops()[0]);
         assert_eq!(rim.count(), 2 * k);
@@ -90,17 +90,17 @@ fn a_loop_cuts_a_piece_out_and_a_star_opens_one_hole() {
 }
 
 #[test]
-fn cuts_along_all_edges_leave_single_faces() {
+fn cutting_all_edges_separates_all_faces() {
     for mesh in meshes() {
         let inner: Vec<EdgeId> = mesh
             .edges()
             .filter(|&e| !mesh.is_boundary_edge(e))
             .collect();
-        let (cut, new) = tried(&mesh, |m| m.cut_edges(&inner)).unwrap();
+        let (cut, new) = checked_edit(&mesh, |m| m.cut_edges(&inner)).unwrap();
         assert_eq!(crate::geometry::n_components(&cut), mesh.n_faces());
         let mut stitched = cut;
         stitch_all(&mut stitched, &inner, &new);
-        assert_same(&stitched, &mesh);
+        assert_same_topology(&stitched, &mesh);
     }
 }
 
@@ -118,16 +118,16 @@ fn stitching_undoes_any_cut() {
                 .filter(|&e| !mesh.is_boundary_edge(e) && chance(6) < round % 5 + 1)
                 .collect();
             let slits = mesh.slits(&edges);
-            let refused = tried(&mesh, |m| m.cut_edges(&edges));
+            let result = checked_edit(&mesh, |m| m.cut_edges(&edges));
             if let Some(&e) = slits.first() {
                 let [v, w] = mesh.edge_vertices(e);
-                assert_eq!(refused.unwrap_err(), EditError::DuplicateEdge(v, w));
+                assert_eq!(result.unwrap_err(), EditError::DuplicateEdge(v, w));
             }
             edges.retain(|e| !slits.contains(e));
-            // In any order.
-            let turn = chance(u32::try_from(edges.len()).unwrap() + 1);
-            edges.rotate_left(turn as usize);
-            let Ok((cut, new)) = tried(&mesh, |m| m.cut_edges(&edges)) else {
+            // The order of the edges must not matter.
+            let shift = chance(u32::try_from(edges.len()).unwrap() + 1);
+            edges.rotate_left(shift as usize);
+            let Ok((cut, new)) = checked_edit(&mesh, |m| m.cut_edges(&edges)) else {
                 assert!(edges.is_empty());
                 continue;
             };
@@ -135,23 +135,23 @@ fn stitching_undoes_any_cut() {
             assert_eq!(crate::geometry::area(&cut), crate::geometry::area(&mesh));
             let mut stitched = cut;
             stitch_all(&mut stitched, &edges, &new);
-            assert_same(&stitched, &mesh);
+            assert_same_topology(&stitched, &mesh);
         }
     }
 }
 
 #[test]
-fn copies_have_the_values_of_what_they_copy_and_corners_keep_theirs() {
+fn copies_have_the_values_of_the_originals_and_corners_keep_their_values() {
     let mut mesh = shapes::fans(&shapes::grid(3, 3));
     let corner = |h: HalfEdgeId| DVec2::splat(f64::from(u32::try_from(h.index()).unwrap()));
     mesh.set(UV, mesh.half_edges().map(corner).collect());
-    let up = |v: VertexId| mesh.position(v) + DVec3::Z;
-    mesh.set(VERTEX_NORMAL, mesh.vertices().map(up).collect());
+    let normal = |v: VertexId| mesh.position(v) + DVec3::Z;
+    mesh.set(VERTEX_NORMAL, mesh.vertices().map(normal).collect());
     mesh.set(CREASE, (0..mesh.n_edges()).map(|e| e as f64).collect());
     let n = i32::try_from(mesh.n_faces()).unwrap();
     mesh.set(MATERIAL, (0..n).collect());
     let path = [edge(&mesh, 13, 9), edge(&mesh, 9, 5), edge(&mesh, 5, 10)];
-    let (cut, new) = tried(&mesh, |m| m.cut_edges(&path)).unwrap();
+    let (cut, new) = checked_edit(&mesh, |m| m.cut_edges(&path)).unwrap();
     assert_eq!(cut.get(MATERIAL), mesh.get(MATERIAL));
     for (e, n) in path.into_iter().zip(new) {
         let crease = cut.get(CREASE).unwrap();
@@ -179,7 +179,7 @@ fn a_slit_is_refused_unless_it_reaches_the_boundary() {
     for mesh in meshes() {
         for e in mesh.edges() {
             let [v, w] = mesh.edge_vertices(e);
-            let result = tried(&mesh, |m| m.cut_edges(&[e]));
+            let result = checked_edit(&mesh, |m| m.cut_edges(&[e]));
             if mesh.is_boundary_edge(e) {
                 assert_eq!(result.unwrap_err(), EditError::Boundary(e));
             } else if mesh.is_boundary_vertex(v) || mesh.is_boundary_vertex(w) {
@@ -194,28 +194,29 @@ fn a_slit_is_refused_unless_it_reaches_the_boundary() {
 }
 
 #[test]
-fn what_is_named_twice_or_not_there_is_refused() {
+fn empty_lists_and_repeated_or_missing_edges_are_refused() {
     let mesh = shapes::cube();
-    let [e, other] = [EdgeId::new(3), EdgeId::new(99)];
-    let refused = |edges: &[EdgeId]| tried(&mesh, |m| m.cut_edges(edges)).unwrap_err();
+    let [e, missing] = [EdgeId::new(3), EdgeId::new(99)];
+    let refused = |edges: &[EdgeId]| checked_edit(&mesh, |m| m.cut_edges(edges)).unwrap_err();
     assert_eq!(refused(&[]), EditError::NoElements);
     assert_eq!(refused(&[e, e]), EditError::EdgeListedTwice(e));
-    assert_eq!(refused(&[e, other]), EditError::NoSuchEdge(other));
+    assert_eq!(refused(&[e, missing]), EditError::NoSuchEdge(missing));
 }
 
 #[test]
-fn a_cut_goes_around_dead_elements() {
+fn a_mesh_with_dead_elements_can_be_cut() {
     let mut mesh = shapes::grid(4, 4);
     for f in [5, 6] {
         mesh.delete_face(FaceId::new(f)).unwrap();
     }
     assert!(!mesh.is_dense());
-    // From one hole to the outside.
+    // One end of this edge is on the outer boundary.
     let e = edge(&mesh, 16, 21);
-    let (cut, _) = tried(&mesh, |m| m.cut_edges(&[e])).unwrap();
+    let (cut, _) = checked_edit(&mesh, |m| m.cut_edges(&[e])).unwrap();
     assert_eq!((mesh.n_boundary_loops(), cut.n_boundary_loops()), (2, 2));
+    // A path from the hole to the outer boundary merges both loops.
     let path = [edge(&mesh, 16, 11), e];
-    let (cut, _) = tried(&mesh, |m| m.cut_edges(&path)).unwrap();
+    let (cut, _) = checked_edit(&mesh, |m| m.cut_edges(&path)).unwrap();
     assert_eq!(cut.n_boundary_loops(), 1);
     assert_eq!(cut.domain_len(Domain::Face), 16);
 }

@@ -1,5 +1,7 @@
 use super::*;
-use crate::edit::testing::{dressed, polygons, ring, shapes_to_try, spur, undone_and_redone};
+use crate::edit::testing::{
+    checked_edit_mesh, polygons, ring, sample_shapes, spur, with_attributes,
+};
 use crate::{CREASE, EdgeId, MATERIAL, UV, shapes};
 use glam::DVec3;
 
@@ -7,9 +9,9 @@ fn vertex(v: usize) -> VertexId {
     VertexId::new(v)
 }
 
-/// The edit is refused, and every array stays bit-identical.
+/// Returns the reason for which the edit is refused, after checking that the mesh is unchanged.
 fn refused(mesh: &Mesh, v: usize) -> EditError {
-    undone_and_redone(mesh, |mesh| mesh.dissolve_vertex(vertex(v)).map(drop)).unwrap_err()
+    checked_edit_mesh(mesh, |mesh| mesh.dissolve_vertex(vertex(v)).map(drop)).unwrap_err()
 }
 
 fn counts(mesh: &Mesh) -> [usize; 3] {
@@ -26,7 +28,7 @@ fn four_squares_around_a_vertex_become_one_face() {
 }
 
 #[test]
-fn faces_at_a_boundary_vertex_become_one_and_its_two_rims_one_edge() {
+fn at_a_boundary_vertex_the_faces_become_one_and_the_two_boundary_edges_too() {
     let mut mesh = shapes::grid(2, 1);
     let f = mesh.dissolve_vertex(vertex(1)).unwrap();
     assert_eq!(mesh.defects(), []);
@@ -35,7 +37,7 @@ fn faces_at_a_boundary_vertex_become_one_and_its_two_rims_one_edge() {
 }
 
 #[test]
-fn a_corner_of_one_face_is_cut_off() {
+fn a_corner_of_a_single_face_is_cut_off() {
     let mut mesh = shapes::square();
     mesh.dissolve_vertex(vertex(2)).unwrap();
     assert_eq!(mesh.defects(), []);
@@ -44,21 +46,21 @@ fn a_corner_of_one_face_is_cut_off() {
 
 #[test]
 fn it_is_the_inverse_of_poke_face() {
-    for shape in shapes_to_try() {
+    for shape in sample_shapes() {
         for f in shape.faces() {
             let mut mesh = shape.clone();
             let m = mesh.poke_face(f).unwrap();
             assert_eq!(mesh.dissolve_vertex(m), Ok(f));
             assert_eq!(mesh.defects(), []);
-            same_after_compact(mesh, &shape);
+            assert_same_after_compact(mesh, &shape);
         }
     }
 }
 
 #[test]
-fn it_is_the_inverse_of_split_edge_where_no_triangle_is_cut() {
+fn it_is_the_inverse_of_split_edge_if_no_triangle_is_cut() {
     for shape in [
-        dressed(shapes::grid(3, 2)),
+        with_attributes(shapes::grid(3, 2)),
         shapes::square(),
         shapes::cube(),
         shapes::torus(4, 3, 2.0, 1.0),
@@ -69,13 +71,14 @@ fn it_is_the_inverse_of_split_edge_where_no_triangle_is_cut() {
             mesh.dissolve_vertex(m).unwrap();
             assert_eq!(mesh.defects(), []);
             assert_eq!(mesh.edge_vertices(e), shape.edge_vertices(e));
-            same_after_compact(mesh, &shape);
+            assert_same_after_compact(mesh, &shape);
         }
     }
 }
 
-/// The same mesh but for columns that edits drop, and for which half-edge stands for a face or vertex.
-fn same_after_compact(mut mesh: Mesh, shape: &Mesh) {
+/// Checks that the meshes are equal after compacting, except for columns with the rule drop and for the choice
+/// of the half-edge of a face or vertex.
+fn assert_same_after_compact(mut mesh: Mesh, shape: &Mesh) {
     mesh.compact();
     assert_eq!(polygons(&mesh), polygons(shape));
     assert_eq!(mesh.positions(), shape.positions());
@@ -88,14 +91,14 @@ fn same_after_compact(mut mesh: Mesh, shape: &Mesh) {
 }
 
 #[test]
-fn every_vertex_of_every_shape_dissolves_or_is_refused_and_leaves_no_trace() {
+fn every_vertex_of_every_shape_is_dissolved_or_refused() {
     let mut reasons = Vec::new();
-    let mut n_done = 0;
-    for shape in shapes_to_try() {
+    let mut n_dissolved = 0;
+    for shape in sample_shapes() {
         for v in shape.vertices() {
-            match undone_and_redone(&shape, |mesh| mesh.dissolve_vertex(v).map(drop)) {
+            match checked_edit_mesh(&shape, |mesh| mesh.dissolve_vertex(v).map(drop)) {
                 Ok(mesh) => {
-                    n_done += 1;
+                    n_dissolved += 1;
                     assert_eq!(mesh.n_vertices() + 1, shape.n_vertices());
                     assert_eq!(mesh.euler_characteristic(), shape.euler_characteristic());
                     assert_eq!(mesh.n_boundary_loops(), shape.n_boundary_loops());
@@ -108,8 +111,8 @@ fn every_vertex_of_every_shape_dissolves_or_is_refused_and_leaves_no_trace() {
             }
         }
     }
-    assert!(n_done > 60, "{n_done}");
-    let is_known = |reason: &EditError| {
+    assert!(n_dissolved > 60, "{n_dissolved}");
+    let is_expected = |reason: &EditError| {
         matches!(
             reason,
             EditError::FewCorners(_)
@@ -118,28 +121,29 @@ fn every_vertex_of_every_shape_dissolves_or_is_refused_and_leaves_no_trace() {
                 | EditError::Seam(_)
         )
     };
-    assert!(reasons.iter().all(is_known), "{reasons:?}");
+    assert!(reasons.iter().all(is_expected), "{reasons:?}");
 }
 
 #[test]
-fn the_lower_edge_survives_with_its_values() {
+fn the_edge_with_the_lower_id_remains_with_its_values() {
     let mut mesh = shapes::grid(2, 1);
-    let rims = [[0, 1], [1, 2]].map(|[v, w]| {
+    let boundary_edges = [[0, 1], [1, 2]].map(|[v, w]| {
         mesh.find_half_edge(vertex(v), vertex(w))
-            .expect("a rim")
+            .expect("the vertices share an edge")
             .edge()
     });
     mesh.set(CREASE, (0..7).map(f64::from).collect());
     mesh.dissolve_vertex(vertex(1)).unwrap();
-    let left = rims.into_iter().min().unwrap();
-    let joined = mesh.find_half_edge(vertex(0), vertex(2)).unwrap().edge();
-    assert_eq!(joined, left);
-    assert_eq!(mesh.get(CREASE).unwrap()[left.index()], left.index() as f64);
+    let lower = boundary_edges.into_iter().min().unwrap();
+    let merged = mesh.find_half_edge(vertex(0), vertex(2)).unwrap().edge();
+    assert_eq!(merged, lower);
+    let crease = mesh.get(CREASE).unwrap()[lower.index()];
+    assert_eq!(crease, lower.index() as f64);
 }
 
 #[test]
-fn corners_keep_their_values_on_both_sides_of_a_joint() {
-    let mut mesh = dressed(shapes::grid(2, 1));
+fn corners_keep_their_values_on_both_sides_of_a_merged_edge() {
+    let mut mesh = with_attributes(shapes::grid(2, 1));
     let seam = mesh.find_half_edge(vertex(1), vertex(4)).unwrap().edge();
     let m = mesh.split_edge(seam, 0.5).unwrap();
     mesh.dissolve_vertex(m).unwrap();
@@ -155,15 +159,15 @@ fn corners_keep_their_values_on_both_sides_of_a_joint() {
 }
 
 #[test]
-fn a_seam_is_dropped_only_when_told_to() {
-    let mesh = dressed(shapes::grid(2, 2));
+fn a_seam_is_dropped_only_with_seams_drop() {
+    let mesh = with_attributes(shapes::grid(2, 2));
     assert!(matches!(refused(&mesh, 4), EditError::Seam(_)));
     let drop = |mesh: &mut Mesh| {
         mesh.dissolve_vertex_with(vertex(4), Seams::Drop)
             .map(|_| ())
     };
-    let mesh = undone_and_redone(&mesh, drop).unwrap();
-    // Seen from the middle, face 0 is counter-clockwise of the edge to 3, and face 1 of that to 1.
+    let mesh = checked_edit_mesh(&mesh, drop).unwrap();
+    // Around the middle vertex, face 0 is counter-clockwise of the edge to 3, and face 1 of the edge to 1.
     for h in mesh.face_half_edges(FaceId::new(0)) {
         let v = mesh.origin(h);
         let shift = if [0, 3].contains(&v.index()) {
@@ -177,8 +181,8 @@ fn a_seam_is_dropped_only_when_told_to() {
 }
 
 #[test]
-fn a_seam_that_ends_at_the_vertex_is_lost_with_it() {
-    // The corners at the tip differ, as at the pole of a sphere; those on the rim do not.
+fn a_seam_that_ends_at_the_vertex_is_allowed() {
+    // The corners at the tip have different values, as at the pole of a sphere; those on the rim do not.
     let mut mesh = shapes::square();
     let m = mesh.poke_face(FaceId::new(0)).unwrap();
     let n = mesh.n_half_edges();
@@ -197,7 +201,7 @@ fn a_tetrahedron_becomes_two_triangles_back_to_back() {
     mesh.dissolve_vertex(vertex(0)).unwrap();
     assert_eq!(mesh.defects(), []);
     assert_eq!(polygons(&mesh), [[1, 3, 2], [1, 2, 3]]);
-    // Nothing is left to take out: triangles have no fewer corners.
+    // No more vertices can be removed: triangles cannot lose a corner.
     assert!(matches!(refused(&mesh, 1), EditError::FewCorners(_)));
 }
 
@@ -207,7 +211,7 @@ fn vertices_with_few_edges_are_refused() {
     mesh.push_vertex(DVec3::ZERO);
     assert_eq!(refused(&mesh, 4), EditError::FewEdges(vertex(4)));
     assert_eq!(refused(&spur(), 4), EditError::FewEdges(vertex(4)));
-    // A vertex on the edge to the middle would be left hanging.
+    // The vertex on the edge to the middle would be left with one edge.
     let mut mesh = shapes::grid(2, 2);
     let spoke = mesh.find_half_edge(vertex(4), vertex(5)).unwrap().edge();
     let m = mesh.split_edge(spoke, 0.5).unwrap();
@@ -219,10 +223,10 @@ fn vertices_with_few_edges_are_refused() {
 }
 
 #[test]
-fn a_face_does_not_pass_a_vertex_twice() {
+fn faces_that_visit_a_vertex_twice_are_refused() {
     assert_eq!(refused(&spur(), 0), EditError::RepeatedVertex(vertex(0)));
     assert_eq!(refused(&ring(), 3), EditError::RepeatedVertex(vertex(3)));
-    // Two faces around a tube meet on both sides.
+    // The two faces of a tube meet on both sides.
     let mut tube = shapes::cylinder(4, false);
     for [v, w] in [[1, 5], [3, 7]] {
         let h = tube.find_half_edge(vertex(v), vertex(w)).unwrap();
@@ -232,20 +236,20 @@ fn a_face_does_not_pass_a_vertex_twice() {
 }
 
 #[test]
-fn no_second_edge_joins_two_vertices() {
-    // Around a triangular rim the other two corners share an edge.
+fn a_second_edge_between_two_vertices_is_refused() {
+    // In a boundary loop of three edges, the other two corners share an edge.
     let tube = shapes::cylinder(3, false);
     assert_eq!(refused(&tube, 0), {
         let mesh = &tube;
         let spokes: Vec<_> = mesh.vertex_half_edges(vertex(0)).collect();
         EditError::DuplicateEdge(mesh.target(spokes[0]), mesh.target(spokes[2]))
     });
-    // Two corners of a face of a hole of three sides.
+    // The outer boundary of the ring has three edges.
     assert!(matches!(refused(&ring(), 1), EditError::DuplicateEdge(..)));
 }
 
 #[test]
-fn a_vertex_that_is_not_there_is_refused() {
+fn a_vertex_that_does_not_exist_is_refused() {
     assert_eq!(
         refused(&shapes::cube(), 8),
         EditError::NoSuchVertex(vertex(8))

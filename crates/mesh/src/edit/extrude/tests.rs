@@ -14,7 +14,7 @@ fn counts(mesh: &Mesh) -> [usize; 3] {
     [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()]
 }
 
-/// Extrudes upwards by 1 and asks for what holds whatever the faces.
+/// Extrudes faces upwards by 1 and checks everything that must be true for any faces.
 fn extruded(mesh: &Mesh, numbers: &[usize]) -> (Mesh, Vec<FaceId>) {
     let mut result = mesh.clone();
     let sides = result.extrude_faces(&faces(numbers), DVec3::Z).unwrap();
@@ -26,24 +26,24 @@ fn extruded(mesh: &Mesh, numbers: &[usize]) -> (Mesh, Vec<FaceId>) {
     assert_eq!(result.euler_characteristic(), chi, "{numbers:?}");
     assert_eq!(result.boundary_loops(), mesh.boundary_loops());
     assert!(sides.iter().all(|&side| result.degree(side) == 4));
-    let places = |mesh: &Mesh, f| -> Vec<_> {
+    let positions = |mesh: &Mesh, f| -> Vec<_> {
         let corners = mesh.face_vertices(f);
         corners.map(|v| mesh.position(v)).collect()
     };
     for f in mesh.faces() {
         if numbers.contains(&f.index()) {
-            let moved: Vec<_> = places(mesh, f).iter().map(|&p| p + DVec3::Z).collect();
-            assert_eq!(places(&result, f), moved, "{f} of {numbers:?}");
+            let moved: Vec<_> = positions(mesh, f).iter().map(|&p| p + DVec3::Z).collect();
+            assert_eq!(positions(&result, f), moved, "{f} of {numbers:?}");
         } else {
             assert_eq!(corners(&result, f), corners(mesh, f), "{f} of {numbers:?}");
-            assert_eq!(places(&result, f), places(mesh, f));
+            assert_eq!(positions(&result, f), positions(mesh, f));
         }
     }
     (result, sides)
 }
 
 #[test]
-fn the_top_of_a_cube_moves_up_on_four_sides() {
+fn extruding_the_top_of_a_cube_adds_four_sides() {
     let (mesh, sides) = extruded(&shapes::cube(), &[1]);
     assert!(mesh.is_closed());
     assert_eq!(
@@ -61,7 +61,7 @@ fn the_top_of_a_cube_moves_up_on_four_sides() {
 #[test]
 fn ids_are_given_as_documented() {
     let (mesh, sides) = extruded(&shapes::cube(), &[1]);
-    // The face was 4, 5, 7, 6.
+    // The corners were 4, 5, 7, 6.
     assert_eq!(corners(&mesh, FaceId::new(1)), [8, 9, 10, 11]);
     let around: Vec<_> = sides.iter().map(|&side| corners(&mesh, side)).collect();
     assert_eq!(
@@ -85,7 +85,7 @@ fn ids_are_given_as_documented() {
 }
 
 #[test]
-fn the_same_face_can_be_moved_again_and_again() {
+fn the_same_face_can_be_extruded_repeatedly() {
     let mut mesh = shapes::cube();
     for level in 1..=5 {
         let sides = mesh.extrude_faces(&faces(&[1]), DVec3::Z).unwrap();
@@ -100,11 +100,10 @@ fn the_same_face_can_be_moved_again_and_again() {
 fn faces_that_share_an_edge_move_together() {
     let (mesh, sides) = extruded(&shapes::grid(3, 3), &[4, 5]);
     assert_eq!(sides.len(), 6);
-    // The edge between them is inside, and still between them.
-    let beside = |e| mesh.edge_faces(e);
+    // They still share an edge.
     let pair = [FaceId::new(4), FaceId::new(5)].map(Some);
     assert!(mesh.edges().any(|e| {
-        let [f, g] = beside(e);
+        let [f, g] = mesh.edge_faces(e);
         [f, g] == pair || [g, f] == pair
     }));
 }
@@ -121,7 +120,7 @@ fn vertices_inside_the_faces_keep_their_ids() {
 }
 
 #[test]
-fn each_fan_at_a_shared_vertex_gets_its_own_copy() {
+fn each_fan_at_a_shared_vertex_gets_a_separate_copy() {
     // Opposite squares around the middle vertex, 4.
     let (mesh, sides) = extruded(&shapes::grid(2, 2), &[0, 3]);
     assert_eq!(sides.len(), 8);
@@ -142,7 +141,7 @@ fn a_whole_sheet_becomes_a_box_that_is_open_below() {
         (mesh.n_boundary_loops(), crate::geometry::genus(&mesh)),
         (1, 0)
     );
-    // The boundary is the old one.
+    // The boundary has not changed.
     for v in sheet.vertices() {
         assert!(mesh.is_boundary_vertex(v));
         assert_eq!(mesh.position(v), sheet.position(v));
@@ -150,7 +149,7 @@ fn a_whole_sheet_becomes_a_box_that_is_open_below() {
 }
 
 #[test]
-fn a_ring_of_faces_moves_on_both_of_its_rims() {
+fn a_ring_of_faces_gets_sides_along_both_of_its_boundaries() {
     let mut ring = shapes::grid(3, 3);
     ring.delete_face(FaceId::new(4)).unwrap();
     let (mesh, sides) = extruded(&ring, &[0, 1, 2, 3, 5, 6, 7, 8]);
@@ -158,7 +157,7 @@ fn a_ring_of_faces_moves_on_both_of_its_rims() {
     assert_eq!(mesh.n_boundary_loops(), 2);
 }
 
-/// A ring of one face, which lies on both sides of the edge from 0 to 4.
+/// Returns a ring of one face, which lies on both sides of the edge from 0 to 4.
 ///
 /// ```text
 ///    3 ----------- 2
@@ -169,12 +168,12 @@ fn a_ring_of_faces_moves_on_both_of_its_rims() {
 ///    0 ----------- 1
 /// ```
 pub(in crate::edit) fn slit_ring() -> Mesh {
-    let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
-    let outer = [at(0., 0.), at(3., 0.), at(3., 3.), at(0., 3.)];
-    let inner = [at(1., 1.), at(2., 1.), at(2., 2.), at(1., 2.)];
+    let p = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+    let outer = [p(0., 0.), p(3., 0.), p(3., 3.), p(0., 3.)];
+    let inner = [p(1., 1.), p(2., 1.), p(2., 2.), p(1., 2.)];
     let halves = [[0, 1, 2, 6, 5, 4], [0, 4, 7, 6, 2, 3]];
     let (mut mesh, _) = Mesh::from_polygons([outer, inner].concat(), &halves).unwrap();
-    // Two faces become one: without the edge from 2 to 6.
+    // Merge the two faces by removing the edge from 2 to 6.
     let cut = mesh
         .find_half_edge(VertexId::new(2), VertexId::new(6))
         .unwrap();
@@ -183,9 +182,9 @@ pub(in crate::edit) fn slit_ring() -> Mesh {
         mesh.set_face(h, Some(f));
     }
     let ends = [cut, cut.twin()].map(|h| (mesh.prev(h), mesh.next(h.twin())));
-    for (before, onward) in ends {
-        mesh.set_next(before, onward);
-        mesh.set_face_half_edge(f, onward);
+    for (before, after) in ends {
+        mesh.set_next(before, after);
+        mesh.set_face_half_edge(f, after);
     }
     mesh.kill(g);
     mesh.kill(cut.edge());
@@ -195,7 +194,7 @@ pub(in crate::edit) fn slit_ring() -> Mesh {
 }
 
 #[test]
-fn a_face_on_both_sides_of_an_edge_has_two_rims() {
+fn a_face_on_both_sides_of_an_edge_is_extruded_along_both_boundaries() {
     let (mesh, sides) = extruded(&slit_ring(), &[0]);
     assert_eq!(sides.len(), 8);
     assert_eq!(mesh.degree(FaceId::new(0)), 10);
@@ -206,7 +205,7 @@ fn a_face_on_both_sides_of_an_edge_has_two_rims() {
 }
 
 #[test]
-fn a_closed_part_only_moves() {
+fn a_closed_component_only_moves() {
     let (mesh, sides) = extruded(&shapes::cube(), &[0, 1, 2, 3, 4, 5]);
     assert_eq!(sides, []);
     assert!((0..8).all(|v| {
@@ -216,16 +215,15 @@ fn a_closed_part_only_moves() {
 }
 
 #[test]
-fn every_choice_of_faces_of_small_shapes_is_extruded() {
+fn every_subset_of_the_faces_of_small_shapes_can_be_extruded() {
     let pillow = {
         let positions = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
         Mesh::from_polygons(positions, &[[0, 1, 2], [0, 2, 1]])
             .unwrap()
             .0
     };
-    let mut parallel = shapes::grid(2, 1);
-    // A face of two sides of the boundary, and a vertex with two edges.
-    parallel.split_edge(EdgeId::new(0), 0.5).unwrap();
+    let mut with_valence_two = shapes::grid(2, 1);
+    with_valence_two.split_edge(EdgeId::new(0), 0.5).unwrap();
     for shape in [
         shapes::cube(),
         shapes::tetrahedron(),
@@ -234,18 +232,18 @@ fn every_choice_of_faces_of_small_shapes_is_extruded() {
         shapes::square(),
         shapes::fans(&shapes::square()),
         pillow,
-        parallel,
+        with_valence_two,
     ] {
         let n = shape.n_faces();
-        for choice in 1..1_usize << n {
-            let chosen: Vec<usize> = (0..n).filter(|i| choice >> i & 1 == 1).collect();
-            extruded(&shape, &chosen);
+        for subset in 1..1_usize << n {
+            let numbers: Vec<usize> = (0..n).filter(|i| subset >> i & 1 == 1).collect();
+            extruded(&shape, &numbers);
         }
     }
 }
 
 #[test]
-fn every_extrusion_can_be_taken_back_and_done_again() {
+fn every_extrusion_can_be_undone_and_redone() {
     for shape in [
         shapes::cube(),
         shapes::torus(4, 3, 2.0, 1.0),
@@ -265,16 +263,16 @@ fn every_extrusion_can_be_taken_back_and_done_again() {
             mesh.extrude_faces(&chosen, DVec3::ONE).unwrap();
             let change = mesh.commit().unwrap();
             let after = mesh.clone();
-            let again = mesh.revert(change);
+            let redo = mesh.revert(change);
             assert_eq!(mesh, shape);
-            mesh.revert(again);
+            mesh.revert(redo);
             assert_eq!(mesh, after);
         }
     }
 }
 
-/// A cube whose attributes tell its elements apart.
-fn dressed() -> Mesh {
+/// Returns a cube whose elements have different attribute values.
+fn cube_with_attributes() -> Mesh {
     let mut mesh = shapes::cube();
     let uv = |h: HalfEdgeId| DVec2::new(h.index() as f64, 0.5);
     mesh.set(UV, mesh.half_edges().map(uv).collect());
@@ -290,8 +288,8 @@ fn dressed() -> Mesh {
 }
 
 #[test]
-fn sides_and_copies_have_the_values_of_what_they_came_from() {
-    let before = dressed();
+fn sides_and_copies_have_the_values_of_the_originals() {
+    let before = cube_with_attributes();
     let (mesh, sides) = extruded(&before, &[1]);
     let top = FaceId::new(1);
     assert_eq!(mesh.get(MATERIAL).unwrap(), [0, 1, 2, 3, 4, 5, 1, 1, 1, 1]);
@@ -312,7 +310,7 @@ fn sides_and_copies_have_the_values_of_what_they_came_from() {
         let upright = mesh.prev(mesh.face_half_edge(side)).edge();
         assert_eq!(creases[upright.index()], 0.0);
     }
-    // What was on other faces stays.
+    // Corners of other faces keep their values.
     for h in before.half_edges().filter(|&h| before.face(h) != Some(top)) {
         assert_eq!(uv[h.index()], old[h.index()]);
     }
@@ -320,10 +318,10 @@ fn sides_and_copies_have_the_values_of_what_they_came_from() {
 
 #[test]
 fn bad_input_is_refused_and_changes_nothing() {
-    let cube = dressed();
-    let refused = |chosen: &[FaceId], offset: DVec3| {
+    let cube = cube_with_attributes();
+    let refused = |faces: &[FaceId], offset: DVec3| {
         let mut mesh = cube.clone();
-        let reason = mesh.extrude_faces(chosen, offset).unwrap_err();
+        let reason = mesh.extrude_faces(faces, offset).unwrap_err();
         assert_eq!(mesh, cube);
         reason
     };

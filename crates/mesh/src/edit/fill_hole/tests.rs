@@ -1,9 +1,9 @@
 use super::*;
-use crate::edit::testing::{half_edge, polygons, tried, with_slit};
+use crate::edit::testing::{checked_edit, half_edge, polygons, with_slit};
 use crate::{EdgeId, MATERIAL, UV, shapes};
 use glam::{DVec2, DVec3};
 
-/// Meshes with holes: of one, of several faces, the outside of a sheet, two rims.
+/// Returns meshes with holes: holes of one face and of several, the outer boundary of a sheet, and tubes.
 fn open_shapes() -> Vec<Mesh> {
     let mut shapes = vec![
         shapes::square(),
@@ -35,7 +35,7 @@ fn with_values(mut mesh: Mesh) -> Mesh {
 }
 
 #[test]
-fn a_deleted_face_comes_back() {
+fn filling_the_hole_of_a_deleted_face_restores_the_face() {
     for mesh in [shapes::cube(), shapes::octahedron(), shapes::grid(3, 3)] {
         let all = polygons(&mesh);
         for f in mesh.faces() {
@@ -45,22 +45,22 @@ fn a_deleted_face_comes_back() {
                 continue;
             }
             mesh.delete_face(f).unwrap();
-            let (filled, _) = tried(&mesh, |m| m.fill_hole(h)).unwrap();
+            let (filled, _) = checked_edit(&mesh, |m| m.fill_hole(h)).unwrap();
             let mut expected = all.clone();
-            let gone = expected.remove(f.index());
-            expected.push(gone);
+            let deleted = expected.remove(f.index());
+            expected.push(deleted);
             assert_eq!(polygons(&filled), expected);
         }
     }
 }
 
 #[test]
-fn every_hole_is_filled_from_each_of_its_edges() {
+fn every_hole_can_be_filled_from_each_of_its_edges() {
     for mesh in open_shapes().into_iter().map(with_values) {
         let euler = mesh.euler_characteristic();
         for h in mesh.half_edges() {
-            let one = tried(&mesh, |m| m.fill_hole(h));
-            let many = tried(&mesh, |m| crate::geometry::fill_hole_triangles(m, h));
+            let one = checked_edit(&mesh, |m| m.fill_hole(h));
+            let many = checked_edit(&mesh, |m| crate::geometry::fill_hole_triangles(m, h));
             if mesh.face(h).is_some() {
                 let refused = EditError::NotBoundary(h.edge());
                 assert_eq!(one.unwrap_err(), refused);
@@ -83,7 +83,7 @@ fn every_hole_is_filled_from_each_of_its_edges() {
 }
 
 #[test]
-fn a_linear_field_stays_linear_and_the_material_is_that_beside() {
+fn linear_uvs_stay_linear_and_the_material_is_that_of_the_face_beside() {
     let mut mesh = with_values(shapes::grid(4, 4));
     for f in [5, 6, 9, 10] {
         mesh.delete_face(FaceId::new(f)).unwrap();
@@ -91,7 +91,7 @@ fn a_linear_field_stays_linear_and_the_material_is_that_beside() {
     for h in mesh.half_edges().filter(|&h| mesh.face(h).is_none()) {
         let beside = mesh.face(h.twin()).unwrap().index();
         for triangles in [false, true] {
-            let (filled, faces) = tried(&mesh, |m| {
+            let (filled, faces) = checked_edit(&mesh, |m| {
                 if triangles {
                     crate::geometry::fill_hole_triangles(m, h)
                 } else {
@@ -105,8 +105,8 @@ fn a_linear_field_stays_linear_and_the_material_is_that_beside() {
                     mesh.get(MATERIAL).unwrap()[beside]
                 );
                 for h in filled.face_half_edges(f) {
-                    let place = filled.position(filled.origin(h)).truncate();
-                    assert_eq!(filled.get(UV).unwrap()[h.index()], place * 2.0 + DVec2::X);
+                    let p = filled.position(filled.origin(h)).truncate();
+                    assert_eq!(filled.get(UV).unwrap()[h.index()], p * 2.0 + DVec2::X);
                 }
             }
         }
@@ -114,7 +114,7 @@ fn a_linear_field_stays_linear_and_the_material_is_that_beside() {
 }
 
 #[test]
-fn a_flat_square_hole_gets_no_triangle_without_area() {
+fn a_planar_square_hole_gets_no_triangle_without_area() {
     let mut mesh = shapes::grid(6, 6);
     for f in [14, 15, 20, 21] {
         mesh.delete_face(FaceId::new(f)).unwrap();
@@ -125,7 +125,7 @@ fn a_flat_square_hole_gets_no_triangle_without_area() {
         .find(|&h| mesh.face(h).is_none())
         .unwrap();
     let (filled, triangles) =
-        tried(&mesh, |m| crate::geometry::fill_hole_triangles(m, hole)).unwrap();
+        checked_edit(&mesh, |m| crate::geometry::fill_hole_triangles(m, hole)).unwrap();
     assert_eq!(triangles.len(), 6);
     assert!(triangles.iter().all(|&f| filled.face_area(f) > 0.1));
     assert!((crate::geometry::area(&filled) - 36.0).abs() < 1e-12);
@@ -133,7 +133,7 @@ fn a_flat_square_hole_gets_no_triangle_without_area() {
 
 #[test]
 fn triangles_never_repeat_an_edge() {
-    // A tetrahedron without two faces: its open square has both diagonals, one of them as an edge.
+    // A tetrahedron without two faces: one diagonal of the open square is already an edge.
     let mut mesh = shapes::tetrahedron();
     mesh.delete_face(FaceId::new(0)).unwrap();
     mesh.delete_face(FaceId::new(1)).unwrap();
@@ -141,7 +141,7 @@ fn triangles_never_repeat_an_edge() {
     let rim: Vec<VertexId> = mesh.loop_half_edges(h).map(|h| mesh.origin(h)).collect();
     assert_eq!(rim.len(), 4);
     let kept = mesh.edges().find(|&e| !mesh.is_boundary_edge(e)).unwrap();
-    let (filled, _) = tried(&mesh, |m| crate::geometry::fill_hole_triangles(m, h)).unwrap();
+    let (filled, _) = checked_edit(&mesh, |m| crate::geometry::fill_hole_triangles(m, h)).unwrap();
     assert!(filled.is_closed());
     assert_eq!(filled.n_edges(), 6);
     let [a, b] = mesh.edge_vertices(kept);
@@ -151,8 +151,8 @@ fn triangles_never_repeat_an_edge() {
 }
 
 #[test]
-fn a_hole_whose_diagonals_are_all_there_is_refused() {
-    // The torus of seven vertices, where each is joined to every other one, without one of them.
+fn a_hole_whose_diagonals_are_all_edges_is_refused() {
+    // The torus with seven vertices, in which every two vertices share an edge, without one of the vertices.
     let positions = shapes::icosahedron().positions()[..7].to_vec();
     let polygons: Vec<[u32; 3]> = (0..7)
         .flat_map(|i| [[i, i + 1, i + 3], [i, i + 3, i + 2]])
@@ -163,16 +163,16 @@ fn a_hole_whose_diagonals_are_all_there_is_refused() {
     assert!(report.is_clean());
     let h = mesh.boundary_loops()[0];
     assert_eq!(mesh.loop_half_edges(h).count(), 6);
-    let refused = tried(&mesh, |m| crate::geometry::fill_hole_triangles(m, h)).unwrap_err();
-    let EditError::DuplicateEdge(v, w) = refused else {
-        panic!("{refused}");
+    let error = checked_edit(&mesh, |m| crate::geometry::fill_hole_triangles(m, h)).unwrap_err();
+    let EditError::DuplicateEdge(v, w) = error else {
+        panic!("{error}");
     };
     assert!(mesh.find_half_edge(v, w).is_some());
-    assert!(tried(&mesh, |m| m.fill_hole(h)).is_ok());
+    assert!(checked_edit(&mesh, |m| m.fill_hole(h)).is_ok());
 }
 
 #[test]
-fn a_hole_of_many_edges_is_filled_quickly() {
+fn a_hole_with_many_edges_is_filled_quickly() {
     let n = 2000;
     let mesh = shapes::cylinder(n, false);
     let mut filled = mesh.clone();
@@ -184,23 +184,26 @@ fn a_hole_of_many_edges_is_filled_quickly() {
     let expected = shapes::cylinder(n, true);
     assert!((crate::geometry::area(&filled) - crate::geometry::area(&expected)).abs() < 1e-9);
     assert!((crate::geometry::volume(&filled) - crate::geometry::volume(&expected)).abs() < 1e-9);
-    // Not a fan: no vertex gets more than a few edges.
+    // The triangles do not form a fan: no vertex gets many edges.
     assert!(filled.vertices().all(|v| filled.valence(v) < 30));
 }
 
 #[test]
-fn a_loop_of_two_edges_and_a_pinched_one_are_refused() {
+fn a_loop_of_two_edges_and_a_pinched_loop_are_refused() {
     let mesh = with_slit(shapes::tetrahedron(), EdgeId::new(2));
     for h in mesh.half_edges().filter(|&h| mesh.face(h).is_none()) {
         let refused = EditError::ShortLoop(h);
-        assert_eq!(tried(&mesh, |m| m.fill_hole(h)).unwrap_err(), refused);
-        let many = tried(&mesh, |m| crate::geometry::fill_hole_triangles(m, h));
+        assert_eq!(
+            checked_edit(&mesh, |m| m.fill_hole(h)).unwrap_err(),
+            refused
+        );
+        let many = checked_edit(&mesh, |m| crate::geometry::fill_hole_triangles(m, h));
         assert_eq!(many.unwrap_err(), refused);
     }
 
     // Two triangles at one vertex, linked into one loop.
-    let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
-    let positions = vec![at(0., 0.), at(1., 0.), at(0., 1.), at(-1., 0.), at(0., -1.)];
+    let p = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+    let positions = vec![p(0., 0.), p(1., 0.), p(0., 1.), p(-1., 0.), p(0., -1.)];
     let (mut mesh, _) = Mesh::from_polygons(positions, &[[0, 1, 2], [0, 3, 4]]).unwrap();
     let v = VertexId::new(0);
     let copy = VertexId::new(5);
@@ -208,11 +211,11 @@ fn a_loop_of_two_edges_and_a_pinched_one_are_refused() {
     let [before_a, before_b] = [a, b].map(|h| mesh.prev(h));
     mesh.set_next(before_a, b);
     mesh.set_next(before_b, a);
-    let leaving: Vec<_> = mesh
+    let outgoing: Vec<_> = mesh
         .half_edges()
         .filter(|&h| mesh.origin(h) == copy)
         .collect();
-    for h in leaving {
+    for h in outgoing {
         mesh.set_origin(h, v);
     }
     assert_eq!(mesh.fill_hole(a), Err(EditError::Pinch(v)));
@@ -223,12 +226,15 @@ fn a_loop_of_two_edges_and_a_pinched_one_are_refused() {
 }
 
 #[test]
-fn a_half_edge_that_is_not_there_is_refused() {
+fn a_half_edge_that_does_not_exist_is_refused() {
     for h in [HalfEdgeId::NONE, HalfEdgeId::new(8)] {
         let refused = EditError::NoSuchHalfEdge(h);
         let mesh = shapes::square();
-        assert_eq!(tried(&mesh, |m| m.fill_hole(h)).unwrap_err(), refused);
-        let many = tried(&mesh, |m| crate::geometry::fill_hole_triangles(m, h));
+        assert_eq!(
+            checked_edit(&mesh, |m| m.fill_hole(h)).unwrap_err(),
+            refused
+        );
+        let many = checked_edit(&mesh, |m| crate::geometry::fill_hole_triangles(m, h));
         assert_eq!(many.unwrap_err(), refused);
     }
 }

@@ -1,4 +1,4 @@
-//! What becomes of values, and laws of collapsing.
+//! Tests of attribute values after a collapse, and of undo.
 
 use super::oracle::samples;
 use super::*;
@@ -15,39 +15,40 @@ fn values_follow_their_rules_and_a_crease_stays() {
     (creases[ac.index()], creases[bc.index()]) = (1.0, 3.0);
     (creases[ad.index()], creases[e.index()]) = (2.0, 9.0);
     mesh.set(CREASE, creases);
-    let mut marks = vec![false; mesh.n_edges()];
-    marks[bd.index()] = true;
+    let mut is_tagged = vec![false; mesh.n_edges()];
+    is_tagged[bd.index()] = true;
     let tag = Column {
-        name: "marked".into(),
+        name: "tagged".into(),
         rule: Rule::Copy,
-        values: Values::Tag(marks),
+        values: Values::Tag(is_tagged),
     };
     mesh.insert_column(Domain::Edge, tag);
 
-    let v = mesh.collapse_edge_to(e, at(0.5, 7.0)).unwrap();
-    // The nearest place on the edge from x = -1 to x = 1 is three quarters along it.
-    assert_eq!(mesh.position(v), at(0.5, 7.0));
+    let v = mesh.collapse_edge_to(e, point(0.5, 7.0)).unwrap();
+    // The edge runs from x = -1 to x = 1; the nearest point on it is at t = 0.75.
+    assert_eq!(mesh.position(v), point(0.5, 7.0));
     assert_eq!(mesh.get(COLOR).unwrap()[v.index()], DVec4::splat(4.0));
     assert_eq!(mesh.get(VERTEX_NORMAL).unwrap()[v.index()], DVec3::X);
     let crease = mesh.get(CREASE).unwrap();
     assert_eq!([crease[ac.index()], crease[ad.index()]], [3.0, 2.0]);
-    let marks = mesh.tag(Domain::Edge, "marked").unwrap();
-    assert_eq!([marks[ac.index()], marks[ad.index()]], [false, true]);
+    let is_tagged = mesh.tag(Domain::Edge, "tagged").unwrap();
+    assert_eq!([ac, ad].map(|e| is_tagged[e.index()]), [false, true]);
     assert_eq!(mesh.get(MATERIAL).unwrap(), [0, 1, 2, 3, 4, 5]);
 }
 
 #[test]
-fn a_point_beyond_an_end_has_the_values_of_the_end() {
+fn collapsing_to_a_point_beyond_an_end_gives_the_values_of_the_end() {
     for (x, color) in [(-9.0, 1.0), (9.0, 5.0)] {
         let mut mesh = strip();
         mesh.set(COLOR, (0..6).map(|i| DVec4::splat(f64::from(i))).collect());
-        let v = mesh.collapse_edge_to(edge(&mesh, 1, 5), at(x, 1.)).unwrap();
+        let e = edge(&mesh, 1, 5);
+        let v = mesh.collapse_edge_to(e, point(x, 1.)).unwrap();
         assert_eq!(mesh.get(COLOR).unwrap()[v.index()], DVec4::splat(color));
     }
 }
 
 #[test]
-fn a_field_that_is_linear_stays_linear() {
+fn linear_uvs_stay_linear() {
     let affine = |p: DVec3| DVec2::new(2.0 * p.x - p.y + 3.0, p.x + 0.5 * p.y);
     for shape in [shapes::grid(4, 4), shapes::fans(&shapes::grid(4, 4))] {
         for e in shape.edges() {
@@ -60,8 +61,8 @@ fn a_field_that_is_linear_stays_linear() {
                 }
                 for h in mesh.half_edges().filter(|&h| mesh.face(h).is_some()) {
                     let expected = affine(mesh.position(mesh.origin(h)));
-                    let found = mesh.get(UV).unwrap()[h.index()];
-                    assert!(found.distance(expected) < 1e-12, "{e} {t} {h}");
+                    let actual = mesh.get(UV).unwrap()[h.index()];
+                    assert!(actual.distance(expected) < 1e-12, "{e} {t} {h}");
                 }
             }
         }
@@ -70,7 +71,7 @@ fn a_field_that_is_linear_stays_linear() {
 
 #[test]
 fn both_sides_of_a_seam_keep_their_values() {
-    // Above the x axis a chart of its own, and the face at the left of its own too.
+    // The faces above the x axis and the left face (2) have separate charts.
     let mut mesh = strip();
     let chart = |f: FaceId| match f.index() {
         0 | 4 => 100.0,
@@ -78,17 +79,17 @@ fn both_sides_of_a_seam_keep_their_values() {
         _ => 0.0,
     };
     let uv = |mesh: &Mesh, h| {
-        let place = mesh.position(mesh.origin(h)).truncate();
+        let p = mesh.position(mesh.origin(h)).truncate();
         let shift = mesh.face(h).map_or(0.0, chart);
-        place + DVec2::new(shift, 0.0)
+        p + DVec2::new(shift, 0.0)
     };
     mesh.set(UV, mesh.half_edges().map(|h| uv(&mesh, h)).collect());
     let v = mesh.collapse_edge_at(edge(&mesh, 1, 5), 0.75).unwrap();
-    assert_eq!(mesh.position(v), at(0.5, 0.0));
+    assert_eq!(mesh.position(v), point(0.5, 0.0));
     for h in mesh.half_edges().filter(|&h| mesh.face(h).is_some()) {
-        // The left face is beside neither triangle in the texture: it keeps its value at v.
-        let stays = mesh.face(h) == Some(FaceId::new(2)) && mesh.origin(h) == v;
-        let expected = if stays {
+        // The left face has no value in common with either triangle, so it keeps its value at v.
+        let is_unchanged = mesh.face(h) == Some(FaceId::new(2)) && mesh.origin(h) == v;
+        let expected = if is_unchanged {
             DVec2::new(699.0, 0.0)
         } else {
             uv(&mesh, h)
@@ -98,20 +99,20 @@ fn both_sides_of_a_seam_keep_their_values() {
 }
 
 #[test]
-fn a_column_to_be_dropped_is_dropped() {
+fn a_column_with_the_rule_drop_is_dropped() {
     let mut mesh = strip();
-    let passing = Column {
-        name: "passing".into(),
+    let dropped = Column {
+        name: "dropped".into(),
         rule: Rule::Drop,
         values: Values::Float(vec![0.0; 6]),
     };
-    mesh.insert_column(Domain::Vertex, passing);
+    mesh.insert_column(Domain::Vertex, dropped);
     mesh.collapse_edge(edge(&mesh, 1, 5)).unwrap();
     assert!(mesh.attributes().of(Domain::Vertex).is_empty());
 }
 
 #[test]
-fn a_split_edge_collapses_to_what_it_was() {
+fn a_collapse_undoes_a_split() {
     for shape in [
         shapes::fans(&shapes::grid(3, 3)),
         shapes::icosahedron(),
@@ -122,7 +123,7 @@ fn a_split_edge_collapses_to_what_it_was() {
             let mut mesh = shape.clone();
             let m = mesh.split_edge(e, 0.25).unwrap();
             let ends = shape.edge_vertices(e);
-            // m has the highest number, so both ends survive it.
+            // m has the highest id, so the other end of either half remains.
             for v in ends {
                 let mut mesh = mesh.clone();
                 let half = edge(&mesh, v.index(), m.index());
@@ -141,7 +142,7 @@ fn a_split_edge_collapses_to_what_it_was() {
 }
 
 #[test]
-fn a_collapse_can_be_taken_back_and_done_again() {
+fn a_collapse_can_be_undone_and_redone() {
     for mut shape in samples() {
         let n = shape.n_half_edges();
         shape.set(UV, (0..n).map(|i| DVec2::splat(i as f64)).collect());
@@ -149,28 +150,28 @@ fn a_collapse_can_be_taken_back_and_done_again() {
         for e in shape.edges() {
             let mut mesh = shape.clone();
             mesh.begin();
-            let done = mesh.collapse_edge_at(e, 0.25);
+            let result = mesh.collapse_edge_at(e, 0.25);
             let after = mesh.clone();
             mesh.rollback();
             assert_eq!(mesh, shape);
-            if done.is_err() {
+            if result.is_err() {
                 continue;
             }
             mesh.begin();
             mesh.collapse_edge_at(e, 0.25).unwrap();
             let change = mesh.commit().unwrap();
-            let again = mesh.revert(change);
+            let redo = mesh.revert(change);
             assert_eq!(mesh, shape);
-            mesh.revert(again);
+            mesh.revert(redo);
             assert_eq!(mesh, after);
         }
     }
 }
 
 #[test]
-fn ends_of_many_edges_are_judged_as_others_are() {
-    // Two fans of 40 triangles around 0 and 1, joined by two triangles at the edge 0-1. Their rims are
-    // one loop; c and d, where they meet, are the third corners of the two.
+fn the_link_condition_also_works_for_ends_with_many_edges() {
+    // Two fans of 40 triangles around 0 and 1, joined by two triangles at the edge 0-1. The rims of the fans
+    // form one loop. They meet at c and d, the third corners of the two triangles.
     let n = 40;
     let rim: Vec<u32> = (2..2 + 2 * n).collect();
     let fan = |(i, &v): (u32, &u32)| {
@@ -182,14 +183,14 @@ fn ends_of_many_edges_are_judged_as_others_are() {
     polygons.extend([vec![0, c, 1], vec![1, d, 0]]);
     let mesh = |polygons: &[Vec<u32>]| {
         let polygons: Vec<&[u32]> = polygons.iter().map(Vec::as_slice).collect();
-        over(2 + 2 * n as usize, &polygons)
+        topology(2 + 2 * n as usize, &polygons)
     };
     let mut open = mesh(&polygons);
     let v = open.collapse_edge(edge(&open, 0, 1)).unwrap();
     assert_eq!(open.defects(), []);
     assert_eq!(open.valence(v), 2 * n as usize);
 
-    // With a vertex of each rim made one, and the two halves of the loop filled, that is in common.
+    // Merge a vertex of each rim, and fill both halves of the loop: then 0 and 1 have that vertex in common.
     let (x, y) = (rim[5], rim[n as usize + 5]);
     for v in polygons.iter_mut().flatten() {
         *v = if *v == y { x } else { *v };

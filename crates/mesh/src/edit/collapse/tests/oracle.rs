@@ -1,8 +1,8 @@
-//! A collapse on lists of polygons, which must agree with the real one.
+//! A second implementation of the collapse, on lists of polygons. Both must give the same result.
 
 use super::*;
 
-/// Shapes of all kinds, small enough that everything is within reach of everything.
+/// Returns shapes of all kinds that are so small that refusals are frequent.
 pub(super) fn samples() -> Vec<Mesh> {
     let fans = |mesh: Mesh| shapes::fans(&mesh);
     vec![
@@ -25,31 +25,31 @@ pub(super) fn samples() -> Vec<Mesh> {
         fans(shapes::cylinder(3, false)),
         shapes::cylinder(5, true),
         shapes::uv_sphere(3, 2),
-        over(3, &[&[0, 1, 2]]),
-        over(4, &[&[0, 1, 2, 3], &[3, 2, 1, 0]]),
-        over(4, &[&[0, 1, 3], &[1, 2, 3], &[2, 0, 3]]),
-        over(6, &[&[0, 1, 2, 3, 4, 5]]),
-        over(
+        topology(3, &[&[0, 1, 2]]),
+        topology(4, &[&[0, 1, 2, 3], &[3, 2, 1, 0]]),
+        topology(4, &[&[0, 1, 3], &[1, 2, 3], &[2, 0, 3]]),
+        topology(6, &[&[0, 1, 2, 3, 4, 5]]),
+        topology(
             8,
             &[&[0, 1, 2, 3, 4], &[1, 0, 5], &[2, 1, 5, 6], &[4, 7, 5, 0]],
         ),
     ]
 }
 
-/// What a mesh is like, counted on its list of polygons.
+/// Topological counts of a list of polygons.
 #[derive(Debug, PartialEq)]
-struct Shape {
+struct Topology {
     euler: i64,
     edges: usize,
     loops: usize,
     components: usize,
     isolated: usize,
-    /// Pairs of faces that lie back to back.
+    /// The number of faces that lie back to back with another face.
     folded: usize,
 }
 
-impl Shape {
-    /// `None` if the polygons are not a manifold.
+impl Topology {
+    /// Returns the counts, or `None` if the polygons are not a manifold.
     fn of(n: usize, faces: &[(usize, Vec<usize>)]) -> Option<Self> {
         let number = |&v: &usize| u32::try_from(v).unwrap();
         let polygons: Vec<Vec<u32>> = faces
@@ -74,44 +74,44 @@ impl Shape {
     }
 }
 
-/// The collapse on a list of polygons: the corner goes, and triangles with both ends. `None` if the
-/// result is not a manifold of the same shape.
-fn naive(mesh: &Mesh, before: &Shape, e: EdgeId) -> Option<Vec<(usize, Vec<usize>)>> {
+/// Collapses an edge on a list of polygons: replaces the removed end in all polygons, and removes triangles
+/// with both ends. Returns `None` if the result is not a manifold of the same topology.
+fn naive(mesh: &Mesh, before: &Topology, e: EdgeId) -> Option<Vec<(usize, Vec<usize>)>> {
     let [a, b] = mesh.edge_vertices(e).map(VertexId::index);
-    let (v, gone) = (a.min(b), a.max(b));
-    let mut left = Vec::new();
-    let mut vanished = 0;
+    let (v, removed) = (a.min(b), a.max(b));
+    let mut remaining = Vec::new();
+    let mut n_vanished = 0;
     for (f, mut corners) in faces(mesh) {
         let is_triangle = corners.len() == 3;
         for corner in &mut corners {
-            *corner = if *corner == gone { v } else { *corner };
+            *corner = if *corner == removed { v } else { *corner };
         }
         corners.dedup();
         if corners.len() > 1 && corners.first() == corners.last() {
             corners.pop();
         }
         if corners.len() > 2 {
-            left.push((f, lowest_first(corners)));
+            remaining.push((f, lowest_first(corners)));
         } else {
             assert!(is_triangle);
-            vanished += 1;
+            n_vanished += 1;
         }
     }
     let n = mesh.domain_len(Domain::Vertex);
-    let after = Shape::of(n, &left)?;
-    // The vertex that is gone is an isolated one of the list.
-    let expected = Shape {
+    let after = Topology::of(n, &remaining)?;
+    // The removed vertex is an isolated vertex of the list.
+    let expected = Topology {
         euler: before.euler + 1,
-        edges: before.edges - 1 - vanished,
+        edges: before.edges - 1 - n_vanished,
         components: before.components + 1,
         isolated: before.isolated + 1,
         folded: after.folded.min(before.folded),
         ..*before
     };
-    (after == expected).then_some(left)
+    (after == expected).then_some(remaining)
 }
 
-/// Whether a list of polygons says all of the mesh.
+/// Whether a list of polygons represents the mesh: it has no parallel edges, and no face visits a vertex twice.
 fn is_simple(mesh: &Mesh) -> bool {
     let mut ends: Vec<_> = mesh
         .edges()
@@ -129,10 +129,10 @@ fn is_simple(mesh: &Mesh) -> bool {
     ends.windows(2).all(|pair| pair[0] != pair[1]) && mesh.faces().all(visits_once)
 }
 
-/// Numbers that look random: a linear congruence.
-struct Numbers(u64);
+/// A linear congruential random number generator.
+struct Random(u64);
 
-impl Numbers {
+impl Random {
     fn below(&mut self, n: usize) -> usize {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005);
         self.0 = self.0.wrapping_add(1_442_695_040_888_963_407);
@@ -140,15 +140,15 @@ impl Numbers {
     }
 }
 
-/// Some edit, refused or not.
-fn edit_somewhere(mesh: &mut Mesh, numbers: &mut Numbers) {
+/// Applies a random edit. Ignores refusals.
+fn random_edit(mesh: &mut Mesh, random: &mut Random) {
     let half_edges: Vec<_> = mesh.half_edges().collect();
-    let h = half_edges[numbers.below(half_edges.len())];
-    match numbers.below(8) {
+    let h = half_edges[random.below(half_edges.len())];
+    match random.below(8) {
         0..=2 => drop(mesh.flip_edge(h.edge())),
         3 => drop(mesh.split_edge(h.edge(), 0.5)),
         4 if mesh.n_faces() > 1 => drop(mesh.face(h).map(|f| mesh.delete_face(f))),
-        // Joins corners whether they are joined outside the face or not.
+        // Joins two corners even if they already share an edge outside the face.
         5 if mesh.face(h).is_some_and(|f| mesh.degree(f) > 3) => {
             let opposite = mesh.next(mesh.next(h));
             if mesh.origin(h) != mesh.origin(opposite) {
@@ -160,27 +160,27 @@ fn edit_somewhere(mesh: &mut Mesh, numbers: &mut Numbers) {
 }
 
 #[test]
-fn the_verdict_is_that_of_a_list_of_polygons() {
-    let mut verdicts = BTreeMap::new();
-    let mut numbers = Numbers(7);
+fn both_implementations_agree_on_random_meshes() {
+    let mut outcomes = BTreeMap::new();
+    let mut random = Random(7);
     for round in 0..40 {
         for mut mesh in samples() {
             for _ in 0..round % 8 {
-                edit_somewhere(&mut mesh, &mut numbers);
+                random_edit(&mut mesh, &mut random);
             }
             assert_eq!(mesh.defects(), []);
             mesh.delete_isolated_vertices();
-            let shape = is_simple(&mesh)
-                .then(|| Shape::of(mesh.domain_len(Domain::Vertex), &faces(&mesh)))
-                .map(|shape| shape.expect("a list of polygons says all of it"));
+            let topology = is_simple(&mesh)
+                .then(|| Topology::of(mesh.domain_len(Domain::Vertex), &faces(&mesh)))
+                .map(|topology| topology.expect("a simple mesh is a manifold list of polygons"));
             for e in mesh.edges() {
-                let verdict = compare(&mesh, shape.as_ref(), e);
-                *verdicts.entry(verdict).or_insert(0) += 1;
+                let outcome = compare(&mesh, topology.as_ref(), e);
+                *outcomes.entry(outcome).or_insert(0) += 1;
             }
         }
     }
-    // Every reason has been seen, and often enough that it means something.
-    let seen: Vec<_> = verdicts.keys().map(String::as_str).collect();
+    // Every outcome occurred.
+    let names: Vec<_> = outcomes.keys().map(String::as_str).collect();
     let expected = [
         "DuplicateEdge",
         "JoinsBoundaries",
@@ -190,21 +190,21 @@ fn the_verdict_is_that_of_a_list_of_polygons() {
         "VisitsTwice",
         "done",
     ];
-    assert_eq!(seen, expected, "{verdicts:?}");
-    assert!(verdicts["done"] > 3000, "{verdicts:?}");
+    assert_eq!(names, expected, "{outcomes:?}");
+    assert!(outcomes["done"] > 3000, "{outcomes:?}");
 }
 
-/// Collapses an edge on both; the name of the verdict.
-fn compare(mesh: &Mesh, shape: Option<&Shape>, e: EdgeId) -> String {
+/// Collapses an edge with both implementations and compares the results. Returns the name of the outcome.
+fn compare(mesh: &Mesh, topology: Option<&Topology>, e: EdgeId) -> String {
     let mut edited = mesh.clone();
-    let done = edited.collapse_edge(e);
-    assert_eq!(edited.defects(), [], "{e}: {done:?}");
-    if let Some(shape) = shape {
-        let expected = naive(mesh, shape, e);
+    let result = edited.collapse_edge(e);
+    assert_eq!(edited.defects(), [], "{e}: {result:?}");
+    if let Some(topology) = topology {
+        let expected = naive(mesh, topology, e);
         assert_eq!(
-            done.is_ok(),
+            result.is_ok(),
             expected.is_some(),
-            "{e} {:?}: {done:?}\n{:?}",
+            "{e} {:?}: {result:?}\n{:?}",
             mesh.edge_vertices(e),
             faces(mesh)
         );
@@ -212,9 +212,9 @@ fn compare(mesh: &Mesh, shape: Option<&Shape>, e: EdgeId) -> String {
             assert_eq!(faces(&edited), expected);
         }
     }
-    match done {
+    match result {
         Ok(_) => {
-            let shape = |mesh: &Mesh| {
+            let counts = |mesh: &Mesh| {
                 let euler = mesh.euler_characteristic();
                 (
                     euler,
@@ -222,7 +222,7 @@ fn compare(mesh: &Mesh, shape: Option<&Shape>, e: EdgeId) -> String {
                     crate::geometry::n_components(mesh),
                 )
             };
-            assert_eq!(shape(&edited), shape(mesh));
+            assert_eq!(counts(&edited), counts(mesh));
             "done".to_owned()
         }
         Err(reason) => {

@@ -333,8 +333,8 @@ impl Mesh {
         }
     }
 
-    /// If the entries have become larger than the mesh, replaces them by one copy of the mesh as it was at
-    /// `begin`. Called between edits. Does nothing while inner levels are open: they last for one edit only.
+    /// Replaces the entries by one copy of the mesh as it was at `begin`, if they have become larger than the
+    /// mesh. Called between edits. Does nothing while inner levels are open: they last for one edit only.
     pub(crate) fn bound_journal(&mut self) {
         let Some(journal) = &self.journal else { return };
         let [level] = journal.levels[..] else { return };

@@ -50,13 +50,13 @@
 //!
 //! Removed elements are marked dead. No id is reused until [`Mesh::compact`] renumbers the elements.
 //! [`Mesh::begin`] starts to record edits, [`Mesh::rollback`] undoes them, and [`Mesh::commit`] ends the recording and
-//! returns a [`Change`]. [`Mesh::revert`] applies a change later: once to undo, a second time to redo. Operations on a
-//! whole mesh build new arrays ([`Mesh::from_arrays`]) or polygons ([`build()`]) and store them with [`Mesh::replace`].
+//! returns a [`Change`]. [`Mesh::revert`] applies a change later: once to undo, a second time to redo. Operations on
+//! a whole mesh build new arrays ([`Mesh::from_arrays`]) or polygons ([`build()`]) and store them with [`Mesh::replace`].
 //!
 //! # Read in this order
 //!
-//! These 18 files explain the data structure and how it is edited. The other edits follow the pattern of flip and split;
-//! the other files of `build` handle polygons that do not form a manifold.
+//! These 18 files explain the data structure and how it is edited. The other edits follow the pattern of flip and
+//! split; the other files of `build` handle polygons that do not form a manifold.
 //!
 //! | files | contents |
 //! | --- | --- |

@@ -34,12 +34,12 @@ pub(super) struct Outgoing(u32);
 impl Outgoing {
     const NONE: Self = Self(NONE);
 
-    /// The side of corner `c`.
+    /// Returns the side of corner `c`.
     pub(super) fn along_side(c: u32) -> Self {
         Self(2 * c)
     }
 
-    /// The boundary half-edge that is the twin of the side of corner `c`.
+    /// Returns the boundary half-edge that is the twin of the side of corner `c`.
     pub(super) fn along_boundary(c: u32) -> Self {
         Self(2 * c + 1)
     }

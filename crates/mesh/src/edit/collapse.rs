@@ -368,7 +368,7 @@ impl<I: Id + Ord> SmallIdSet<I> {
         self.n += 1;
     }
 
-    /// Must be called after the last `push`, before `has` and `count`.
+    /// Prepares `has` and `count`. Must be called after the last `push`.
     fn sort(&mut self) {
         self.on_heap.sort_unstable();
     }

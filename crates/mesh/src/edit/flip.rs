@@ -127,7 +127,7 @@ mod tests {
     use crate::{FaceId, UV, VertexId, shapes};
     use glam::{DVec2, DVec3};
 
-    /// The mesh of the picture: a = 0, b = 1, c = 2, d = 3; the edge is e0.
+    /// Returns the mesh of the picture: a = 0, b = 1, c = 2, d = 3; the edge is e0.
     fn rhombus() -> Mesh {
         let p = |x: f64, y: f64| DVec3::new(x, y, 0.0);
         let positions = vec![p(-1., 0.), p(1., 0.), p(0., 1.), p(0., -1.)];

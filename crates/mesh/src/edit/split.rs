@@ -63,7 +63,7 @@ impl Mesh {
     /// Splits `e`, from a to b, by a vertex m, like [`split_edge`](Self::split_edge), but does not cut the faces
     /// beside `e`: m becomes an additional corner of these faces, even of triangles.
     ///
-    /// Returns the new edge m-b, whose first half begins at m.
+    /// Returns the new edge m-b, whose first half starts at m.
     ///
     /// # Errors
     ///

@@ -203,7 +203,7 @@ mod tests {
         assert!(n_undone > 100, "{n_undone}");
     }
 
-    /// Splits the vertex that `e` of `shape` became in `mesh`.
+    /// Undoes the collapse of edge `e` of `shape` in `mesh`: splits the merged vertex.
     fn undo_collapse(mesh: &mut Mesh, shape: &Mesh, e: EdgeId) {
         // h runs from v to the removed vertex.
         let [h, twin] = e.half_edges();

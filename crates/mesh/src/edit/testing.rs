@@ -119,7 +119,7 @@ pub(super) fn polygons(mesh: &Mesh) -> Vec<Vec<usize>> {
     mesh.faces().map(corners).collect()
 }
 
-/// Like [`checked_edit`], but returns only the edited mesh.
+/// Applies an edit like [`checked_edit`], but returns only the edited mesh.
 pub(super) fn checked_edit_mesh(
     before: &Mesh,
     edit: impl Fn(&mut Mesh) -> Result<(), EditError>,

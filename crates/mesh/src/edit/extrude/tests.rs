@@ -306,7 +306,7 @@ fn sides_and_copies_have_the_values_of_the_originals() {
         let (a, b) = (old[h.index()], old[before.next(h).index()]);
         assert_eq!(around, [a, b, b, a]);
         assert!(!mesh.is_seam(new.edge()));
-        // The edge upwards from v.
+        // The edge from v to v'.
         let upright = mesh.prev(mesh.face_half_edge(side)).edge();
         assert_eq!(creases[upright.index()], 0.0);
     }

@@ -1,8 +1,8 @@
-//! The list of built-in operations: one line a group.
+//! The list of built-in operations, one line per group.
 
 use op::Registry;
 
-/// Every built-in operation, in the order of the reference.
+/// Returns a registry of all built-in operations, in the order of the reference.
 #[rustfmt::skip]
 pub fn registry() -> Registry {
     Registry::new()

@@ -1,4 +1,4 @@
-//! Operations: putting a mesh in order.
+//! Operations that clean up a mesh.
 
 mod reverse;
 mod triangulate;

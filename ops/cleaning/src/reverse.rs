@@ -1,33 +1,32 @@
-//! Reverse: turns faces over, so that their other side is the outside.
+//! Reverse: reverses the orientation of faces, so that their other side is the outside.
 //!
 //! ```text
 //!       c                    c
 //!     /   ^                ^   \
-//!   /   f   \     --->   /   f   \       V, E and F stay, and so do all numbers
+//!   /   f   \     --->   /   f   \       all counts and numbers stay the same
 //!  v         \          /         v
 //!  a ------> b          a <------ b
 //! ```
 
 use op::prelude::*;
 
-/// Turns faces over, so that their other side is the outside.
+/// Reverses the orientation of faces, so that their other side is the outside.
 ///
-/// The two faces at an edge run along it in opposite directions, so only whole components can be turned:
-/// if a face that is not selected shares an edge with one that is, the step is refused. No vertex moves
-/// and no number changes; the first corner of a face stays the first, the others follow in reverse.
-/// Normals are turned over too. Other attributes stay with their elements, corner values with their
-/// vertex and face.
+/// Adjacent faces must have the same orientation, so only whole connected components can be reversed: if a selected
+/// face shares an edge with a face that is not selected, the step is refused. No vertex moves and no number changes.
+/// The first corner of a face stays first, and the other corners follow in reverse order. Normals are negated. Other
+/// attributes stay with their elements, and corner values with their vertex and face.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Reverse {
-    /// Which faces: whole components.
+    /// The faces to reverse: whole connected components.
     #[serde(default)]
     pub faces: FaceSelection,
 }
 
 impl MeshOperation for Reverse {
     const NAME: &'static str = "Reverse";
-    const SUMMARY: &'static str = "Turn faces over";
+    const SUMMARY: &'static str = "Reverse the orientation of faces";
     const EXAMPLE: &'static str = "Reverse()";
 
     fn plan(&self, _: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
@@ -56,8 +55,8 @@ mod tests {
     use op::Refusal;
     use op::test::{applied, try_applied};
 
-    /// A cube and a tetrahedron beside it, whose faces are the last four.
-    fn two() -> Mesh {
+    /// Returns a mesh of a cube and a tetrahedron. The last four faces belong to the tetrahedron.
+    fn cube_and_tetrahedron() -> Mesh {
         let (cube, other) = (shapes::cube(), shapes::tetrahedron());
         let mut positions = cube.positions().to_vec();
         positions.extend(other.positions().iter().map(|&p| p + 5.0));
@@ -77,30 +76,30 @@ mod tests {
     }
 
     #[test]
-    fn a_reversed_mesh_is_inside_out_and_twice_reversed_as_before() {
-        let mesh = two();
+    fn reversing_negates_the_volume_and_reversing_twice_changes_nothing() {
+        let mesh = cube_and_tetrahedron();
         let reversed = applied(&Reverse::default(), mesh.clone());
         assert_eq!(geometry::volume(&reversed), -geometry::volume(&mesh));
         assert_eq!(applied(&Reverse::default(), reversed), mesh);
     }
 
     #[test]
-    fn one_component_may_be_chosen() {
-        let mesh = two();
-        let (turned, report) = try_applied(&faces(&[6, 7, 8, 9]), mesh.clone()).unwrap();
+    fn a_single_component_can_be_reversed() {
+        let mesh = cube_and_tetrahedron();
+        let (reversed, report) = try_applied(&faces(&[6, 7, 8, 9]), mesh.clone()).unwrap();
         let small = geometry::volume(&shapes::tetrahedron());
         assert!(
-            (geometry::volume(&turned) - (geometry::volume(&mesh) - 2.0 * small)).abs() < 1e-12
+            (geometry::volume(&reversed) - (geometry::volume(&mesh) - 2.0 * small)).abs() < 1e-12
         );
         assert_eq!(report.changed, 4);
-        // One after the other is both at once.
-        let both = applied(&faces(&[0, 1, 2, 3, 4, 5]), turned);
+        // Reversing the components one after the other equals reversing the mesh.
+        let both = applied(&faces(&[0, 1, 2, 3, 4, 5]), reversed);
         assert_eq!(both, mesh.reversed());
     }
 
     #[test]
     fn a_part_of_a_component_is_refused() {
-        let refused = try_applied(&faces(&[0]), two());
+        let refused = try_applied(&faces(&[0]), cube_and_tetrahedron());
         assert!(
             matches!(
                 refused,
@@ -114,14 +113,14 @@ mod tests {
     }
 
     #[test]
-    fn nothing_selected_changes_nothing() {
-        let (mesh, report) = try_applied(&faces(&[]), two()).unwrap();
-        assert_eq!(mesh, two());
+    fn an_empty_selection_changes_nothing() {
+        let (mesh, report) = try_applied(&faces(&[]), cube_and_tetrahedron()).unwrap();
+        assert_eq!(mesh, cube_and_tetrahedron());
         assert_eq!(report.notes, ["nothing was selected"]);
     }
 
     #[test]
-    fn a_recipe_may_choose_faces() {
+    fn parameters_are_read() {
         let parse = |text| op::test::read::<Reverse>(text);
         assert_eq!(parse("()").unwrap().faces, FaceSelection::All);
         let tagged = FaceSelection::Tagged("lid".into());

@@ -8,13 +8,13 @@
 //!    a ------- b          a ------- b          '---'                  '---'
 //! ```
 //!
-//! A face with n corners becomes n - 2 triangles, which stand where it stood; every vertex and every edge
-//! keeps its number and the n - 3 diagonals come behind. Which diagonals, is told by [`Triangulate`].
-//! The mesh is cut face by face inside its own half-edges, not built again from triangles, so that what
-//! was closed stays closed even where two diagonals join the same two vertices.
+//! A face with n corners becomes n - 2 triangles, which take its place in the order of the faces. Vertices and edges
+//! keep their numbers, and the n - 3 diagonals are added at the end. [`Triangulate`] documents which diagonals are
+//! chosen. The half-edges of the mesh are kept and new ones are added. The mesh is not built again from triangles, so
+//! a closed mesh stays closed even where two diagonals join the same two vertices.
 
 mod assemble;
-mod doubles;
+mod duplicates;
 
 use geometry::triangulate::{Cut, Cutter};
 use op::Refusal;
@@ -23,23 +23,23 @@ use rayon::prelude::*;
 
 /// Cuts polygons into triangles.
 ///
-/// A quadrilateral is cut along its shorter diagonal; if both are equally long (squares of lengths
-/// within 1e-12 of each other) along the one at its lowest vertex. But a diagonal with a triangle that
-/// has no area or is turned over, seen along the normal of the face, is taken only if the other one is no
-/// better: a quadrilateral with a reflex corner is cut there. And where the diagonal would join two
-/// vertices that share an edge or another diagonal already, the other one is taken if it can be;
-/// what remains is counted.
+/// A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length (their squared lengths
+/// differ by at most 1e-12, relative), it is cut at the vertex with the lowest number. A diagonal that gives a triangle
+/// without area, or one that is turned over relative to the normal of the face, is chosen only if the other diagonal
+/// is no better. A quadrilateral with a reflex corner is therefore cut at that corner. If a diagonal would join two
+/// vertices that are already joined by an edge or another diagonal, the other diagonal is chosen where possible.
+/// The remaining duplicate diagonals are counted.
 ///
-/// A larger face is projected along its normal, cut by ears, and improved by turning diagonals until it
-/// is a Delaunay triangulation inside its sides. A face that cannot be cut this way, because it has no
-/// area or its sides cross, becomes a fan around its lowest vertex, and is counted.
+/// A face with more corners is projected along its normal, cut by ear clipping, and improved by flipping diagonals
+/// until it is a constrained Delaunay triangulation. A face that cannot be cut this way, because it has no area or its
+/// sides cross, becomes a triangle fan around its lowest vertex, and is counted.
 ///
-/// The triangles of a face stand where it stood and have its values. Vertices and edges keep their
-/// numbers. Corners keep the values of the same vertex in the same face.
+/// The triangles take the place of their face in the order of the faces and have its values. Vertices and edges keep
+/// their numbers. Corners keep the values of the same vertex in the same face.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Triangulate {
-    /// Which faces.
+    /// The faces to cut.
     #[serde(default)]
     pub faces: FaceSelection,
 }
@@ -51,7 +51,7 @@ impl MeshOperation for Triangulate {
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let cut = self.faces.count(plan);
-        // A face of degree d gains d - 3 diagonals, and all together have fewer than corners.
+        // A face of degree d gets d - 3 diagonals. All faces together get fewer diagonals than they have corners.
         let diagonals = cut.times(plan.degrees.less(3)).capped(plan.edges.by(2).max);
         plan.grow(Range::exactly(0), diagonals, diagonals);
         if self.faces == FaceSelection::All {
@@ -82,19 +82,19 @@ impl MeshOperation for Triangulate {
             return Ok(Report::default());
         }
         if 2 * (mesh.n_edges() + diagonals) >= u32::MAX as usize {
-            let message = format!("{diagonals} more edges are more than ids can number");
+            let message = format!("the {diagonals} new edges would exceed the supported number");
             return Err(OpError::refused(Refusal::Full, message));
         }
         cx.advance("triangulate", 1, 3)?;
-        let doubles = doubles::avoid(mesh, &mut cuts);
+        let duplicates = duplicates::avoid(mesh, &mut cuts);
         cx.advance("triangulate", 2, 3)?;
         mesh.replace(assemble::assemble(mesh, &cuts, diagonals));
 
         let fans = cuts.iter().filter(|cut| cut.is_fan()).count();
-        let of_fans = "faces without area or with crossing sides, cut into fans";
-        let of_doubles = "diagonals between vertices that share another edge";
-        let report = Report::changed(n_cut).count(of_fans, fans);
-        Ok(report.count(of_doubles, doubles))
+        let fan_note = "faces without area or with crossing sides, cut into fans";
+        let duplicate_note = "diagonals between vertices that are also joined by another edge";
+        let report = Report::changed(n_cut).count(fan_note, fans);
+        Ok(report.count(duplicate_note, duplicates))
     }
 }
 

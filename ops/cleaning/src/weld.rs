@@ -1,46 +1,48 @@
-//! Weld: merges vertices that lie near each other, and joins the faces at them.
+//! Weld: merges vertices that are close together, and joins the faces at them.
 //!
 //! ```text
 //!    +-----+ +-----+            +-----+-----+
-//!    |     a b     |            |     |     |       a, b become the one of the lower number,
-//!    |     | |     |    -->     |     |     |       where that is; the two edges become one
-//!    |     c d     |            |     |     |
+//!    |     a b     |            |     |     |       a and b merge at the position of the one
+//!    |     | |     |    -->     |     |     |       with the lower number; so do c and d;
+//!    |     c d     |            |     |     |       the two edges become one
 //!    +-----+ +-----+            +-----+-----+
 //! ```
 //!
-//! Vertices at most `distance` apart are linked, and all vertices that links connect become one. So two
-//! at 0.9 times the distance always merge, wherever they lie, and two at 1.1 times only through others
-//! between them. Neither depends on the order of vertices or on the number of threads.
+//! Vertices at most `distance` apart are linked, and vertices that are connected by links are merged into one.
+//! Two vertices at 0.9 times the distance therefore always merge. Two vertices at 1.1 times the distance merge
+//! only if other vertices between them link them. The result depends neither on the order of the vertices nor on
+//! the number of threads.
 
 use mesh::VERTEX_NORMAL;
 use op::prelude::*;
 
-/// Merges vertices that lie near each other, and joins the faces at them.
+/// Merges vertices that are close together, and joins the faces at them.
 ///
-/// Vertices at most `distance` apart are linked, and all that links connect become one, even if the ends
-/// of such a chain are farther apart. The merged vertex has the position and the values of the lowest
-/// number among them; the others go, and numbers close up. Edges between the same two vertices become
-/// one, with the values of the first. Corner values stay with their corners: seams of UVs are kept.
+/// Vertices at most `distance` apart are linked, and vertices that are connected by a chain of links merge into one,
+/// even if the ends of the chain are farther apart than `distance`. The merged vertex has the position and the values
+/// of the vertex with the lowest number. The other vertices are removed, and later vertices are renumbered. Edges
+/// between the same two vertices become one edge with the values of the first. Corner values stay with their corners,
+/// so UV seams are kept.
 ///
-/// A face loses corners that merge with the next one around it, and goes if fewer than three are left or
-/// if it would visit a vertex twice. Where faces that hang together then run different ways round, the
-/// smaller number of them is reversed if that makes all agree; they are counted, and normals of vertices
-/// and corners are dropped. Where the result would still not be a manifold it is split and counted: of
-/// three faces at one edge the third gets its own. If no vertices merge, nothing changes at all.
+/// If neighbouring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
+/// corners left or would visit a vertex twice. If joined faces have opposite orientations, the smaller group is
+/// reversed, provided that all orientations then agree. Reversed faces are counted, and the normals of vertices and
+/// corners are dropped. If the result would still not be manifold, it is split, and the splits are counted: for
+/// example, a third face at an edge gets a copy of the edge. If no vertices merge, the mesh does not change.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Weld {
-    /// How far apart linked vertices may be, in scene units; 0 links equal positions only.
+    /// The largest distance between linked vertices, in scene units. With 0, only vertices at equal positions merge.
     pub distance: Length,
 }
 
 impl MeshOperation for Weld {
     const NAME: &'static str = "Weld";
-    const SUMMARY: &'static str = "Merge vertices that lie near each other";
+    const SUMMARY: &'static str = "Merge vertices that are close together";
     const EXAMPLE: &'static str = "Weld(distance: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // Where faces are reversed, normals go.
+        // If faces are reversed, normals are dropped.
         for attribute in &mut plan.attributes {
             attribute.certain &= attribute.name != VERTEX_NORMAL.name;
         }

@@ -1,39 +1,38 @@
-//! Bevel edges: puts faces into the place of edges.
+//! Bevel edges: replaces edges with faces.
 //!
 //! ```text
 //!     \               /            \               /
 //!      \             /              + ----------- +
 //!       a --- e --- b      -->      |             |       the other edges at a and b are cut at a
-//!      /             \              + ----------- +       fraction of their lengths from there
+//!      /             \              + ----------- +       fraction of their lengths from a and b
 //!     /               \            /               \
 //! ```
 
 use geometry::bevel::Cuts;
 use op::prelude::*;
 
-/// Puts faces into the place of edges.
+/// Replaces edges with faces.
 ///
-/// An edge and both of its ends go. The other edges at the ends are cut at a fraction of the length that
-/// they had before the step, and a face joins the cuts: one of four corners where three edges met at each end.
-/// Edges are taken in order of their numbers, each as it is when its turn comes: one at the end of
-/// an earlier one begins at its cut. Where an edge is cut at both ends the fraction must be below a half.
+/// A selected edge and both of its ends are removed. The other edges at the ends are cut at a fraction of their lengths
+/// before the step, and a new face joins the cuts. The face has four corners if three edges met at each end. Edges are
+/// bevelled in order of their numbers, in the mesh as edited so far: an edge at the end of an earlier bevelled edge
+/// starts at its cut. If an edge is cut at both ends, the fraction must be below 0.5.
 ///
-/// The vertices of the edges are gone, so that the numbers of those behind them close up; the new ones are
-/// numbered behind all others, in order of the edges and clockwise around each. Faces keep their
-/// numbers, new ones come behind in order of the edges.
+/// The ends of the edges are removed, and later vertices are renumbered. New vertices are numbered last, in order of the
+/// edges and clockwise around each. Faces keep their numbers; new faces are numbered last, in order of the edges.
 ///
-/// Values at the cuts lie between those at the ends, so that textures stay as they are. A new face has the
-/// values (material, tags) of a face beside the edge, new edges have none. Normals are dropped.
+/// Values at the cuts are interpolated between the ends of the edge, so textures do not change. A new face has the
+/// values (material, tags) of a face beside the edge. New edges have no values. Normals are dropped.
 ///
-/// Refused are edges on the boundary or with an end there, those with an end of fewer than three edges,
-/// those whose ends another edge joins, and those with an edge beside them that has too little left for the
-/// cut.
+/// An edge is refused if it or one of its ends is on the boundary, if an end has fewer than three edges, if its ends are
+/// also joined by another edge, or if the rest of an edge at one of its ends is too short for the cut.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct BevelEdges {
-    /// Which edges.
+    /// The edges to bevel.
     pub edges: EdgeSelection,
-    /// Where the edges around are cut, as a fraction of their lengths: strictly between 0 and 1.
+    /// The distance of the cuts from the ends of the edge, as a fraction of the lengths of the edges that are cut. From
+    /// 0 to 1, exclusive.
     pub fraction: Fraction,
     /// What to do when an edge is refused.
     #[serde(default)]
@@ -42,23 +41,23 @@ pub struct BevelEdges {
 
 impl MeshOperation for BevelEdges {
     const NAME: &'static str = "BevelEdges";
-    const SUMMARY: &'static str = "Put faces into the place of edges";
+    const SUMMARY: &'static str = "Replace edges with faces";
     const EXAMPLE: &'static str = "BevelEdges(edges: Between(0, 2), fraction: 0.25)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let done = self.on_refusal.done(self.edges.count(plan));
         if done.max > 0 {
-            // Four cuts at least. Old vertices go with the first of their edges, and all together have two
-            // ends of each edge; new ones have three edges.
+            // Each edge makes at least four cuts. An old vertex is removed with the first of its edges. All edges
+            // together have two ends each, and a new vertex has three edges.
             let cuts = Range::between(done.by(4).min, plan.edges.by(2).plus(done.by(4)).max);
-            // A face has as many corners as there are cuts, and later ones can double them.
+            // A new face has as many corners as there are cuts, and later bevels can double the number.
             let largest = plan.degrees.max.max(plan.edges.max.saturating_add(3));
             plan.degrees = Range::between(plan.degrees.min.min(4), largest.saturating_mul(2));
-            let without = |gone: u64| Range {
-                min: cuts.min - gone * done.min.min(cuts.min / 4),
-                max: cuts.max.saturating_sub(done.min.saturating_mul(gone)),
+            let cuts_minus = |removed: u64| Range {
+                min: cuts.min - removed * done.min.min(cuts.min / 4),
+                max: cuts.max.saturating_sub(done.min.saturating_mul(removed)),
             };
-            plan.grow(without(2), without(1), done);
+            plan.grow(cuts_minus(2), cuts_minus(1), done);
         }
         plan.drop_normals();
         Vec::new()
@@ -99,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn four_parallel_edges_are_cut_alike() {
+    fn bevelling_four_parallel_edges_gives_a_prism() {
         let upright = "Or([Between(0, 4), Between(1, 5), Between(2, 6), Between(3, 7)])";
         let step = parse(&format!(
             "(edges: Expect(count: 4, of: {upright}), fraction: 0.25)"
@@ -110,7 +109,7 @@ mod tests {
         let mesh = applied(&step, shapes::cube());
         let counts = [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()];
         assert_eq!(counts, [16, 24, 10]);
-        // A prism over an octagon: a square of side 2 without four triangles of legs 1/2.
+        // The base of the prism is an octagon: a square of side 2 without four triangles with legs of 1/2.
         assert!((geometry::volume(&mesh) - 2.0 * (4.0 - 0.5)).abs() < 1e-13);
         for &p in mesh.positions() {
             let (x, y) = (p.x.abs(), p.y.abs());
@@ -139,7 +138,7 @@ mod tests {
     fn edges_at_the_boundary_are_refused() {
         let step = parse("(edges: All, fraction: 0.25, on_refusal: Skip)");
         let (_, report) = try_applied(&step, shapes::grid(3, 3)).unwrap();
-        // The four edges in the middle.
+        // Only the four edges in the middle are not at the boundary.
         assert_eq!(report.changed, 4);
         let step = parse("(edges: All, fraction: 0.25)");
         let refused = try_applied(&step, shapes::grid(3, 3));

@@ -1,4 +1,4 @@
-//! Collapse edges: shrinks edges to points.
+//! Collapse edges: merges the two ends of each edge.
 //!
 //! ```text
 //!        c               c
@@ -10,31 +10,34 @@
 
 use op::prelude::*;
 
-/// Shrinks edges to points: the two ends of each become one vertex.
+/// Collapses edges: the two ends of each edge become one vertex.
 ///
-/// On closed triangles each collapse takes 1 vertex, 3 edges and 2 faces away, and on the boundary one
-/// face and two edges. A face with more than three corners beside the edge only loses one. The end of
-/// the lower number stays. Edges are taken in order of their numbers; one that an earlier collapse took
-/// away counts as refused.
+/// In a mesh of triangles, a collapse removes 1 vertex, 3 edges and 2 faces, or 1 vertex, 2 edges and 1 face on the
+/// boundary. A face beside the edge with more than three corners only loses a corner. The vertex at the end with the
+/// lower number is kept. Edges are collapsed in order of their numbers; an edge that an earlier collapse removed counts
+/// as refused.
 ///
-/// Refused is what would change the shape of the surface or lay elements on each other: an edge inside
-/// that joins two places of the boundary (`JoinsBoundaries`), ends with a neighbour in common that no
-/// triangle beside the edge has, as around a tube of three sides or at a hole of three (`Link`), ends
-/// that share a second edge (`DuplicateEdge`) or a face elsewhere (`RepeatedVertex`), a tetrahedron or
-/// a lone triangle (`Vanishes`), and edges with the same face on both sides (`SameFace`) or two
-/// triangles that share another edge (`SameOpposite`).
+/// A collapse is refused if it would change the topology of the surface or make elements coincide:
 ///
-/// Values at the vertex and its corners lie between those at the ends; both sides of a seam keep theirs.
-/// Of two edges that become one the larger crease counts, and a tag of either. Normals are dropped.
+/// - `JoinsBoundaries`: an edge inside the surface joins two boundary vertices.
+/// - `Link`: the ends have a common neighbour that is not a corner of a triangle beside the edge, for example around a
+///   tube of three sides or at a hole with three edges.
+/// - `DuplicateEdge`: a second edge joins the ends.
+/// - `RepeatedVertex`: the ends are also corners of a face that is not beside the edge.
+/// - `Vanishes`: the mesh around the edge is a tetrahedron or a single triangle.
+/// - `SameFace`: the same face is on both sides of the edge.
+/// - `SameOpposite`: the two triangles beside the edge share another edge.
+///
+/// Values at the remaining vertex and its corners are interpolated between the ends; both sides of a seam keep their
+/// values. When two edges become one, it has the larger crease of the two, and the tags of both. Normals are dropped.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CollapseEdges {
-    /// Which edges.
+    /// The edges to collapse.
     pub edges: EdgeSelection,
-    /// Where on the edge it shrinks to, from 0 to 1.
+    /// The position of the remaining vertex on the edge, from 0 to 1. Defaults to 0.5.
     ///
-    /// Runs from v to w if `edges` is `Between(v, w)`, otherwise from the end of the lower number to the
-    /// other.
+    /// If `edges` is `Between(v, w)`, 0 is at v and 1 is at w. Otherwise 0 is at the end with the lower number.
     #[serde(default = "half")]
     pub at: ClosedFraction,
     /// What to do when a collapse is refused.
@@ -48,14 +51,13 @@ const fn half() -> ClosedFraction {
 
 impl MeshOperation for CollapseEdges {
     const NAME: &'static str = "CollapseEdges";
-    const SUMMARY: &'static str = "Shrink edges to points";
+    const SUMMARY: &'static str = "Collapse edges to points";
     const EXAMPLE: &'static str = "CollapseEdges(edges: All, on_refusal: Skip)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // One that is refused is an error, unless it is skipped.
         let selected = self.edges.count(plan);
         let n = self.on_refusal.done(selected);
-        // On each side of an edge a triangle vanishes, and two edges become one; larger faces and holes stay.
+        // On each side of an edge, a triangle is removed and two edges become one. Larger faces and holes remain.
         let least = u64::from(plan.is_triangles());
         let faces = n.times(Range { min: least, max: 2 });
         plan.vertices = plan.vertices.minus(n);
@@ -91,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn the_place_runs_from_the_first_named_vertex() {
+    fn the_position_is_measured_from_the_first_named_vertex() {
         // The vertices of the square are (0,0), (1,0), (1,1), (0,1).
         let x = |text, v| {
             let mesh = applied(&parse(text), shapes::square());
@@ -105,11 +107,11 @@ mod tests {
     }
 
     #[test]
-    fn otherwise_the_place_runs_from_the_lower_number() {
+    fn otherwise_the_position_is_measured_from_the_lower_number() {
         let before = shapes::icosahedron();
         let longest = "(edges: Longest(count: 1), at: 0)";
         let mesh = applied(&parse(longest), before.clone());
-        // Nothing moved: one vertex is gone, and that is the higher one of the two.
+        // No vertex moved: only the end with the higher number is removed.
         assert_eq!(mesh.n_vertices(), 11);
         assert!(
             mesh.positions()
@@ -138,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn edges_that_are_gone_count_as_refused() {
+    fn edges_removed_by_earlier_collapses_count_as_refused() {
         let all = parse("(edges: All, on_refusal: Skip)");
         let (mesh, report) = try_applied(&all, shapes::icosahedron()).unwrap();
         assert_eq!(mesh.n_vertices() as u64, 12 - report.changed);
@@ -159,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn the_plan_of_triangles_knows_the_vertices() {
+    fn the_plan_of_triangles_has_the_exact_number_of_vertices() {
         let (plan, problems) = planned(&parse("(edges: Between(0, 1))"), &shapes::octahedron());
         assert_eq!(problems, []);
         assert_eq!(plan.vertices, Range::exactly(5));
@@ -169,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn a_recipe_may_leave_out_all_but_the_edges() {
+    fn only_the_edges_are_required() {
         let collapse = parse("(edges: Random(count: 3, seed: 7))");
         assert_eq!(
             (collapse.at, collapse.on_refusal),
@@ -180,7 +182,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn shape_and_plan_hold_for_any_choice(
+        fn topology_and_plan_hold_for_any_selection(
             count in 0..40_u32, seed in 0..1000_u64, at in 0.0..=1.0_f64, which in 0..6_usize,
         ) {
             let before = [
@@ -202,7 +204,7 @@ mod tests {
             prop_assert!(after.faces().all(|f| plan.degrees.contains(after.degree(f) as u64)));
             prop_assert_eq!(after.euler_characteristic(), before.euler_characteristic());
             prop_assert_eq!(after.n_boundary_loops(), before.n_boundary_loops());
-            // No place on an edge lies outside the box.
+            // Positions on edges are inside the bounding box.
             if let (Some([low, high]), Some([min, max])) = (geometry::bounds(&before), geometry::bounds(&after)) {
                 let slack = DVec3::splat(1e-12);
                 prop_assert!((low - slack).cmple(min).all() && max.cmple(high + slack).all());

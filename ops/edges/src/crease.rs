@@ -3,36 +3,35 @@
 //! ```text
 //!    +-------+-------+            +-------+-------+
 //!    |       |       |            |       ‖       |
-//!    |       e       |    -->     |       ‖ 2.5   |       a number for each edge, `crease`,
-//!    |       |       |            |       ‖       |       and for each vertex, `corner`
+//!    |       e       |    -->     |       ‖ 2.5   |       edges have a sharpness in the attribute `crease`,
+//!    |       |       |            |       ‖       |       vertices in the attribute `corner`
 //!    +-------+-------+            +-------+-------+
 //! ```
 //!
-//! The numbers are those of DeRose, Kass and Truong, "Subdivision Surfaces in Character Animation", 1998.
+//! Sharpness is defined as in DeRose, Kass and Truong, "Subdivision Surfaces in Character Animation", 1998.
 
 use mesh::{Attribute, CREASE, Domain, Id, VERTEX_SHARPNESS};
 use op::prelude::*;
 
 /// Makes edges and vertices sharp for subdivision.
 ///
-/// Writes a number into the edge attribute `crease` of the selected edges and the vertex attribute
-/// `corner` of the selected vertices; others keep theirs, or get 0 if the mesh had no such attribute. Loop
-/// and Catmull-Clark subdivision keep an edge or a vertex sharp for so many levels, and smooth it from
-/// then on: 2.5 is sharp for two levels and half sharp in the third, and 10 is sharp for ever. Edges of
-/// the boundary are sharp anyway.
+/// Sets the edge attribute `crease` of the selected edges and the vertex attribute `corner` of the selected vertices to
+/// `sharpness`. Other elements keep their values, or get 0 if the attribute did not exist. Loop and Catmull-Clark
+/// subdivision keep an edge or a vertex sharp for this number of levels and smooth it in later levels. For example, 2.5
+/// is sharp for two levels and half sharp in the third, and 10 is sharp at every level. Boundary edges are always sharp.
 ///
-/// At least one of `edges` and `vertices` must be given. The shape does not change. What is counted are
-/// the elements whose number was another one before.
+/// At least one of `edges` and `vertices` must be given. The geometry does not change. The report counts the elements
+/// whose value changed.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Crease {
-    /// Which edges; none if left out.
+    /// The edges to change. If omitted, no edges.
     #[serde(default)]
     pub edges: Option<EdgeSelection>,
-    /// Which vertices; none if left out.
+    /// The vertices to change. If omitted, no vertices.
     #[serde(default)]
     pub vertices: Option<VertexSelection>,
-    /// For how many levels they stay sharp: from 0, which takes a crease away, to 10, which is for ever.
+    /// For how many levels the elements stay sharp, from 0 to 10. 0 removes a crease, and 10 is sharp at every level.
     pub sharpness: Sharpness,
 }
 
@@ -45,7 +44,7 @@ impl MeshOperation for Crease {
         let mut problems = Vec::new();
         if self.is_empty() {
             let help = "`edges: All` selects every edge, `vertices: All` every vertex";
-            problems.push(Problem::error(NOTHING).help(help));
+            problems.push(Problem::error(NO_SELECTION).help(help));
         }
         if self.edges.is_some() {
             plan.provide(Domain::Edge, CREASE.name);
@@ -58,10 +57,10 @@ impl MeshOperation for Crease {
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
         if self.is_empty() {
-            return Err(OpError::Parameter(NOTHING.to_owned()));
+            return Err(OpError::Parameter(NO_SELECTION.to_owned()));
         }
         cx.advance("crease", 0, 1)?;
-        // Both are looked up first: an edge can be selected by its vertices.
+        // Both selections are evaluated before the first change, because tags and values can change.
         let edges = self.edges.as_ref();
         let edges = edges.map(|s| s.resolve(mesh, cx)).transpose()?;
         let vertices = self.vertices.as_ref();
@@ -78,7 +77,7 @@ impl MeshOperation for Crease {
     }
 }
 
-const NOTHING: &str = "expected `edges` or `vertices` or both";
+const NO_SELECTION: &str = "expected `edges` or `vertices` or both";
 
 impl Crease {
     fn is_empty(&self) -> bool {
@@ -86,7 +85,7 @@ impl Crease {
     }
 }
 
-/// Gives these elements the number. Returns how many had another one.
+/// Sets the attribute of these elements to `sharpness`. Returns how many values changed.
 fn sharpen<I: Id>(
     mesh: &mut Mesh,
     attribute: Attribute<I, f64>,
@@ -101,7 +100,7 @@ fn sharpen<I: Id>(
         (None, Some(column)) => {
             let (domain, kind) = (I::DOMAIN, column.values.type_name());
             return Err(OpError::Parameter(format!(
-                "the {domain} attribute \"{name}\" holds values of another type: {kind}"
+                "expected the {domain} attribute \"{name}\" to have the type number, found {kind}"
             )));
         }
     };
@@ -110,7 +109,7 @@ fn sharpen<I: Id>(
         let number = &mut numbers[id.index()];
         if *number != sharpness {
             changed += 1;
-            // Adding 0 makes 0 of -0.
+            // Adding 0 turns -0 into 0.
             *number = sharpness + 0.0;
         }
     }
@@ -141,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn other_edges_keep_their_numbers() {
+    fn other_edges_keep_their_sharpness() {
         let first = step("(edges: Between(0, 1), sharpness: 10)");
         let second = step("(edges: Between(2, 1), sharpness: 0.5)");
         let mesh = applied(&second, applied(&first, shapes::fans(&shapes::square())));
@@ -166,10 +165,10 @@ mod tests {
     }
 
     #[test]
-    fn zero_takes_a_crease_away_and_what_does_not_change_is_not_counted() {
+    fn zero_removes_a_crease_and_unchanged_values_are_not_counted() {
         let sharp = applied(&step("(edges: All, sharpness: 1)"), shapes::cube());
-        let again = try_applied(&step("(edges: All, sharpness: 1)"), sharp.clone()).unwrap();
-        assert_eq!((again.0 == sharp, again.1.changed), (true, 0));
+        let twice = try_applied(&step("(edges: All, sharpness: 1)"), sharp.clone()).unwrap();
+        assert_eq!((twice.0 == sharp, twice.1.changed), (true, 0));
         let (smooth, report) = try_applied(&step("(edges: All, sharpness: -0.0)"), sharp).unwrap();
         assert_eq!(report.changed, 12);
         let numbers = smooth.get(CREASE).unwrap();
@@ -177,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn a_selection_of_nothing_still_makes_the_attribute_that_was_planned() {
+    fn an_empty_selection_still_creates_the_planned_attribute() {
         let crease = step("(edges: Boundary, sharpness: 1)");
         let (mesh, report) = try_applied(&crease, shapes::cube()).unwrap();
         assert_eq!(mesh.get(CREASE).unwrap(), [0.0; 12]);
@@ -187,11 +186,11 @@ mod tests {
     }
 
     #[test]
-    fn without_edges_and_vertices_there_is_nothing_to_do() {
+    fn a_step_without_edges_and_vertices_is_an_error() {
         let crease = step("(sharpness: 1)");
         let problems = planned(&crease, &shapes::cube()).1;
         assert_eq!(problems.len(), 1);
-        assert_eq!(problems[0].message, NOTHING);
+        assert_eq!(problems[0].message, NO_SELECTION);
         let error = try_applied(&crease, shapes::cube()).unwrap_err();
         assert!(matches!(error, OpError::Parameter(_)));
     }
@@ -208,7 +207,7 @@ mod tests {
         let error = try_applied(&step("(edges: All, sharpness: 1)"), mesh).unwrap_err();
         assert_eq!(
             error.to_string(),
-            "the edge attribute \"crease\" holds values of another type: 3 numbers"
+            "expected the edge attribute \"crease\" to have the type number, found 3 numbers"
         );
     }
 }

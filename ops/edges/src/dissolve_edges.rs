@@ -1,4 +1,4 @@
-//! Dissolve edges: takes edges out and merges the faces beside them.
+//! Dissolve edges: removes edges and merges the faces beside them.
 //!
 //! ```text
 //!    +-----b-----+          +-----b-----+
@@ -8,19 +8,19 @@
 
 use op::prelude::*;
 
-/// Takes edges out and merges the faces beside them.
+/// Removes edges and merges the faces beside them.
 ///
-/// Edges are taken in order of their numbers, each judged as the mesh is at that moment. Each takes 1 edge
-/// and 1 face; of the two faces the one of the lower number stays, with its values. No vertex goes or
-/// moves: those that are left with two edges can be taken out by `DissolveVertices(vertices: Valence(2))`.
-/// What is left keeps its order and its values, but numbers move up.
+/// Edges are removed in order of their numbers. Each removal is checked against the mesh as edited so far. A removal
+/// takes away 1 edge and 1 face: the face with the lower number is kept, with its values. No vertex is removed or moves;
+/// `DissolveVertices(vertices: Valence(2))` removes vertices that are left with two edges. The remaining elements keep
+/// their order and their values but are renumbered.
 ///
-/// Refused if the edge is on the boundary, has one face on both sides, or has an end with only two edges,
-/// if its faces have other corners in common than its ends, and at a seam.
+/// An edge is refused if it is on the boundary, if the same face is on both of its sides, if one of its ends has only two
+/// edges, if its two faces have common corners other than its ends, and at a seam.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DissolveEdges {
-    /// Which edges.
+    /// The edges to remove.
     pub edges: EdgeSelection,
     /// What to do when an edge is refused.
     #[serde(default)]
@@ -32,13 +32,13 @@ pub struct DissolveEdges {
 
 impl MeshOperation for DissolveEdges {
     const NAME: &'static str = "DissolveEdges";
-    const SUMMARY: &'static str = "Take edges out and merge the faces beside them";
+    const SUMMARY: &'static str = "Remove edges and merge the faces beside them";
     const EXAMPLE: &'static str = "DissolveEdges(edges: Between(0, 1))";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let chosen = self.edges.count(plan);
         let n = self.on_refusal.done(chosen);
-        // n edges merge n + 1 faces at most, and each takes two sides.
+        // n edges merge at most n + 1 faces, and each removed edge reduces the number of sides by two.
         let sides = plan.degrees.max.saturating_sub(2);
         let merged = n.max.saturating_mul(sides).saturating_add(plan.degrees.max);
         plan.degrees.max = merged
@@ -76,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn the_diagonals_of_a_triangulated_sheet_go() {
+    fn the_diagonals_of_a_triangulated_grid_are_removed() {
         let sheet = shapes::grid(4, 3);
         let diagonals = "(edges: Longest(count: 12))";
         let mesh = applied(&parse(diagonals), shapes::fans(&sheet));
@@ -85,17 +85,17 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_one_face_is_refused() {
+    fn edges_whose_faces_cannot_be_merged_are_refused() {
         assert_eq!(
             refused("(edges: Boundary)", shapes::square()),
             Refusal::Boundary
         );
-        // The third of the four edges at the middle finds it with two.
+        // After two of the four edges at the middle vertex are removed, it has only two edges.
         let around = "(edges: Between(1, 4))";
         let mut mesh = applied(&parse(around), shapes::grid(2, 2));
         mesh = applied(&parse("(edges: Between(3, 4))"), mesh);
         assert_eq!(refused("(edges: Between(4, 5))", mesh), Refusal::FewEdges);
-        // The three squares of a tube.
+        // A tube of three squares.
         let tube = applied(&parse("(edges: Between(0, 3))"), shapes::cylinder(3, false));
         assert_eq!(
             refused("(edges: Between(1, 4))", tube),
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn a_seam_is_refused_or_dropped() {
+    fn a_seam_is_refused_unless_seams_are_dropped() {
         let mut mesh = shapes::grid(2, 1);
         let uvs = mesh.half_edges().map(|h| {
             DVec2::splat(if mesh.face(h).is_some_and(|f| f.index() == 1) {
@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn the_plan_counts_exactly_where_refusals_are_errors() {
+    fn the_plan_is_exact_if_refusals_are_errors() {
         let (plan, _) = planned(&parse("(edges: Longest(count: 2))"), &shapes::cube());
         assert_eq!(
             (plan.edges, plan.faces),
@@ -146,7 +146,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn shape_and_plan_hold_for_any_choice(
+        fn topology_and_plan_hold_for_any_selection(
             count in 0..60_u32, seed in 0..1000_u64, which in 0..5_usize,
         ) {
             let before = [

@@ -1,15 +1,15 @@
-//! Flip edges: turns the edges between triangles to their other diagonal.
+//! Flip edges: replaces the edge between two triangles by the other diagonal of the pair.
 //!
 //! ```text
 //!        c                   c
 //!      /   \               / | \
-//!    a --e-- b    -->    a   e   b        V, E and F stay; four flips of an edge are none
+//!    a --e-- b    -->    a   e   b        no counts change; four flips of an edge restore the mesh
 //!      \   /               \ | /
 //!        d                   d
 //! ```
 //!
-//! Each edge once, or only those that make the mesh better, until none does (module `until`, with
-//! what is better in module `goal`).
+//! Either each edge is flipped once, or edges are flipped while that improves the mesh (module `until`). The module
+//! `goal` defines what an improvement is.
 
 mod goal;
 mod until;
@@ -19,34 +19,34 @@ use op::prelude::*;
 
 use goal::Goal;
 
-/// Turns edges between triangles to their other diagonal.
+/// Replaces the edge between two triangles by the other diagonal of the pair.
 ///
-/// Edges are taken in order of their numbers, each judged as the mesh is at that moment. A flip is
-/// refused if the edge is on the boundary, if a face beside it is not a triangle, if the far corners
-/// of the triangles share an edge already or are one and the same, and at a seam. No number of an
-/// element changes and no vertex moves. Values of vertices, edges and faces stay with their elements;
-/// corners take the values of the same vertex in the other triangle.
+/// Edges are flipped in order of their numbers. Each flip is checked against the mesh as edited so far. A flip is
+/// refused if the edge is on the boundary, if a face beside it is not a triangle, if the opposite corners of the two
+/// triangles are already joined by an edge or are the same vertex, and at a seam. No number of an element changes and no
+/// vertex moves. Values of vertices, edges and faces stay with their elements; corners take the values of the same vertex
+/// in the other triangle.
 ///
-/// With `until: Delaunay` or `until: Valence` an edge is flipped only if that brings the mesh nearer to
-/// the goal, and edges are judged again, pass after pass, until none is flipped any more. Such a flip
-/// neither folds the surface nor makes a triangle without area. Edges that would be flipped but may not
-/// be are no failure: they stay, and the report counts them by reason. The report also says how many
-/// passes it took, and whether edges were left because `passes` was reached.
+/// With `until: Delaunay` or `until: Valence`, an edge is flipped only if that improves the mesh. Edges are checked
+/// again, pass after pass, until no edge is flipped. These flips neither fold the surface nor create triangles without
+/// area. If a flip that would improve the mesh is refused, the step does not fail: the edge is left unchanged, and the
+/// report counts the refusal by reason. The report also contains the number of passes, and whether the step stopped
+/// because `passes` was reached.
 ///
-/// On a surface that is not flat a flip changes the shape. To keep creases and the edges of a
-/// part, leave them out of `edges`: `Flat(below: 30)`, `Not(Tagged("keep"))`.
+/// On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from `edges`,
+/// for example with `Flat(below: 30)` or `Not(Tagged("keep"))`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct FlipEdges {
-    /// Which edges. They are chosen once: an edge keeps its number when it turns.
+    /// The edges to flip. They are selected before the first flip. An edge keeps its number when it is flipped.
     pub edges: EdgeSelection,
-    /// How often, and which of them.
+    /// Which edges are flipped, and when to stop.
     #[serde(default)]
     pub until: Until,
-    /// The most passes over the edges; `Once` makes one.
+    /// The largest number of passes over the edges. Ignored for `Once`, which makes one pass.
     #[serde(default = "hundred")]
     pub passes: Count<1, 1_000_000>,
-    /// What to do when a flip is refused; only for `Once`.
+    /// What to do when a flip is refused. Only for `Once`.
     #[serde(default)]
     pub on_refusal: OnRefusal,
     /// What to do at seams.
@@ -58,14 +58,14 @@ pub struct FlipEdges {
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Until {
-    /// Each edge once.
+    /// Flip each edge once.
     #[default]
     Once,
-    /// Until no flip makes the sum of the cotangents of all angles of all triangles smaller: angles far
-    /// from flat and from zero. On a flat mesh that is the Delaunay triangulation.
+    /// Flip edges until no flip reduces the sum of the cotangents of all angles of all triangles. This avoids very small
+    /// and very large angles. On a flat mesh, the result is the Delaunay triangulation.
     Delaunay,
-    /// Until no flip brings the numbers of edges at vertices nearer to 6, or 4 on the boundary: it
-    /// makes the sum of the squares of the differences smaller.
+    /// Flip edges until no flip brings the valences of the vertices closer to 6, or to 4 on the boundary. Each flip
+    /// reduces the sum of the squared differences.
     Valence,
 }
 
@@ -75,22 +75,22 @@ const fn hundred() -> Count<1, 1_000_000> {
 
 impl MeshOperation for FlipEdges {
     const NAME: &'static str = "FlipEdges";
-    const SUMMARY: &'static str = "Turn edges to the other diagonal of their two triangles";
+    const SUMMARY: &'static str = "Flip edges to the other diagonal of their two triangles";
     const EXAMPLE: &'static str = "FlipEdges(edges: All)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();
-        // Counts, degrees and attributes stay. Without a triangle every flip is refused.
+        // Counts, degrees and attributes do not change. In a mesh without triangles, every flip is refused.
         if plan.degrees.min > 3 && self.edges.count(plan).min > 0 {
             let message = format!(
-                "FlipEdges turns edges between triangles, but every face has at least {} corners",
+                "FlipEdges flips edges between triangles, but every face has at least {} corners",
                 plan.degrees.min
             );
             let problem = match self.until {
                 Until::Once => self.on_refusal.problem(message),
                 Until::Delaunay | Until::Valence => Problem::warning(message),
             };
-            problems.push(problem.help("cut the faces into triangles first, with Triangulate"));
+            problems.push(problem.help("triangulate the faces first, with `Triangulate`"));
         }
         problems
     }
@@ -119,13 +119,13 @@ impl MeshOperation for FlipEdges {
         Ok(match flips.crossed {
             0 => report,
             n => report.note(format!(
-                "seams crossed: {n}; corners there took values of the other side"
+                "seams crossed: {n}; corners at these edges took the values of the other side"
             )),
         })
     }
 }
 
-/// Flips edges, and counts the seams that this crossed.
+/// Flips edges, and counts the flipped seams.
 struct Flips {
     seams: Seams,
     crossed: u64,
@@ -133,7 +133,7 @@ struct Flips {
 
 impl Flips {
     fn flip(&mut self, mesh: &mut Mesh, e: EdgeId) -> Result<(), EditError> {
-        // Asked before the flip: afterwards the seam is gone from the edge.
+        // Checked before the flip, which removes the seam from the edge.
         let is_seam = self.seams == Seams::Drop && mesh.is_seam(e);
         mesh.flip_edge_with(e, self.seams.into())?;
         self.crossed += u64::from(is_seam);

@@ -1,4 +1,4 @@
-//! Operations: edits of edges.
+//! Operations that edit edges.
 
 mod bevel_edges;
 mod collapse_edges;

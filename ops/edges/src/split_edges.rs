@@ -1,4 +1,4 @@
-//! Split edges: puts a vertex on edges and joins it to the far corners of their triangles.
+//! Split edges: inserts a vertex on each edge and joins it to the opposite corners of the triangles.
 //!
 //! ```text
 //!        c                 c
@@ -10,22 +10,20 @@
 
 use op::prelude::*;
 
-/// Puts a vertex on edges and joins it to the far corners of their triangles.
+/// Inserts a vertex on each edge and joins it to the opposite corners of the triangles beside the edge.
 ///
-/// On closed triangles each split adds 1 vertex, 3 edges and 2 faces; on the boundary 1, 2 and 1. A
-/// face with more than three corners only gains the new vertex as a corner. Edges are taken in order
-/// of their numbers; edges that the step makes are not split again. The vertex that is made first gets
-/// the first free number. Values at the new vertex and its corners lie between those at the ends; both
-/// sides of a seam keep theirs.
+/// In a mesh of triangles, a split adds 1 vertex, 3 edges and 2 faces, or 1 vertex, 2 edges and 1 face on the boundary.
+/// A face with more than three corners only gains the new vertex as a corner. Edges are split in order of their numbers;
+/// new edges are not split again. New vertices are numbered last, in the order of the splits. Values at the new vertex
+/// and its corners are interpolated between the ends; both sides of a seam keep their values.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct SplitEdges {
-    /// Which edges.
+    /// The edges to split.
     pub edges: EdgeSelection,
-    /// Where on the edge: strictly between 0 and 1.
+    /// The position of the new vertex on the edge. From 0 to 1, exclusive. Defaults to 0.5.
     ///
-    /// Runs from v to w if `edges` is `Between(v, w)`, otherwise from the end of the lower number to the
-    /// other.
+    /// If `edges` is `Between(v, w)`, 0 is at v and 1 is at w. Otherwise 0 is at the end with the lower number.
     #[serde(default = "half")]
     pub at: Fraction,
     /// What to do when a split is refused.
@@ -39,17 +37,17 @@ const fn half() -> Fraction {
 
 impl MeshOperation for SplitEdges {
     const NAME: &'static str = "SplitEdges";
-    const SUMMARY: &'static str = "Put a vertex on edges and join it to the far corners";
+    const SUMMARY: &'static str = "Insert a vertex on edges and join it to the opposite corners";
     const EXAMPLE: &'static str = "SplitEdges(edges: All)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // Between this many and that many for each split: boundary edges and edges of larger faces
-        // give fewer cuts.
+        // A split cuts at most two faces. It cuts fewer at boundary edges and beside faces with more than three
+        // corners.
         let n = self.edges.count(plan);
         let cuts = n.times(Range::between(u64::from(plan.is_triangles()), 2));
         plan.grow(n, n.plus(cuts), cuts);
         if !plan.is_triangles() {
-            // A larger face gains a corner for each of its sides that is split.
+            // A larger face gains one corner for each of its sides that is split.
             plan.degrees.max = plan.degrees.max.saturating_mul(2);
         }
         Vec::new()
@@ -58,7 +56,7 @@ impl MeshOperation for SplitEdges {
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
         let edges = self.edges.resolve(mesh, cx)?;
         edit_each(mesh, &edges, self.on_refusal, "split", cx, |mesh, e| {
-            // 1 - at rounds to 1 where `at` is tiny, and 1 is no place on an edge.
+            // If `at` is tiny, 1 - at rounds to 1, which is not inside the edge.
             let t = self.edges.place_on(mesh, e, self.at.get());
             let t = t.min(1.0_f64.next_down());
             mesh.split_edge(e, t).map(drop)
@@ -80,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn the_place_runs_from_the_first_named_vertex() {
+    fn the_position_is_measured_from_the_first_named_vertex() {
         // The vertices of the square are (0,0), (1,0), (1,1), (0,1).
         let x = |text| {
             let mesh = applied(&parse(text), shapes::square());
@@ -93,10 +91,10 @@ mod tests {
     }
 
     #[test]
-    fn otherwise_the_place_runs_from_the_lower_number() {
+    fn otherwise_the_position_is_measured_from_the_lower_number() {
         let mesh = applied(&parse("(edges: All, at: 0.25)"), shapes::icosahedron());
         let before = shapes::icosahedron();
-        // In order of edges; each new vertex is nearer to its lower end.
+        // New vertices are in the order of the edges, and each is closer to the end with the lower number.
         for (e, m) in before.edges().zip(12..) {
             let [a, b] = before.edge_vertices(e);
             let (low, high) = (a.min(b), a.max(b));
@@ -106,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn the_tiniest_place_works_from_both_ends() {
+    fn a_tiny_position_works_from_both_ends() {
         for text in [
             "(edges: Between(0, 1), at: 1e-300)",
             "(edges: Between(1, 0), at: 1e-300)",
@@ -116,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn all_edges_of_closed_triangles_grow_by_one_three_and_two_each() {
+    fn each_split_of_a_closed_triangle_mesh_adds_one_vertex_three_edges_and_two_faces() {
         let (mesh, report) = try_applied(&parse("(edges: All)"), shapes::icosahedron()).unwrap();
         assert_eq!(
             (mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()),
@@ -127,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn the_plan_of_triangles_knows_the_vertices() {
+    fn the_plan_of_triangles_has_the_exact_number_of_vertices() {
         let (plan, problems) = planned(&parse("(edges: All)"), &shapes::tetrahedron());
         assert_eq!(problems, []);
         assert_eq!(plan.vertices, Range::exactly(10));
@@ -136,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn a_recipe_may_leave_out_all_but_the_edges() {
+    fn only_the_edges_are_required() {
         let split = parse("(edges: Longest(count: 2))");
         assert_eq!((split.at, split.on_refusal), (half(), OnRefusal::Error));
         assert!(op::test::read::<SplitEdges>("(at: 0.5)").is_err());
@@ -144,7 +142,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn shape_and_plan_hold_for_any_choice(
+        fn topology_and_plan_hold_for_any_selection(
             count in 0..40_u32, seed in 0..1000_u64, at in 0.01..0.99_f64, which in 0..5_usize,
         ) {
             let before = [
@@ -165,8 +163,8 @@ mod tests {
             prop_assert!(after.faces().all(|f| plan.degrees.contains(after.degree(f) as u64)));
             prop_assert_eq!(after.euler_characteristic(), before.euler_characteristic());
             prop_assert!((geometry::area(&after) - geometry::area(&before)).abs() < 1e-12 * geometry::area(&before).max(1.0));
-            let moved = |p: DVec3| after.positions().contains(&p);
-            prop_assert!(before.positions().iter().all(|&p| moved(p)));
+            let is_kept = |p: DVec3| after.positions().contains(&p);
+            prop_assert!(before.positions().iter().all(|&p| is_kept(p)));
         }
     }
 }

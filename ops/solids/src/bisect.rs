@@ -1,10 +1,10 @@
 //! Bisect: cuts meshes along a plane.
 //!
 //! ```text
-//!    +-------+-------+           +-------+-------+                +-------+-------+
-//!    |       |       |           |       |       |     or only    |       |       |
-//!    |       |       |    -->    m-------m-------m     the part   m-------m-------m
-//!    |       |       |           |       |       |     in front
+//!    +-------+-------+           +-------+-------+                 +-------+-------+
+//!    |       |       |           |       |       |      or, if     |       |       |
+//!    |       |       |    -->    m-------m-------m    `keep` is    m-------m-------m
+//!    |       |       |           |       |       |     `Front`
 //!    +-------+-------+           +-------+-------+
 //! ```
 
@@ -13,41 +13,42 @@ use op::prelude::*;
 
 /// Cuts meshes along a plane.
 ///
-/// Every edge that crosses the plane gets a vertex there, and every face that crosses it is cut along it,
-/// concave ones several times. Vertices nearer than 1e-9 of the largest extent of the mesh count as on the
-/// plane; they are not moved. Edges keep their numbers on the side of their lower vertex, faces at their
-/// first corner; what is new comes behind. Attributes are interpolated at the crossings, on both sides of
-/// seams.
+/// Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along it,
+/// concave faces possibly several times. A vertex closer to the plane than 1e-9 of the largest extent of the mesh
+/// counts as on the plane and is not moved. The part of an edge at its lower vertex keeps the number of the edge, and
+/// the part of a face at its first corner keeps the number of the face. New elements are numbered last. Attributes are
+/// interpolated at the crossings, on both sides of seams.
 ///
-/// With `keep` one side is left. A face in the plane counts as behind if its normal points to the front,
-/// because what it closes lies behind. Vertices that no face is left at go. Where the faces left around
-/// a vertex do not share edges, each fan of them gets a vertex of its own. The cut stays open.
+/// With `keep`, one side of the plane is removed. A face in the plane belongs to the back if its normal points to the
+/// front, because it closes the solid behind it. Vertices left without a face are removed. If the remaining faces
+/// around a vertex form several fans, each fan gets a separate copy of the vertex. The cut is not closed with faces.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bisect {
-    /// A point of the plane.
+    /// A point on the plane.
     #[serde(default)]
     pub point: Vector,
-    /// The direction across the plane, to its front; of any length but 0.
+    /// The normal of the plane, which points to the front. Its length does not matter but must not be 0.
     pub normal: Direction,
-    /// Which side is left.
+    /// The side to keep.
     #[serde(default)]
     pub keep: Keep,
-    /// The name of a tag for the edges on the plane; edges that have it already keep it.
+    /// The name of a tag for the edges on the plane. Edges that already have the tag keep it. If omitted, no edges are
+    /// tagged.
     #[serde(default)]
     pub tag: Option<TagName>,
 }
 
-/// Which side of the plane is left.
+/// The side of the plane to keep.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Keep {
-    /// Both, still connected.
+    /// Both sides. They stay connected.
     #[default]
     Both,
     /// The side that the normal points to.
     Front,
-    /// The other side.
+    /// The side that the normal points away from.
     Back,
 }
 
@@ -57,14 +58,14 @@ impl MeshOperation for Bisect {
     const EXAMPLE: &'static str = "Bisect(normal: (0, 0, 1))";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // A line crosses the sides of a face at most as often as there are, and cuts it half as often.
+        // The plane crosses at most all sides of a face, and cuts the face along half as many lines.
         let per_face = plan.degrees.max / 2;
         let crossings = plan.edges.or_less();
         let cuts = plan.faces.by(per_face).capped(crossings.max).or_less();
         plan.grow(crossings, crossings.plus(cuts), cuts);
         plan.degrees = Range::between(3, plan.degrees.max.saturating_add(per_face));
         if self.keep != Keep::Both {
-            // Copies are made for fans that meet in a vertex, at most one for each edge.
+            // Fans that meet at a vertex get copies of it, at most one for each edge.
             plan.vertices = plan.vertices.plus(plan.edges).or_less();
             plan.edges = plan.edges.or_less();
             plan.faces = plan.faces.or_less();
@@ -97,22 +98,22 @@ impl MeshOperation for Bisect {
             part_of_face[f.index()] = 0;
         }
         let part = geometry::parts(mesh, &part_of_face).pop();
-        mesh.replace(part.unwrap_or_else(|| nothing(mesh)));
-        let gone = n_faces - mesh.n_faces();
-        Ok(Report::changed(cut.edges.len()).note(format!("faces on the other side: {gone}")))
+        mesh.replace(part.unwrap_or_else(|| empty_mesh(mesh)));
+        let removed = n_faces - mesh.n_faces();
+        Ok(Report::changed(cut.edges.len()).note(format!("faces removed: {removed}")))
     }
 }
 
-/// What is left if no face is: the columns, without values.
-fn nothing(mesh: &Mesh) -> Mesh {
-    let mut nothing = Mesh::default();
-    nothing.set_attributes(mesh.attributes().gathered(mesh::Sources {
+/// Returns an empty mesh with the attributes of `mesh`.
+fn empty_mesh(mesh: &Mesh) -> Mesh {
+    let mut empty = Mesh::default();
+    empty.set_attributes(mesh.attributes().gathered(mesh::Sources {
         vertices: &[],
         corners: &[],
         edges: &[],
         faces: &[],
     }));
-    nothing
+    empty
 }
 
 #[cfg(test)]
@@ -137,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn the_sides_that_are_kept_make_up_the_whole() {
+    fn front_and_back_together_have_the_area_of_the_mesh() {
         let torus = shapes::torus(16, 9, 2.0, 0.5);
         let side = |keep| {
             let text = format!("(point: (0.1, 0, 0.05), normal: (1, 2, 0.5), keep: {keep})");
@@ -158,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn a_plane_beside_the_mesh_leaves_all_or_nothing() {
+    fn a_plane_that_misses_the_mesh_keeps_all_or_nothing() {
         let cube = shapes::cube();
         let all = step("(point: (0, 0, -5), normal: (0, 0, 1), keep: Front)");
         assert_eq!(applied(&all, cube.clone()), cube);
@@ -167,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn a_face_in_the_plane_stays_with_what_it_closes() {
+    fn a_face_in_the_plane_belongs_to_the_solid_that_it_closes() {
         let cube = shapes::cube();
         let below = step("(point: (0, 0, 1), normal: (0, 0, 1), keep: Back)");
         assert_eq!(applied(&below, cube.clone()), cube);
@@ -178,15 +179,15 @@ mod tests {
     }
 
     #[test]
-    fn the_cut_edges_may_be_tagged() {
+    fn the_cut_edges_can_be_tagged() {
         let tagged = |mesh: &Mesh| {
             let marks = mesh.tag(Domain::Edge, "cut").unwrap();
             marks.iter().filter(|&&m| m).count()
         };
         let cut = applied(&step(r#"(normal: (0, 0, 1), tag: "cut")"#), shapes::cube());
         assert_eq!(tagged(&cut), 4);
-        let again = applied(&step(r#"(normal: (0, 1, 0), tag: "cut")"#), cut.clone());
-        assert_eq!(tagged(&again), 12);
+        let twice = applied(&step(r#"(normal: (0, 1, 0), tag: "cut")"#), cut.clone());
+        assert_eq!(tagged(&twice), 12);
         let half = step(r#"(normal: (0, 0, 1), keep: Back, tag: "cut")"#);
         let half = applied(&half, shapes::cube());
         let marks = half.tag(Domain::Edge, "cut").unwrap();
@@ -194,7 +195,7 @@ mod tests {
             half.edges()
                 .all(|e| half.is_boundary_edge(e) == marks[e.index()])
         );
-        // Creases are numbers.
+        // `crease` is an attribute of numbers, not a tag.
         let mut creased = shapes::cube();
         let crease = Attribute::<EdgeId, f64>::new("crease", Rule::Copy);
         creased.set(crease, vec![0.0; 12]);
@@ -203,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn a_recipe_must_give_the_normal() {
+    fn the_normal_is_required() {
         assert!(op::test::read::<Bisect>("()").is_err());
         assert!(op::test::read::<Bisect>("(normal: (0, 0, 0))").is_err());
         assert!(op::test::read::<Bisect>("(normal: (0, 0, 1), fill: true)").is_err());

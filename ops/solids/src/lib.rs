@@ -1,4 +1,4 @@
-//! Operations: cutting solids.
+//! Operations that cut solids.
 
 mod bisect;
 

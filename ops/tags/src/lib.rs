@@ -1,4 +1,4 @@
-//! Operations: named selections.
+//! Operations that tag elements: a tag is a named selection.
 
 mod tag_edges;
 mod tag_faces;

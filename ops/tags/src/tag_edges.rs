@@ -1,24 +1,26 @@
-//! `TagEdges`: marks edges with a tag.
+//! `TagEdges`: tags edges.
 
 use mesh::Domain;
 use op::prelude::*;
 
-/// Marks the selected edges, and no others, with a tag: `Tagged("rim")` selects them in later steps.
+/// Tags the selected edges and removes the tag from all other edges. In later steps, `Tagged("rim")` selects the edges
+/// with the tag `rim`.
 ///
-/// The parts of a marked edge are marked too, in splits and in subdivision. A tag of the same name is replaced; an attribute of the same name that is no tag is refused. The shape
-/// does not change. What is counted are the edges that are marked now and were not, or the other way round.
+/// The parts of a tagged edge are also tagged when it is split or subdivided. An existing tag of the same name is
+/// replaced. If an attribute of another type has this name, the step fails. The geometry does not change. The report
+/// counts the edges that gained or lost the tag.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct TagEdges {
-    /// The name of the tag, without blanks around it.
+    /// The name of the tag. It must not be empty and must not start or end with whitespace.
     pub name: TagName,
-    /// Which edges; none are an empty tag.
+    /// The edges to tag. An empty selection gives an empty tag.
     pub edges: EdgeSelection,
 }
 
 impl MeshOperation for TagEdges {
     const NAME: &'static str = "TagEdges";
-    const SUMMARY: &'static str = "Mark edges with a tag";
+    const SUMMARY: &'static str = "Tag edges";
     const EXAMPLE: &'static str = r#"TagEdges(name: "marked", edges: EdgeLoop(Longest(count: 2)))"#;
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
@@ -42,7 +44,7 @@ mod tests {
     }
 
     #[test]
-    fn the_selected_are_marked_and_nothing_else_changes() {
+    fn selected_edges_are_tagged_and_nothing_else_changes() {
         let cube = shapes::cube();
         let (mesh, report) = try_applied(
             &step("(name: \"some\", edges: Between(0, 1))"),
@@ -58,7 +60,7 @@ mod tests {
     }
 
     #[test]
-    fn a_second_tag_of_the_name_replaces_the_first() {
+    fn a_second_tag_of_the_same_name_replaces_the_first() {
         let first = applied(
             &step("(name: \"some\", edges: Between(0, 1))"),
             shapes::cube(),

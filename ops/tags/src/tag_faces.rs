@@ -1,24 +1,26 @@
-//! `TagFaces`: marks faces with a tag.
+//! `TagFaces`: tags faces.
 
 use mesh::Domain;
 use op::prelude::*;
 
-/// Marks the selected faces, and no others, with a tag: `Tagged("rim")` selects them in later steps.
+/// Tags the selected faces and removes the tag from all other faces. In later steps, `Tagged("rim")` selects the faces
+/// with the tag `rim`.
 ///
-/// The parts of a marked face are marked too, in splits and in subdivision. A tag of the same name is replaced; an attribute of the same name that is no tag is refused. The shape
-/// does not change. What is counted are the faces that are marked now and were not, or the other way round.
+/// The parts of a tagged face are also tagged when it is split or subdivided. An existing tag of the same name is
+/// replaced. If an attribute of another type has this name, the step fails. The geometry does not change. The report
+/// counts the faces that gained or lost the tag.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct TagFaces {
-    /// The name of the tag, without blanks around it.
+    /// The name of the tag. It must not be empty and must not start or end with whitespace.
     pub name: TagName,
-    /// Which faces; none are an empty tag.
+    /// The faces to tag. An empty selection gives an empty tag.
     pub faces: FaceSelection,
 }
 
 impl MeshOperation for TagFaces {
     const NAME: &'static str = "TagFaces";
-    const SUMMARY: &'static str = "Mark faces with a tag";
+    const SUMMARY: &'static str = "Tag faces";
     const EXAMPLE: &'static str =
         r#"TagFaces(name: "some", faces: Facing(direction: (0, 0, 1), within: 45))"#;
 
@@ -43,7 +45,7 @@ mod tests {
     }
 
     #[test]
-    fn the_selected_are_marked_and_nothing_else_changes() {
+    fn selected_faces_are_tagged_and_nothing_else_changes() {
         let cube = shapes::cube();
         let (mesh, report) =
             try_applied(&step("(name: \"some\", faces: Faces([3]))"), cube.clone()).unwrap();
@@ -56,7 +58,7 @@ mod tests {
     }
 
     #[test]
-    fn a_second_tag_of_the_name_replaces_the_first() {
+    fn a_second_tag_of_the_same_name_replaces_the_first() {
         let first = applied(&step("(name: \"some\", faces: Faces([3]))"), shapes::cube());
         let all = step("(name: \"some\", faces: Not(Tagged(\"some\")))");
         let (mesh, report) = try_applied(&all, first).unwrap();

@@ -1,24 +1,26 @@
-//! `TagVertices`: marks vertices with a tag.
+//! `TagVertices`: tags vertices.
 
 use mesh::Domain;
 use op::prelude::*;
 
-/// Marks the selected vertices, and no others, with a tag: `Tagged("rim")` selects them in later steps.
+/// Tags the selected vertices and removes the tag from all other vertices. In later steps, `Tagged("rim")` selects the
+/// vertices with the tag `rim`.
 ///
-/// Vertices that edits make are not marked. A tag of the same name is replaced; an attribute of the same name that is no tag is refused. The shape
-/// does not change. What is counted are the vertices that are marked now and were not, or the other way round.
+/// New vertices of later edits are not tagged. An existing tag of the same name is replaced. If an attribute of another
+/// type has this name, the step fails. The geometry does not change. The report counts the vertices that gained or lost
+/// the tag.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct TagVertices {
-    /// The name of the tag, without blanks around it.
+    /// The name of the tag. It must not be empty and must not start or end with whitespace.
     pub name: TagName,
-    /// Which vertices; none are an empty tag.
+    /// The vertices to tag. An empty selection gives an empty tag.
     pub vertices: VertexSelection,
 }
 
 impl MeshOperation for TagVertices {
     const NAME: &'static str = "TagVertices";
-    const SUMMARY: &'static str = "Mark vertices with a tag";
+    const SUMMARY: &'static str = "Tag vertices";
     const EXAMPLE: &'static str = r#"TagVertices(name: "some", vertices: Boundary)"#;
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
@@ -42,7 +44,7 @@ mod tests {
     }
 
     #[test]
-    fn the_selected_are_marked_and_nothing_else_changes() {
+    fn selected_vertices_are_tagged_and_nothing_else_changes() {
         let cube = shapes::cube();
         let (mesh, report) = try_applied(
             &step("(name: \"some\", vertices: Vertices([1, 2]))"),
@@ -59,7 +61,7 @@ mod tests {
     }
 
     #[test]
-    fn a_second_tag_of_the_name_replaces_the_first() {
+    fn a_second_tag_of_the_same_name_replaces_the_first() {
         let first = applied(
             &step("(name: \"some\", vertices: Vertices([1, 2]))"),
             shapes::cube(),
@@ -72,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn an_attribute_of_another_type_is_refused() {
+    fn an_attribute_of_another_type_is_an_error() {
         let numbers =
             mesh::Attribute::<mesh::VertexId, f64>::new("weight", mesh::Rule::Interpolate);
         let mut mesh = shapes::cube();

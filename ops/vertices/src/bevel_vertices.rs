@@ -1,38 +1,37 @@
-//! Bevel vertices: puts faces into the place of vertices.
+//! Bevel vertices: replaces vertices with faces.
 //!
 //! ```text
 //!      \     /              \     /
 //!       \   /                +---+
 //!         v        -->        \ /           the edges at v are cut at (1 - t) v + t w,
-//!         |                    +            w their other end, t the fraction
+//!         |                    +            where w is the other end and t the fraction
 //!         |                    |
 //! ```
 
 use geometry::bevel::Cuts;
 use op::prelude::*;
 
-/// Puts faces into the place of vertices.
+/// Replaces vertices with faces.
 ///
-/// Each edge at a vertex is cut at a fraction of the length that it had before the step, and a face with
-/// as many corners as the vertex had edges joins the cuts. Where both ends of an edge are selected the
-/// fraction must be below a half: with a quarter, a cube becomes a truncated one.
+/// Each edge at a selected vertex is cut at a fraction of its length before the step, and a new face joins the cuts. The
+/// new face has as many corners as the vertex had edges. If both ends of an edge are selected, the fraction must be
+/// below 0.5. For example, a fraction of 0.25 turns a cube into a truncated cube.
 ///
-/// The vertices are gone, so that the numbers of those behind them close up; the new ones are numbered
-/// behind all others, in order of the selected vertices and clockwise around each. Faces keep their
-/// numbers, new ones come behind in order of the vertices.
+/// The selected vertices are removed, and later vertices are renumbered. New vertices are numbered last, in order of the
+/// selected vertices and clockwise around each. Faces keep their numbers; new faces are numbered last, in order of the
+/// vertices.
 ///
-/// Values at the cuts lie between those at the ends, so that textures stay as they are. A new face has the
-/// values (material, tags) of a face that was at the vertex, new edges have none. Normals are dropped.
+/// Values at the cuts are interpolated between the ends of the edge, so textures do not change. A new face has the
+/// values (material, tags) of a face that was at the vertex. New edges have no values. Normals are dropped.
 ///
-/// Refused are vertices on the boundary, those with fewer than three edges, and those with an edge that has
-/// too little left for the cut.
+/// A vertex is refused if it is on the boundary, if it has fewer than three edges, or if the rest of one of its edges is
+/// too short for the cut.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct BevelVertices {
-    /// Which vertices.
+    /// The vertices to bevel.
     pub vertices: VertexSelection,
-    /// Where the edges are cut, as a fraction of their lengths from the vertex: strictly between
-    /// 0 and 1.
+    /// The distance of the cuts from the vertex, as a fraction of the edge length. From 0 to 1, exclusive.
     pub fraction: Fraction,
     /// What to do when a vertex is refused.
     #[serde(default)]
@@ -41,15 +40,15 @@ pub struct BevelVertices {
 
 impl MeshOperation for BevelVertices {
     const NAME: &'static str = "BevelVertices";
-    const SUMMARY: &'static str = "Put faces into the place of vertices";
+    const SUMMARY: &'static str = "Replace vertices with faces";
     const EXAMPLE: &'static str = "BevelVertices(vertices: All, fraction: 0.25)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let done = self.on_refusal.done(self.vertices.count(plan));
         if done.max > 0 {
-            // Each edge is cut at both ends at most, and each vertex has three.
+            // An edge is cut at most at both ends, and a bevelled vertex has at least three edges.
             let cuts = Range::between(done.by(3).min, plan.edges.by(2).max);
-            // A face has as many corners as its vertex had edges; others gain one for each corner.
+            // A new face has as many corners as its vertex had edges; an old face gains at most one for each corner.
             let gained = plan.degrees.by(2).max;
             plan.degrees = Range::between(3, gained.max(plan.edges.max));
             let new = Range::between(done.by(2).min, cuts.max.saturating_sub(done.min));
@@ -95,7 +94,7 @@ mod tests {
         let counts = [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()];
         assert_eq!(counts, [24, 36, 14]);
         assert!(plan.vertices.contains(24) && plan.edges.contains(36));
-        // Alike at all corners, whatever their order: each is at 1, 1, 1/2 in some order and signs.
+        // Every vertex is at (1, 1, 1/2), up to the order and the signs of the coordinates.
         for &p in mesh.positions() {
             let mut p = p.abs().to_array();
             p.sort_by(f64::total_cmp);
@@ -123,7 +122,7 @@ mod tests {
             matches!(refused, Err(OpError::Refused { .. })),
             "{refused:?}"
         );
-        // Every second corner of the cube can go that far, and nothing is left between.
+        // Four corners of the cube that share no edge can be bevelled; then no other corner has space left.
         let step = parse("(vertices: All, fraction: 0.5, on_refusal: Skip)");
         let (mesh, report) = try_applied(&step, shapes::cube()).unwrap();
         assert_eq!(report.changed, 4);
@@ -132,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn the_boundary_is_refused() {
+    fn boundary_vertices_are_refused() {
         let step = parse("(vertices: All, fraction: 0.25, on_refusal: Skip)");
         let (mesh, report) = try_applied(&step, shapes::grid(3, 3)).unwrap();
         assert_eq!((report.changed, report.refused[0].count), (4, 12));

@@ -1,4 +1,4 @@
-//! Dissolve vertices: takes vertices out and merges the faces around them.
+//! Dissolve vertices: removes vertices and merges the faces around them.
 //!
 //! ```text
 //!    +-----+-----+          +-----+-----+          +-----------+          +-----------+
@@ -10,21 +10,21 @@
 
 use op::prelude::*;
 
-/// Takes vertices out and merges the faces around them.
+/// Removes vertices and merges the faces around them.
 ///
-/// Vertices are taken in order of their numbers, each judged as the mesh is at that moment. Inside the
-/// surface all faces around the vertex become one, which has the number and the values of the lowest. On
-/// the boundary likewise, and the two edges of the boundary become one. A vertex with two edges leaves one
-/// edge, and the faces beside it lose a corner. Of two edges the one of the lower number stays, with its
-/// values. What is left keeps its order and its values, but numbers move up, and normals are dropped.
+/// Vertices are removed in order of their numbers. Each removal is checked against the mesh as edited so far. All
+/// faces around the vertex become one face, which has the number and the values of the lowest of them. If the vertex is
+/// on the boundary, its two boundary edges become one. If the vertex has only two edges, they become one edge, and the
+/// faces beside it lose a corner. When two edges become one, the edge with the lower number is kept, with its values.
+/// The remaining elements keep their order and their values but are renumbered. Normals are dropped.
 ///
-/// Refused if the vertex is isolated or has a single edge, or a neighbour would be left with a single edge
-/// in the middle of a face, if a face would pass a vertex twice or have fewer than three corners, if an edge
-/// would join vertices that share one, and at a seam.
+/// A vertex is refused if it is isolated or has a single edge, if a neighbour would be left with a single edge inside a
+/// face, if a face would visit a vertex twice or have fewer than three corners, if an edge would join two vertices that
+/// are already joined, and at a seam.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DissolveVertices {
-    /// Which vertices.
+    /// The vertices to remove.
     pub vertices: VertexSelection,
     /// What to do when a vertex is refused.
     #[serde(default)]
@@ -36,7 +36,7 @@ pub struct DissolveVertices {
 
 impl MeshOperation for DissolveVertices {
     const NAME: &'static str = "DissolveVertices";
-    const SUMMARY: &'static str = "Take vertices out and merge the faces around them";
+    const SUMMARY: &'static str = "Remove vertices and merge the faces around them";
     const EXAMPLE: &'static str = "DissolveVertices(vertices: Vertices([1]))";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
@@ -47,7 +47,7 @@ impl MeshOperation for DissolveVertices {
         }
         let n = self.on_refusal.done(chosen);
         plan.vertices = plan.vertices.minus(n);
-        // At least one edge goes with each vertex; some face with its sides is always left.
+        // At least one edge is removed with each vertex, and at least one face with its edges remains.
         plan.edges = Range::between(plan.edges.min.min(3), plan.edges.minus(n).max);
         plan.faces.min = plan.faces.min.min(1);
         plan.degrees = Range::between(3, plan.edges.by(2).max.max(3));
@@ -98,8 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn vertices_on_straight_edges_go() {
-        // Corners of the sheet have two edges as well, but those of its rim between them have three.
+    fn vertices_on_straight_edges_are_removed() {
         let mut mesh = shapes::square();
         for e in 0..4 {
             mesh.split_edge(mesh::EdgeId::new(e), 0.5).unwrap();
@@ -112,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_taken_out_is_refused() {
+    fn vertices_that_cannot_be_removed_are_refused() {
         let isolated = {
             let mut mesh = shapes::square();
             mesh.delete_face(mesh::FaceId::new(0)).unwrap();
@@ -132,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn a_seam_is_refused_or_dropped() {
+    fn a_vertex_at_a_seam_is_refused_unless_seams_are_dropped() {
         let mut mesh = shapes::grid(2, 2);
         let shift = |h| {
             mesh.face(h)
@@ -169,7 +168,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn shape_and_plan_hold_for_any_choice(
+        fn topology_and_plan_hold_for_any_selection(
             count in 0..20_u32, seed in 0..1000_u64, which in 0..5_usize,
         ) {
             let before = [

@@ -1,4 +1,4 @@
-//! Operations: edits of vertices, and their normals.
+//! Operations that edit vertices or compute their normals.
 
 mod bevel_vertices;
 mod dissolve_vertices;

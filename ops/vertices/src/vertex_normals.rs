@@ -10,13 +10,13 @@
 //!     \ i /   \ h /
 //! ```
 //!
-//! n(f) is the unit normal of f and its area that of its area vector, half the sum of the cross products
-//! of consecutive corners (Newell's method), which is defined for polygons that are not flat too. So for
-//! `Area` N is just the sum of area vectors.
+//! n(f) is the unit normal of f. The area of f is the length of its area vector: half the sum of the cross products of
+//! consecutive corners (Newell's method). The area vector is also defined for polygons that are not flat. With the
+//! weight `Area`, N is the sum of the area vectors.
 //!
-//! Which weight is best depends on what the mesh stands for: Max, "Weights for Computing Vertex Normals
-//! from Facet Normals", 1999, compares them. `Angle` does not depend on how faces are cut: Thürmer and
-//! Wüthrich, "Computing Vertex Normals from Polygonal Facets", 1998.
+//! Which weight is best depends on the surface that the mesh approximates: Max, "Weights for Computing Vertex Normals
+//! from Facet Normals", 1999, compares them. With `Angle`, the normals do not depend on how faces are triangulated:
+//! Thürmer and Wüthrich, "Computing Vertex Normals from Polygonal Facets", 1998.
 
 mod gather;
 
@@ -25,35 +25,35 @@ use op::prelude::*;
 
 pub use gather::normals;
 
-/// Gives every vertex a unit normal, from the faces around it.
+/// Computes a unit normal for every vertex, from the faces around it.
 ///
-/// The normals are written to the vertex attribute `normal`, in place of one that is there. Corner
-/// normals are removed: they would say something else. A vertex without faces, or around which the faces
-/// cancel each other out, gets the zero vector and is counted.
+/// The normals are written to the vertex attribute `normal`, which is replaced if it exists. Corner normals are removed,
+/// because they would contradict the vertex normals. A vertex without faces, or whose face normals cancel each other
+/// out, gets the zero vector and is counted.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct VertexNormals {
-    /// How much each face around a vertex counts.
+    /// The weights of the faces around a vertex.
     #[serde(default)]
     pub weight: Weight,
 }
 
-/// How much a face counts at one of its vertices.
+/// The weight of a face at one of its vertices.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Weight {
-    /// As much as its area.
+    /// The area of the face.
     #[default]
     Area,
-    /// As much as its angle at the vertex, at most 180 degrees.
+    /// The angle of the face at the vertex, at most 180 degrees.
     Angle,
-    /// All the same.
+    /// The same weight for all faces.
     Uniform,
 }
 
 impl MeshOperation for VertexNormals {
     const NAME: &'static str = "VertexNormals";
-    const SUMMARY: &'static str = "Give every vertex a unit normal from the faces around it";
+    const SUMMARY: &'static str = "Compute a unit normal for every vertex from the faces around it";
     const EXAMPLE: &'static str = "VertexNormals()";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
@@ -73,7 +73,7 @@ impl MeshOperation for VertexNormals {
             report
         } else {
             report.note(format!(
-                "vertices without a normal: {without}; they have no faces, or these cancel out"
+                "vertices without a normal: {without}; they have no faces, or the normals of their faces cancel out"
             ))
         })
     }
@@ -90,12 +90,12 @@ mod tests {
 
     const WEIGHTS: [Weight; 3] = [Weight::Area, Weight::Angle, Weight::Uniform];
 
-    fn of(mesh: Mesh, weight: Weight) -> Vec<DVec3> {
+    fn normals_of(mesh: Mesh, weight: Weight) -> Vec<DVec3> {
         let mesh = applied(&VertexNormals { weight }, mesh);
         mesh.get(VERTEX_NORMAL).unwrap().to_vec()
     }
 
-    /// The same by another way: every face adds to its corners, without a walk around vertices.
+    /// Computes the same normals by scattering: every face adds its weighted normal to its vertices.
     fn scattered(mesh: &Mesh, weight: Weight) -> Vec<DVec3> {
         let mut sums = vec![DVec3::ZERO; mesh.n_vertices()];
         for f in mesh.faces() {
@@ -111,7 +111,8 @@ mod tests {
         sums.into_iter().map(DVec3::normalize_or_zero).collect()
     }
 
-    /// A closed ring of triangles around vertex 0, with the others at these heights and distances.
+    /// Returns a closed fan of triangles around vertex 0, which is at height `peak`. `rim` has the distance from the axis
+    /// and the height of each other vertex.
     fn umbrella(rim: &[(f64, f64)], peak: f64) -> Mesh {
         let n = rim.len();
         let mut points = vec![DVec3::new(0.0, 0.0, peak)];
@@ -129,7 +130,10 @@ mod tests {
     fn the_corners_of_a_cube_point_along_its_diagonals() {
         for weight in WEIGHTS {
             let cube = shapes::cube();
-            for (n, p) in of(cube.clone(), weight).iter().zip(cube.positions()) {
+            for (n, p) in normals_of(cube.clone(), weight)
+                .iter()
+                .zip(cube.positions())
+            {
                 assert!(n.distance(p.normalize()) < 1e-15, "{weight:?} {n} {p}");
             }
         }
@@ -139,18 +143,21 @@ mod tests {
     fn an_icosahedron_has_the_normals_of_its_sphere_under_all_weights() {
         for weight in WEIGHTS {
             let mesh = shapes::icosahedron();
-            for (n, p) in of(mesh.clone(), weight).iter().zip(mesh.positions()) {
+            for (n, p) in normals_of(mesh.clone(), weight)
+                .iter()
+                .zip(mesh.positions())
+            {
                 assert!(n.distance(*p) < 1e-15, "{weight:?} {n} {p}");
             }
         }
     }
 
     #[test]
-    fn normals_of_a_finer_sphere_are_nearer_to_the_exact_ones() {
+    fn normals_of_a_finer_sphere_are_closer_to_the_exact_normals() {
         for weight in WEIGHTS {
             let error = |n| {
                 let sphere = shapes::uv_sphere(2 * n, n);
-                let normals = of(sphere.clone(), weight);
+                let normals = normals_of(sphere.clone(), weight);
                 let errors = normals
                     .iter()
                     .zip(sphere.positions())
@@ -167,7 +174,7 @@ mod tests {
 
     #[test]
     fn the_area_weighted_normal_depends_on_the_rim_only() {
-        // The area vectors of a closed ring sum to that of its rim, wherever the middle is.
+        // The area vectors of a closed fan sum to the area vector of its rim, for any position of the center.
         let rim = [
             (1.0, 0.0),
             (2.0, 0.5),
@@ -175,16 +182,16 @@ mod tests {
             (1.0, 0.75),
             (0.5, 0.0),
         ];
-        let low = of(umbrella(&rim, -3.0), Weight::Area)[0];
-        let high = of(umbrella(&rim, 7.0), Weight::Area)[0];
+        let low = normals_of(umbrella(&rim, -3.0), Weight::Area)[0];
+        let high = normals_of(umbrella(&rim, 7.0), Weight::Area)[0];
         assert!(low.distance(high) < 1e-14);
-        let low = of(umbrella(&rim, -3.0), Weight::Uniform)[0];
-        let high = of(umbrella(&rim, 7.0), Weight::Uniform)[0];
+        let low = normals_of(umbrella(&rim, -3.0), Weight::Uniform)[0];
+        let high = normals_of(umbrella(&rim, 7.0), Weight::Uniform)[0];
         assert!(low.distance(high) > 1e-3);
     }
 
     #[test]
-    fn the_angle_weighted_normal_does_not_depend_on_how_faces_are_cut() {
+    fn the_angle_weighted_normal_does_not_depend_on_the_triangulation() {
         let whole = shapes::cube();
         let mut polygons: Vec<Vec<u32>> = Vec::new();
         for f in whole.faces() {
@@ -196,16 +203,16 @@ mod tests {
             polygons.push(vec![c[0], c[2], c[3]]);
         }
         let (cut, _) = Mesh::from_polygons(whole.positions().to_vec(), &polygons).unwrap();
-        let pairs = of(cut, Weight::Angle)
+        let pairs = normals_of(cut, Weight::Angle)
             .into_iter()
-            .zip(of(whole, Weight::Angle));
+            .zip(normals_of(whole, Weight::Angle));
         assert!(pairs.into_iter().all(|(a, b)| a.distance(b) < 1e-15));
     }
 
     #[test]
     fn isolated_vertices_and_faces_that_cancel_get_zero_and_are_counted() {
         let points = vec![DVec3::ZERO, DVec3::X * 0.1, DVec3::Y * 0.3, DVec3::Z];
-        // Both sides of one triangle, and vertex 3 alone.
+        // Both sides of one triangle, and the isolated vertex 3.
         let (mesh, _) = Mesh::from_polygons(points, &[[0, 1, 2], [0, 2, 1]]).unwrap();
         for weight in WEIGHTS {
             let (mesh, report) = try_applied(&VertexNormals { weight }, mesh.clone()).unwrap();
@@ -215,13 +222,13 @@ mod tests {
     }
 
     #[test]
-    fn sizes_far_from_one_and_huge_offsets_change_nothing() {
+    fn very_small_and_very_large_meshes_have_the_same_normals() {
         for weight in WEIGHTS {
-            let expected = of(shapes::torus(7, 5, 2.0, 0.5), weight);
+            let expected = normals_of(shapes::torus(7, 5, 2.0, 0.5), weight);
             for scale in [1e-300, 1e-150, 1e150, 1e300] {
                 let mut mesh = shapes::torus(7, 5, 2.0, 0.5);
                 mesh.positions_mut().iter_mut().for_each(|p| *p *= scale);
-                for (n, e) in of(mesh, weight).iter().zip(&expected) {
+                for (n, e) in normals_of(mesh, weight).iter().zip(&expected) {
                     assert!(n.distance(*e) < 1e-12, "{weight:?} {scale} {n} {e}");
                 }
             }
@@ -233,12 +240,12 @@ mod tests {
         let mut mesh = shapes::cube();
         mesh.positions_mut().fill(DVec3::new(1e300, -1e300, 1.0));
         for weight in WEIGHTS {
-            assert_eq!(of(mesh.clone(), weight), [DVec3::ZERO; 8]);
+            assert_eq!(normals_of(mesh.clone(), weight), [DVec3::ZERO; 8]);
         }
     }
 
     #[test]
-    fn corner_normals_go_and_the_loss_is_told() {
+    fn corner_normals_are_removed_and_the_loss_is_reported() {
         let mut mesh = shapes::cube();
         mesh.set(CORNER_NORMAL, vec![DVec3::Z; mesh.n_half_edges()]);
         let (after, report) = try_applied(&VertexNormals::default(), mesh).unwrap();
@@ -248,12 +255,12 @@ mod tests {
     }
 
     #[test]
-    fn nothing_gets_no_normals() {
-        assert_eq!(of(Mesh::default(), Weight::Area), []);
+    fn an_empty_mesh_gets_no_normals() {
+        assert_eq!(normals_of(Mesh::default(), Weight::Area), []);
     }
 
     #[test]
-    fn the_number_of_threads_does_not_change_a_bit() {
+    fn the_number_of_threads_changes_nothing() {
         let mesh = shapes::torus(97, 61, 2.0, 0.7);
         for weight in WEIGHTS {
             let with = |threads| {
@@ -261,7 +268,7 @@ mod tests {
                     .num_threads(threads)
                     .build()
                     .unwrap();
-                pool.install(|| of(mesh.clone(), weight))
+                pool.install(|| normals_of(mesh.clone(), weight))
             };
             assert_eq!(with(1), with(2));
             assert_eq!(with(1), with(8));
@@ -269,7 +276,7 @@ mod tests {
     }
 
     #[test]
-    fn it_acts_on_every_mesh_of_a_scene() {
+    fn all_meshes_of_a_scene_get_normals() {
         let mut scene = Scene::new();
         for name in ["a", "b"] {
             scene.insert(Object::mesh(name, shapes::cube())).unwrap();
@@ -281,7 +288,7 @@ mod tests {
     }
 
     #[test]
-    fn a_recipe_may_choose_a_weight() {
+    fn parameters_are_read() {
         let parse = |text| op::test::read::<VertexNormals>(text);
         assert_eq!(parse("()").unwrap().weight, Weight::Area);
         assert_eq!(parse("(weight: Angle)").unwrap().weight, Weight::Angle);
@@ -305,9 +312,9 @@ mod tests {
                 *p += DVec3::from_array(m);
             }
             let expected = scattered(&mesh, weight);
-            let found = of(mesh.clone(), weight);
+            let found = normals_of(mesh.clone(), weight);
             for v in mesh.vertices().map(VertexId::index) {
-                // Where the faces nearly cancel, both directions are noise.
+                // The bound is loose because rounding dominates where face normals nearly cancel.
                 prop_assert!(found[v].distance(expected[v]) < 1e-9, "{v} {} {}", found[v], expected[v]);
             }
         }

@@ -1,13 +1,12 @@
-//! The arrays of the cut mesh.
+//! Builds the arrays of the cut mesh.
 //!
-//! Old half-edges keep their places, so that only `next` and `face` change there. The diagonals of a face
-//! follow those of the faces before it, in the order of [`Cut::diagonals`]; the first half of each runs
-//! from its lower corner.
+//! Old half-edges keep their indices: only their `next` and `face` change. The diagonals are added face by face, in
+//! the order of [`Cut::diagonals`]. The first half-edge of a diagonal starts at the corner with the lower index.
 
 use geometry::triangulate::Cut;
 use mesh::{EdgeId, FaceId, HalfEdgeId, Mesh, Sources, VertexId};
 
-/// The mesh with its faces cut; `n_diagonals` is the number of all diagonals. Ids must fit.
+/// Returns the mesh with its faces cut. `n_diagonals` is the number of all diagonals; ids must not overflow.
 pub(crate) fn assemble(mesh: &Mesh, cuts: &[Cut], n_diagonals: usize) -> Mesh {
     let n_old = mesh.n_half_edges();
     let n = n_old + 2 * n_diagonals;
@@ -40,7 +39,7 @@ pub(crate) fn assemble(mesh: &Mesh, cuts: &[Cut], n_diagonals: usize) -> Mesh {
             connectivity.origin.push(mesh.origin(h));
             corner_sources.push(h);
         }
-        // The half-edge from one corner to another: a side of the face, or half of a diagonal.
+        // The half-edge from one corner to another: a side of the face, or a half-edge of a diagonal.
         let half_edge = |from: u32, to: u32| {
             let pair = [from.min(to), from.max(to)];
             match diagonals.binary_search(&pair) {
@@ -50,12 +49,12 @@ pub(crate) fn assemble(mesh: &Mesh, cuts: &[Cut], n_diagonals: usize) -> Mesh {
         };
         for &[a, b, c] in cut.triangles() {
             let new = FaceId::new(connectivity.face_half_edge.len());
-            let around = [half_edge(a, b), half_edge(b, c), half_edge(c, a)];
+            let triangle = [half_edge(a, b), half_edge(b, c), half_edge(c, a)];
             for k in 0..3 {
-                connectivity.next[around[k].index()] = around[(k + 1) % 3];
-                connectivity.face[around[k].index()] = new;
+                connectivity.next[triangle[k].index()] = triangle[(k + 1) % 3];
+                connectivity.face[triangle[k].index()] = new;
             }
-            connectivity.face_half_edge.push(around[0]);
+            connectivity.face_half_edge.push(triangle[0]);
             face_sources.push(f);
         }
     }
@@ -72,7 +71,7 @@ pub(crate) fn assemble(mesh: &Mesh, cuts: &[Cut], n_diagonals: usize) -> Mesh {
     cut
 }
 
-/// Old edges keep their values, diagonals have zero values.
+/// Returns the sources of edge values: old edges keep their values, diagonals get zero values.
 fn edge_sources(n_old: usize, n_diagonals: usize) -> Vec<EdgeId> {
     let mut sources: Vec<EdgeId> = (0..n_old).map(EdgeId::new).collect();
     sources.resize(n_old + n_diagonals, EdgeId::NONE);

@@ -11,7 +11,7 @@ fn all() -> Triangulate {
     Triangulate::default()
 }
 
-/// One face in the plane z = 0.
+/// Returns a mesh of one face in the plane z = 0.
 fn polygon(points: &[(f64, f64)]) -> Mesh {
     let at = |&(x, y): &(f64, f64)| DVec3::new(x, y, 0.0);
     let corners: Vec<u32> = (0..).take(points.len()).collect();
@@ -38,7 +38,7 @@ fn planned(operation: &Triangulate, mesh: &Mesh) -> MeshPlan {
     plan
 }
 
-/// Cuts the mesh and checks what holds for every cut.
+/// Cuts the mesh and checks the properties that hold for every triangulation.
 fn checked(operation: &Triangulate, before: &Mesh) -> (Mesh, Report) {
     let (after, report) = try_applied(operation, before.clone()).unwrap();
     assert_eq!(after.positions(), before.positions());
@@ -108,8 +108,8 @@ fn a_quad_is_cut_along_its_shorter_diagonal() {
 }
 
 #[test]
-fn of_equal_diagonals_that_at_the_lowest_vertex_is_taken() {
-    // Up to rounding: the corners of a turned square.
+fn equal_diagonals_are_decided_by_the_lowest_vertex() {
+    // The diagonals of a rotated square are equal up to rounding.
     for turn in 0..50 {
         let at = |i: u32| {
             let (sin, cos) =
@@ -124,8 +124,8 @@ fn of_equal_diagonals_that_at_the_lowest_vertex_is_taken() {
 }
 
 #[test]
-fn a_quad_with_a_reflex_corner_is_cut_there() {
-    // An arrow head: the longer diagonal is the one inside.
+fn a_quad_with_a_reflex_corner_is_cut_at_that_corner() {
+    // Two arrow heads. In the first, the diagonal inside is the longer one.
     let arrow = [(0.0, 0.0), (1.0, -0.2), (8.0, 0.0), (1.0, 0.2)];
     let reflex = [(0.0, 0.0), (9.0, -0.1), (8.9, 0.0), (9.0, 0.1)];
     for (points, kept) in [(arrow, false), (reflex, true)] {
@@ -133,7 +133,7 @@ fn a_quad_with_a_reflex_corner_is_cut_there() {
             let mut turned = points;
             turned.rotate_left(first);
             let cut = applied(&all(), polygon(&turned));
-            // Between the corners that were numbers 0 and 2.
+            // The corners that had the numbers 0 and 2 before the rotation.
             let [a, b] = [(4 - first) % 4, (6 - first) % 4];
             assert_eq!(joined(&cut, a, b), kept, "{points:?} {first}");
         }
@@ -162,7 +162,7 @@ fn two_quads_back_to_back_become_a_tetrahedron() {
 
 #[test]
 fn a_diagonal_between_joined_vertices_is_avoided() {
-    // Vertices 0 and 2 share an edge behind the square.
+    // Vertices 0 and 2 are joined by an edge behind the square.
     let points = vec![
         DVec3::ZERO,
         DVec3::X,
@@ -182,8 +182,8 @@ fn a_diagonal_between_joined_vertices_is_avoided() {
 }
 
 #[test]
-fn doubles_that_cannot_be_avoided_are_counted_and_tear_nothing() {
-    // Two arrow heads back to back: each has one diagonal inside.
+fn unavoidable_duplicate_diagonals_are_counted_and_the_mesh_stays_closed() {
+    // Two arrow heads back to back: each has only one diagonal inside.
     let points = vec![
         DVec3::ZERO,
         DVec3::new(2.0, 1.0, 0.0),
@@ -195,7 +195,7 @@ fn doubles_that_cannot_be_avoided_are_counted_and_tear_nothing() {
     assert!(cut.is_closed());
     assert_eq!(
         report.notes,
-        ["diagonals between vertices that share another edge: 1"]
+        ["diagonals between vertices that are also joined by another edge: 1"]
     );
 }
 
@@ -223,7 +223,7 @@ fn concave_faces_are_covered_once() {
         (0., 1.),
         (1., 1.),
     ];
-    // A square with a square hole, joined by a slit: its ends are each two vertices in one place.
+    // A square with a square hole that is connected by a slit: two vertices coincide at each end of the slit.
     let keyhole = [
         (0., 0.),
         (4., 0.),
@@ -254,7 +254,7 @@ fn concave_faces_are_covered_once() {
 }
 
 #[test]
-fn corners_in_line_are_kept_without_empty_triangles() {
+fn collinear_corners_are_kept_without_empty_triangles() {
     let mut points = Vec::new();
     for (from, to) in [
         ((0., 0.), (6., 0.)),
@@ -274,7 +274,7 @@ fn corners_in_line_are_kept_without_empty_triangles() {
 }
 
 #[test]
-fn faces_that_ears_cannot_cut_become_fans_and_are_counted() {
+fn faces_that_ear_clipping_cannot_cut_become_fans_and_are_counted() {
     let line: Vec<(f64, f64)> = (0..6).map(|i| (f64::from(i), 0.0)).collect();
     let eight = [(0., 0.), (4., 4.), (4., 0.), (0., 4.), (-1., 2.)];
     for points in [&line[..], &[(1.0, 1.0); 5][..]] {
@@ -284,15 +284,15 @@ fn faces_that_ears_cannot_cut_become_fans_and_are_counted() {
         assert_eq!(report.notes, [note]);
         assert_eq!(cut.valence(VertexId::new(0)), points.len() - 1);
     }
-    // Crossing sides may or may not be cut by ears; the mesh is whole in any case.
+    // Ear clipping may fail for crossing sides, but the mesh is valid in any case.
     checked(&all(), &polygon(&eight));
 }
 
 #[test]
-fn size_and_place_do_not_matter() {
+fn scaling_does_not_change_the_diagonals() {
     let mesh = shapes::cylinder(11, true);
     let expected = applied(&all(), mesh.clone());
-    // Powers of two round nothing.
+    // Scaling by powers of two is exact.
     for exponent in [-900_i64, -300, 1, 300, 1000] {
         let scale = f64::from_bits(u64::try_from(1023 + exponent).unwrap() << 52);
         let mut scaled = mesh.clone();
@@ -308,11 +308,11 @@ fn size_and_place_do_not_matter() {
 }
 
 #[test]
-fn values_go_with_their_elements() {
+fn values_stay_with_their_elements() {
     let mut mesh = shapes::cylinder(7, true);
     let uv = |mesh: &Mesh, h| {
         let p = mesh.position(mesh.origin(h));
-        // Another chart on each face.
+        // Each face has a separate UV chart.
         let f = mesh.get(MATERIAL).unwrap()[mesh.face(h).unwrap().index()];
         DVec2::new(p.x + 10.0 * f64::from(f), p.y + p.z)
     };
@@ -322,7 +322,7 @@ fn values_go_with_their_elements() {
     let tag = Attribute::<VertexId, bool>::new("it", mesh::Rule::Copy);
     mesh.set(tag, (0..14).map(|v| v == 5).collect());
     let (cut, _) = checked(&all(), &mesh);
-    // Triangles stand in the order of their faces.
+    // Triangles are in the order of their faces.
     let expected: Vec<i32> = (0..7)
         .flat_map(|f| [f; 2])
         .chain([7; 5])
@@ -335,12 +335,12 @@ fn values_go_with_their_elements() {
     assert_eq!(creases[..21], *mesh.get(CREASE).unwrap());
     assert!(creases[21..].iter().all(|&c| c == 0.0));
     assert_eq!(cut.get(tag).unwrap(), mesh.get(tag).unwrap());
-    // No seams but those between faces.
+    // No diagonal is a seam.
     assert!((21..cut.n_edges()).all(|e| !cut.is_seam(EdgeId::new(e))));
 }
 
 #[test]
-fn only_chosen_faces_are_cut() {
+fn only_selected_faces_are_cut() {
     let top = Triangulate {
         faces: FaceSelection::Faces(vec![1]),
     };
@@ -385,7 +385,7 @@ fn the_number_of_threads_changes_nothing() {
 }
 
 #[test]
-fn a_recipe_may_choose_faces() {
+fn parameters_are_read() {
     let parse = |text| op::test::read::<Triangulate>(text);
     assert_eq!(parse("()").unwrap().faces, FaceSelection::All);
     assert_eq!(
@@ -397,7 +397,7 @@ fn a_recipe_may_choose_faces() {
 
 proptest! {
     #[test]
-    fn star_shaped_faces_are_covered_once_however_they_lie(
+    fn star_shaped_faces_are_covered_once_in_any_plane(
         radii in prop::collection::vec(0.1..3.0_f64, 4..40),
         normal in prop::array::uniform3(-1.0..1.0_f64),
         offset in prop::sample::select(vec![0.0, 1e3]),
@@ -415,7 +415,7 @@ proptest! {
         let (cut, report) = checked(&all(), &mesh);
         prop_assert_eq!(report.notes, Vec::<String>::new());
         prop_assert_eq!(cut.n_faces(), n - 2);
-        // Areas are not signed: overlapping or turned triangles would make the sum larger.
+        // Areas are not signed: overlapping or turned-over triangles would increase the sum.
         prop_assert!((geometry::area(&cut) - geometry::area(&mesh)).abs() < 1e-9 * geometry::area(&mesh));
     }
 

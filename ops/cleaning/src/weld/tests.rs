@@ -14,7 +14,7 @@ fn weld(distance: f64) -> Weld {
     Weld { distance }
 }
 
-/// The faces of a mesh as separate polygons, with their own vertices.
+/// Returns a mesh with the same faces, none of which share a vertex.
 fn torn(mesh: &Mesh) -> Mesh {
     let mut positions = Vec::new();
     let mut polygons = Vec::new();
@@ -37,7 +37,7 @@ fn values<I: mesh::Id, T: Value>(mesh: &Mesh, attribute: Attribute<I, T>) -> Vec
 }
 
 #[test]
-fn six_squares_become_a_cube_again() {
+fn six_separate_squares_become_a_cube() {
     let (cube, report) = try_applied(&weld(0.0), torn(&shapes::cube())).unwrap();
     assert_eq!(
         (cube.n_vertices(), cube.n_edges(), cube.n_faces()),
@@ -51,7 +51,7 @@ fn six_squares_become_a_cube_again() {
 }
 
 #[test]
-fn any_torn_shape_grows_together_again() {
+fn separated_faces_of_any_shape_are_joined() {
     for shape in [
         shapes::torus(7, 5, 2.0, 0.5),
         shapes::icosahedron(),
@@ -68,7 +68,7 @@ fn any_torn_shape_grows_together_again() {
 }
 
 #[test]
-fn welding_twice_is_welding_once() {
+fn a_second_weld_changes_nothing() {
     let mut mesh = torn(&shapes::torus(9, 6, 2.0, 0.5));
     for (p, i) in mesh.positions_mut().iter_mut().zip(0_u32..) {
         *p += DVec3::new(f64::from(i % 3), f64::from(i % 5), f64::from(i % 7)) * 1e-4;
@@ -81,15 +81,15 @@ fn welding_twice_is_welding_once() {
 }
 
 #[test]
-fn a_mesh_without_near_vertices_keeps_every_number() {
-    // Two triangles back to back with an edge twice between the same vertices would be paired anew.
+fn a_mesh_without_close_vertices_keeps_every_number() {
+    // Building the mesh again from polygons could pair half-edges differently, so it must not be built again.
     let mesh = shapes::uv_sphere(6, 5);
     assert_eq!(applied(&weld(1e-6), mesh.clone()), mesh);
     assert_eq!(applied(&weld(1e-6), Mesh::default()), Mesh::default());
 }
 
 #[test]
-fn the_merged_vertex_is_the_one_of_the_lowest_number() {
+fn the_merged_vertex_is_the_one_with_the_lowest_number() {
     let weights = Attribute::<VertexId, f64>::new("weight", Rule::Interpolate);
     let points = [
         (0.0, 0.0),
@@ -113,7 +113,7 @@ fn the_merged_vertex_is_the_one_of_the_lowest_number() {
 fn seams_are_kept() {
     let cube = shapes::cube();
     let mut mesh = torn(&cube);
-    // Each face has a chart of its own.
+    // Each face has a separate UV chart.
     let uv = |mesh: &Mesh, h| {
         let f = mesh.face(h).map_or(0.0, |f| f.index() as f64);
         let p = mesh.position(mesh.origin(h));
@@ -138,7 +138,7 @@ fn faces_and_edges_keep_their_values() {
     mesh.set(CREASE, (0..24).map(f64::from).collect());
     let welded = applied(&weld(0.0), mesh.clone());
     assert_eq!(values(&welded, MATERIAL), [5, 4, 3, 2, 1, 0]);
-    // The first of the two edges that became one.
+    // A merged edge has the value of the first of its two edges.
     for e in welded.edges() {
         let place = |mesh: &Mesh, e| {
             let [a, b] = mesh.edge_vertices(e).map(|v| mesh.position(v));
@@ -162,7 +162,7 @@ fn three_squares_at_one_edge_are_split_and_counted() {
     let (mesh, _) = Mesh::from_polygons(squares, &polygons).unwrap();
     let (welded, report) = try_applied(&weld(0.0), mesh).unwrap();
     assert_eq!((welded.n_faces(), geometry::n_components(&welded)), (3, 2));
-    // Four vertices merged, and two were copied again for the third square.
+    // Four vertices are merged, and two of the merged vertices are copied for the third square.
     assert_eq!(welded.n_vertices(), 10);
     assert_eq!(report.notes.len(), 2);
     assert!(
@@ -173,8 +173,8 @@ fn three_squares_at_one_edge_are_split_and_counted() {
 }
 
 #[test]
-fn squares_that_run_different_ways_round_agree_after_welding() {
-    // Two squares of a row, the second seen from below.
+fn squares_of_opposite_orientation_agree_after_welding() {
+    // Two neighbouring squares, the second of which has its corners in reverse order.
     let squares = [0.0, 1.0].map(|x| {
         [(x, 0.0), (x + 1.0, 0.0), (x + 1.0, 1.0), (x, 1.0)].map(|(x, y)| DVec3::new(x, y, 0.0))
     });
@@ -206,7 +206,7 @@ fn squares_that_run_different_ways_round_agree_after_welding() {
         ]
     );
     assert!(welded.get(VERTEX_NORMAL).is_none());
-    // Values of edges and corners stay at their places.
+    // The values of edges and corners are at the same positions as before.
     for e in welded.edges() {
         let first = mesh
             .edges()
@@ -225,8 +225,8 @@ fn squares_that_run_different_ways_round_agree_after_welding() {
 }
 
 #[test]
-fn small_faces_lose_corners_or_go() {
-    // A quad with one short side, a triangle with one, and a quad that is folded to a line.
+fn small_faces_lose_corners_or_are_removed() {
+    // A quad with one short side, and a triangle with one short side.
     let points = [
         (0.0, 0.0),
         (1.0, 0.0),
@@ -252,7 +252,7 @@ fn small_faces_lose_corners_or_go() {
 }
 
 #[test]
-fn a_face_that_visits_a_vertex_twice_goes() {
+fn a_face_that_visits_a_vertex_twice_is_removed() {
     let points = [
         (0.0, 0.0),
         (1.0, 0.001),
@@ -271,7 +271,7 @@ fn a_face_that_visits_a_vertex_twice_goes() {
 }
 
 #[test]
-fn a_distance_beyond_the_mesh_leaves_one_vertex() {
+fn a_distance_larger_than_the_mesh_leaves_one_vertex() {
     for distance in [100.0, f64::MAX] {
         let point = applied(&weld(distance), shapes::cube());
         assert_eq!(
@@ -286,14 +286,14 @@ fn a_distance_beyond_the_mesh_leaves_one_vertex() {
 }
 
 #[test]
-fn isolated_vertices_merge_too_and_otherwise_stay() {
+fn isolated_vertices_are_merged_but_not_removed() {
     let points = [(9.0, 9.0), (0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (0.0, 0.0)];
     let welded = applied(&weld(0.0), flat(&points, &[&[1, 2, 3]]));
     assert_eq!((welded.n_vertices(), welded.n_isolated_vertices()), (4, 1));
 }
 
 #[test]
-fn columns_that_edits_drop_are_dropped_and_told() {
+fn columns_with_the_rule_drop_are_dropped_and_reported() {
     let mut mesh = torn(&shapes::cube());
     let column = mesh::Column {
         name: "cache".into(),
@@ -307,7 +307,7 @@ fn columns_that_edits_drop_are_dropped_and_told() {
 }
 
 #[test]
-fn it_can_be_cancelled_before_the_first_change() {
+fn a_cancelled_weld_leaves_the_mesh_unchanged() {
     struct Stop;
     impl Progress for Stop {
         fn advance(&self, _: &str, _: u64, _: u64) -> bool {
@@ -325,7 +325,7 @@ fn it_can_be_cancelled_before_the_first_change() {
 }
 
 #[test]
-fn a_recipe_must_give_the_distance() {
+fn the_distance_is_required() {
     let weld: Weld = op::test::read("(distance: 1e-6)").unwrap();
     assert_eq!(weld.distance.get(), 1e-6);
     assert!(op::test::read::<Weld>("()").is_err());

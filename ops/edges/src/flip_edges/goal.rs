@@ -1,4 +1,4 @@
-//! What makes a flip an improvement.
+//! Goals of flips: they decide whether a flip is an improvement.
 //!
 //! **Delaunay.** The energy of a triangle is the sum of the cotangents of its angles,
 //!
@@ -6,57 +6,55 @@
 //!    cot(a) + cot(b) + cot(c) = (|ab|² + |bc|² + |ca|²) / (4 area)
 //! ```
 //!
-//! least for the equilateral one, without bound towards no area; a flip is an improvement if the energy
-//! of the two new triangles is less than that of the two old ones. The sum over a mesh is the trace of
-//! its cotangent Laplacian (Pinkall and Polthier, "Computing Discrete Minimal Surfaces and Their
-//! Conjugates", 1993): the Dirichlet energy of the functions that are 1 at one vertex and 0 at the
-//! others, summed over the vertices. In the plane a flip leaves the Dirichlet energy of linear functions
-//! alone, so it changes that of all others by multiples of one form of rank one, whose sign says
-//! whether the far corner lies in the circle through the others (Rippa, "Minimal Roughness Property of
-//! the Delaunay Triangulation", 1990). So there an edge improves the energy exactly if it is not
-//! Delaunay, and flipping such edges ends with the Delaunay triangulation (Lawson, "Software for C1
-//! Surface Interpolation", 1977). Four times the sum is the harmonic index of Musin, "Properties of the
-//! Delaunay Triangulation", 1997. In space the energy is as well defined.
+//! It is lowest for the equilateral triangle and grows without bound as the area approaches 0. A flip is an improvement
+//! if the energy of the two new triangles is lower than the energy of the two old ones. The sum over a mesh is the trace
+//! of its cotangent Laplacian (Pinkall and Polthier, "Computing Discrete Minimal Surfaces and Their Conjugates", 1993):
+//! the sum, over all vertices, of the Dirichlet energy of the function that is 1 at the vertex and 0 at all other
+//! vertices. In the plane, a flip does not change the Dirichlet energy of linear functions. It changes the energy of all
+//! other functions by multiples of a form of rank one, whose sign tells whether the opposite corner is inside the circle
+//! through the other three corners (Rippa, "Minimal Roughness Property of the Delaunay Triangulation", 1990). So in the
+//! plane a flip reduces the energy exactly if the edge is not Delaunay, and flipping these edges ends with the Delaunay
+//! triangulation (Lawson, "Software for C1 Surface Interpolation", 1977). Four times the sum is the harmonic index of
+//! Musin, "Properties of the Delaunay Triangulation", 1997. The energy is also defined for surfaces in space.
 //!
-//! Of triangles without area fewer are better. Where all four corners lie in one line, and so neither
-//! diagonal leaves an area, the shorter one is better: it leads out of heaps of such triangles.
+//! A flip that reduces the number of triangles without area is an improvement. If all four corners are collinear, both
+//! diagonals give triangles without area, and the shorter diagonal is better: this resolves groups of these triangles.
 //!
-//! **Valence.** The sum over the vertices of the square of valence minus target, where the target is 6
-//! inside and 4 on the boundary: Botsch and Kobbelt, "A Remeshing Approach to Multiresolution
-//! Modeling", 2004.
+//! **Valence.** The sum over all vertices of (valence - target)², where the target is 6 inside and 4 on the boundary:
+//! Botsch and Kobbelt, "A Remeshing Approach to Multiresolution Modeling", 2004.
 
 use std::ops::Range;
 
 use mesh::{DVec3, EdgeId, Mesh, VertexId};
 
-/// A triangle whose height is less than this share of its size has no area: what is computed for it is
-/// rounding.
+/// A triangle whose height is less than this fraction of its size counts as a triangle without area: its computed area
+/// is rounding error.
 const NO_AREA: f64 = 1e-14;
 
-/// Squares of sizes from and to which products of four lengths neither vanish nor overflow: scene units
-/// from 1e-60 to 1e60.
+/// The range of squared lengths for which products of four lengths neither underflow nor overflow: lengths from 1e-60
+/// to 1e60 scene units.
 const SIZES: Range<f64> = 1e-120..1e120;
 
-/// Energies that differ by less than this share count as equal, so that four corners on a circle, like
-/// those of a square, keep the diagonal that they have.
+/// Energies that differ by less than this fraction count as equal, so that four corners on a circle, such as those of a
+/// square, keep their diagonal.
 const TIE: f64 = 1e-12;
 
 /// The energies of two triangles without area.
-const NONE: [f64; 2] = [f64::INFINITY; 2];
+const BOTH_WITHOUT_AREA: [f64; 2] = [f64::INFINITY; 2];
 
-/// What flips are for.
+/// The goal of flips.
 pub(crate) enum Goal {
-    /// The least sum of cotangents.
+    /// The lowest sum of cotangents.
     Delaunay,
-    /// Valences near their targets.
+    /// Valences close to their targets.
     Valence {
-        /// For each vertex its valence minus its target.
+        /// The valence minus the target of each vertex.
         excess: Vec<i32>,
     },
 }
 
 impl Goal {
-    /// The goal of good valences for this mesh, from where it stands.
+    /// Creates the goal of regular valences for this mesh.
     pub(crate) fn valence(mesh: &Mesh) -> Self {
         let mut excess = vec![0; mesh.positions().len()];
         for v in mesh.vertices() {
@@ -70,16 +68,16 @@ impl Goal {
 
     /// Whether flipping the edge between these triangles is an improvement.
     ///
-    /// For both goals this cannot go on for ever, however numbers are rounded. The sum of the squares is
-    /// a whole number. The energy of a triangle is one number for the same three vertices, so with each
-    /// flip the number of triangles without area falls, or that stays and the exact sum of the other
-    /// energies falls, or both stay and the sum of the squares of the lengths of all edges falls.
-    pub(crate) fn is_nearer(&self, mesh: &Mesh, quad: &Quad) -> bool {
+    /// For both goals, the sequence of improving flips is finite, regardless of rounding. For `Valence`, the sum of
+    /// squares is an integer that decreases. For `Delaunay`, the computed energy of a triangle depends only on its three
+    /// vertices. Each flip reduces the number of triangles without area, or keeps it and reduces the exact sum of the
+    /// other energies, or keeps both and reduces the sum of the squared lengths of all edges.
+    pub(crate) fn is_improvement(&self, mesh: &Mesh, quad: &Quad) -> bool {
         match self {
             Self::Delaunay => {
                 let flipped = quad.flipped();
                 let (before, after) = (quad.energies(mesh), flipped.energies(mesh));
-                if before == NONE && after == NONE {
+                if before == BOTH_WITHOUT_AREA && after == BOTH_WITHOUT_AREA {
                     return flipped.length_squared(mesh) < quad.length_squared(mesh) * (1.0 - TIE);
                 }
                 after[0] + after[1] < (before[0] + before[1]) * (1.0 - TIE)
@@ -87,7 +85,7 @@ impl Goal {
             }
             Self::Valence { excess } => {
                 let [a, b, c, d] = [quad.a, quad.b, quad.c, quad.d].map(|v| excess[v.index()]);
-                // (x + 1)² - x² = 2x + 1 and (x - 1)² - x² = 1 - 2x add up to less than 0.
+                // The sum of (x - 1)² - x² = 1 - 2x for a and b and (x + 1)² - x² = 2x + 1 for c and d is below 0.
                 a + b - c - d > 2
                     && quad.flipped().energies(mesh).iter().all(|x| x.is_finite())
                     && quad.flips_without_fold(mesh)
@@ -95,7 +93,7 @@ impl Goal {
         }
     }
 
-    /// Notes that the edge between these triangles was flipped.
+    /// Updates the goal after a flip of the edge between these triangles.
     pub(crate) fn flipped(&mut self, quad: &Quad) {
         if let Self::Valence { excess } = self {
             for v in [quad.a, quad.b] {
@@ -118,7 +116,7 @@ pub(crate) struct Quad {
 }
 
 impl Quad {
-    /// Beside this edge, which must have a triangle on both sides.
+    /// Returns the triangles beside an edge, which must have a triangle on each side.
     pub(crate) fn beside(mesh: &Mesh, e: EdgeId) -> Self {
         let [ab, ba] = e.half_edges();
         Self {
@@ -129,7 +127,7 @@ impl Quad {
         }
     }
 
-    /// With the edge as it is after a flip: from d to c.
+    /// Returns the triangles after a flip. The edge then goes from d to c.
     const fn flipped(&self) -> Self {
         let Self { a, b, c, d } = *self;
         Self {
@@ -140,20 +138,20 @@ impl Quad {
         }
     }
 
-    /// The energies of both triangles.
+    /// Returns the energies of both triangles.
     fn energies(&self, mesh: &Mesh) -> [f64; 2] {
         let Self { a, b, c, d } = *self;
         [energy(mesh, [a, b, c]), energy(mesh, [b, a, d])]
     }
 
-    /// The square of the length of the edge.
+    /// Returns the squared length of the edge.
     fn length_squared(&self, mesh: &Mesh) -> f64 {
         mesh.position(self.a)
             .distance_squared(mesh.position(self.b))
     }
 
-    /// Whether the new triangles both look to the side of the old pair. The area vectors of the pair add
-    /// up to the same sum before and after a flip. In the plane this says that the quad is convex.
+    /// Whether the normals of both new triangles point to the same side as the old pair. The sum of the two area vectors
+    /// is the same before and after a flip. In the plane, this is true exactly if the quad is convex.
     fn flips_without_fold(&self, mesh: &Mesh) -> bool {
         let [a, b, c, d] = [self.a, self.b, self.c, self.d].map(|v| mesh.position(v));
         let (left, right) = ((c - d).cross(a - d), (d - c).cross(b - c));
@@ -162,11 +160,10 @@ impl Quad {
     }
 }
 
-/// The sum of the cotangents of the angles of a triangle; infinite if it has no area, and not a number
-/// if it is so small or large that it cannot be computed: no flip there counts as an improvement.
+/// Returns the sum of the cotangents of the angles of a triangle. It is infinite if the triangle has no area, and NaN if
+/// the triangle is too small or too large to compute; a flip with NaN is never an improvement.
 ///
-/// The corners are taken in the order of their numbers, so that the result is the same to the last bit
-/// wherever the three meet as a triangle.
+/// The corners are sorted by their numbers, so the result for the same three vertices is always exactly the same.
 fn energy(mesh: &Mesh, mut corners: [VertexId; 3]) -> f64 {
     corners.sort_unstable();
     let [p, q, r] = corners.map(|v| mesh.position(v));

@@ -1,4 +1,4 @@
-//! The operation: recipes, refusals, seams and plans.
+//! Tests of parameters, refusals, seams and plans.
 
 mod planar;
 mod until;
@@ -14,7 +14,7 @@ fn parse(text: &str) -> FlipEdges {
     op::test::read(text).unwrap()
 }
 
-/// A flat sheet of triangles with a seam of UVs along the edge between vertices 0 and 3.
+/// Returns a square of two triangles with a UV seam along the edge between vertices 0 and 2.
 fn sheet_with_a_seam() -> Mesh {
     let positions = shapes::square().positions().to_vec();
     let (mut mesh, _) = Mesh::from_polygons(positions, &[[0, 1, 2], [0, 2, 3]]).unwrap();
@@ -39,7 +39,7 @@ fn an_edge_between_two_vertices_joins_the_other_two() {
 }
 
 #[test]
-fn four_flips_are_none() {
+fn four_flips_restore_the_mesh() {
     let mesh = shapes::icosahedron();
     let e = EdgeId::new(0);
     let once = parse("(edges: Tagged(\"it\"))");
@@ -55,7 +55,7 @@ fn four_flips_are_none() {
 }
 
 #[test]
-fn a_refused_flip_fails_the_step_and_says_why() {
+fn a_refused_flip_fails_the_step_with_a_reason() {
     let refused = try_applied(&parse("(edges: Boundary)"), sheet_with_a_seam());
     let Err(OpError::Refused { reason, .. }) = refused else {
         panic!("expected a refusal, got {refused:?}");
@@ -82,7 +82,7 @@ fn a_crossed_seam_is_counted() {
 }
 
 #[test]
-fn a_mesh_without_triangles_is_a_problem_of_the_plan() {
+fn the_plan_reports_a_mesh_without_triangles() {
     let files = Files::default();
     let cx = PlanContext {
         files: &files,
@@ -103,7 +103,7 @@ fn a_mesh_without_triangles_is_a_problem_of_the_plan() {
 }
 
 #[test]
-fn a_recipe_must_name_the_edges_and_only_known_fields() {
+fn edges_are_required_and_unknown_fields_are_errors() {
     assert!(op::test::read::<FlipEdges>("()").is_err());
     assert!(op::test::read::<FlipEdges>("(edges: All, seam: Drop)").is_err());
     let flip = parse("(edges: Random(count: 3, seed: 7))");

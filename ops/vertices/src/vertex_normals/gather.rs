@@ -1,4 +1,4 @@
-//! The normals: face vectors first, then a walk around every vertex.
+//! Computes vertex normals: first a vector for each face, then a weighted sum around each vertex.
 
 use mesh::blocks::BLOCK;
 use mesh::{DVec3, FaceId, Mesh, VertexId, angle_between};
@@ -6,13 +6,14 @@ use rayon::prelude::*;
 
 use crate::vertex_normals::Weight;
 
-/// A sum of face vectors this much shorter than its parts is what rounding left of zero.
+/// A sum of face vectors counts as zero if it is shorter than this fraction of its parts: it is rounding error.
 const CANCELLED: f64 = 1e-14;
 
-/// The unit normal of every vertex of a dense mesh, and how many have none and got the zero vector.
+/// Returns the unit normal of every vertex of a dense mesh, and the number of vertices without a normal, which get the
+/// zero vector.
 ///
-/// The faces around a vertex are added in the order of the walk around it, so the result is the same for
-/// any number of threads. The size of the mesh does not matter: lengths are scaled by a power of two.
+/// The faces are added in their order around the vertex, so the result is the same for any number of threads. Lengths
+/// are scaled by a power of two, so the result does not depend on the size of the mesh.
 pub fn normals(mesh: &Mesh, weight: Weight) -> (Vec<DVec3>, usize) {
     let scale = scale(mesh);
     let face_vectors: Vec<DVec3> = (0..mesh.n_faces())
@@ -41,7 +42,7 @@ pub fn normals(mesh: &Mesh, weight: Weight) -> (Vec<DVec3>, usize) {
     (normals, without)
 }
 
-/// The sum of vectors, and of the magnitudes of their coordinates, which tells what rounding may be.
+/// A sum of vectors, and the sum of the magnitudes of their coordinates, which bounds the rounding error.
 #[derive(Clone, Copy, Default)]
 struct Sum {
     sum: DVec3,
@@ -74,7 +75,7 @@ fn summed(mesh: &Mesh, v: VertexId, face_vectors: &[DVec3]) -> DVec3 {
 fn summed_by_angle(mesh: &Mesh, v: VertexId, face_vectors: &[DVec3], scale: f64) -> DVec3 {
     let p = scale * mesh.position(v);
     let side = |w| scale * mesh.position(w) - p;
-    // Clockwise, so that the half-edge before one lies on the other side of its face's corner.
+    // The order is clockwise, so the corner of a half-edge's face lies between it and the half-edge before it.
     let last = mesh.vertex_neighbors(v).last().map_or(DVec3::ZERO, side);
     let (sum, _) = mesh
         .vertex_half_edges(v)
@@ -89,7 +90,7 @@ fn summed_by_angle(mesh: &Mesh, v: VertexId, face_vectors: &[DVec3], scale: f64)
     sum.direction()
 }
 
-/// [`Mesh::area_vector`] of the mesh scaled by `scale`.
+/// Returns the [`Mesh::area_vector`] of a face of the mesh scaled by `scale`.
 fn area_vector(mesh: &Mesh, f: FaceId, scale: f64) -> DVec3 {
     let mut corners = mesh.face_vertices(f).map(|v| scale * mesh.position(v));
     let Some(first) = corners.next() else {
@@ -104,11 +105,11 @@ fn area_vector(mesh: &Mesh, f: FaceId, scale: f64) -> DVec3 {
     0.5 * sum
 }
 
-/// The power of two that brings the extent of the mesh near 1. Multiplying by it rounds nothing, so
-/// normals do not depend on it, but products of lengths neither overflow nor vanish.
+/// Returns a power of two that scales the extent of the mesh to about 1. Multiplying by it is exact, so the normals do
+/// not change, and products of lengths neither overflow nor underflow.
 fn scale(mesh: &Mesh) -> f64 {
     let [min, max] = geometry::bounds(mesh).unwrap_or_default();
-    // Halves first: the difference of two finite numbers may be infinite.
+    // Halve before subtracting: the difference of two finite numbers can be infinite.
     let extent = (0.5 * max - 0.5 * min).max_element();
     if extent == 0.0 {
         return 1.0;

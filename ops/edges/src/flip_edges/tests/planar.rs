@@ -1,4 +1,4 @@
-//! In the plane: against the circle through three points, in whole numbers.
+//! Tests in the plane: compares flips with the exact circumcircle test in integers.
 
 use mesh::{DVec3, EdgeId, FaceId, Mesh, VertexId};
 use op::test::try_applied;
@@ -7,19 +7,19 @@ use proptest::prelude::*;
 use super::parse;
 use crate::flip_edges::goal::{Goal, Quad};
 
-/// The side of the square that points are in.
+/// The side length of the square that contains the points.
 const SIDE: i64 = 12;
 
 type Point = [i64; 2];
 
-/// Twice the area of a triangle; positive if it turns counter-clockwise.
+/// Returns twice the signed area of a triangle. It is positive if the triangle is counter-clockwise.
 fn turn([a, b, c]: [Point; 3]) -> i64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// Positive if `p` lies inside of the circle through the corners of a counter-clockwise triangle: by the
-/// lift to a paraboloid (Guibas and Stolfi, "Primitives for the Manipulation of General Subdivisions and
-/// the Computation of Voronoi Diagrams", 1985).
+/// Returns a positive number if `p` is inside the circle through the corners of a counter-clockwise triangle. Points are
+/// lifted to a paraboloid (Guibas and Stolfi, "Primitives for the Manipulation of General Subdivisions and the
+/// Computation of Voronoi Diagrams", 1985).
 fn in_circle(triangle: [Point; 3], p: Point) -> i64 {
     let lifted = triangle.map(|[x, y]| {
         let (x, y) = (x - p[0], y - p[1]);
@@ -44,9 +44,9 @@ fn corners(mesh: &Mesh, points: &[Point], f: FaceId) -> [Point; 3] {
     corners.try_into().expect("a triangle")
 }
 
-/// The square cut into triangles at these points, one after the other, and the points that were not
-/// there yet, after the corners of the square. A point inside of a triangle, or on its border, cuts it
-/// into three, so that a point on an edge leaves a triangle without area.
+/// Returns the square, triangulated by inserting the points one after the other, and its points: the corners of the
+/// square and then the inserted points without duplicates. A point inside or on the border of a triangle cuts it into
+/// three triangles, so a point on an edge gives a triangle without area.
 fn cut_square(inside: &[Point]) -> (Vec<Point>, Mesh) {
     let mut points = vec![[0, 0], [SIDE, 0], [SIDE, SIDE], [0, SIDE]];
     let mut triangles = vec![[0, 1, 2], [0, 2, 3]];
@@ -54,14 +54,14 @@ fn cut_square(inside: &[Point]) -> (Vec<Point>, Mesh) {
         if points.contains(&p) {
             continue;
         }
-        let found = triangles.iter().position(|triangle: &[u32; 3]| {
+        let containing = triangles.iter().position(|triangle: &[u32; 3]| {
             let [a, b, c] = triangle.map(|v| points[v as usize]);
             let turns = [[a, b, p], [b, c, p], [c, a, p]].map(turn);
             turn([a, b, c]) > 0 && turns.iter().all(|&turn| turn >= 0)
         });
         let m = u32::try_from(points.len()).unwrap();
         points.push(p);
-        let [a, b, c] = triangles.remove(found.expect("the triangles cover the square"));
+        let [a, b, c] = triangles.remove(containing.expect("the triangles cover the square"));
         triangles.extend([[a, b, m], [b, c, m], [c, a, m]]);
     }
     let mesh = mesh_of(&points, &triangles);
@@ -76,7 +76,7 @@ fn inside() -> impl Strategy<Value = Vec<Point>> {
 
 proptest! {
     #[test]
-    fn no_vertex_lies_in_the_circle_of_a_triangle(inside in inside()) {
+    fn no_vertex_is_inside_the_circumcircle_of_a_triangle(inside in inside()) {
         let (points, mesh) = cut_square(&inside);
         let (mesh, report) = try_applied(&parse("(edges: All, until: Delaunay)"), mesh).unwrap();
         prop_assert_eq!(report.refused, []);
@@ -86,14 +86,14 @@ proptest! {
             prop_assert!(turn(triangle) > 0, "{:?} is not counter-clockwise", triangle);
             covered += turn(triangle);
             for &p in &points {
-                prop_assert!(in_circle(triangle, p) <= 0, "{:?} is in the circle of {:?}", p, triangle);
+                prop_assert!(in_circle(triangle, p) <= 0, "{:?} is inside the circumcircle of {:?}", p, triangle);
             }
         }
         prop_assert_eq!(covered, 2 * SIDE * SIDE);
     }
 
     #[test]
-    fn valences_are_improved_without_a_fold(inside in inside()) {
+    fn valence_flips_do_not_fold_the_surface(inside in inside()) {
         let (points, mesh) = cut_square(&inside);
         let flat = |mesh: &Mesh| mesh.faces().filter(|&f| turn(corners(mesh, &points, f)) == 0).count();
         let before = flat(&mesh);
@@ -105,7 +105,7 @@ proptest! {
     }
 
     #[test]
-    fn a_flip_is_better_exactly_if_the_far_corner_lies_in_the_circle(
+    fn a_flip_is_an_improvement_exactly_if_the_opposite_corner_is_in_the_circumcircle(
         (a, b) in (0..20_i64, 1..20_i64), above in prop::array::uniform2(-20..20_i64),
         below in prop::array::uniform2(-20..20_i64),
     ) {
@@ -115,15 +115,15 @@ proptest! {
         let e = mesh.find_half_edge(VertexId::new(0), VertexId::new(1)).unwrap().edge();
         let is_convex = turn([d, c, a]) > 0 && turn([c, d, b]) > 0;
         prop_assert_eq!(
-            Goal::Delaunay.is_nearer(&mesh, &Quad::beside(&mesh, e)),
+            Goal::Delaunay.is_improvement(&mesh, &Quad::beside(&mesh, e)),
             is_convex && in_circle([a, b, c], d) > 0
         );
     }
 }
 
 #[test]
-fn the_diagonals_of_squares_stay() {
-    // All four corners lie on a circle: neither diagonal is better.
+fn the_diagonals_of_squares_are_not_flipped() {
+    // All four corners are on a circle: neither diagonal is better.
     let grid = geometry::shapes::fans(&geometry::shapes::grid(9, 7));
     let (flipped, report) =
         try_applied(&parse("(edges: All, until: Delaunay)"), grid.clone()).unwrap();
@@ -131,7 +131,7 @@ fn the_diagonals_of_squares_stay() {
 }
 
 #[test]
-fn the_diagonals_of_turned_squares_stay_too() {
+fn the_diagonals_of_rotated_squares_are_not_flipped() {
     let mut grid = geometry::shapes::fans(&geometry::shapes::grid(9, 7));
     for p in grid.positions_mut() {
         *p = DVec3::new(0.1 * p.x - 0.3 * p.y, 0.3 * p.x + 0.1 * p.y, 0.7);
@@ -142,8 +142,8 @@ fn the_diagonals_of_turned_squares_stay_too() {
 }
 
 #[test]
-fn a_vertex_on_an_edge_takes_the_edge_over() {
-    // Vertex 2 lies on the edge from 0 to 1, and their triangle has no area.
+fn an_edge_through_a_vertex_is_flipped_to_end_at_the_vertex() {
+    // Vertex 2 is on the edge from 0 to 1, so their triangle has no area.
     let points = [[0, 0], [4, 0], [2, 0], [2, 3], [2, -3]];
     let mesh = mesh_of(&points, &[[0, 1, 2], [1, 3, 2], [3, 0, 2], [1, 0, 4]]);
     let e = EdgeId::new(0);
@@ -155,8 +155,8 @@ fn a_vertex_on_an_edge_takes_the_edge_over() {
 }
 
 #[test]
-fn triangles_without_area_on_both_sides_of_an_edge_go() {
-    // Vertices 4 and 5 lie on the diagonal of the square, between which two such triangles are heaped.
+fn triangles_without_area_on_both_sides_of_an_edge_are_removed() {
+    // Vertices 4 and 5 are on the diagonal of the square, so the mesh has two triangles without area.
     let (points, mesh) = cut_square(&[[1, 1], [4, 4]]);
     let is_flat = |mesh: &Mesh, f| turn(corners(mesh, &points, f)) == 0;
     assert_eq!(mesh.faces().filter(|&f| is_flat(&mesh, f)).count(), 2);
@@ -165,8 +165,8 @@ fn triangles_without_area_on_both_sides_of_an_edge_go() {
 }
 
 #[test]
-fn a_flip_makes_no_triangle_whose_area_is_rounding() {
-    // Vertex 0 lies between 2 and 3 but for rounding, so that flipping its edge leaves it on the new one.
+fn flips_do_not_create_triangles_whose_area_is_rounding_error() {
+    // Up to rounding, vertex 0 is on the line from vertex 2 to vertex 3, so the flipped edge would go through it.
     for k in 2..60 {
         let on_line = |k: i32| DVec3::new(0.1 * f64::from(k), 0.3 * f64::from(k), 0.7);
         let far = on_line(k) + DVec3::new(1.0, -1.0, 0.0);
@@ -174,7 +174,10 @@ fn a_flip_makes_no_triangle_whose_area_is_rounding() {
         let (mesh, _) = Mesh::from_polygons(positions, &[[0, 1, 2], [1, 0, 3]]).unwrap();
         let quad = Quad::beside(&mesh, EdgeId::new(0));
         let excess = vec![9, 9, 0, 0];
-        assert!(!Goal::Valence { excess }.is_nearer(&mesh, &quad), "{k}");
-        assert!(!Goal::Delaunay.is_nearer(&mesh, &quad), "{k}");
+        assert!(
+            !Goal::Valence { excess }.is_improvement(&mesh, &quad),
+            "{k}"
+        );
+        assert!(!Goal::Delaunay.is_improvement(&mesh, &quad), "{k}");
     }
 }

@@ -1,4 +1,4 @@
-//! On any surface: laws against energies that are computed here, over the whole mesh.
+//! Tests on any surface: compares flips with energies that are computed here over the whole mesh.
 
 use geometry::shapes;
 use mesh::{Attribute, DVec2, DVec3, EdgeId, Mesh, Rule, UV};
@@ -11,9 +11,9 @@ use crate::flip_edges::goal::Goal;
 use crate::flip_edges::until::flip_until;
 use crate::flip_edges::{FlipEdges, Until};
 
-const NO_END: u32 = 100_000;
+const UNLIMITED_PASSES: u32 = 100_000;
 
-/// The number of triangles without area, and the sum of the cotangents of the angles of the others.
+/// Returns the number of triangles without area, and the sum of the cotangents of the angles of all other triangles.
 fn energy(mesh: &Mesh) -> (usize, f64) {
     let mut without_area = 0;
     let mut sum = 0.0;
@@ -32,7 +32,7 @@ fn energy(mesh: &Mesh) -> (usize, f64) {
     (without_area, sum)
 }
 
-/// The sum of the squares of valence minus target.
+/// Returns the sum over all vertices of (valence - target)².
 fn irregularity(mesh: &Mesh) -> u64 {
     let squares = mesh.vertices().map(|v| {
         let target = if mesh.is_boundary_vertex(v) { 4 } else { 6 };
@@ -42,12 +42,12 @@ fn irregularity(mesh: &Mesh) -> u64 {
     squares.sum()
 }
 
-/// Whether the flip of `e` that led from the old mesh to the new one was an improvement and made no fold.
+/// Whether the flip of `e`, which turned `old` into `new`, is an improvement and does not fold the surface.
 fn is_better(until: Until, e: EdgeId, new: &Mesh, old: &Mesh) -> bool {
     let areas = |mesh: &Mesh| mesh.edge_faces(e).map(|f| mesh.area_vector(f.unwrap()));
     let [n, m] = areas(new);
     if areas(old) == [DVec3::ZERO; 2] && [n, m] == [DVec3::ZERO; 2] {
-        // All in one line.
+        // All four corners are collinear.
         let length = |mesh: &Mesh| mesh.length(e.half_edge());
         return until == Until::Delaunay && length(new) < length(old);
     }
@@ -55,17 +55,17 @@ fn is_better(until: Until, e: EdgeId, new: &Mesh, old: &Mesh) -> bool {
         Until::Once => false,
         Until::Delaunay => {
             let ((flat, sum), (old_flat, old_sum)) = (energy(new), energy(old));
-            // Sums of a few hundred terms, which are rounded.
+            // The tolerance covers the rounding error of sums of a few hundred terms.
             flat < old_flat || flat == old_flat && sum < old_sum - 1e-9 * old_sum.abs()
         }
         Until::Valence => irregularity(new) < irregularity(old),
     };
-    // Both new triangles have area and look to one side.
+    // The normals of both new triangles are not zero and point to the same side.
     is_less && n.dot(n + m) > 0.0 && m.dot(n + m) > 0.0
 }
 
-/// Flips until the goal, and asks after each flip whether it made the whole mesh better.
-fn watched(mesh: &mut Mesh, until: Until) -> Report {
+/// Flips edges until the goal is reached, and checks after each flip that it improved the whole mesh.
+fn flip_with_checks(mesh: &mut Mesh, until: Until) -> Report {
     let goal = match until {
         Until::Valence => Goal::valence(mesh),
         _ => Goal::Delaunay,
@@ -79,11 +79,11 @@ fn watched(mesh: &mut Mesh, until: Until) -> Report {
         assert!(is_better(until, e, mesh, &before), "the flip of {e}");
         Ok(())
     };
-    flip_until(mesh, &edges, goal, NO_END, &cx, flip).unwrap()
+    flip_until(mesh, &edges, goal, UNLIMITED_PASSES, &cx, flip).unwrap()
 }
 
-/// Every edge that could be flipped for the better.
-fn left_over(mesh: &Mesh, until: Until) -> Vec<EdgeId> {
+/// Returns every edge whose flip would improve the mesh.
+fn remaining_improvements(mesh: &Mesh, until: Until) -> Vec<EdgeId> {
     let improves = |&e: &EdgeId| {
         let mut flipped = mesh.clone();
         flipped.flip_edge(e).is_ok() && is_better(until, e, &flipped, mesh)
@@ -91,8 +91,8 @@ fn left_over(mesh: &Mesh, until: Until) -> Vec<EdgeId> {
     mesh.edges().filter(improves).collect()
 }
 
-/// Triangles of several surfaces, some edges turned, with vertices at small whole numbers: many lie on
-/// each other or in a line.
+/// Generates triangle meshes with some flipped edges and vertices at small integer coordinates, so that many vertices
+/// coincide or are collinear.
 fn surfaces() -> impl Strategy<Value = Mesh> {
     let shapes = [
         shapes::fans(&shapes::torus(5, 4, 2.0, 1.0)),
@@ -101,14 +101,14 @@ fn surfaces() -> impl Strategy<Value = Mesh> {
         shapes::icosahedron(),
     ];
     let coordinates = prop::collection::vec(prop::array::uniform3(-3..=3_i32), 20);
-    let turned = prop::collection::vec(0..60_usize, 0..60);
+    let flipped = prop::collection::vec(0..60_usize, 0..60);
     let shape = prop::sample::select(shapes.to_vec());
-    (shape, coordinates, turned).prop_map(|(mut mesh, coordinates, turned)| {
+    (shape, coordinates, flipped).prop_map(|(mut mesh, coordinates, flipped)| {
         for (p, at) in mesh.positions_mut().iter_mut().zip(coordinates) {
             *p = DVec3::from_array(at.map(f64::from));
         }
-        for e in turned.into_iter().map(EdgeId::new) {
-            // Those that cannot be turned stay.
+        for e in flipped.into_iter().map(EdgeId::new) {
+            // Refused flips are ignored.
             let _ = mesh.flip_edge(e);
         }
         mesh
@@ -119,22 +119,22 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
     #[test]
-    fn each_flip_makes_the_mesh_better_until_none_does(
+    fn each_flip_improves_the_mesh_until_no_flip_does(
         mesh in surfaces(), until in prop::sample::select(vec![Until::Delaunay, Until::Valence]),
     ) {
         let mut mesh = mesh;
-        watched(&mut mesh, until);
+        flip_with_checks(&mut mesh, until);
         prop_assert_eq!(mesh.defects(), []);
-        prop_assert_eq!(left_over(&mesh, until), []);
-        // What is at the goal stays as it is.
+        prop_assert_eq!(remaining_improvements(&mesh, until), []);
+        // A second run changes nothing.
         let at_goal = mesh.clone();
-        let report = watched(&mut mesh, until);
+        let report = flip_with_checks(&mut mesh, until);
         prop_assert_eq!(report.changed, 0);
         prop_assert_eq!(mesh, at_goal);
     }
 }
 
-/// A torus whose vertices were pushed about and half of whose edges were turned.
+/// Returns a torus with displaced vertices and half of its edges flipped.
 fn rough_torus(around: u32, across: u32) -> Mesh {
     let mut mesh = shapes::fans(&shapes::torus(around, across, 2.0, 1.0));
     let size = 2.0 / f64::from(around);
@@ -143,8 +143,8 @@ fn rough_torus(around: u32, across: u32) -> Mesh {
         *p += size * DVec3::new(noise(i), noise(i + 300), noise(i + 700));
     }
     let count = mesh.n_edges() / 2;
-    let turn = format!("(edges: Random(count: {count}, seed: 3), on_refusal: Skip)");
-    applied(&parse(&turn), mesh)
+    let flip = format!("(edges: Random(count: {count}, seed: 3), on_refusal: Skip)");
+    applied(&parse(&flip), mesh)
 }
 
 fn delaunay() -> FlipEdges {
@@ -152,7 +152,7 @@ fn delaunay() -> FlipEdges {
 }
 
 #[test]
-fn a_large_torus_comes_to_its_end_and_stays_there() {
+fn a_second_run_on_a_large_torus_changes_nothing() {
     for until in ["Delaunay", "Valence"] {
         let flip = parse(&format!("(edges: All, until: {until})"));
         let (mesh, report) = try_applied(&flip, rough_torus(250, 200)).unwrap();
@@ -161,17 +161,17 @@ fn a_large_torus_comes_to_its_end_and_stays_there() {
             panic!("one note: {report:?}");
         };
         assert!(
-            note.ends_with("improve the mesh") && !note.contains("more"),
+            note.ends_with("improve the mesh") && !note.contains("more passes"),
             "{note}"
         );
         assert_eq!(applied(&flip, rough_torus(250, 200)), mesh);
-        let (again, report) = try_applied(&flip, mesh.clone()).unwrap();
-        assert_eq!((again, report.changed), (mesh, 0));
+        let (twice, report) = try_applied(&flip, mesh.clone()).unwrap();
+        assert_eq!((twice, report.changed), (mesh, 0));
     }
 }
 
 #[test]
-fn an_edge_that_was_turned_turns_back_for_the_valence() {
+fn a_flipped_edge_of_a_regular_mesh_is_flipped_back_for_the_valence() {
     let mut regular = shapes::fans(&shapes::torus(7, 6, 2.0, 1.0));
     regular.flip_edge(EdgeId::new(50)).unwrap();
     assert_eq!(irregularity(&regular), 4);
@@ -186,7 +186,7 @@ fn an_edge_that_was_turned_turns_back_for_the_valence() {
 }
 
 #[test]
-fn edges_that_were_not_selected_stay() {
+fn edges_that_are_not_selected_are_not_flipped() {
     let mut mesh = rough_torus(20, 12);
     let kept = Attribute::<EdgeId, bool>::new("kept", Rule::Copy);
     mesh.set(kept, mesh.edges().map(|e| e.index() % 3 == 0).collect());
@@ -199,7 +199,7 @@ fn edges_that_were_not_selected_stay() {
 }
 
 #[test]
-fn seams_stay_and_are_counted_if_a_flip_there_would_help() {
+fn refused_flips_at_seams_are_counted() {
     let mut mesh = rough_torus(20, 12);
     let uvs = |h| match mesh.face(h) {
         Some(f) if f.index() < 200 => DVec2::X,
@@ -232,8 +232,8 @@ fn seams_stay_and_are_counted_if_a_flip_there_would_help() {
 }
 
 #[test]
-fn an_edge_that_would_be_flipped_but_may_not_be_is_counted() {
-    // The far corners of the long edge are joined, by a short one.
+fn an_improving_flip_that_is_refused_is_counted() {
+    // The opposite corners of the long edge are already joined by a short edge.
     let mut sliver = shapes::tetrahedron();
     let positions = [(-9., 0., 0.), (9., 0., 0.), (0., 1., -0.1), (0., -1., -0.1)];
     for (p, at) in sliver.positions_mut().iter_mut().zip(positions) {
@@ -249,7 +249,7 @@ fn an_edge_that_would_be_flipped_but_may_not_be_is_counted() {
 }
 
 #[test]
-fn edges_of_polygons_are_counted_and_stay() {
+fn edges_of_polygons_are_refused_and_counted() {
     let (mesh, report) = try_applied(&delaunay(), shapes::cube()).unwrap();
     assert_eq!(mesh, shapes::cube());
     let counts: Vec<_> = report.refused.iter().map(|r| (r.reason, r.count)).collect();
@@ -257,19 +257,23 @@ fn edges_of_polygons_are_counted_and_stay() {
 }
 
 #[test]
-fn what_is_refused_at_the_end_is_all_that_is_left() {
+fn a_second_run_has_the_same_refusals() {
     let (mesh, report) = try_applied(&delaunay(), rough_torus(30, 20)).unwrap();
-    assert_eq!(left_over(&mesh, Until::Delaunay), [], "{report:?}");
-    let (_, again) = try_applied(&delaunay(), mesh).unwrap();
-    assert_eq!(again.refused, report.refused);
+    assert_eq!(
+        remaining_improvements(&mesh, Until::Delaunay),
+        [],
+        "{report:?}"
+    );
+    let (_, second_report) = try_applied(&delaunay(), mesh).unwrap();
+    assert_eq!(second_report.refused, report.refused);
 }
 
 #[test]
-fn a_step_that_runs_out_of_passes_says_so() {
+fn a_step_that_reaches_the_limit_of_passes_reports_it() {
     let once = parse("(edges: All, until: Delaunay, passes: 1)");
     let (mesh, report) = try_applied(&once, rough_torus(20, 12)).unwrap();
     assert!(
-        report.notes[0].starts_with("passes: 1, all that"),
+        report.notes[0].starts_with("passes: 1, the limit"),
         "{report:?}"
     );
     let (_, more) = try_applied(&delaunay(), mesh).unwrap();
@@ -288,14 +292,14 @@ fn the_unit_of_length_does_not_matter() {
     for until in ["Delaunay", "Valence"] {
         let flip = parse(&format!("(edges: All, until: {until})"));
         let expected = applied(&flip, scaled(1.0));
-        // Powers of two, so that nothing is rounded.
+        // Scaling by powers of two is exact.
         for scale in [1_f64 / (1_u64 << 40) as f64, (1_u64 << 40) as f64] {
             for scale in [scale, scale * scale, scale * scale * scale] {
                 let mesh = applied(&flip, scaled(scale));
                 assert_eq!(mesh.connectivity(), expected.connectivity());
             }
         }
-        // What is too small or too large to be computed stays.
+        // Meshes that are too small or too large to compute do not change.
         for scale in [0.0, 1e-300, 1e-160, 1e-80, 1e80, 1e160, 1e300] {
             assert_eq!(applied(&flip, scaled(scale)), scaled(scale), "{scale}");
         }

@@ -1,29 +1,30 @@
-//! Diagonals that would join two vertices a second time.
+//! Avoids duplicate diagonals: diagonals between two vertices that are already joined.
 //!
 //! ```text
-//!      d ---- c           the two sides of a pillow have the same corners: cut along a-c and a-c it
-//!     /|     /|           has two edges between a and c; along a-c and b-d it is a tetrahedron
-//!    a ---- b
+//!      d ---- c           Both faces of a pillow have the corners a, b, c, d. If both are cut along a-c,
+//!     /      /            the mesh has two edges between a and c. If one is cut along a-c and the other
+//!    a ---- b             along b-d, it is a tetrahedron.
 //! ```
 //!
-//! A half-edge mesh can have them, but a file of triangles cannot: read again, it falls apart there.
+//! A half-edge mesh can represent duplicate edges, but a file of triangles cannot: the mesh that is read from the file
+//! is split there.
 
 use geometry::triangulate::Cut;
 use mesh::{FaceId, Mesh, VertexId};
 use rayon::prelude::*;
 
-/// A diagonal: its vertices, lower first, and its face.
+/// A diagonal: its vertices, the lower first, and its face.
 type Diagonal = ([VertexId; 2], FaceId);
 
-/// Turns diagonals of quadrilaterals that would be doubles, where the other one is as good and is none.
-/// Returns how many doubles remain.
+/// Replaces duplicate diagonals of quadrilaterals by the other diagonal if that is as good and not a duplicate.
+/// Returns the number of duplicates that remain.
 pub(crate) fn avoid(mesh: &Mesh, cuts: &mut [Cut]) -> usize {
     let diagonals = all(mesh, cuts);
-    let doubles = doubles(mesh, &diagonals);
-    if doubles.is_empty() {
+    let duplicates = duplicates(mesh, &diagonals);
+    if duplicates.is_empty() {
         return 0;
     }
-    for (_, f) in doubles {
+    for (_, f) in duplicates {
         let Cut::Quad {
             from_zero,
             is_free: true,
@@ -33,20 +34,20 @@ pub(crate) fn avoid(mesh: &Mesh, cuts: &mut [Cut]) -> usize {
         };
         let corners: Vec<VertexId> = mesh.face_vertices(f).collect();
         let i = usize::from(from_zero);
-        let other = rising(corners[i], corners[i + 2]);
-        let place = diagonals.partition_point(|(ends, _)| *ends < other);
-        let is_there = diagonals.get(place).is_some_and(|(ends, _)| *ends == other);
-        if !is_there && !are_joined(mesh, other) {
+        let other = sorted_pair(corners[i], corners[i + 2]);
+        let index = diagonals.partition_point(|(ends, _)| *ends < other);
+        let exists = diagonals.get(index).is_some_and(|(ends, _)| *ends == other);
+        if !exists && !are_joined(mesh, other) {
             cuts[f.index()] = Cut::Quad {
                 from_zero: !from_zero,
                 is_free: true,
             };
         }
     }
-    self::doubles(mesh, &all(mesh, cuts)).len()
+    self::duplicates(mesh, &all(mesh, cuts)).len()
 }
 
-/// All diagonals, sorted.
+/// Returns all diagonals, sorted.
 fn all(mesh: &Mesh, cuts: &[Cut]) -> Vec<Diagonal> {
     let mut diagonals: Vec<Diagonal> = cuts
         .par_iter()
@@ -60,15 +61,15 @@ fn all(mesh: &Mesh, cuts: &[Cut]) -> Vec<Diagonal> {
             cut.diagonals(&mut pairs);
             pairs
                 .into_iter()
-                .map(move |[i, j]| (rising(corners[i as usize], corners[j as usize]), f))
+                .map(move |[i, j]| (sorted_pair(corners[i as usize], corners[j as usize]), f))
         })
         .collect();
     diagonals.par_sort_unstable();
     diagonals
 }
 
-/// Of sorted diagonals those that join vertices which share an edge, or an earlier diagonal.
-fn doubles(mesh: &Mesh, diagonals: &[Diagonal]) -> Vec<Diagonal> {
+/// Returns the diagonals whose vertices are also joined by an edge or by an earlier diagonal. `diagonals` is sorted.
+fn duplicates(mesh: &Mesh, diagonals: &[Diagonal]) -> Vec<Diagonal> {
     diagonals
         .par_iter()
         .enumerate()
@@ -82,6 +83,6 @@ fn are_joined(mesh: &Mesh, [v, w]: [VertexId; 2]) -> bool {
     mesh.find_half_edge(v, w).is_some()
 }
 
-fn rising(v: VertexId, w: VertexId) -> [VertexId; 2] {
+fn sorted_pair(v: VertexId, w: VertexId) -> [VertexId; 2] {
     [v.min(w), v.max(w)]
 }

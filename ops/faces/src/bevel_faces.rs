@@ -1,37 +1,37 @@
-//! Bevel faces: raises a smaller copy of faces, with a ring of faces around it.
+//! Bevel faces: shrinks and raises faces, and surrounds each with a ring of faces.
 //!
 //! ```text
 //!                                    +------+
-//!                                  /    f    \            f is smaller by the fraction
-//!    + ------ f ------ +    -->   + ---------- +           and higher by the distance
+//!                                  /    f    \            f is shrunk by the fraction
+//!    + ------ f ------ +    -->   + ---------- +           and raised by the distance
 //! ```
 
 use op::prelude::*;
 
-/// Raises a smaller copy of faces, with a ring of faces around it.
+/// Shrinks and raises faces, and surrounds each with a ring of faces.
 ///
-/// As `InsetFaces`, with the inner face moved along its normal. Each face by itself, also where they
-/// share edges. The inner face keeps the number, and all that was there stays where it was; a face with
-/// n corners adds n vertices, 2 n edges and n faces of four corners. New vertices and faces are numbered
-/// behind all others: the selected faces in order of their numbers, around each counter-clockwise from
-/// its first corner. A face without area has no normal and stays flat.
+/// Works like `InsetFaces`, and also moves the inner face along its normal. Each face is bevelled separately, even if
+/// selected faces share edges. The inner face keeps the number of the face, and existing vertices do not move. A face
+/// with n corners adds n vertices, 2 n edges and n faces with four corners. New vertices and faces are numbered last: in
+/// order of the selected faces, and counter-clockwise around each face from its first corner. A face without area has no
+/// normal, and its inner face is not raised.
 ///
-/// Values at the new corners and vertices lie between those of the outer corner and the mean of the
-/// face. The ring has the values of the face (material, tags), the inner edges have those of the outer
-/// ones. Normals are dropped.
+/// Values at the new corners and vertices are interpolated between the outer corner and the mean of the face. The ring
+/// has the values of the face (material, tags), and the inner edges have the values of the outer edges. Normals are
+/// dropped.
 ///
-/// A face that lies on both sides of one of its edges is refused.
+/// A face is refused if it is on both sides of one of its edges.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct BevelFaces {
-    /// Which faces.
+    /// The faces to bevel.
     pub faces: FaceSelection,
-    /// How far the corners move towards the middle of the face: strictly between 0 (not at all)
-    /// and 1 (all the way).
+    /// How far the corners of the inner face are from the old corners towards the center of the face. From 0 (the corner)
+    /// to 1 (the center), exclusive.
     #[serde(alias = "inset")]
     #[schemars(extend("aliases" = ["inset"]))]
     pub fraction: Fraction,
-    /// How far the inner face moves along its normal, in scene units; below 0 inwards.
+    /// The distance by which the inner face moves along its normal, in scene units. A negative distance moves it inwards.
     #[serde(alias = "height")]
     #[schemars(extend("aliases" = ["height"]))]
     pub distance: Distance,
@@ -42,7 +42,7 @@ pub struct BevelFaces {
 
 impl MeshOperation for BevelFaces {
     const NAME: &'static str = "BevelFaces";
-    const SUMMARY: &'static str = "Raise a smaller copy of faces, with a ring of faces around it";
+    const SUMMARY: &'static str = "Shrink and raise faces, each with a ring of faces around it";
     const EXAMPLE: &'static str = "BevelFaces(faces: All, fraction: 0.25, distance: 0.5)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn a_face_beyond_all_numbers_is_refused() {
+    fn a_face_whose_coordinates_overflow_is_refused() {
         let mut high = shapes::cube();
         high.positions_mut().iter_mut().for_each(|p| p.z += 1e308);
         let step = parse("(faces: All, fraction: 0.5, distance: 1e308)");

@@ -1,4 +1,4 @@
-//! Delete faces: takes faces away and leaves holes.
+//! Delete faces: removes faces and leaves holes.
 //!
 //! ```text
 //!    +---+---+---+          +---+---+---+
@@ -11,32 +11,32 @@
 use mesh::{EditError, FaceId, VertexId};
 use op::prelude::*;
 
-/// Takes faces away and leaves holes.
+/// Removes faces and leaves holes.
 ///
-/// All faces go at once, so that their order does not matter. Edges that have no face left go with them,
-/// and so do the corners of these faces that have no edge left, unless they are to be kept; vertices that
-/// were isolated before stay. What is left keeps its order and its values, but numbers move up. To delete
-/// edges or vertices with the faces at them: `FacesBeside(edges)`, `FacesAround(vertices)`.
+/// All faces are removed at once, so their order does not matter. Edges left without a face are removed, and so are the
+/// corners of the faces that are left without an edge, unless `keep_vertices` is true. Vertices that were isolated
+/// before are kept. The remaining elements keep their order and their values but are renumbered. To delete edges or
+/// vertices together with their faces, use `FacesBeside(edges)` or `FacesAround(vertices)`.
 ///
-/// Refused if the faces that are left around a vertex would form two parts that meet in that vertex alone.
-/// When refusals are skipped, the faces are taken away one after another instead, again and again in order
-/// of their numbers as long as one of them can go; those that stay are counted.
+/// The removal is refused if the remaining faces around a vertex would form separate fans that meet only at that vertex.
+/// With `on_refusal: Skip`, faces are instead removed one by one, in order of their numbers, in repeated passes until no
+/// more faces can be removed. The faces that remain are counted.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DeleteFaces {
-    /// Which faces.
+    /// The faces to delete.
     pub faces: FaceSelection,
-    /// What to do when the faces cannot all go.
+    /// What to do when not all faces can be removed.
     #[serde(default)]
     pub on_refusal: OnRefusal,
-    /// Whether vertices stay that have no edge left.
+    /// Whether to keep vertices that are left without an edge.
     #[serde(default)]
     pub keep_vertices: bool,
 }
 
 impl MeshOperation for DeleteFaces {
     const NAME: &'static str = "DeleteFaces";
-    const SUMMARY: &'static str = "Take faces away and leave holes";
+    const SUMMARY: &'static str = "Delete faces and leave holes";
     const EXAMPLE: &'static str = "DeleteFaces(faces: All)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
@@ -44,8 +44,8 @@ impl MeshOperation for DeleteFaces {
         if chosen.max == 0 {
             return Vec::new();
         }
-        let gone = self.on_refusal.done(chosen);
-        plan.faces = plan.faces.minus(gone);
+        let removed = self.on_refusal.done(chosen);
+        plan.faces = plan.faces.minus(removed);
         plan.edges = plan.edges.or_less();
         if plan.faces.max == 0 {
             plan.edges = Range::exactly(0);
@@ -78,25 +78,25 @@ impl MeshOperation for DeleteFaces {
     }
 }
 
-/// Takes the faces away in rounds, until a round finds none that can go.
+/// Removes the faces one by one in repeated passes, until no more faces can be removed.
 fn one_by_one(mesh: &mut Mesh, faces: Vec<FaceId>, cx: &Context) -> Result<Report, OpError> {
     let total = faces.len();
     let mut refused: Vec<(FaceId, EditError)> = Vec::new();
-    let mut left = faces;
+    let mut remaining = faces;
     loop {
-        for (done, &f) in left.iter().enumerate() {
+        for (done, &f) in remaining.iter().enumerate() {
             if let Err(refusal) = mesh.delete_face(f) {
                 refused.push((f, refusal));
             }
             if done % 4096 == 4095 {
-                let done = (total - left.len() + done) as u64;
+                let done = (total - remaining.len() + done) as u64;
                 cx.advance("delete faces", done, total as u64)?;
             }
         }
-        if refused.is_empty() || refused.len() == left.len() {
+        if refused.is_empty() || refused.len() == remaining.len() {
             break;
         }
-        left = refused.drain(..).map(|(f, _)| f).collect();
+        remaining = refused.drain(..).map(|(f, _)| f).collect();
     }
     let mut report = Report::changed(total - refused.len());
     for (_, refusal) in refused {
@@ -129,21 +129,21 @@ mod tests {
     }
 
     #[test]
-    fn vertices_that_lose_their_last_edge_go_or_are_kept() {
+    fn vertices_left_without_an_edge_are_removed_or_kept() {
         let all = parse("(faces: All)");
         let mut mesh = shapes::grid(2, 1);
         assert_eq!(counts(&applied(&all, mesh.clone())), [0, 0, 0]);
         let kept = applied(&parse("(faces: All, keep_vertices: true)"), mesh.clone());
         assert_eq!(counts(&kept), [6, 0, 0]);
-        // A vertex that was isolated before stays.
+        // A vertex that was isolated before is kept.
         mesh = applied(&parse("(faces: Faces([1]), keep_vertices: true)"), mesh);
         assert_eq!(counts(&mesh), [6, 4, 1]);
         assert_eq!(counts(&applied(&all, mesh)), [2, 0, 0]);
     }
 
     #[test]
-    fn faces_go_together_that_could_not_go_alone() {
-        // The squares around the middle one, which is a hole: each corner touches it with a vertex.
+    fn faces_can_be_removed_together_that_cannot_be_removed_alone() {
+        // A ring of eight squares around a hole. Each corner square touches the hole with one vertex.
         let ring = applied(&parse("(faces: Faces([4]))"), shapes::grid(3, 3));
         let alone = try_applied(&parse("(faces: Faces([0]))"), ring.clone());
         let Err(OpError::Refused { reason, .. }) = alone else {
@@ -155,8 +155,8 @@ mod tests {
     }
 
     #[test]
-    fn skipped_faces_stay_and_are_counted() {
-        // Of the diagonal of a sheet all go but the last one, which would leave two fans.
+    fn skipped_faces_are_kept_and_counted() {
+        // Removing both diagonal squares would leave two fans at the vertex in the middle.
         let diagonal = "(faces: Faces([0, 3]), on_refusal: Skip)";
         let (mesh, report) = try_applied(&parse(diagonal), shapes::grid(2, 2)).unwrap();
         assert_eq!((mesh.n_faces(), report.changed), (3, 1));
@@ -165,8 +165,8 @@ mod tests {
     }
 
     #[test]
-    fn a_face_that_can_go_after_a_later_one_goes() {
-        // Face 0 pinches as long as face 1 is there, and the last one, at the opposite corner, always.
+    fn a_refused_face_is_tried_again_after_later_faces() {
+        // Removing face 0 pinches a vertex while face 1 exists. Removing face 7, at the opposite corner, always does.
         let ring = applied(&parse("(faces: Faces([4]))"), shapes::grid(3, 3));
         let numbers = "(faces: Faces([0, 1, 7]), on_refusal: Skip)";
         let (mesh, report) = try_applied(&parse(numbers), ring).unwrap();
@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn faces_beside_edges_and_around_vertices_go() {
+    fn faces_beside_edges_and_around_vertices_are_removed() {
         let beside = parse("(faces: FacesBeside(Between(0, 1)))");
         assert_eq!(counts(&applied(&beside, shapes::cube())), [8, 11, 4]);
         let around = parse("(faces: FacesAround(Vertices([0])))");
@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn the_plan_knows_the_faces_that_go() {
+    fn the_plan_has_the_exact_number_of_faces() {
         let (plan, problems) = planned(&parse("(faces: All)"), &shapes::cube());
         assert_eq!(problems, []);
         assert_eq!(
@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn a_recipe_must_name_the_faces() {
+    fn the_faces_are_required() {
         assert!(op::test::read::<DeleteFaces>("()").is_err());
     }
 

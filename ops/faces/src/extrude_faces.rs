@@ -1,15 +1,16 @@
-//! Extrude faces: moves faces out of the surface and puts side faces between the old place and the new.
+//! Extrude faces: moves faces out of the surface and connects them to their old rim with side faces.
 //!
 //! ```text
 //!                             +------ +
-//!                            /   f   / |            f keeps its number, the rim is new there
+//!                            /   f   / |            f keeps its number and gets a new rim
 //!     +-------- +           +------ +  |
-//!    /    f    /     -->    |   s   | .+            s: one side face for each edge of the rim,
-//!   +-------- +             +------ +               which stays where it was
+//!    /    f    /     -->    |   s   | .+            s: one side face for each edge of the old rim,
+//!   +-------- +             +------ +               which does not move
 //! ```
 //!
-//! Faces that share an edge move together, as a region. A point p of a region with the center c goes to
-//! R s (p - c) + c + o: s scales, R turns, o is the offset, d times the normal for `Distance(d)`.
+//! Faces that share an edge move together, as a region. A point p of a region with the center c moves to
+//! R s (p - c) + c + o, where s is the scale, R the rotation and o the offset. For `Distance(d)`, o is d times the
+//! normal.
 
 mod region;
 
@@ -20,52 +21,51 @@ use op::prelude::*;
 
 use region::Region;
 
-/// Moves faces out of the surface and puts side faces between the old place and the new.
+/// Moves faces out of the surface and connects them to their old rim with side faces.
 ///
-/// Faces that share an edge move together, as one region, with one normal and one center. First a region
-/// is scaled, then turned, both about the mean of its vertices, then moved. Side faces, all of four
-/// corners, stand along its rim: along the edges that have one of its faces on one side only. A whole
-/// sheet becomes a box that is open where the sheet was. A whole closed part has no rim: it only moves,
-/// and has no normal, so that it needs an `Offset`.
+/// Selected faces that share an edge form a region and move together, with one normal and one center. A region is first
+/// scaled, then rotated, both about the mean of its vertices, and then moved. Side faces with four corners are added
+/// along the rim of the region: the edges with a face of the region on one side only. A whole open sheet becomes a box
+/// that is open where the sheet was. A whole closed part has no rim and no normal: it only moves, and needs an `Offset`.
 ///
-/// The faces keep their numbers, so that the same selection can be extruded again, step after step: that is
-/// how an arm grows out of a body, all in one piece. So do vertices and edges inside of a region. Those of
-/// its rim stay where they were, and the moved faces get new ones. New side faces are numbered
-/// behind all others: the regions in order of their lowest face, in each the faces in order of their numbers,
-/// around each counter-clockwise from its first corner. New vertices come in the same order, each
-/// above the one that its side face begins with.
+/// The faces keep their numbers, so the same selection can be extruded again in later steps, for example to grow an arm
+/// out of a body. Vertices and edges inside a region also keep their numbers. The vertices and edges of the old rim do
+/// not move, and the moved faces get new ones. New side faces are numbered last: by region in order of their lowest
+/// faces, then in order of the faces, then counter-clockwise around each face from its first corner. New vertices are in
+/// the same order, each above the first vertex of its side face.
 ///
-/// Side faces have the values of the face that they stand on (material, tags), and their corners those that
-/// its corners there have, so that textures go on without a seam, but without width on the sides. The new
-/// edges of the rim have the values of the old ones (creases, tags), the upright ones none. Normals are
+/// A side face has the values of the face that it belongs to (material, tags). Its corners have the values of the corners
+/// of that face, so textures continue without a seam but have no width on the side faces. The new edges of the rim have
+/// the values of the old ones (creases, tags), and the edges between the old and the new rim have no values. Normals are
 /// dropped.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExtrudeFaces {
-    /// Which faces.
+    /// The faces to extrude.
     pub faces: FaceSelection,
-    /// How far and where to.
+    /// The distance or offset by which the faces move.
     pub by: By,
-    /// The factor of size of each region about its center; above 0.
+    /// The factor by which each region is scaled about its center. More than 0.
     #[serde(default = "one")]
     pub scale: PositiveFactor,
-    /// Turns of each region about its center, one after the other.
+    /// Rotations of each region about its center, applied in order.
     #[serde(default, alias = "turn")]
     #[schemars(extend("aliases" = ["turn"]))]
     pub rotate: Vec<Turn>,
-    /// Marks the moved faces and their side faces with this tag; those that have it already keep it.
+    /// The name of a tag for the moved faces and their side faces. Faces that already have the tag keep it. If omitted, no
+    /// faces are tagged.
     #[serde(default)]
     pub tag: Option<TagName>,
 }
 
-/// How far faces move, and where to.
+/// The distance or offset by which faces move.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum By {
-    /// So far along the normal of each region, in scene units; a negative distance moves inwards. The
-    /// normal is the mean of the normals of its faces, weighted by area.
+    /// The distance along the normal of each region, in scene units. A negative distance moves the faces inwards. The
+    /// normal is the mean of the face normals, weighted by area.
     Distance(Distance),
-    /// So far along x, y and z, in scene units.
+    /// The offset along x, y and z, in scene units.
     Offset(Vector),
 }
 
@@ -80,9 +80,9 @@ impl ExtrudeFaces {
             By::Distance(d) => match region.normal(mesh) {
                 Some(n) => Ok(d.get() * n),
                 None => Err(OpError::Parameter(format!(
-                    "by: the faces around {} have no normal to move along: they are closed, or have no \
-                     area; `Offset` moves them",
-                    region.faces[0]
+                    "by: the region of face {} has no normal to move along: it is closed or has no area; \
+                     use `Offset`",
+                    region.faces[0].index()
                 ))),
             },
         }
@@ -91,11 +91,11 @@ impl ExtrudeFaces {
 
 impl MeshOperation for ExtrudeFaces {
     const NAME: &'static str = "ExtrudeFaces";
-    const SUMMARY: &'static str = "Move faces out of the surface, with side faces behind them";
+    const SUMMARY: &'static str = "Move faces out of the surface and add side faces";
     const EXAMPLE: &'static str = "ExtrudeFaces(faces: Faces([0]), by: Distance(0.5))";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // The rim has no more edges than the faces have sides, and each edge is in it once at most.
+        // The rims have at most as many edges as the faces have sides, and contain each edge at most once.
         let sides = self.faces.count(plan).times(plan.degrees);
         let rim = sides.capped(plan.edges.max).or_less();
         plan.grow(rim, rim.by(2), rim);
@@ -113,7 +113,7 @@ impl MeshOperation for ExtrudeFaces {
         let tag = self.tag.as_ref();
         let mut marks = tag.map(|tag| tag.marks(mesh, Domain::Face)).transpose()?;
         let regions = Region::all(mesh, &self.faces.mask(mesh, cx)?);
-        let turned_and_scaled = Turn::all(&self.rotate) * self.scale.get();
+        let linear = Turn::all(&self.rotate) * self.scale.get();
         cx.advance("extrude", 0, regions.len() as u64)?;
 
         mesh.remove_normals();
@@ -121,7 +121,7 @@ impl MeshOperation for ExtrudeFaces {
         for (done, region) in (1..).zip(&regions) {
             let offset = self.offset(mesh, region)?;
             let sides = mesh.extrude_faces(&region.faces, offset)?;
-            change(mesh, region, turned_and_scaled)?;
+            transform(mesh, region, linear)?;
             n_faces += region.faces.len();
             n_sides += sides.len();
             if let Some(marks) = &mut marks {
@@ -145,8 +145,8 @@ impl MeshOperation for ExtrudeFaces {
     }
 }
 
-/// Turns and scales a region about its center.
-fn change(mesh: &mut Mesh, region: &Region, linear: DMat3) -> Result<(), OpError> {
+/// Applies the linear map to a region, about its center.
+fn transform(mesh: &mut Mesh, region: &Region, linear: DMat3) -> Result<(), OpError> {
     if linear == DMat3::IDENTITY {
         return Ok(());
     }
@@ -162,7 +162,7 @@ fn change(mesh: &mut Mesh, region: &Region, linear: DMat3) -> Result<(), OpError
     Ok(())
 }
 
-/// Marks faces, which may be newer than the marks.
+/// Marks faces. Extends the marks if a face was added after they were created.
 fn mark(marks: &mut Vec<bool>, faces: &[FaceId]) {
     for f in faces {
         marks.resize(marks.len().max(f.index() + 1), false);

@@ -1,36 +1,36 @@
-//! Inset faces: puts a smaller copy into faces, with a ring of faces around it.
+//! Inset faces: shrinks faces and surrounds each with a ring of faces.
 //!
 //! ```text
 //!    + ------------- +              + ------------- +
 //!    |               |              | \           / |
 //!    |               |              |   +------- +  |
-//!    |       f       |     -->      |   |   f    |  |       corners go to (1 - t) v + t c:
-//!    |               |              |   +------- +  |       c their mean, t the fraction
+//!    |       f       |     -->      |   |   f    |  |       new corners are at (1 - t) v + t c, where c
+//!    |               |              |   +------- +  |       is the mean of the corners and t the fraction
 //!    |               |              | /           \ |
 //!    + ------------- +              + ------------- +
 //! ```
 
 use op::prelude::*;
 
-/// Puts a smaller copy into faces, with a ring of faces around it.
+/// Shrinks faces and surrounds each with a ring of faces.
 ///
-/// Each face by itself, also where they share edges. The inner face keeps the number, and all that was there
-/// stays where it was; a face with n corners adds n vertices, 2 n edges and n faces of four corners.
-/// New vertices and faces are numbered behind all others: the selected faces in order of their numbers, around
-/// each counter-clockwise from its first corner.
+/// Each face is inset separately, even if selected faces share edges. The inner face keeps the number of the face, and
+/// existing vertices do not move. A face with n corners adds n vertices, 2 n edges and n faces with four corners. New
+/// vertices and faces are numbered last: in order of the selected faces, and counter-clockwise around each face from its
+/// first corner.
 ///
-/// Values at the new corners and vertices lie between those of the outer corner and the mean of the
-/// face, so that textures stay as they are. The ring has the values of the face (material, tags), the
-/// inner edges have those of the outer ones. Normals are dropped.
+/// Values at the new corners and vertices are interpolated between the outer corner and the mean of the face, so
+/// textures do not change. The ring has the values of the face (material, tags), and the inner edges have the values of
+/// the outer edges. Normals are dropped.
 ///
-/// A face that lies on both sides of one of its edges is refused.
+/// A face is refused if it is on both sides of one of its edges.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct InsetFaces {
-    /// Which faces.
+    /// The faces to inset.
     pub faces: FaceSelection,
-    /// How far the corners move towards the middle of the face: strictly between 0 (not at all)
-    /// and 1 (all the way).
+    /// How far the corners of the inner face are from the old corners towards the center of the face. From 0 (the corner)
+    /// to 1 (the center), exclusive.
     pub fraction: Fraction,
     /// What to do when a face is refused.
     #[serde(default)]
@@ -39,7 +39,7 @@ pub struct InsetFaces {
 
 impl MeshOperation for InsetFaces {
     const NAME: &'static str = "InsetFaces";
-    const SUMMARY: &'static str = "Put a smaller copy into faces, with a ring of faces around it";
+    const SUMMARY: &'static str = "Shrink faces, each with a ring of faces around it";
     const EXAMPLE: &'static str = "InsetFaces(faces: All, fraction: 0.25)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {

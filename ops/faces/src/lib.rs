@@ -1,4 +1,4 @@
-//! Operations: edits of faces.
+//! Operations that edit faces.
 
 mod bevel_faces;
 mod delete_faces;
@@ -28,7 +28,7 @@ pub fn register(registry: Registry) -> Registry {
         .with::<BevelFaces>()
 }
 
-/// Plans a ring of quads around each of `faces` faces, which become smaller.
+/// Plans a ring of quadrilaterals inside each of `faces` faces.
 fn plan_rings(plan: &mut MeshPlan, faces: Range) {
     let corners = plan.corners_of(faces);
     plan.grow(corners, corners.by(2), corners);

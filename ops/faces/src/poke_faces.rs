@@ -1,4 +1,4 @@
-//! Poke faces: puts a vertex into the middle of faces and joins it to their corners.
+//! Poke faces: inserts a vertex at the center of faces and joins it to their corners.
 //!
 //! ```text
 //!    d ------- c          d ------- c
@@ -10,24 +10,26 @@
 
 use op::prelude::*;
 
-/// Puts a vertex into the middle of faces and joins it to their corners.
+/// Inserts a vertex at the center of faces and joins it to their corners.
 ///
-/// A face with n corners becomes n triangles; that adds 1 vertex, n edges and n - 1 faces. The first
-/// triangle keeps the number of the face, the other ones and the new vertices and edges come behind, in
-/// order of the faces. The vertex stands at the mean of the corners, moved along the normal of the face by
-/// `distance`. Values of vertices and corners are means too where they can be; the triangles have the values
-/// of their face, the new edges none. If `distance` is not 0, normals are dropped.
+/// A face with n corners becomes n triangles. This adds 1 vertex, n edges and n - 1 faces. The first triangle keeps the
+/// number of the face; the other triangles and the new vertices and edges are numbered last, in order of the faces. The
+/// vertex is at the mean of the corners, moved along the normal of the face by `distance`. Its vertex and corner values
+/// are also means where the type of the attribute allows it. The triangles have the values of their face, and the new
+/// edges have no values. If `distance` is not 0, normals are dropped.
 ///
-/// A face is refused only if the vertex would not be finite, or there are no more numbers for elements.
+/// A face is refused only if the position of the new vertex would not be finite, or if the mesh already has the largest
+/// supported number of elements.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct PokeFaces {
-    /// Which faces.
+    /// The faces to poke.
     #[serde(default)]
     pub faces: FaceSelection,
-    /// How far the vertex rises along the normal of its face, in scene units; below 0 it sinks.
+    /// The distance of the vertex from the center along the normal of the face, in scene units. A negative distance moves
+    /// it inwards.
     ///
-    /// A face without area has no normal: its vertex stays in the middle.
+    /// A face without area has no normal: its vertex is at the center.
     #[serde(default, alias = "offset")]
     #[schemars(extend("aliases" = ["offset"]))]
     pub distance: Distance,
@@ -39,7 +41,7 @@ pub struct PokeFaces {
 impl MeshOperation for PokeFaces {
     const NAME: &'static str = "PokeFaces";
     const SUMMARY: &'static str =
-        "Put a vertex into the middle of faces and join it to their corners";
+        "Insert a vertex at the center of faces and join it to their corners";
     const EXAMPLE: &'static str = "PokeFaces()";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
@@ -62,8 +64,8 @@ impl MeshOperation for PokeFaces {
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
         let faces = self.faces.resolve(mesh, cx)?;
         let report = edit_each(mesh, &faces, self.on_refusal, "poke", cx, |mesh, f| {
-            let middle = mesh.face_center(f) + self.distance.get() * mesh.face_normal(f);
-            mesh.poke_face_at(f, middle).map(drop)
+            let position = mesh.face_center(f) + self.distance.get() * mesh.face_normal(f);
+            mesh.poke_face_at(f, position).map(drop)
         })?;
         if self.distance != Distance::default() {
             mesh.remove_normals();
@@ -102,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn the_new_vertices_come_in_order_of_the_faces() {
+    fn new_vertices_are_in_order_of_the_faces() {
         let cube = shapes::cube();
         let mesh = applied(&parse("(faces: Faces([5, 2]))"), cube.clone());
         for (m, f) in [(8, 2), (9, 5)] {
@@ -113,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn normals_are_kept_in_the_surface_and_dropped_beside_it() {
+    fn normals_are_dropped_only_if_the_distance_is_not_zero() {
         let mut mesh = shapes::grid(2, 1);
         mesh.set(VERTEX_NORMAL, vec![DVec3::Z; 6]);
         let flat = applied(&parse("()"), mesh.clone());
@@ -123,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn a_vertex_beyond_all_numbers_is_refused_or_skipped() {
+    fn a_vertex_whose_coordinates_overflow_is_refused_or_skipped() {
         let far = parse("(distance: 1e308)");
         let mut mesh = shapes::square();
         for p in mesh.positions_mut() {
@@ -158,7 +160,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn shape_and_plan_hold_for_any_choice(
+        fn topology_and_plan_hold_for_any_selection(
             count in 0..12_u32, seed in 0..1000_u64, which in 0..5_usize,
         ) {
             let before = [

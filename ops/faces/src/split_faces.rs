@@ -1,4 +1,4 @@
-//! Split faces: cuts faces in two by edges between their corners.
+//! Split faces: cuts faces in two with edges between their corners.
 //!
 //! ```text
 //!    +-----w          +-----w
@@ -11,20 +11,19 @@
 use mesh::VertexId;
 use op::prelude::*;
 
-/// Cuts faces in two by edges between their corners.
+/// Cuts faces in two with edges between their corners.
 ///
-/// Each pair of vertices names a cut: of the one face that has both as corners. The new edge joins them,
-/// which adds 1 edge and 1 face. Cuts are made in the order of the list, so that a face can be cut again
-/// between other corners. The part of the face that lies to the right of the way from v to w is the new
-/// face, the other part keeps the number; new edges and faces come behind. Corners keep their values, the
-/// new face has those of the old one, the new edge none.
+/// Each pair of vertices cuts the face that has both vertices as corners. The new edge joins the two vertices. This adds
+/// 1 edge and 1 face. Cuts are made in the order of the list, so a face can be cut several times. The part of the face to
+/// the right of the line from v to w is the new face, and the other part keeps the number. New edges and faces are
+/// numbered last. Corners keep their values, the new face has the values of the old one, and the new edge has no values.
 ///
-/// A cut is refused if the vertices share an edge already, if they are the same, if no face has both as
-/// corners, and if several have, as then it is not clear which one is meant.
+/// A cut is refused if the two vertices are already joined by an edge, if they are the same, if no face has both as
+/// corners, and if several faces do, because the cut would be ambiguous.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct SplitFaces {
-    /// The cuts: a list of pairs of vertices, by their numbers: `[(0, 2), (5, 9)]`.
+    /// The cuts: a list of pairs of vertex numbers, for example `[(0, 2), (5, 9)]`.
     pub between: Vec<(u32, u32)>,
     /// What to do when a cut is refused.
     #[serde(default)]
@@ -33,7 +32,7 @@ pub struct SplitFaces {
 
 impl MeshOperation for SplitFaces {
     const NAME: &'static str = "SplitFaces";
-    const SUMMARY: &'static str = "Cut faces in two by edges between their corners";
+    const SUMMARY: &'static str = "Cut faces in two with edges between their corners";
     const EXAMPLE: &'static str = "SplitFaces(between: [])";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
@@ -62,17 +61,21 @@ impl MeshOperation for SplitFaces {
 }
 
 impl SplitFaces {
-    /// A cut that is known to be refused.
+    /// Returns the problem of the first cut that will certainly be refused.
     fn problem(&self, plan: &MeshPlan) -> Option<Problem> {
         let mut cuts = self.between.iter();
         let message = if plan.is_triangles() && !self.between.is_empty() {
-            Some("every face is a triangle and has no corners to cut between".to_owned())
+            Some(
+                "all faces are triangles, which cannot be cut between two of their corners"
+                    .to_owned(),
+            )
         } else {
             let missing = cuts
                 .clone()
                 .find_map(|(v, w)| plan.missing_vertex_message(*v.max(w)));
-            let twice =
-                |(v, w)| (v == w).then(|| format!("a cut needs two vertices, not {v} twice"));
+            let twice = |(v, w)| {
+                (v == w).then(|| format!("a cut needs two different vertices, found {v} twice"))
+            };
             missing.or_else(|| cuts.find_map(|&cut| twice(cut)))
         };
         let problem = self.on_refusal.problem(message?);
@@ -80,7 +83,7 @@ impl SplitFaces {
     }
 }
 
-/// The vertex of a number; one that no mesh has if the number is too high for an id.
+/// Returns the vertex with a number. If the number is too large for an id, returns an id that no mesh contains.
 fn vertex(number: u32) -> VertexId {
     if number == u32::MAX {
         VertexId::NONE
@@ -119,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn the_new_face_is_to_the_right_of_the_way() {
+    fn the_new_face_is_to_the_right_of_the_cut() {
         let mesh = applied(&parse("(between: [(0, 2)])"), shapes::square());
         let right = mesh.find_half_edge(vertex(0), vertex(1)).unwrap();
         assert_eq!(mesh.face(right).map(mesh::FaceId::index), Some(1));
@@ -141,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_clear_or_not_possible_is_refused() {
+    fn impossible_and_ambiguous_cuts_are_refused() {
         assert_eq!(
             refused("(between: [(0, 1)])", shapes::cube()),
             Refusal::DuplicateEdge
@@ -162,7 +165,7 @@ mod tests {
             refused("(between: [(0, 4294967295)])", shapes::cube()),
             Refusal::Missing
         );
-        // The same cut twice: then the vertices share an edge.
+        // The second cut repeats the first, so an edge already joins its vertices.
         assert_eq!(
             refused("(between: [(0, 3), (3, 0)])", shapes::cube()),
             Refusal::DuplicateEdge
@@ -181,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn cuts_that_cannot_be_are_problems_of_the_plan() {
+    fn the_plan_reports_impossible_cuts() {
         let problems = |text, mesh: &Mesh| planned(&parse(text), mesh).1;
         assert_eq!(problems("(between: [(0, 3)])", &shapes::cube()), []);
         assert_eq!(problems("(between: [])", &shapes::octahedron()), []);
@@ -194,7 +197,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn shape_and_plan_hold_for_any_cuts(
+        fn topology_and_plan_hold_for_any_cuts(
             between in proptest::collection::vec((0..14_u32, 0..14_u32), 0..20), which in 0..3_usize,
         ) {
             let before =

@@ -1,4 +1,4 @@
-//! Bridge loops: joins two holes by a band of faces.
+//! Bridge loops: joins two holes with a band of faces.
 //!
 //! ```text
 //!      .-------.               .-------.
@@ -14,31 +14,31 @@ use mesh::VertexId;
 use op::Refusal;
 use op::prelude::*;
 
-/// Joins two holes by a band of faces.
+/// Joins two holes with a band of faces.
 ///
-/// Each hole is named by one of its vertices, and an edge joins these two; from there the band goes around
-/// both. Holes with n and m edges, n at least m, are joined by m quads and n - m triangles, spread evenly;
-/// n edges are new, and no vertex. The holes may be of one part of the mesh, which then has a tunnel or a
-/// handle more, or of two parts of one object (Join makes one of two).
+/// Each hole is given by one of its vertices. An edge joins these two vertices, and the band goes around both holes from
+/// there. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and n - m evenly spread
+/// triangles. This adds n edges and no vertices. The holes may be in one part of the mesh, which then gets a tunnel or a
+/// handle, or in two parts of one object. (`Join` joins two objects into one.)
 ///
-/// New faces take the values of the faces beside the longer hole, and corners those of the corners at the
-/// same vertices in the faces beside. Normals are dropped.
+/// New faces have the values of the adjacent faces at the longer hole. New corners have the values of the corners at the
+/// same vertices in the adjacent faces. Normals are dropped.
 ///
-/// Refused if a vertex is not on the boundary (`NotBoundary`), if both lie on one hole (`WrongPlace`), and
-/// if two vertices would be joined that share an edge already (`DuplicateEdge`): other vertices to begin
-/// with may do then.
+/// The step is refused if a vertex is not on the boundary (`NotBoundary`), if both vertices are on the same hole
+/// (`WrongPlace`), and if the band would join two vertices that are already joined by an edge (`DuplicateEdge`). In the
+/// last case, other start vertices may work.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct BridgeLoops {
     /// The number of a vertex on the first hole.
     pub first: u32,
-    /// The number of the vertex on the second hole that it is joined to.
+    /// The number of the vertex on the second hole that is joined to `first`.
     pub second: u32,
 }
 
 impl MeshOperation for BridgeLoops {
     const NAME: &'static str = "BridgeLoops";
-    const SUMMARY: &'static str = "Join two holes by a band of faces";
+    const SUMMARY: &'static str = "Join two holes with a band of faces";
     const EXAMPLE: &'static str = "BridgeLoops(first: 0, second: 5)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
@@ -48,10 +48,11 @@ impl MeshOperation for BridgeLoops {
             problems.extend(missing.map(|p| p.at([field])));
         }
         if self.first == self.second {
-            let message = "`first` and `second` must be on two holes, but are one vertex";
+            let message =
+                "`first` and `second` must be on different holes, but are the same vertex";
             problems.push(Problem::error(message).at(["second"]));
         }
-        // As many as the longer hole has edges; the other has two or more.
+        // The band has as many faces as the longer hole has edges, at least two.
         let band = Range::between(2, plan.edges.max);
         plan.grow(Range::exactly(0), band, band);
         plan.degrees = plan.degrees.or(Range::between(3, 4));
@@ -63,17 +64,17 @@ impl MeshOperation for BridgeLoops {
         cx.advance("bridge", 0, 1)?;
         let [first, second] = [self.first, self.second].map(|v| boundary_vertex(mesh, v, cx));
         let (first, second) = (first?, second?);
-        let (Some(h), Some(after)) = (mesh.vertex_half_edge(first), mesh.vertex_half_edge(second))
+        let (Some(h), Some(g)) = (mesh.vertex_half_edge(first), mesh.vertex_half_edge(second))
         else {
             unreachable!("vertices on the boundary have edges");
         };
-        let band = mesh.bridge_loops(h, mesh.prev(after))?;
+        let band = mesh.bridge_loops(h, mesh.prev(g))?;
         mesh.remove_normals();
         Ok(Report::changed(band.len()))
     }
 }
 
-/// The vertex of this number, if it is on the boundary.
+/// Returns the vertex with this number, which must be on the boundary.
 fn boundary_vertex(mesh: &Mesh, number: u32, cx: &Context) -> Result<VertexId, OpError> {
     let v = VertexSelection::Vertices(vec![number]).resolve(mesh, cx)?[0];
     if mesh.is_boundary_vertex(v) {
@@ -102,7 +103,7 @@ mod tests {
         }
     }
 
-    /// A flat sheet with a rim of 16 edges and a hole of 8.
+    /// Returns a flat sheet with an outer rim of 16 edges and a hole of 8 edges.
     fn sheet_with_a_hole() -> Mesh {
         let mut mesh = shapes::grid(4, 4);
         let mut ring = vec![5, 6, 9, 10];
@@ -115,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tunnel_through_an_icosahedron_is_a_handle() {
+    fn a_tunnel_through_an_icosahedron_increases_the_genus() {
         let mut mesh = shapes::icosahedron();
         for f in [0, 13] {
             mesh.delete_face(FaceId::new(f)).unwrap();
@@ -131,10 +132,10 @@ mod tests {
     }
 
     #[test]
-    fn the_hole_and_the_rim_of_a_sheet_make_it_a_torus() {
+    fn joining_the_hole_and_the_rim_of_a_sheet_gives_a_torus() {
         let mesh = sheet_with_a_hole();
         assert_eq!(mesh.n_boundary_loops(), 2);
-        // A corner of the rim is joined to the far corner of the hole.
+        // A corner of the rim is joined to the opposite corner of the hole.
         let mut corners = mesh.vertices().filter(|&v| {
             let p = mesh.position(v);
             p == DVec3::new(1.0, 1.0, 0.0)
@@ -147,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn vertices_that_do_not_name_two_holes_are_refused() {
+    fn vertices_that_are_not_on_two_holes_are_refused() {
         let mesh = sheet_with_a_hole;
         assert_eq!(refusal("(first: 0, second: 999)", mesh()), Refusal::Missing);
         assert_eq!(
@@ -165,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn a_recipe_must_name_both_vertices() {
+    fn both_vertices_are_required() {
         assert!(op::test::read::<BridgeLoops>("(first: 3)").is_err());
         assert!(op::test::read::<BridgeLoops>("(first: -1, second: 2)").is_err());
         assert_eq!(parse("(first: 3, second: 17)").second, 17);

@@ -3,8 +3,8 @@
 //! ```text
 //!    +-----+-----+          +-----+ +-----+
 //!    |     |     |          |     | |     |
-//!    +-----+-----+    -->   +-----+ +-----+       drawn apart: the sides of a cut lie on each other
-//!    |     |     |          |     | |     |       until something moves them
+//!    +-----+-----+    -->   +-----+ +-----+       drawn apart for clarity: the sides of the cut
+//!    |     |     |          |     | |     |       stay at the same position
 //!    +-----+-----+          +-----+ +-----+
 //! ```
 
@@ -13,18 +13,17 @@ use op::prelude::*;
 
 /// Opens the mesh along edges.
 ///
-/// The edges may form paths, loops and trees; a loop cuts a piece out. Each becomes two, one for each
-/// side, and where the faces around a vertex fall into several parts, each part gets a vertex of its own:
-/// the one with the lowest face keeps the number, new vertices have the numbers behind all others. Faces
-/// stay, and nothing moves. Copies have the values of what they copy, and corners keep theirs. Stitch is the
-/// inverse.
+/// The edges may form paths, loops and trees; a loop cuts out a piece. Each edge becomes two edges, one for each side. If
+/// the cuts separate the faces around a vertex into several parts, each part gets a separate copy of the vertex. The part
+/// with the lowest face keeps the number of the vertex, and new vertices are numbered last. Faces keep their numbers, and
+/// nothing moves. Copies have the values of the originals, and corners keep their values. `Stitch` is the inverse.
 ///
-/// All edges are cut at once. Refused are those on the boundary (`Boundary`), and those along which nothing
-/// would open, because both ends lie inside the mesh and no other cut goes on there (`DuplicateEdge`).
+/// All edges are cut at once. An edge is refused if it is on the boundary (`Boundary`), or if the cut would not open the
+/// mesh because both ends are inside the mesh and no other cut continues there (`DuplicateEdge`).
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cut {
-    /// Which edges.
+    /// The edges to cut.
     pub edges: EdgeSelection,
     /// What to do when an edge is refused.
     #[serde(default)]
@@ -60,7 +59,7 @@ impl MeshOperation for Cut {
 }
 
 impl Cut {
-    /// The edges that can be cut together.
+    /// Returns the edges that can be cut together. Other edges are refused or, with `Skip`, counted in the report.
     fn allowed(
         &self,
         mesh: &Mesh,
@@ -74,7 +73,7 @@ impl Cut {
             let (refusal, message) = if mesh.is_boundary_edge(e) {
                 (EditError::Boundary(e), "is on the boundary")
             } else if slits.binary_search(&e).is_ok() {
-                let why = "would not open: both ends lie inside and no other cut goes on there";
+                let why = "would not open: both ends are inside the mesh and no other cut continues there";
                 (EditError::DuplicateEdge(v, w), why)
             } else {
                 allowed.push(e);
@@ -108,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn a_path_through_a_sheet_makes_two() {
+    fn a_path_across_a_sheet_separates_it() {
         // 6 7 8
         // 3 4 5
         // 0 1 2
@@ -121,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn sharp_edges_take_a_cube_apart() {
+    fn cutting_sharp_edges_separates_the_faces_of_a_cube() {
         let mesh = applied(&parse("(edges: Sharp(above: 30))"), shapes::cube());
         assert_eq!((geometry::n_components(&mesh), mesh.n_vertices()), (6, 24));
         assert_eq!(geometry::area(&mesh), 24.0);
@@ -148,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn a_recipe_must_name_the_edges() {
+    fn the_edges_are_required() {
         assert!(op::test::read::<Cut>("()").is_err());
         assert!(op::test::read::<Cut>("(edges: All, at: 0.5)").is_err());
         assert_eq!(parse("(edges: All)").on_refusal, OnRefusal::Error);

@@ -1,9 +1,9 @@
-//! Fill holes: puts a face, or triangles, over each hole.
+//! Fill holes: covers each hole with a face or with triangles.
 //!
 //! ```text
 //!    +-----+-----+          +-----+-----+          +-----+-----+
 //!    |           |          |           |          | \       / |
-//!    |   hole    |   -->    |   Face    |    or    |   \   /   |    Triangles: of the smallest area
+//!    |   hole    |   -->    |   Face    |    or    |   \   /   |    Triangles with the smallest area
 //!    |           |          |           |          |     \/    |
 //!    +-----+-----+          +-----+-----+          +-----+-----+
 //! ```
@@ -11,30 +11,29 @@
 use mesh::{CORNER_NORMAL, Domain, HalfEdgeId, VERTEX_NORMAL};
 use op::prelude::*;
 
-/// Puts faces over holes.
+/// Covers holes with faces.
 ///
-/// A hole is a loop of edges that have a face on one side only; the outer rim of an open sheet is one as
-/// well, which `around` or `max_edges` leaves out. No vertex is made and no number changes. A hole with n
-/// edges gets 1 face with n corners, or n - 2 triangles and n - 3 edges between them, which join its
-/// vertices.
+/// A hole is a boundary loop: a loop of edges with a face on one side only. The outer rim of an open sheet is also a
+/// boundary loop; use `around` or `max_edges` to exclude it. No vertices are added and no number changes. A hole with n
+/// edges gets 1 face with n corners, or n - 2 triangles and n - 3 edges.
 ///
-/// Up to 500 edges the triangles have the smallest total area; around larger holes those corners are cut
-/// off first whose neighbours are nearest to each other, which may make triangles overlap where the hole
-/// is far from convex. No two vertices are joined that share an edge already: a hole that would need that
-/// is refused (`DuplicateEdge`), and so is one of two edges (`WrongPlace`), which Stitch closes.
+/// For holes with up to 500 edges, the triangles have the smallest total area. Larger holes are filled by cutting off
+/// corners, always the corner whose neighbours are closest to each other; if the hole is far from convex, the triangles
+/// may overlap. Two vertices that are already joined by an edge are not joined again: a hole that needs this edge is
+/// refused (`DuplicateEdge`). A hole with two edges is also refused (`WrongPlace`); `Stitch` closes it.
 ///
-/// New faces take the values of a face beside the hole, and corners those of the corner at the same
-/// vertex in the face beside. Normals are dropped if a hole was filled.
+/// New faces have the values of a face beside the hole. New corners have the values of the corner at the same vertex in
+/// the adjacent face. Normals are dropped if a hole was filled.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct FillHoles {
-    /// Holes with one of these vertices or more.
+    /// Fill only holes with at least one of these vertices.
     #[serde(default)]
     pub around: VertexSelection,
-    /// Leave holes of more edges than this open; without it, none.
+    /// Fill only holes with at most this number of edges. If omitted, holes of any size.
     #[serde(default)]
     pub max_edges: Option<Count<3>>,
-    /// What to put over them.
+    /// The faces that cover a hole.
     #[serde(default)]
     pub with: Cover,
     /// What to do when a hole is refused.
@@ -42,24 +41,24 @@ pub struct FillHoles {
     pub on_refusal: OnRefusal,
 }
 
-/// What to put over a hole.
+/// The faces that cover a hole.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Cover {
-    /// Triangles of the smallest area.
+    /// Triangles with the smallest total area.
     #[default]
     Triangles,
-    /// One face with all the corners.
+    /// One face with all vertices of the hole as corners.
     Face,
 }
 
 impl MeshOperation for FillHoles {
     const NAME: &'static str = "FillHoles";
-    const SUMMARY: &'static str = "Put a face or triangles over holes";
+    const SUMMARY: &'static str = "Fill holes with a face or with triangles";
     const EXAMPLE: &'static str = "FillHoles()";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // Each hole has three edges or more, and no edge is on two holes.
+        // A filled hole has at least three edges, and no edge is on two holes.
         match self.with {
             Cover::Face => {
                 let corners = self.max_edges.map_or(u64::MAX, |most| most.get().into());
@@ -94,14 +93,14 @@ impl MeshOperation for FillHoles {
         if let Some(most) = self.max_edges {
             holes.retain(|&h| mesh.loop_half_edges(h).count() <= most.get() as usize);
         }
-        let left = chosen - holes.len();
+        let too_large = chosen - holes.len();
         let report = edit_each(mesh, &holes, self.on_refusal, "fill", cx, |mesh, h| {
             self.fill(mesh, h)
         })?;
         if report.changed > 0 {
             mesh.remove_normals();
         }
-        Ok(report.count("holes with more edges than `max_edges`", left))
+        Ok(report.count("holes with more edges than `max_edges`", too_large))
     }
 }
 
@@ -125,7 +124,7 @@ mod tests {
         op::test::read(text).unwrap()
     }
 
-    /// A torus with a hole of 4 and one of 6 edges, and normals.
+    /// Returns a torus with a hole of 4 edges, a hole of 6 edges, and normals.
     fn torus() -> Mesh {
         let mut mesh = shapes::torus(8, 6, 2.0, 1.0);
         for f in [0, 20, 21] {
@@ -137,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tube_is_closed_by_faces_or_by_triangles() {
+    fn a_tube_is_closed_with_faces_or_with_triangles() {
         let tube = shapes::cylinder(6, false);
         let faces = applied(&parse("(with: Face)"), tube.clone());
         assert!(faces.is_closed());
@@ -152,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn only_the_chosen_holes_are_filled() {
+    fn only_the_selected_holes_are_filled() {
         let small = try_applied(&parse("(max_edges: Some(4), with: Face)"), torus()).unwrap();
         assert_eq!(small.0.n_boundary_loops(), 1);
         assert_eq!(small.1.notes, ["holes with more edges than `max_edges`: 1"]);
@@ -164,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn normals_go_if_a_hole_is_filled_and_nothing_changes_otherwise() {
+    fn normals_are_dropped_if_a_hole_is_filled_and_nothing_changes_otherwise() {
         let filled = applied(&parse("()"), torus());
         assert!(filled.is_closed());
         assert!(filled.get(VERTEX_NORMAL).is_none());
@@ -174,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn a_recipe_names_known_fields_only() {
+    fn unknown_fields_are_errors() {
         assert!(
             op::test::read::<FillHoles>("(around: Boundary, with: Face, on_refusal: Skip)").is_ok()
         );

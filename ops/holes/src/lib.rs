@@ -1,4 +1,4 @@
-//! Operations: opening and closing a surface.
+//! Operations that open and close surfaces.
 
 mod bridge_loops;
 mod cut;

@@ -1,10 +1,10 @@
-//! Stitch: glues boundary edges that lie on each other.
+//! Stitch: joins boundary edges that coincide.
 //!
 //! ```text
 //!    +-----+ +-----+          +-----+-----+
-//!    |     a b     |          |     |     |       a, b become the one of the lower number,
-//!    |     | |     |    -->   |     |     |       where that is; the two edges become one
-//!    |     c d     |          |     |     |
+//!    |     a b     |          |     |     |       a and b merge at the position of the one
+//!    |     | |     |    -->   |     |     |       with the lower number; so do c and d;
+//!    |     c d     |          |     |     |       the two edges become one
 //!    +-----+ +-----+          +-----+-----+
 //! ```
 
@@ -16,56 +16,56 @@ use op::prelude::*;
 
 use pairs::Pairs;
 
-/// Glues boundary edges that lie on each other.
+/// Joins boundary edges that coincide.
 ///
-/// Two boundary edges are a pair if both ends of the one are at most `distance` from those of the other,
-/// and no third edge is as near to either: choose a distance below the length of the edges. Where there are
-/// more, none of them is glued, and they are refused (`NonManifold`). Unlike Weld this never merges vertices
-/// inside the surface, nor ones whose edges do not meet.
+/// Two boundary edges form a pair if the distance between their corresponding ends is at most `distance`, and no third
+/// boundary edge is within this distance of either edge. Choose a distance below the lengths of the edges. If more than
+/// two edges coincide, none of them are joined, and they are refused (`NonManifold`). Unlike `Weld`, this operation never
+/// merges vertices inside the surface or vertices whose edges do not coincide.
 ///
-/// Of the vertices and of the edges of a pair those of the lower number stay where they are and keep their
-/// values; the others go, and numbers close up. Faces and corners stay: UVs that differ become a seam.
-/// Holes of two edges that are left over are closed as well.
+/// Of each pair of vertices or edges, the one with the lower number keeps its position and its values. The other one is
+/// removed, and later elements are renumbered. Faces and corners do not change: different UVs become a seam. Remaining
+/// holes with two edges are also closed.
 ///
-/// Refused is what would not be a clean mesh: the two sides of one face (`SameFace`), an edge whose ends would
-/// become one vertex or a face that would visit a vertex twice (`WrongPlace`), and two edges between the
-/// same vertices (`DuplicateEdge`).
+/// A pair is refused if both edges belong to the same face (`SameFace`), if the ends of an edge would become one vertex or
+/// a face would visit a vertex twice (`WrongPlace`), or if two edges would join the same vertices (`DuplicateEdge`).
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stitch {
-    /// How far apart the ends of the edges of a pair may be, in scene units; 0 for equal positions only.
+    /// The largest distance between corresponding ends of two edges, in scene units. With 0, only ends at equal positions
+    /// are joined.
     pub distance: Length,
-    /// What to do when a pair is refused, or an edge has several partners.
+    /// What to do when a pair is refused, or when more than two edges coincide.
     #[serde(default)]
     pub on_refusal: OnRefusal,
 }
 
 impl MeshOperation for Stitch {
     const NAME: &'static str = "Stitch";
-    const SUMMARY: &'static str = "Glue boundary edges that lie on each other";
+    const SUMMARY: &'static str = "Join boundary edges that coincide";
     const EXAMPLE: &'static str = "Stitch(distance: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         plan.vertices.min = plan.vertices.min.min(1);
-        // An edge is glued to one other at most.
+        // An edge is joined to at most one other edge.
         plan.edges.min = plan.edges.min.div_ceil(2);
         Vec::new()
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
-        let Pairs { pairs, crowded } = Pairs::of(mesh, self.distance.get(), cx)?;
+        let Pairs { pairs, ambiguous } = Pairs::of(mesh, self.distance.get(), cx)?;
         let mut report = Report::default();
-        for h in crowded {
+        for h in ambiguous {
             let [v, w] = [mesh.origin(h), mesh.target(h)].map(mesh::VertexId::index);
-            let message = format!("several boundary edges lie on Between({v}, {w})");
+            let message = format!("several boundary edges coincide with Between({v}, {w})");
             let refused = OpError::refused(Refusal::NonManifold, message).about([h.edge()]);
             self.on_refusal.refuse(refused, &mut report)?;
         }
         if pairs.is_empty() {
-            return Ok(report.note("no two boundary edges lie on each other alone"));
+            return Ok(report.note("no pairs of coinciding boundary edges"));
         }
         let edit = |mesh: &mut Mesh, [h, g]: [HalfEdgeId; 2]| {
-            // Two edges that are left between others that were glued are closed together with these.
+            // Joining neighbouring pairs may already have joined this pair.
             if is_closed(mesh, h) && is_closed(mesh, g) {
                 return Ok(());
             }
@@ -83,7 +83,7 @@ impl MeshOperation for Stitch {
     }
 }
 
-/// Whether the edge of `h`, which was on the boundary, is glued by now.
+/// Whether the edge of `h`, which was on the boundary, has already been joined.
 fn is_closed(mesh: &Mesh, h: HalfEdgeId) -> bool {
     !mesh.has_edge(h.edge()) || mesh.face(h).is_some()
 }

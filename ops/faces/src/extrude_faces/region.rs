@@ -1,21 +1,21 @@
-//! Regions: selected faces that share edges.
+//! Regions: connected groups of selected faces.
 
 use glam::DVec3;
 use mesh::{FaceId, Mesh, VertexId};
 
-/// Faces that are connected by edges between them, in order of their ids.
+/// Faces that are connected across edges, in order of their ids.
 pub(crate) struct Region {
     pub(crate) faces: Vec<FaceId>,
 }
 
 impl Region {
-    /// The regions of the marked faces, in order of their lowest faces.
+    /// Returns the regions of the marked faces, in order of their lowest faces.
     pub(crate) fn all(mesh: &Mesh, marked: &[bool]) -> Vec<Self> {
-        let mut left = marked.to_vec();
+        let mut unvisited = marked.to_vec();
         let mut regions = Vec::new();
         let mut stack = Vec::new();
         for lowest in mesh.faces() {
-            if !std::mem::take(&mut left[lowest.index()]) {
+            if !std::mem::take(&mut unvisited[lowest.index()]) {
                 continue;
             }
             let mut faces = Vec::new();
@@ -23,7 +23,7 @@ impl Region {
             while let Some(f) = stack.pop() {
                 faces.push(f);
                 for g in mesh.face_half_edges(f).filter_map(|h| mesh.face(h.twin())) {
-                    if std::mem::take(&mut left[g.index()]) {
+                    if std::mem::take(&mut unvisited[g.index()]) {
                         stack.push(g);
                     }
                 }
@@ -34,8 +34,8 @@ impl Region {
         regions
     }
 
-    /// The unit vector along the sum of the area vectors of the faces; `None` if they cancel out, as those
-    /// of a closed part do, up to rounding.
+    /// Returns the unit vector along the sum of the area vectors of the faces. Returns `None` if they cancel out up to
+    /// rounding, as in a closed region.
     pub(crate) fn normal(&self, mesh: &Mesh) -> Option<DVec3> {
         let (mut sum, mut area) = (DVec3::ZERO, 0.0);
         for vector in self.faces.iter().map(|&f| mesh.area_vector(f)) {
@@ -45,7 +45,7 @@ impl Region {
         (sum.length() > 1e-12 * area).then(|| sum.normalize_or_zero())
     }
 
-    /// The corners of the faces, each once, in order of their ids.
+    /// Returns the vertices of the faces without duplicates, in order of their ids.
     pub(crate) fn vertices(&self, mesh: &Mesh) -> Vec<VertexId> {
         let corners = self.faces.iter().flat_map(|&f| mesh.face_vertices(f));
         let mut vertices: Vec<_> = corners.collect();
@@ -55,7 +55,7 @@ impl Region {
     }
 }
 
-/// The mean of some vertices.
+/// Returns the mean position of the vertices.
 pub(crate) fn center(mesh: &Mesh, vertices: &[VertexId]) -> DVec3 {
     let sum: DVec3 = vertices.iter().map(|&v| mesh.position(v)).sum();
     sum / vertices.len() as f64

@@ -37,7 +37,7 @@ fn an_offset_is_the_same_for_all_regions() {
 }
 
 #[test]
-fn each_region_has_its_own_normal_and_center() {
+fn each_region_moves_along_its_normal_and_scales_about_its_center() {
     let mesh = applied(
         &parse("(faces: Or([Faces([0]), Faces([1])]), by: Distance(1), scale: 0.5)"),
         shapes::cube(),
@@ -51,7 +51,7 @@ fn each_region_has_its_own_normal_and_center() {
 
 #[test]
 fn faces_that_share_an_edge_are_one_region_with_a_mean_normal() {
-    // Front and right: the mean of -y and +x.
+    // The front face and the right face: the mean of the normals -y and +x.
     let (mesh, report) = try_applied(
         &parse("(faces: Faces([2, 3]), by: Distance(1))"),
         shapes::cube(),
@@ -64,7 +64,7 @@ fn faces_that_share_an_edge_are_one_region_with_a_mean_normal() {
 }
 
 #[test]
-fn turns_and_scale_are_about_the_center_of_the_region() {
+fn rotations_and_scale_are_about_the_center_of_the_region() {
     let mesh = applied(
         &parse("(faces: Faces([3]), by: Distance(2), scale: 0.5, rotate: [(axis: Y, angle: 90)])"),
         shapes::cube(),
@@ -75,9 +75,9 @@ fn turns_and_scale_are_about_the_center_of_the_region() {
     assert!((mesh.face_area(right) - 1.0).abs() < 1e-15);
 }
 
-/// A figure of one piece: a body, a head, bent arms and two legs.
+/// Models a figure from a cube: a body, a head, bent arms and two legs.
 #[test]
-fn a_figure_grows_out_of_a_cube_in_one_closed_piece() {
+fn repeated_extrusions_of_a_cube_give_one_closed_component() {
     let mut mesh = shapes::cube();
     for step in [
         // Neck and head.
@@ -86,12 +86,12 @@ fn a_figure_grows_out_of_a_cube_in_one_closed_piece() {
         "(faces: Faces([1]), by: Distance(0.4), scale: 1.8)",
         "(faces: Faces([1]), by: Distance(0.8))",
         "(faces: Faces([1]), by: Distance(0.3), scale: 0.6, tag: \"crown\")",
-        // Both arms at once, to the right and to the left, and the right one bent upwards.
+        // Both arms at once, to the right and to the left. Then the right arm is bent upwards.
         "(faces: Faces([3, 5]), by: Distance(0.5), scale: 0.4, tag: \"arms\")",
         "(faces: Faces([3, 5]), by: Distance(1.5), scale: 0.8)",
         "(faces: Faces([3]), by: Distance(0.5), rotate: [(axis: Y, angle: -60)])",
         "(faces: Faces([3]), by: Distance(1))",
-        // Hips, whose sides begin at 50, and two legs out of those to the left and right.
+        // The hips, whose side faces start at number 50. Two legs grow out of the left and right side faces.
         "(faces: Faces([0]), by: Distance(1))",
         "(faces: Faces([50, 52]), by: Distance(0.2), scale: 0.5, tag: \"legs\")",
         "(faces: Faces([50]), by: Offset((-0.4, 0, -0.4)), rotate: [(axis: Y, angle: -90)])",
@@ -107,7 +107,7 @@ fn a_figure_grows_out_of_a_cube_in_one_closed_piece() {
     );
     assert!(mesh.faces().all(|f| mesh.degree(f) == 4));
     assert!(mesh.face_normal(FaceId::new(3)).z > 0.8);
-    // Sides of faces with a tag have it too, through later steps.
+    // Side faces of tagged faces are also tagged, in later steps too.
     let arms = mesh.tag(Domain::Face, "arms").unwrap();
     assert_eq!(arms.iter().filter(|&&a| a).count(), 2 + 8 + 8 + 4 + 4);
     let legs = mesh.tag(Domain::Face, "legs").unwrap();
@@ -117,7 +117,7 @@ fn a_figure_grows_out_of_a_cube_in_one_closed_piece() {
 }
 
 #[test]
-fn numbers_are_given_as_documented() {
+fn elements_are_numbered_as_documented() {
     let mesh = applied(
         &parse("(faces: Faces([5, 3]), by: Distance(1))"),
         shapes::cube(),
@@ -127,7 +127,7 @@ fn numbers_are_given_as_documented() {
             .map(mesh::VertexId::index)
             .collect()
     };
-    // 3 was 1, 3, 7, 5 and 5 was 2, 0, 4, 6.
+    // The corners of face 3 were 1, 3, 7, 5, and the corners of face 5 were 2, 0, 4, 6.
     assert_eq!(corners(3), [8, 9, 10, 11]);
     assert_eq!(corners(6), [1, 3, 9, 8]);
     assert_eq!(corners(5), [12, 13, 14, 15]);
@@ -135,7 +135,7 @@ fn numbers_are_given_as_documented() {
 }
 
 #[test]
-fn normals_go_and_other_values_stay() {
+fn normals_are_dropped_and_other_values_are_kept() {
     let mut mesh = shapes::cube();
     mesh.set(VERTEX_NORMAL, vec![DVec3::Z; 8]);
     mesh.set(CORNER_NORMAL, vec![DVec3::Z; 24]);
@@ -179,7 +179,7 @@ fn a_closed_part_has_no_normal_but_can_be_moved() {
 }
 
 #[test]
-fn a_column_that_is_no_tag_is_not_overwritten() {
+fn an_attribute_that_is_not_a_tag_is_not_overwritten() {
     let mut mesh = shapes::cube();
     mesh.set(MATERIAL, vec![0; 6]);
     let refused = try_applied(
@@ -200,7 +200,7 @@ fn coordinates_that_overflow_are_refused() {
 }
 
 #[test]
-fn results_lie_within_the_plan() {
+fn results_are_within_the_plan() {
     for text in [
         "(faces: All, by: Offset((0, 0, 1)))",
         "(faces: Faces([0]), by: Distance(1))",
@@ -218,7 +218,7 @@ fn results_lie_within_the_plan() {
 }
 
 #[test]
-fn nothing_selected_is_fine() {
+fn an_empty_selection_changes_nothing() {
     let (mesh, report) = try_applied(
         &parse("(faces: Faces([]), by: Distance(1))"),
         shapes::cube(),

@@ -7,8 +7,8 @@ fn parse(text: &str) -> Stitch {
     op::test::read(text).unwrap()
 }
 
-/// The mesh cut along all its inner edges.
-fn apart(mut mesh: Mesh) -> Mesh {
+/// Returns the mesh cut along all its inner edges.
+fn cut_apart(mut mesh: Mesh) -> Mesh {
     let inner: Vec<EdgeId> = mesh
         .edges()
         .filter(|&e| !mesh.is_boundary_edge(e))
@@ -27,7 +27,7 @@ fn counts(mesh: &Mesh) -> [usize; 4] {
 }
 
 #[test]
-fn faces_that_were_cut_apart_are_one_mesh_again() {
+fn stitching_restores_a_mesh_that_was_cut_apart() {
     for mesh in [
         shapes::grid(4, 3),
         shapes::fans(&shapes::grid(3, 3)),
@@ -37,7 +37,7 @@ fn faces_that_were_cut_apart_are_one_mesh_again() {
         shapes::cylinder(6, true),
         shapes::uv_sphere(8, 5),
     ] {
-        let cut = apart(mesh.clone());
+        let cut = cut_apart(mesh.clone());
         assert_eq!(geometry::n_components(&cut), mesh.n_faces());
         let stitched = applied(&parse("(distance: 0)"), cut);
         assert_eq!(counts(&stitched), counts(&mesh));
@@ -51,9 +51,9 @@ fn faces_that_were_cut_apart_are_one_mesh_again() {
 }
 
 #[test]
-fn edges_a_little_apart_are_glued_within_the_distance_only() {
-    let mut mesh = apart(shapes::grid(3, 3));
-    // Each face by another bit, at most 0.001 in each coordinate.
+fn only_edges_within_the_distance_are_joined() {
+    let mut mesh = cut_apart(shapes::grid(3, 3));
+    // Each face is moved by a different offset, at most 0.001 in each coordinate.
     let faces: Vec<_> = mesh.faces().collect();
     for (i, f) in faces.into_iter().enumerate() {
         let shift = DVec3::new((i % 3) as f64, (i / 3) as f64, (i % 2) as f64) * 0.0005;
@@ -71,8 +71,8 @@ fn edges_a_little_apart_are_glued_within_the_distance_only() {
 }
 
 #[test]
-fn two_spots_that_touch_are_not_joined_as_weld_would() {
-    // Two squares that meet in a corner.
+fn vertices_without_coinciding_edges_are_not_merged() {
+    // Two squares that meet at a corner. `Weld` would merge the vertices there.
     let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
     let positions = [0.0, 1.0]
         .iter()
@@ -83,8 +83,8 @@ fn two_spots_that_touch_are_not_joined_as_weld_would() {
 }
 
 #[test]
-fn an_edge_with_several_partners_is_refused_or_counted() {
-    // Three pages that meet in a line, each with its own vertices.
+fn an_edge_that_coincides_with_several_edges_is_refused_or_counted() {
+    // Three rectangles that meet along a line, without common vertices.
     let page = |x: f64, y: f64| {
         [
             DVec3::ZERO,
@@ -94,7 +94,7 @@ fn an_edge_with_several_partners_is_refused_or_counted() {
         ]
     };
     let positions = [page(1., 0.), page(0., 1.), page(-1., 0.)].concat();
-    // The second one is turned the other way around, so that both others fit it.
+    // The second rectangle has the opposite orientation, so its edge matches the edges of the two others.
     let polygons = [[0, 1, 2, 3], [7, 6, 5, 4], [8, 9, 10, 11]];
     let (mesh, _) = Mesh::from_polygons(positions, &polygons).unwrap();
     let refused = try_applied(&parse("(distance: 0)"), mesh.clone());
@@ -109,8 +109,8 @@ fn an_edge_with_several_partners_is_refused_or_counted() {
 }
 
 #[test]
-fn uvs_that_differ_become_a_seam() {
-    let mut mesh = apart(shapes::grid(2, 1));
+fn different_uvs_become_a_seam() {
+    let mut mesh = cut_apart(shapes::grid(2, 1));
     let uv = |h| DVec2::splat(mesh.face(h).map_or(0.0, |f| f.index() as f64));
     mesh.set(UV, mesh.half_edges().map(uv).collect());
     let stitched = applied(&parse("(distance: 0)"), mesh);
@@ -118,7 +118,7 @@ fn uvs_that_differ_become_a_seam() {
 }
 
 #[test]
-fn the_sides_of_a_thin_face_are_refused() {
+fn the_two_long_edges_of_a_thin_face_are_not_joined() {
     let mut mesh = shapes::square();
     for p in mesh.positions_mut() {
         p.y *= 0.001;
@@ -130,9 +130,9 @@ fn the_sides_of_a_thin_face_are_refused() {
 }
 
 #[test]
-fn coordinates_far_away_and_in_one_place_do_no_harm() {
+fn extreme_coordinates_give_a_valid_mesh() {
     for (scale, distance) in [(0.0, "0"), (1e300, "1e290"), (1e-300, "0"), (1.0, "1e300")] {
-        let mut mesh = apart(shapes::cube());
+        let mut mesh = cut_apart(shapes::cube());
         for p in mesh.positions_mut() {
             *p *= scale;
         }
@@ -144,7 +144,7 @@ fn coordinates_far_away_and_in_one_place_do_no_harm() {
 }
 
 #[test]
-fn a_recipe_must_give_the_distance() {
+fn the_distance_is_required() {
     assert!(op::test::read::<Stitch>("()").is_err());
     assert!(op::test::read::<Stitch>("(distance: 0, weld: true)").is_err());
     assert_eq!(parse("(distance: 1e-6)").on_refusal, OnRefusal::Error);

@@ -10,7 +10,7 @@ use scene::Object;
 
 /// Copies an object, with its attributes and materials, under a new name.
 ///
-/// The copy comes behind all other objects. Its elements have the same numbers.
+/// The copy is added after all other objects. Its elements have the same numbers.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Copy {
@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn the_plan_says_the_same() {
+    fn the_plan_agrees_with_the_result() {
         let files = Files::default();
         let cx = PlanContext {
             files: &files,

@@ -1,4 +1,4 @@
-//! Takes objects out of the scene.
+//! Deletes objects.
 //!
 //! ```text
 //!   "head", "body", "tail"   --->   "head", "tail"
@@ -7,19 +7,19 @@
 use op::prelude::*;
 use op::{Operation, named_object};
 
-/// Takes objects out of the scene.
+/// Deletes objects.
 ///
-/// The others keep their order.
+/// The remaining objects keep their order.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Delete {
-    /// The names of the objects. Each must be there.
+    /// The names of the objects. All of them must exist.
     pub objects: Vec<String>,
 }
 
 impl Operation for Delete {
     const NAME: &'static str = "Delete";
-    const SUMMARY: &'static str = "Take objects out of the scene";
+    const SUMMARY: &'static str = "Delete objects";
     const EXAMPLE: &'static str = r#"Delete(objects: ["mesh"])"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
@@ -60,7 +60,7 @@ mod tests {
     }
 
     #[test]
-    fn the_others_keep_their_order() {
+    fn the_remaining_objects_keep_their_order() {
         let mut scene = scene();
         let report = op::test::run(&step(r#"(objects: ["b"])"#), &mut scene).unwrap();
         assert_eq!(report.changed, 1);
@@ -69,7 +69,7 @@ mod tests {
     }
 
     #[test]
-    fn names_that_are_not_there_or_named_twice_are_refused() {
+    fn missing_and_repeated_names_are_errors() {
         for text in [r#"(objects: ["d"])"#, r#"(objects: ["a", "a"])"#] {
             let deleted = op::test::run(&step(text), &mut scene());
             assert!(matches!(deleted, Err(OpError::Object(_))));
@@ -77,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn the_plan_names_the_place_in_the_list() {
+    fn the_plan_reports_the_index_of_a_missing_name() {
         let files = op::Files::default();
         let cx = PlanContext {
             files: &files,

@@ -1,9 +1,9 @@
 //! Joins meshes into one object.
 //!
 //! ```text
-//!    "head"  "body"             "figure": one mesh of two components,
-//!      o       |         --->      o       the faces of the first part first,
-//!             / \                  |       face tags "head" and "body"
+//!    "head"  "body"             "figure": one mesh of two components;
+//!      o       |         --->      o       the faces of "head" come first;
+//!             / \                  |       the faces are tagged "head" and "body"
 //!                                 / \
 //! ```
 
@@ -17,24 +17,23 @@ use op::prelude::*;
 use op::{Operation, PlannedAttribute, PlannedObject, check_name, named_object};
 use scene::Object;
 
-/// Joins meshes into one.
+/// Joins meshes into one object.
 ///
-/// Vertices, edges and faces are numbered part after part, in the order of the list. The parts stay
-/// unconnected, even where they touch. The result stands at the place of the first one in the list; the
-/// parts are gone.
+/// Vertices, edges and faces are numbered part by part, in the order of the list. The parts are not connected, even
+/// where they touch. The result replaces the first mesh of the list in the scene; the other meshes are removed.
 ///
-/// An attribute that a part does not have is zero there, materials -1 (none). Normals that not every part
-/// has are left out and reported as lost, and so is an attribute of a part whose values are of another
-/// type than those of the parts before it. Equal materials become one.
+/// If a part lacks an attribute, its values are zero there, or -1 (no material) for materials. Normals are dropped and
+/// reported as lost unless all parts have them. If an attribute of a part has a different type than in earlier parts, the
+/// attribute of this part is dropped and reported as lost. Equal materials become one.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Join {
-    /// The names of the meshes, at least one, none twice.
+    /// The names of the meshes. At least one, without duplicates.
     pub objects: Vec<String>,
-    /// The name of the result; it may be that of a part.
+    /// The name of the result. It may be the name of one of the meshes.
     pub name: String,
-    /// Whether the faces of each part get a tag with the name that the part had, so that
-    /// `Tagged("head")` selects them afterwards.
+    /// Whether to tag the faces of each part with the name of the part, so that `Tagged("head")` selects them in later
+    /// steps.
     #[serde(default = "yes")]
     pub tag_parts: bool,
 }
@@ -45,7 +44,7 @@ const fn yes() -> bool {
 
 impl Operation for Join {
     const NAME: &'static str = "Join";
-    const SUMMARY: &'static str = "Join meshes into one";
+    const SUMMARY: &'static str = "Join meshes into one object";
     const EXAMPLE: &'static str = r#"Join(objects: ["mesh", "other"], name: "joined")"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
@@ -69,7 +68,7 @@ impl Operation for Join {
             return problems;
         }
         if parts.len() != self.objects.len() {
-            // A step before could not be planned, and may make the missing ones.
+            // An earlier step that could not be planned may create the missing objects.
             plan.incomplete = true;
             return problems;
         }
@@ -99,13 +98,13 @@ impl Operation for Join {
         }
         let part = |name: &String| {
             let object = named_object(scene, name)?;
-            let no_mesh = || OpError::Object(not_a_mesh(name, object.geometry.kind()));
-            object.as_mesh().map(|_| object).ok_or_else(no_mesh)
+            let wrong_kind = || OpError::Object(not_a_mesh(name, object.geometry.kind()));
+            object.as_mesh().map(|_| object).ok_or_else(wrong_kind)
         };
         let parts: Vec<&Object> = self.objects.iter().map(part).collect::<Result<_, _>>()?;
         let (joined, report) = self.joined(&parts, cx)?;
 
-        // All is checked: the first part becomes the result and the others go.
+        // After all checks, the result replaces the first part, and the other parts are removed.
         let (first, others) = self.objects.split_first().expect("at least one");
         let (geometry, materials) = scene.parts_mut(first).expect("found above");
         (*geometry, *materials) = (joined.geometry, joined.materials);
@@ -132,14 +131,14 @@ impl Join {
         problems
     }
 
-    /// The result of parts that are meshes.
+    /// Joins parts, all of which are meshes.
     fn joined(&self, parts: &[&Object], cx: &Context) -> Result<(Object, Report), OpError> {
         let meshes = parts.iter().filter_map(|o| o.as_mesh());
         let meshes: Vec<&Mesh> = meshes.map(Arc::as_ref).collect();
         let bytes: usize = meshes.iter().map(|m| m.bytes()).sum();
         let budget = cx.budget;
         if bytes as u64 > budget {
-            let message = format!("the result takes {bytes} bytes, the budget is {budget}");
+            let message = format!("the result takes {bytes} bytes, but the budget is {budget}");
             return Err(OpError::Budget(message));
         }
         let mut joined = parts::connected(&meshes, cx)?;
@@ -169,7 +168,7 @@ impl Join {
                 }
             }
         }
-        // A normal that one part lacks is left out.
+        // Normals are dropped unless all parts have them.
         let certain = |a: &PlannedAttribute| parts.iter().all(|part| part.attributes.contains(a));
         for attribute in &mut joined.attributes {
             attribute.certain = true;

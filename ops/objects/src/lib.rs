@@ -1,4 +1,4 @@
-//! Operations: whole objects: copying, joining, placing.
+//! Operations that work on whole objects: copying, joining, placing.
 
 mod copy;
 mod delete;

@@ -1,4 +1,4 @@
-//! Gives an object another name.
+//! Renames an object.
 //!
 //! ```text
 //!   "head", "body"   --->   "skull", "body"
@@ -7,21 +7,21 @@
 use op::prelude::*;
 use op::{Operation, named_object};
 
-/// Gives an object another name.
+/// Renames an object.
 ///
-/// It keeps its place among the objects.
+/// The order of the objects does not change.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rename {
-    /// The name that it has.
+    /// The current name.
     pub from: String,
-    /// The name that it gets.
+    /// The new name.
     pub to: String,
 }
 
 impl Operation for Rename {
     const NAME: &'static str = "Rename";
-    const SUMMARY: &'static str = "Give an object another name";
+    const SUMMARY: &'static str = "Rename an object";
     const EXAMPLE: &'static str = r#"Rename(from: "mesh", to: "new")"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
@@ -66,7 +66,7 @@ mod tests {
     }
 
     #[test]
-    fn the_object_keeps_its_place() {
+    fn the_order_of_the_objects_does_not_change() {
         let mut scene = scene();
         op::test::run(&step(r#"(from: "a", to: "c")"#), &mut scene).unwrap();
         let names: Vec<_> = scene.objects().iter().map(|o| o.name.as_str()).collect();
@@ -86,7 +86,7 @@ mod tests {
     }
 
     #[test]
-    fn the_plan_says_the_same() {
+    fn the_plan_agrees_with_the_result() {
         let files = op::Files::default();
         let cx = PlanContext {
             files: &files,

@@ -1,10 +1,10 @@
-//! Separate: takes a mesh apart into several objects.
+//! Separate: splits a mesh into several objects.
 //!
 //! ```text
 //!    "figure"            "figure 1"   "figure 2"
 //!       o                    o
-//!       |       --->                      |         each component, material or part of a tag
-//!      / \                               / \        becomes an object of its own
+//!       |       --->                      |         each component (or the faces of each material,
+//!      / \                               / \        or with a tag) becomes an object
 //! ```
 
 use std::sync::Arc;
@@ -14,45 +14,44 @@ use op::prelude::*;
 use op::{Loss, Operation, PlannedObject, Refusal, check_name, named_object};
 use scene::{Geometry, Object};
 
-/// Takes a mesh apart into several objects.
+/// Splits a mesh into several objects.
 ///
-/// The parts of "figure" are named "figure 1", "figure 2" and so on. The first stands at the place of the
-/// object, which is gone, the others behind all others. Elements keep their order and their values, and
-/// every part has all materials. Vertices without a face belong to no part; they are left out and counted.
-/// A mesh without faces is refused.
+/// The parts of "figure" are named "figure 1", "figure 2" and so on. The first part replaces the object, and the other
+/// parts are added after all other objects. Elements keep their order and their values, and every part has all
+/// materials. Vertices without a face are dropped and counted. A mesh without faces is refused.
 ///
-/// Where parts of one component are separated, the edges and vertices between them are in both. Where
-/// the faces of a part around a vertex do not share edges each fan of them gets a vertex of its own.
+/// If parts of one component are separated, the edges and vertices between them are copied to both parts. If the faces of
+/// a part around a vertex form several fans, each fan gets a separate copy of the vertex.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Separate {
     /// The name of the mesh.
     pub object: String,
-    /// What belongs together.
+    /// How the faces are grouped into parts.
     #[serde(default)]
     pub by: By,
-    /// How many parts there must be; another number is refused. Without it the names of the parts are
-    /// known only when the recipe runs, so that later steps are not checked against them before.
+    /// The expected number of parts. The step is refused if the number differs. If omitted, the names of the parts are
+    /// only known when the recipe runs, so names of objects in later steps are not checked before.
     #[serde(default)]
     pub count: Option<Count<1>>,
 }
 
-/// What belongs together.
+/// How faces are grouped into parts.
 #[derive(Clone, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum By {
-    /// What is connected, in order of the lowest faces.
+    /// One part for each connected component, in order of their lowest faces.
     #[default]
     Components,
-    /// Faces of one material, in order of the materials; those without one last.
+    /// One part for each material, in order of the materials. Faces without a material are the last part.
     Material,
-    /// First the faces marked by the tag of this name, then the others.
+    /// The first part has the faces with the tag of this name, and the second part all other faces.
     Tag(String),
 }
 
 impl Operation for Separate {
     const NAME: &'static str = "Separate";
-    const SUMMARY: &'static str = "Take a mesh apart into several objects";
+    const SUMMARY: &'static str = "Split a mesh into several objects";
     const EXAMPLE: &'static str = r#"Separate(object: "mesh")"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
@@ -68,14 +67,14 @@ impl Operation for Separate {
         }
         let part = self.part_of(mesh);
         let Some(count) = self.count.map(Count::get) else {
-            // The parts have names that cannot be known.
+            // The number of parts, and so their names, are unknown.
             plan.objects_mut().remove(place);
             plan.incomplete = true;
             return Vec::new();
         };
         if u64::from(count) > mesh.faces.max {
             let message = format!(
-                "\"{}\" has at most {} faces, too few for {count} parts",
+                "\"{}\" has at most {} faces, which is not enough for {count} parts",
                 self.object, mesh.faces.max
             );
             return vec![Problem::error(message).at(["count"])];
@@ -95,8 +94,8 @@ impl Operation for Separate {
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
         let object = named_object(scene, &self.object)?;
-        let no_mesh = || OpError::Object(not_a_mesh(&self.object, object.geometry.kind()));
-        let mesh = Arc::clone(object.as_mesh().ok_or_else(no_mesh)?);
+        let wrong_kind = || OpError::Object(not_a_mesh(&self.object, object.geometry.kind()));
+        let mesh = Arc::clone(object.as_mesh().ok_or_else(wrong_kind)?);
         cx.advance("separate", 0, 2)?;
         let parts = self.by.parts(&mesh)?;
         if parts.is_empty() {
@@ -118,19 +117,19 @@ impl Operation for Separate {
         report.losses = self.losses(&mesh, &parts);
         self.replace(scene, &names, parts);
         let isolated = mesh.n_isolated_vertices();
-        Ok(report.count("vertices without a face, left out", isolated))
+        Ok(report.count("vertices without a face, dropped", isolated))
     }
 }
 
 impl By {
-    /// The parts, none of them without faces.
+    /// Returns the parts, each with at least one face.
     fn parts(&self, mesh: &Mesh) -> Result<Vec<Mesh>, OpError> {
         let part_of_face: Vec<usize> = match self {
             Self::Components => return Ok(geometry::separated(mesh)),
             Self::Material => {
                 let of_face = mesh.get(MATERIAL).unwrap_or_default();
                 let material = |f: usize| of_face.get(f).copied().unwrap_or(-1);
-                // Those without a material come last.
+                // Faces without a material are the last part.
                 (0..mesh.n_faces())
                     .map(|f| usize::try_from(material(f)).unwrap_or(usize::MAX - 1))
                     .collect()
@@ -151,7 +150,7 @@ impl By {
 }
 
 impl Separate {
-    /// The name of the i-th part, from 1.
+    /// Returns the name of part `i`, counted from 1.
     fn name(&self, i: u32) -> String {
         format!("{} {i}", self.object)
     }
@@ -160,10 +159,10 @@ impl Separate {
         format!("\"{}\" has no faces to separate", self.object)
     }
 
-    /// What is known of each part.
+    /// Returns the plan of each part.
     fn part_of(&self, whole: &MeshPlan) -> MeshPlan {
         let mut part = whole.clone();
-        // Copies are made for fans that meet in a vertex, at most one for each edge.
+        // Fans that meet at a vertex get copies of it, at most one for each edge.
         part.vertices = whole.vertices.plus(whole.edges).or_less();
         part.edges = whole.edges.or_less();
         part.faces = whole.faces.or_less();
@@ -173,7 +172,7 @@ impl Separate {
         part
     }
 
-    /// Columns that a part has lost because it was cut off.
+    /// Returns the columns that were lost in at least one part.
     fn losses(&self, whole: &Mesh, parts: &[Mesh]) -> Vec<Loss> {
         let columns = whole
             .attributes()
@@ -188,7 +187,7 @@ impl Separate {
             .collect()
     }
 
-    /// Puts the parts into the scene; the names are free.
+    /// Replaces the object by the parts. The names must not be taken.
     fn replace(&self, scene: &mut Scene, names: &[String], parts: Vec<Mesh>) {
         let (_, materials) = scene.parts_mut(&self.object).expect("it was found");
         let materials = materials.clone();
@@ -210,7 +209,7 @@ impl Separate {
 }
 
 fn not_a_mesh(name: &str, kind: &str) -> String {
-    format!("Separate takes meshes apart, but \"{name}\" is {kind}")
+    format!("Separate splits meshes, but \"{name}\" is {kind}")
 }
 
 #[cfg(test)]
@@ -221,8 +220,8 @@ mod tests {
     use op::{Files, Range};
     use scene::Material;
 
-    /// A cube and a tetrahedron beside it, and a vertex without a face.
-    fn two() -> Mesh {
+    /// Returns a mesh of a cube, a tetrahedron and an isolated vertex.
+    fn cube_and_tetrahedron() -> Mesh {
         let (cube, other) = (shapes::cube(), shapes::tetrahedron());
         let mut positions = cube.positions().to_vec();
         positions.extend(other.positions().iter().map(|&p| p + 5.0));
@@ -239,7 +238,7 @@ mod tests {
 
     fn scene() -> Scene {
         let mut scene = Scene::new();
-        let mut pair = Object::mesh("pair", two());
+        let mut pair = Object::mesh("pair", cube_and_tetrahedron());
         pair.materials.push(Material::new("skin"));
         scene.insert(pair).unwrap();
         scene
@@ -286,7 +285,7 @@ mod tests {
             assert_eq!(part.materials, [Material::new("skin")]);
         }
         assert_eq!(report.changed, 2);
-        assert_eq!(report.notes, ["vertices without a face, left out: 1"]);
+        assert_eq!(report.notes, ["vertices without a face, dropped: 1"]);
     }
 
     #[test]
@@ -309,7 +308,7 @@ mod tests {
     }
 
     #[test]
-    fn a_given_number_of_parts_is_checked_and_planned() {
+    fn the_expected_number_of_parts_is_checked_and_planned() {
         let mut scene = scene();
         let three = step(r#"(object: "pair", count: 3)"#);
         let refused = op::test::run(&three, &mut scene);
@@ -329,14 +328,14 @@ mod tests {
     }
 
     #[test]
-    fn without_a_number_later_steps_are_not_checked() {
+    fn without_a_count_the_plan_is_incomplete() {
         let (plan, problems) = planned(&step(r#"(object: "pair")"#), &scene());
         assert_eq!((problems, plan.incomplete), (vec![], true));
         assert!(plan.object("pair").is_none());
     }
 
     #[test]
-    fn taken_names_and_missing_objects_are_refused() {
+    fn taken_names_and_missing_objects_are_errors() {
         let mut scene = scene();
         scene
             .insert(Object::mesh("pair 2", shapes::cube()))
@@ -352,7 +351,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_and_unknown_tags_are_refused() {
+    fn empty_meshes_and_unknown_tags_are_refused() {
         let mut empty = Scene::new();
         empty.insert(Object::mesh("pair", Mesh::default())).unwrap();
         let refused = op::test::run(&step(r#"(object: "pair")"#), &mut empty);

@@ -1,4 +1,4 @@
-//! Transform: scales, turns and moves objects, by changing their points.
+//! Transform: scales, rotates and moves objects by changing their points.
 //!
 //! ```text
 //!                                                         +---+
@@ -9,7 +9,7 @@
 //!             scale: (2, 1, 1)   rotate: [(axis: Z, angle: 90)]   move: (3, 1, 0)
 //! ```
 //!
-//! A point p goes to R S (p - c) + c + m: S scales, R turns, m moves, c is the point of `about`.
+//! A point p moves to R S (p - c) + c + m, where S scales, R rotates, m is the move, and c is the point of `about`.
 
 mod map;
 
@@ -25,28 +25,28 @@ use scene::Geometry;
 
 use crate::transform::map::Map;
 
-/// Scales, turns and moves objects.
+/// Scales, rotates and moves objects.
 ///
-/// First the points are scaled, then turned, then moved. Meshes, patches, curves and polylines are
-/// changed themselves: no placement is kept beside them. A curve must stay in the plane z = 0.
+/// Points are first scaled, then rotated, then moved. The points of meshes, patches, curves and polylines are changed; no
+/// separate placement is stored. A curve must stay in the plane z = 0.
 ///
-/// Ids do not change. Normals are turned along; other attributes stay as they are. A mirror (one or
-/// three negative factors in `scale`) turns faces over, so that they are counter-clockwise seen from
-/// outside again: the first corner of a face stays the first, the others follow in reverse. In mirrored
-/// patches u and v are exchanged for the same reason. Attributes that edits drop are dropped by a mirror.
+/// Ids do not change. Normals are transformed; other attributes do not change. A mirror (one or three negative factors in
+/// `scale`) also reverses the faces, so that they are counter-clockwise seen from outside: the first corner of a face
+/// stays first, and the other corners follow in reverse order. In mirrored patches, u and v are exchanged for the same
+/// reason. A mirror drops attributes with the rule `Drop`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Transform {
-    /// The factors along x, y and z: not zero; a negative one mirrors.
+    /// The scale factors along x, y and z. No factor may be 0; a negative factor mirrors.
     #[serde(default = "ones")]
     pub scale: Factors,
-    /// Turns, one after the other.
+    /// The rotations, applied in order.
     #[serde(default)]
     pub rotate: Vec<Turn>,
-    /// How far to move along x, y and z, in scene units.
+    /// The distances to move along x, y and z, in scene units.
     #[serde(default, rename = "move")]
     pub translate: Vector,
-    /// The point that scaling and turning leave where it is.
+    /// The fixed point of scaling and rotation.
     #[serde(default)]
     pub about: About,
 }
@@ -55,21 +55,21 @@ const fn ones() -> Factors {
     Factors::literal(1.0, 1.0, 1.0)
 }
 
-/// The point that scaling and turning leave where it is.
+/// The fixed point of scaling and rotation.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum About {
     /// The origin of the scene.
     #[default]
     Origin,
-    /// The middle of the bounds of each object: of its vertices or control points.
+    /// The center of the bounding box of each object's vertices or control points.
     Center,
-    /// A point of the scene: x, y, z.
+    /// A point with the coordinates x, y, z.
     Point(f64, f64, f64),
 }
 
 impl Transform {
-    /// The fixed point for an object of these points.
+    /// Returns the fixed point for an object with these points.
     fn center(&self, points: impl Iterator<Item = DVec3>) -> DVec3 {
         match self.about {
             About::Origin => DVec3::ZERO,
@@ -79,7 +79,7 @@ impl Transform {
                     let [min, max] = bounds.unwrap_or([p, p]);
                     Some([min.min(p), max.max(p)])
                 });
-                // Halved before they are added: the sum of two large numbers may not be one.
+                // Halves before adding: the sum of two large finite numbers can be infinite.
                 bounds.map_or(DVec3::ZERO, |[min, max]| 0.5 * min + 0.5 * max)
             }
         }
@@ -98,12 +98,12 @@ impl Transform {
                     return Err(too_large());
                 }
                 if !map.only_moves() {
-                    turn_normals(mesh, map);
+                    transform_normals(mesh, map);
                 }
                 let mut report = Report::changed(mesh.n_vertices());
                 if map.mirrors() {
                     let columns = mesh.attributes().iter();
-                    let reason = "a mirror turns the faces over";
+                    let reason = "a mirror reverses the faces";
                     let lost = columns.filter(|(_, c)| c.rule == Rule::Drop);
                     let lost = lost.map(|(d, c)| Loss::attribute(name, d, &c.name, reason));
                     report.losses.extend(lost);
@@ -153,11 +153,11 @@ impl Transform {
         }
     }
 
-    /// What is known to go wrong with a curve.
+    /// Returns the problem of a curve that leaves its plane.
     fn curve_problem(&self, name: &str) -> Option<Problem> {
         let center = match self.about {
             About::Point(x, y, z) => DVec3::new(x, y, z),
-            // The middle of a curve lies in the plane as the origin does.
+            // The center of a curve is in the plane, like the origin.
             About::Origin | About::Center => DVec3::ZERO,
         };
         match Map::new(self).height_of_plane(center) {
@@ -166,8 +166,8 @@ impl Transform {
                 "the curve \"{name}\" must stay in the plane z = 0, but would get z = {z}"
             ))),
             None => Some(Problem::warning(format!(
-                "the curve \"{name}\" must stay in the plane z = 0, and this turns it out of it unless \
-                 it lies on the axis"
+                "the curve \"{name}\" must stay in the plane z = 0, but the rotation moves it out of the plane \
+                 unless it is on the axis"
             ))),
         }
     }
@@ -175,14 +175,15 @@ impl Transform {
 
 impl Operation for Transform {
     const NAME: &'static str = "Transform";
-    const SUMMARY: &'static str = "Scale, turn, move and mirror objects";
+    const SUMMARY: &'static str = "Scale, rotate, move and mirror objects";
     const EXAMPLE: &'static str = "Transform()";
     const TAKES_ON: bool = true;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();
-        let chosen = |name: &String| cx.on.is_none_or(|on| on.contains(name));
-        let objects: Vec<_> = plan.objects().iter().filter(|o| chosen(&o.name)).collect();
+        let is_target = |name: &String| cx.on.is_none_or(|on| on.contains(name));
+        let objects = plan.objects().iter();
+        let objects: Vec<_> = objects.filter(|o| is_target(&o.name)).collect();
         if objects.is_empty() && !plan.incomplete {
             problems.push(Problem::error("Transform finds no object to change"));
         }
@@ -208,8 +209,8 @@ impl Operation for Transform {
     }
 }
 
-/// Turns the values of all columns that hold normals.
-fn turn_normals(mesh: &mut Mesh, map: &Map) {
+/// Transforms the values of all columns of normals.
+fn transform_normals(mesh: &mut Mesh, map: &Map) {
     let columns = mesh.attributes().iter();
     let normals = columns.filter(|(_, column)| column.rule == Rule::Normal);
     let normals: Vec<_> = normals

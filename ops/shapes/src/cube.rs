@@ -9,34 +9,32 @@
 //!    0 ------ 1                       a ------ b
 //! ```
 //!
-//! Vertex number = (x > middle) + 2 (y > middle) + 4 (z > middle). The squares, seen from outside
-//! counter-clockwise, are bottom (0, 2, 3, 1), top (4, 5, 7, 6), front (0, 1, 5, 4), right
-//! (1, 3, 7, 5), back (3, 2, 6, 7) and left (2, 0, 4, 6), so the diagonals are 0-3, 4-7, 0-5, 1-7,
-//! 3-6 and 2-4.
+//! The number of a vertex is (x > center) + 2 (y > center) + 4 (z > center). The squares, counter-clockwise seen from
+//! outside, are bottom (0, 2, 3, 1), top (4, 5, 7, 6), front (0, 1, 5, 4), right (1, 3, 7, 5), back (3, 2, 6, 7) and
+//! left (2, 0, 4, 6), so the diagonals are 0-3, 4-7, 0-5, 1-7, 3-6 and 2-4.
 
 use geometry::shapes;
 use op::Operation;
 use op::prelude::*;
 
-/// Makes a cube.
+/// Creates a cube.
 ///
-/// 8 vertices and 6 squares: bottom (0, 2, 3, 1), top (4, 5, 7, 6), front (0, 1, 5, 4), right
-/// (1, 3, 7, 5), back (3, 2, 6, 7), left (2, 0, 4, 6). Vertex number = (x > middle) +
-/// 2 (y > middle) + 4 (z > middle).
+/// The cube has 8 vertices and 6 squares: bottom (0, 2, 3, 1), top (4, 5, 7, 6), front (0, 1, 5, 4), right (1, 3, 7, 5),
+/// back (3, 2, 6, 7), left (2, 0, 4, 6). The number of a vertex is (x > center) + 2 (y > center) + 4 (z > center), where
+/// a true comparison counts as 1.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cube {
     /// The name of the new object.
     pub name: String,
-    /// The length of its edges, in scene units; above 0.
+    /// The length of the edges, in scene units. More than 0.
     #[serde(default = "crate::two")]
     pub size: PositiveLength,
-    /// Where its middle is, in scene units.
+    /// The center of the cube, in scene units.
     #[serde(default)]
     pub center: Vector,
-    /// Whether each square (a, b, c, d) is cut along its diagonal from a to c into the triangles
-    /// (a, b, c) and (a, c, d): square f becomes faces 2 f and 2 f + 1. The diagonals are 0-3, 4-7,
-    /// 0-5, 1-7, 3-6 and 2-4.
+    /// Whether to cut each square (a, b, c, d) along its diagonal from a to c into the triangles (a, b, c) and (a, c, d).
+    /// Square f becomes the faces 2 f and 2 f + 1. The diagonals are 0-3, 4-7, 0-5, 1-7, 3-6 and 2-4.
     #[serde(default)]
     pub triangles: bool,
 }
@@ -59,7 +57,7 @@ impl Cube {
 
 impl Operation for Cube {
     const NAME: &'static str = "Cube";
-    const SUMMARY: &'static str = "Make a cube";
+    const SUMMARY: &'static str = "Create a cube";
     const EXAMPLE: &'static str = r#"Cube(name: "new", size: 3, center: (1, 2, 3))"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
@@ -77,7 +75,7 @@ impl Operation for Cube {
     }
 }
 
-/// The cube with each square cut from its first to its third corner.
+/// Returns the cube with each square cut from its first to its third corner.
 fn cut(cube: &Mesh) -> Mesh {
     let mut triangles = Vec::with_capacity(12);
     for f in cube.faces() {
@@ -100,7 +98,7 @@ mod tests {
     use super::*;
     use mesh::{DVec3, FaceId, VertexId};
 
-    /// The mesh that the recipe text makes.
+    /// Returns the mesh that the step creates.
     fn made(text: &str) -> Mesh {
         op::test::made(&op::test::read::<Cube>(text).unwrap())
     }
@@ -113,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn size_and_center_place_it() {
+    fn size_and_center_give_the_bounds() {
         let mesh = made(r#"(name: "a", size: 3, center: (1, 2, 3))"#);
         let [min, max] = geometry::bounds(&mesh).unwrap();
         assert_eq!(min, DVec3::new(-0.5, 0.5, 1.5));
@@ -121,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn the_diagonals_are_those_of_the_documentation() {
+    fn the_diagonals_are_as_documented() {
         let mesh = made(r#"(name: "a", triangles: true)"#);
         assert!(mesh.is_closed());
         assert!((geometry::volume(&mesh) - 8.0).abs() < 1e-14);
@@ -138,8 +136,8 @@ mod tests {
             );
         }
         for f in mesh.faces() {
-            let of = FaceId::new(f.index() / 2);
-            assert_eq!(mesh.face_normal(f), square.face_normal(of));
+            let side = FaceId::new(f.index() / 2);
+            assert_eq!(mesh.face_normal(f), square.face_normal(side));
         }
     }
 }

@@ -1,7 +1,7 @@
 //! A cylinder around the z axis.
 //!
 //! ```text
-//!     .--------.        caps: two faces of `around` corners
+//!     .--------.        caps: two faces with `around` corners
 //!    |\________/|
 //!    |  |    |  |       `around` rectangles
 //!    |  |    |  |
@@ -12,28 +12,28 @@ use geometry::shapes;
 use op::Operation;
 use op::prelude::*;
 
-/// Makes a cylinder around the z axis.
+/// Creates a cylinder around the z axis.
 ///
-/// The vertices are those of the lower rim and then those of the upper one, counter-clockwise seen from
-/// above, the first in the direction +x. The faces are `around` rectangles and, with caps, two
-/// polygons of `around` corners: the lower and the upper one.
+/// The vertices of the lower rim come first, and then those of the upper rim. Each rim is counter-clockwise seen from
+/// above and starts in the direction +x. The faces are `around` rectangles and, with caps, the lower and the upper
+/// polygon with `around` corners.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cylinder {
     /// The name of the new object.
     pub name: String,
-    /// How many sides.
+    /// The number of sides. At least 3.
     pub around: Count<3>,
-    /// The distance from the axis to its vertical edges, in scene units; above 0.
+    /// The distance from the axis to the vertical edges, in scene units. More than 0.
     #[serde(default = "crate::one")]
     pub radius: PositiveLength,
-    /// Its height along z, in scene units; above 0.
+    /// The height along z, in scene units. More than 0.
     #[serde(default = "crate::two")]
     pub height: PositiveLength,
-    /// Whether its ends are closed.
+    /// Whether the ends are closed.
     #[serde(default = "crate::yes")]
     pub caps: bool,
-    /// Where its middle is, in scene units.
+    /// The center of the cylinder, in scene units.
     #[serde(default)]
     pub center: Vector,
 }
@@ -59,7 +59,7 @@ impl Cylinder {
 
 impl Operation for Cylinder {
     const NAME: &'static str = "Cylinder";
-    const SUMMARY: &'static str = "Make a cylinder";
+    const SUMMARY: &'static str = "Create a cylinder";
     const EXAMPLE: &'static str =
         r#"Cylinder(name: "new", around: 6, radius: 1, height: 2, caps: true)"#;
 
@@ -78,7 +78,7 @@ mod tests {
     use super::*;
     use mesh::Mesh;
 
-    /// The mesh that the recipe text makes.
+    /// Returns the mesh that the step creates.
     fn made(text: &str) -> Mesh {
         op::test::made(&op::test::read::<Cylinder>(text).unwrap())
     }
@@ -93,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn caps_close_it() {
+    fn caps_close_the_cylinder() {
         for around in [3, 4, 7] {
             assert!(made(&format!(r#"(name: "a", around: {around})"#)).is_closed());
             let open = made(&format!(r#"(name: "a", around: {around}, caps: false)"#));

@@ -12,7 +12,7 @@ use geometry::shapes;
 use op::Operation;
 use op::prelude::*;
 
-/// Makes a flat sheet of squares that face upwards, +z.
+/// Creates a flat sheet of squares whose normals point to +z.
 ///
 /// Vertices and faces are numbered in rows, from -x to +x and from -y to +y.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
@@ -20,14 +20,14 @@ use op::prelude::*;
 pub struct Grid {
     /// The name of the new object.
     pub name: String,
-    /// How many squares along x.
+    /// The number of squares along x. At least 1.
     pub columns: Count<1>,
-    /// How many squares along y.
+    /// The number of squares along y. At least 1.
     pub rows: Count<1>,
-    /// The length of a side of one square, in scene units; above 0.
+    /// The side length of a square, in scene units. More than 0.
     #[serde(default = "crate::one")]
     pub size: PositiveLength,
-    /// Where its middle is, in scene units.
+    /// The center of the sheet, in scene units.
     #[serde(default)]
     pub center: Vector,
 }
@@ -52,7 +52,7 @@ impl Grid {
 
 impl Operation for Grid {
     const NAME: &'static str = "Grid";
-    const SUMMARY: &'static str = "Make a flat sheet of squares";
+    const SUMMARY: &'static str = "Create a flat sheet of squares";
     const EXAMPLE: &'static str = r#"Grid(name: "new", columns: 3, rows: 2)"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
@@ -71,7 +71,7 @@ mod tests {
     use super::*;
     use mesh::{DVec3, Mesh};
 
-    /// The mesh that the recipe text makes.
+    /// Returns the mesh that the step creates.
     fn made(text: &str) -> Mesh {
         op::test::made(&op::test::read::<Grid>(text).unwrap())
     }

@@ -1,8 +1,8 @@
 //! A regular icosahedron.
 //!
 //! ```text
-//!       0 ---- 1         the corners of three rectangles of sides 1 : (1 + √5) / 2,
-//!      / \   / \         one in each of the planes of the axes
+//!       0 ---- 1         the vertices are the corners of three rectangles with the side
+//!      / \   / \         ratio 1 : (1 + √5) / 2, one in each coordinate plane
 //!    ...   5   ...
 //! ```
 
@@ -10,18 +10,18 @@ use geometry::shapes;
 use op::Operation;
 use op::prelude::*;
 
-/// Makes a regular icosahedron: 12 vertices, 20 triangles.
+/// Creates a regular icosahedron with 12 vertices and 20 triangles.
 ///
-/// Its corners are those of three golden rectangles in the planes of the axes.
+/// The vertices are the corners of three golden rectangles, one in each coordinate plane.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Icosahedron {
     /// The name of the new object.
     pub name: String,
-    /// The distance from the middle to its corners, in scene units; above 0.
+    /// The distance from the center to the vertices, in scene units. More than 0.
     #[serde(default = "crate::one")]
     pub radius: PositiveLength,
-    /// Where its middle is, in scene units.
+    /// The center of the icosahedron, in scene units.
     #[serde(default)]
     pub center: Vector,
 }
@@ -40,7 +40,7 @@ impl Icosahedron {
 
 impl Operation for Icosahedron {
     const NAME: &'static str = "Icosahedron";
-    const SUMMARY: &'static str = "Make a regular icosahedron";
+    const SUMMARY: &'static str = "Create a regular icosahedron";
     const EXAMPLE: &'static str = r#"Icosahedron(name: "new")"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
@@ -57,13 +57,13 @@ mod tests {
     use super::*;
     use mesh::{DVec3, Mesh};
 
-    /// The mesh that the recipe text makes.
+    /// Returns the mesh that the step creates.
     fn made(text: &str) -> Mesh {
         op::test::made(&op::test::read::<Icosahedron>(text).unwrap())
     }
 
     #[test]
-    fn its_corners_lie_on_the_sphere() {
+    fn the_vertices_are_on_the_sphere() {
         let mesh = made(r#"(name: "a", radius: 3, center: (1, 2, 3))"#);
         let center = DVec3::new(1.0, 2.0, 3.0);
         assert!(
@@ -74,14 +74,14 @@ mod tests {
     }
 
     #[test]
-    fn it_is_closed_and_regular() {
+    fn the_icosahedron_is_closed_and_regular() {
         let mesh = made(r#"(name: "a")"#);
         assert!(mesh.is_closed());
         let side = mesh.length(mesh.edges().next().unwrap().half_edge());
         for e in mesh.edges() {
             assert!((mesh.length(e.half_edge()) - side).abs() < 1e-14);
         }
-        // The volume of the regular icosahedron of radius 1: 5 (3 + √5) a³ / 12, a = 4 / √(10 + 2 √5).
+        // The volume of the regular icosahedron with radius 1 is 5 (3 + √5) a³ / 12, where a = 4 / √(10 + 2 √5).
         assert!((geometry::volume(&mesh) - 2.536_150_710_120_409).abs() < 1e-14);
     }
 }

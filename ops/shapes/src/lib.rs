@@ -1,4 +1,4 @@
-//! Operations: making meshes: polygons and the usual shapes.
+//! Operations that create meshes: polygons and standard shapes.
 
 mod cube;
 mod cylinder;

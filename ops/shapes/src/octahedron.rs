@@ -5,25 +5,25 @@
 //!        / | \         |  y
 //!      1 - - - 0       | /
 //!        \ | /         |/
-//!          5           +---- x      2 is behind, 3 in front
+//!          5           +---- x      2 is behind, 3 is in front
 //! ```
 
 use geometry::shapes;
 use op::Operation;
 use op::prelude::*;
 
-/// Makes a regular octahedron: 6 vertices, 8 triangles.
+/// Creates a regular octahedron with 6 vertices and 8 triangles.
 ///
-/// Its corners lie on the axes through its middle: +x, -x, +y, -y, +z, -z.
+/// The vertices are in the directions +x, -x, +y, -y, +z and -z from the center, in this order.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Octahedron {
     /// The name of the new object.
     pub name: String,
-    /// The distance from the middle to its corners, in scene units; above 0.
+    /// The distance from the center to the vertices, in scene units. More than 0.
     #[serde(default = "crate::one")]
     pub radius: PositiveLength,
-    /// Where its middle is, in scene units.
+    /// The center of the octahedron, in scene units.
     #[serde(default)]
     pub center: Vector,
 }
@@ -42,7 +42,7 @@ impl Octahedron {
 
 impl Operation for Octahedron {
     const NAME: &'static str = "Octahedron";
-    const SUMMARY: &'static str = "Make a regular octahedron";
+    const SUMMARY: &'static str = "Create a regular octahedron";
     const EXAMPLE: &'static str = r#"Octahedron(name: "new")"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
@@ -59,13 +59,13 @@ mod tests {
     use super::*;
     use mesh::{DVec3, Mesh};
 
-    /// The mesh that the recipe text makes.
+    /// Returns the mesh that the step creates.
     fn made(text: &str) -> Mesh {
         op::test::made(&op::test::read::<Octahedron>(text).unwrap())
     }
 
     #[test]
-    fn its_corners_lie_on_the_sphere() {
+    fn the_vertices_are_on_the_sphere() {
         let mesh = made(r#"(name: "a", radius: 3, center: (1, 2, 3))"#);
         let center = DVec3::new(1.0, 2.0, 3.0);
         assert!(
@@ -76,14 +76,14 @@ mod tests {
     }
 
     #[test]
-    fn it_is_closed_and_regular() {
+    fn the_octahedron_is_closed_and_regular() {
         let mesh = made(r#"(name: "a")"#);
         assert!(mesh.is_closed());
         let side = mesh.length(mesh.edges().next().unwrap().half_edge());
         for e in mesh.edges() {
             assert!((mesh.length(e.half_edge()) - side).abs() < 1e-14);
         }
-        // The volume of the regular octahedron of radius 1 is 4 / 3.
+        // The volume of the regular octahedron with radius 1 is 4 / 3.
         assert!((geometry::volume(&mesh) - 4.0 / 3.0).abs() < 1e-14);
     }
 }

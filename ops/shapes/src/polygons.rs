@@ -1,4 +1,4 @@
-//! A mesh written in a recipe: its points and its faces.
+//! A mesh that is given in the recipe by its points and its faces.
 //!
 //! ```text
 //!    3 ------- 2
@@ -12,27 +12,27 @@ use mesh::{BuildReport, DVec3};
 use op::Operation;
 use op::prelude::*;
 
-/// Makes a mesh of points and faces.
+/// Creates a mesh from points and faces.
 ///
-/// Point i becomes vertex i and polygon i becomes face i. Faces that run the other way round than most
-/// of those they hang together with are reversed, where that makes all of them agree. Faces that do not
-/// form a manifold are split until they do: an edge keeps two faces that run opposite ways along it, a
-/// vertex keeps one fan of faces, and copies of the vertices, behind all others, take the rest. The
-/// report names what was reversed and split, and so does the check of the recipe.
+/// Point i becomes vertex i, and polygon i becomes face i. If connected faces have different orientations, the faces in
+/// the minority are reversed, provided that all orientations then agree. If the faces do not form a manifold, they are
+/// split: an edge keeps two faces with consistent orientations, a vertex keeps one fan of faces, and the other faces get
+/// copies of the vertices, which are numbered last. The report, and the check of the recipe, list the reversed and split
+/// elements.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Polygons {
     /// The name of the new object.
     pub name: String,
-    /// The points: `(x, y, z)`, in scene units. Those without a face stay as isolated vertices.
+    /// The points: `(x, y, z)`, in scene units. Points that no face uses become isolated vertices.
     pub points: Vec<Vector>,
-    /// The faces: for each the numbers of its points, from 0, counter-clockwise seen from outside. At
-    /// least three, none of them twice.
+    /// The faces. Each is a list of the numbers of its points, counted from 0, counter-clockwise seen from outside. A face
+    /// has at least three points, without duplicates.
     pub faces: Vec<Vec<u32>>,
 }
 
 impl Polygons {
-    /// The mesh and what was done to make it a manifold, or the first problem.
+    /// Returns the mesh and the report of the changes that made it manifold, or the first problem.
     fn build(&self) -> Result<(Mesh, BuildReport), Problem> {
         let points: Vec<DVec3> = self.points.iter().map(|&p| p.into()).collect();
         for (f, face) in self.faces.iter().enumerate() {
@@ -44,31 +44,34 @@ impl Polygons {
     fn check(&self, f: usize, face: &[u32]) -> Result<(), Problem> {
         let at_face = f.to_string();
         if face.len() < 3 {
-            let message = format!("face {f} needs at least 3 points, but has {}", face.len());
+            let message = format!(
+                "expected at least 3 points in face {f}, found {}",
+                face.len()
+            );
             return Err(Problem::error(message).at(["faces", &at_face]));
         }
-        // In order of points, equal ones in order of places.
-        let mut places: Vec<usize> = (0..face.len()).collect();
-        places.sort_by_key(|&i| face[i]);
+        // Corners sorted by their points. The sort is stable: corners with the same point keep their order.
+        let mut sorted: Vec<usize> = (0..face.len()).collect();
+        sorted.sort_by_key(|&i| face[i]);
         let n = self.points.len();
         let missing = (0..face.len()).find(|&i| face[i] as usize >= n);
-        let twice = places.windows(2).filter(|w| face[w[0]] == face[w[1]]);
+        let twice = sorted.windows(2).filter(|w| face[w[0]] == face[w[1]]);
         let twice = twice.map(|w| w[1]).min();
-        let (i, what) = match (missing, twice) {
-            (Some(i), _) => (i, format!("which is not there: there are {n} points")),
-            (None, Some(i)) => (i, "which it has already".to_owned()),
+        let (i, problem) = match (missing, twice) {
+            (Some(i), _) => (i, format!("does not exist (number of points: {n})")),
+            (None, Some(i)) => (i, "is already a corner of this face".to_owned()),
             (None, None) => return Ok(()),
         };
-        let message = format!("face {f} has point {} at place {i}, {what}", face[i]);
+        let message = format!("face {f}, corner {i}: point {} {problem}", face[i]);
         Err(Problem::error(message).at(["faces", &at_face, &i.to_string()]))
     }
 
-    /// The source, the mesh, and what was done to make it a manifold.
+    /// Returns the source, the mesh, and the report of the changes that made it manifold.
     fn source(&self) -> (Source<'_>, Mesh, BuildReport) {
         match self.build() {
-            Ok((mesh, done)) => {
+            Ok((mesh, changes)) => {
                 let source = Source::new(&self.name, MeshPlan::of(&mesh));
-                (source, mesh, done)
+                (source, mesh, changes)
             }
             Err(problem) => {
                 let source = Source::new(&self.name, MeshPlan::unknown()).with(problem);
@@ -80,15 +83,15 @@ impl Polygons {
 
 impl Operation for Polygons {
     const NAME: &'static str = "Polygons";
-    const SUMMARY: &'static str = "Make a mesh of points and faces";
+    const SUMMARY: &'static str = "Create a mesh from points and faces";
     const EXAMPLE: &'static str =
         r#"Polygons(name: "new", points: [(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces: [[0, 1, 2]])"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
-        let (mut source, _, done) = self.source();
-        if !done.is_clean() {
-            let summary = done.summary();
-            let message = format!("the faces are no manifold as they stand: {summary}");
+        let (mut source, _, changes) = self.source();
+        if !changes.is_clean() {
+            let summary = changes.summary();
+            let message = format!("the faces do not form an oriented manifold: {summary}");
             source = source.with(Problem::warning(message).at(["faces"]));
         }
         source.plan(plan)
@@ -96,12 +99,12 @@ impl Operation for Polygons {
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
         cx.advance("build", 0, 1)?;
-        let (source, mesh, done) = self.source();
+        let (source, mesh, changes) = self.source();
         let report = source.insert(scene, cx, || mesh)?;
-        Ok(if done.is_clean() {
+        Ok(if changes.is_clean() {
             report
         } else {
-            report.note(done.summary())
+            report.note(changes.summary())
         })
     }
 }
@@ -114,7 +117,7 @@ mod tests {
         op::test::read(text).unwrap()
     }
 
-    /// The path and the message of the one problem.
+    /// Returns the path and the message of the only problem.
     fn problem(text: &str) -> (String, String) {
         let step = step(text);
         assert!(matches!(
@@ -142,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn no_points_and_no_faces_are_an_empty_mesh() {
+    fn empty_lists_give_an_empty_mesh() {
         assert_eq!(
             op::test::made(&step(r#"(name: "a", points: [], faces: [])"#)),
             Mesh::default()
@@ -169,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn a_face_that_runs_the_other_way_is_reversed_with_a_note() {
+    fn a_face_with_the_opposite_orientation_is_reversed_with_a_note() {
         let step = step(
             r#"(name: "kite", points: [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)],
                 faces: [[0, 1, 2], [0, 3, 2]])"#,
@@ -183,23 +186,23 @@ mod tests {
     }
 
     #[test]
-    fn errors_name_the_face_and_the_place() {
+    fn errors_name_the_face_and_the_corner() {
         let points = "points: [(0, 0, 0), (1, 0, 0), (0, 1, 0)]";
         let face = |faces: &str| problem(&format!(r#"(name: "a", {points}, faces: {faces})"#));
         let (path, message) = face("[[0, 1, 2], [0, 1, 7]]");
         assert_eq!(path, "faces.1.2");
         assert_eq!(
             message,
-            "face 1 has point 7 at place 2, which is not there: there are 3 points"
+            "face 1, corner 2: point 7 does not exist (number of points: 3)"
         );
         let (path, message) = face("[[0, 1, 2, 1]]");
         assert_eq!(path, "faces.0.3");
         assert_eq!(
             message,
-            "face 0 has point 1 at place 3, which it has already"
+            "face 0, corner 3: point 1 is already a corner of this face"
         );
         let (path, message) = face("[[0, 1]]");
         assert_eq!(path, "faces.0");
-        assert_eq!(message, "face 0 needs at least 3 points, but has 2");
+        assert_eq!(message, "expected at least 3 points in face 0, found 2");
     }
 }

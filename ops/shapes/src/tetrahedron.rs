@@ -1,8 +1,8 @@
 //! A regular tetrahedron.
 //!
 //! ```text
-//!        0               corners on four of the
-//!       /|\              eight corners of a cube
+//!        0               the vertices are four of
+//!       /|\              the eight corners of a cube
 //!      / | \
 //!     1--|--3
 //!      \ | /
@@ -13,19 +13,19 @@ use geometry::shapes;
 use op::Operation;
 use op::prelude::*;
 
-/// Makes a regular tetrahedron: 4 vertices, 4 triangles.
+/// Creates a regular tetrahedron with 4 vertices and 4 triangles.
 ///
-/// Its corners are four of the eight corners of a cube around the same middle, the first at
-/// (+, +, +), then (-, -, +), (-, +, -) and (+, -, -).
+/// The vertices are four of the eight corners of a cube with the same center. The signs of their coordinates relative to
+/// the center are (+, +, +), (-, -, +), (-, +, -) and (+, -, -), in this order.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tetrahedron {
     /// The name of the new object.
     pub name: String,
-    /// The distance from the middle to its corners, in scene units; above 0.
+    /// The distance from the center to the vertices, in scene units. More than 0.
     #[serde(default = "crate::one")]
     pub radius: PositiveLength,
-    /// Where its middle is, in scene units.
+    /// The center of the tetrahedron, in scene units.
     #[serde(default)]
     pub center: Vector,
 }
@@ -44,7 +44,7 @@ impl Tetrahedron {
 
 impl Operation for Tetrahedron {
     const NAME: &'static str = "Tetrahedron";
-    const SUMMARY: &'static str = "Make a regular tetrahedron";
+    const SUMMARY: &'static str = "Create a regular tetrahedron";
     const EXAMPLE: &'static str = r#"Tetrahedron(name: "new")"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
@@ -61,13 +61,13 @@ mod tests {
     use super::*;
     use mesh::{DVec3, Mesh};
 
-    /// The mesh that the recipe text makes.
+    /// Returns the mesh that the step creates.
     fn made(text: &str) -> Mesh {
         op::test::made(&op::test::read::<Tetrahedron>(text).unwrap())
     }
 
     #[test]
-    fn its_corners_lie_on_the_sphere() {
+    fn the_vertices_are_on_the_sphere() {
         let mesh = made(r#"(name: "a", radius: 3, center: (1, 2, 3))"#);
         let center = DVec3::new(1.0, 2.0, 3.0);
         assert!(
@@ -78,14 +78,14 @@ mod tests {
     }
 
     #[test]
-    fn it_is_closed_and_regular() {
+    fn the_tetrahedron_is_closed_and_regular() {
         let mesh = made(r#"(name: "a")"#);
         assert!(mesh.is_closed());
         let side = mesh.length(mesh.edges().next().unwrap().half_edge());
         for e in mesh.edges() {
             assert!((mesh.length(e.half_edge()) - side).abs() < 1e-14);
         }
-        // The volume of the regular tetrahedron of radius 1 is 8 / (9 √3).
+        // The volume of the regular tetrahedron with radius 1 is 8 / (9 √3).
         assert!((geometry::volume(&mesh) - 8.0 / (9.0 * 3.0_f64.sqrt())).abs() < 1e-14);
     }
 }

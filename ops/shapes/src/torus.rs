@@ -3,7 +3,7 @@
 //! ```text
 //!                 z
 //!    .---.        |        .---.
-//!   /     \       |       /     \       major: from the z axis to the middle of the tube
+//!   /     \       |       /     \       major: from the z axis to the center of the tube
 //!  |   +   |      |<---- + --->  |      minor: the radius of the tube
 //!   \     /       | major  minor/
 //!    '---'        |        '---'
@@ -13,26 +13,26 @@ use geometry::shapes;
 use op::Operation;
 use op::prelude::*;
 
-/// Makes a torus of quadrilaterals around the z axis.
+/// Creates a torus of quadrilaterals around the z axis.
 ///
-/// Vertex `i * across + j` is the j-th of the i-th ring across the tube. Ring 0 lies in the direction
-/// +x, and its vertex 0 is the farthest from the axis.
+/// Vertex `i * across + j` is vertex j of ring i across the tube. Ring 0 is in the direction +x, and its vertex 0 is the
+/// farthest from the axis.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Torus {
     /// The name of the new object.
     pub name: String,
-    /// How many faces around the z axis.
+    /// The number of faces around the z axis. At least 3.
     pub around: Count<3>,
-    /// How many faces around the tube.
+    /// The number of faces around the tube. At least 3.
     pub across: Count<3>,
-    /// The distance from the z axis to the middle of the tube, in scene units; above 0.
+    /// The distance from the z axis to the center of the tube, in scene units. More than 0.
     #[serde(default = "crate::one")]
     pub major: PositiveLength,
-    /// The radius of the tube, in scene units; above 0. The tube cuts itself unless it is below `major`.
+    /// The radius of the tube, in scene units. More than 0. The tube intersects itself unless `minor` is less than `major`.
     #[serde(default = "quarter")]
     pub minor: PositiveLength,
-    /// Where its middle is, in scene units.
+    /// The center of the torus, in scene units.
     #[serde(default)]
     pub center: Vector,
 }
@@ -60,14 +60,14 @@ impl Torus {
         if self.minor.get() < self.major.get() {
             return source;
         }
-        let warning = Problem::warning("the tube cuts itself").at(["minor"]);
-        source.with(warning.help("a torus has a hole if minor is below major"))
+        let warning = Problem::warning("the tube intersects itself").at(["minor"]);
+        source.with(warning.help("a torus has a hole if `minor` is less than `major`"))
     }
 }
 
 impl Operation for Torus {
     const NAME: &'static str = "Torus";
-    const SUMMARY: &'static str = "Make a torus";
+    const SUMMARY: &'static str = "Create a torus";
     const EXAMPLE: &'static str =
         r#"Torus(name: "new", around: 7, across: 5, major: 2, minor: 0.5)"#;
 
@@ -92,7 +92,7 @@ mod tests {
     use super::*;
     use mesh::{DVec3, Mesh};
 
-    /// The mesh that the recipe text makes.
+    /// Returns the mesh that the step creates.
     fn made(text: &str) -> Mesh {
         op::test::made(&op::test::read::<Torus>(text).unwrap())
     }
@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn major_and_minor_give_its_size() {
+    fn major_and_minor_give_the_bounds() {
         let mesh =
             made(r#"(name: "a", around: 4, across: 4, major: 3, minor: 1, center: (0, 0, 7))"#);
         let [min, max] = geometry::bounds(&mesh).unwrap();
@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn a_fat_tube_is_a_warning_and_still_made() {
+    fn a_self_intersecting_torus_is_created_with_a_warning() {
         let step: Torus = op::test::read(r#"(name: "a", around: 5, across: 4, minor: 2)"#).unwrap();
         let problems = step.source().plan(&mut Plan::default());
         assert!(problems.len() == 1 && problems[0].is_warning);

@@ -13,23 +13,23 @@ use geometry::shapes;
 use op::Operation;
 use op::prelude::*;
 
-/// Makes a sphere of meridians and rings, with poles at -z and +z.
+/// Creates a sphere of meridians and rings, with poles at -z and +z.
 ///
-/// Vertex 0 is the lower pole, the circles follow from below, each from the direction +x
-/// counter-clockwise seen from above, and the upper pole comes last.
+/// Vertex 0 is the lower pole. The circles of vertices follow from the bottom to the top; each starts in the direction +x
+/// and is counter-clockwise seen from above. The last vertex is the upper pole.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct UvSphere {
     /// The name of the new object.
     pub name: String,
-    /// How many meridians.
+    /// The number of meridians. At least 3.
     pub around: Count<3>,
-    /// How many bands of faces from pole to pole.
+    /// The number of bands of faces from pole to pole. At least 2.
     pub rings: Count<2>,
-    /// The distance from the middle to its vertices, in scene units; above 0.
+    /// The distance from the center to the vertices, in scene units. More than 0.
     #[serde(default = "crate::one")]
     pub radius: PositiveLength,
-    /// Where its middle is, in scene units.
+    /// The center of the sphere, in scene units.
     #[serde(default)]
     pub center: Vector,
 }
@@ -37,7 +37,7 @@ pub struct UvSphere {
 impl UvSphere {
     fn source(&self) -> Source<'_> {
         let (around, rings) = (u64::from(self.around.get()), u64::from(self.rings.get()));
-        // `rings - 1` circles; below 2 the count is refused anyway.
+        // The sphere has `rings - 1` circles of vertices. `rings` is at least 2.
         let circles = rings.saturating_sub(1);
         let on_circles = around.saturating_mul(circles);
         let faces = around.saturating_mul(rings);
@@ -55,7 +55,7 @@ impl UvSphere {
 
 impl Operation for UvSphere {
     const NAME: &'static str = "UvSphere";
-    const SUMMARY: &'static str = "Make a sphere of meridians and rings";
+    const SUMMARY: &'static str = "Create a sphere of meridians and rings";
     const EXAMPLE: &'static str = r#"UvSphere(name: "new", around: 8, rings: 4, radius: 2)"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
@@ -74,13 +74,13 @@ mod tests {
     use super::*;
     use mesh::{DVec3, Mesh};
 
-    /// The mesh that the recipe text makes.
+    /// Returns the mesh that the step creates.
     fn made(text: &str) -> Mesh {
         op::test::made(&op::test::read::<UvSphere>(text).unwrap())
     }
 
     #[test]
-    fn it_is_closed_for_every_number_of_rings() {
+    fn spheres_are_closed_for_every_number_of_rings() {
         for (around, rings) in [(3, 2), (4, 3), (7, 5)] {
             let mesh = made(&format!(r#"(name: "a", around: {around}, rings: {rings})"#));
             assert!(mesh.is_closed());
@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn its_vertices_lie_on_the_sphere() {
+    fn the_vertices_are_on_the_sphere() {
         let mesh = made(r#"(name: "a", around: 8, rings: 6, radius: 2, center: (0, 3, 0))"#);
         let center = DVec3::new(0.0, 3.0, 0.0);
         assert!(

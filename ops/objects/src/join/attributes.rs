@@ -1,11 +1,11 @@
-//! The attributes and the materials of several meshes, one behind the other.
+//! Joins the attributes and the materials of several meshes.
 
 use mesh::{Attributes, Column, Domain, MATERIAL, Mesh, Rule, Values};
 use op::{Loss, Report};
 use scene::{Material, Object};
 
-/// The different materials of all parts in the order of their first use, and for each part the number
-/// of each of its materials among them.
+/// Returns the materials of all parts without duplicates, in order of their first use. Also returns, for each part, the
+/// new numbers of its materials.
 pub(crate) fn merged_materials(parts: &[&Object]) -> (Vec<Material>, Vec<Vec<i32>>) {
     let mut merged: Vec<Material> = Vec::new();
     let mut number = |material: &Material| {
@@ -23,8 +23,8 @@ pub(crate) fn merged_materials(parts: &[&Object]) -> (Vec<Material>, Vec<Vec<i32
     (merged, numbers)
 }
 
-/// The columns of all parts. `numbers` are those of [`merged_materials`]. What is left out goes into
-/// `report.losses`, and which part gets zero values into `report.notes`.
+/// Returns the concatenated columns of all parts. `numbers` comes from [`merged_materials`]. Adds dropped columns to
+/// `report.losses`, and parts that get zero values to `report.notes`.
 pub(crate) fn appended(parts: &[&Object], numbers: &[Vec<i32>], report: &mut Report) -> Attributes {
     let meshes = || {
         let parts = parts.iter();
@@ -41,7 +41,7 @@ pub(crate) fn appended(parts: &[&Object], numbers: &[Vec<i32>], report: &mut Rep
     for ((object, mesh), part) in meshes().zip(&columns) {
         let part_len = lens(mesh);
         for (domain, name) in all.append(len, part, part_len) {
-            let reason = "a part before it has one of that name with values of another type";
+            let reason = "an earlier part has an attribute of the same name with a different type";
             let loss = Loss::attribute(&object.name, domain, &name, reason);
             report.losses.push(loss);
         }
@@ -50,8 +50,8 @@ pub(crate) fn appended(parts: &[&Object], numbers: &[Vec<i32>], report: &mut Rep
     all
 }
 
-/// Gives the faces the numbers of the merged materials; -1 for none, also in parts without the attribute if
-/// another part has it.
+/// Replaces the material numbers of the faces by the numbers of the merged materials. Faces without a material get -1,
+/// and so do all faces of parts without the attribute if another part has it.
 fn renumber_materials(
     columns: &mut [Attributes],
     numbers: &[Vec<i32>],
@@ -80,14 +80,14 @@ fn renumber_materials(
     }
 }
 
-/// Takes out columns of normals that not every part has: a normal of length zero is none.
+/// Removes columns of normals that some parts lack, because a zero vector is not a valid normal.
 fn leave_out_normals(columns: &mut [Attributes], parts: &[&Object], report: &mut Report) {
     for (domain, name) in names(columns, |c| c.rule == Rule::Normal) {
         let Some(without) = (0..parts.len()).find(|&i| lacks(columns, parts, i, domain, &name))
         else {
             continue;
         };
-        let reason = format!("\"{}\" has none to join it with", parts[without].name);
+        let reason = format!("\"{}\" does not have this attribute", parts[without].name);
         for (attributes, object) in columns.iter_mut().zip(parts) {
             if attributes.remove(domain, &name).is_some() {
                 let loss = Loss::attribute(&object.name, domain, &name, &*reason);
@@ -97,8 +97,8 @@ fn leave_out_normals(columns: &mut [Attributes], parts: &[&Object], report: &mut
     }
 }
 
-/// Notes which parts get zero values for an attribute. Of a tag that means what it should, and a
-/// material has a value for none.
+/// Adds a note for each part that gets zero values for an attribute. Tags and materials need no note: elements of these
+/// parts are simply not tagged and have no material.
 fn note_zeros(columns: &[Attributes], parts: &[&Object], report: &mut Report) {
     for (domain, name) in names(columns, |c| !matches!(c.values, Values::Tag(_))) {
         for (i, object) in parts.iter().enumerate() {
@@ -112,25 +112,25 @@ fn note_zeros(columns: &[Attributes], parts: &[&Object], report: &mut Report) {
     }
 }
 
-/// The columns that a rule picks, each once, in the order of the parts.
-fn names(columns: &[Attributes], pick: impl Fn(&Column) -> bool) -> Vec<(Domain, String)> {
+/// Returns the columns that satisfy `predicate`, without duplicates, in the order of the parts.
+fn names(columns: &[Attributes], predicate: impl Fn(&Column) -> bool) -> Vec<(Domain, String)> {
     let mut names = Vec::new();
     for (domain, column) in columns.iter().flat_map(Attributes::iter) {
         let key = (domain, column.name.clone());
-        if pick(column) && !names.contains(&key) {
+        if predicate(column) && !names.contains(&key) {
             names.push(key);
         }
     }
     names
 }
 
-/// Whether part i has elements of a domain, but not this column.
+/// Whether part `i` has elements of a domain, but not this column.
 fn lacks(columns: &[Attributes], parts: &[&Object], i: usize, domain: Domain, name: &str) -> bool {
     let n = parts[i].as_mesh().map_or(0, |mesh| mesh.domain_len(domain));
     n > 0 && columns[i].column(domain, name).is_none()
 }
 
-/// Marks the faces of each part with a tag of its name, beside those that already have the tag.
+/// Tags the faces of each part with the name of the part. Faces that already have the tag keep it.
 pub(crate) fn tag_parts(joined: &mut Mesh, parts: &[&Object], report: &mut Report) {
     let mut first = 0;
     for object in parts {
@@ -142,7 +142,7 @@ pub(crate) fn tag_parts(joined: &mut Mesh, parts: &[&Object], report: &mut Repor
             Some(Values::Tag(marks)) => marks.clone(),
             Some(_) => {
                 report.notes.push(format!(
-                    "the faces of \"{name}\" get no tag: there is a face attribute of that name"
+                    "the faces of \"{name}\" are not tagged: a face attribute with this name exists"
                 ));
                 first = end;
                 continue;

@@ -1,17 +1,19 @@
-//! The connectivity and the positions of several meshes, one behind the other.
+//! Joins the connectivity and the positions of several meshes.
 
 use mesh::{Connectivity, DVec3, Mesh};
 use op::{Context, OpError};
 
-/// The most elements of one kind: ids end at 2^32 - 2.
+/// The largest number of elements of one kind: the largest id is 2^32 - 2.
 pub(crate) const MAX_ELEMENTS: u64 = u32::MAX as u64 - 1;
 
 pub(crate) fn too_many(n: u64) -> String {
-    format!("{n} elements of one kind are more than ids can number: at most {MAX_ELEMENTS}")
+    format!(
+        "the result would have {n} elements of one kind, but at most {MAX_ELEMENTS} are supported"
+    )
 }
 
-/// The meshes, which are dense, as one without attributes. Ids of a part are shifted by the counts of all
-/// parts before it.
+/// Joins dense meshes into one mesh without attributes. The ids of a part are shifted by the counts of all earlier
+/// parts.
 pub(crate) fn connected(parts: &[&Mesh], cx: &Context) -> Result<Mesh, OpError> {
     let total = |count: fn(&Mesh) -> usize| -> usize { parts.iter().map(|m| count(m)).sum() };
     let n_half_edges = total(Mesh::n_half_edges);

@@ -20,7 +20,7 @@ fn scene(objects: Vec<Object>) -> Scene {
     scene
 }
 
-/// The objects "a" and "b" joined to "all", and the report.
+/// Joins the objects "a" and "b" into "all". Returns the mesh and the report.
 fn joined(a: Mesh, b: Mesh) -> (Mesh, Report) {
     let mut scene = scene(vec![Object::mesh("a", a), Object::mesh("b", b)]);
     let report = op::test::run(&step(r#"(objects: ["a", "b"], name: "all")"#), &mut scene).unwrap();
@@ -34,7 +34,7 @@ fn mesh_of(scene: &Scene, name: &str) -> Mesh {
 }
 
 #[test]
-fn counts_add_up_and_the_parts_stay_apart() {
+fn counts_add_up_and_the_parts_are_not_connected() {
     let (mesh, report) = joined(shapes::cube(), shapes::grid(2, 1));
     assert_eq!(
         (mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()),
@@ -53,17 +53,17 @@ fn counts_add_up_and_the_parts_stay_apart() {
 }
 
 #[test]
-fn empty_parts_and_isolated_vertices_are_fine() {
-    let lone = Mesh::from_polygons(vec![DVec3::X], &[[0_u32; 3]; 0])
+fn empty_parts_and_isolated_vertices_can_be_joined() {
+    let isolated = Mesh::from_polygons(vec![DVec3::X], &[[0_u32; 3]; 0])
         .unwrap()
         .0;
     assert_eq!(joined(Mesh::default(), Mesh::default()).0.n_vertices(), 0);
-    let (mesh, _) = joined(lone, shapes::tetrahedron());
+    let (mesh, _) = joined(isolated, shapes::tetrahedron());
     assert_eq!((mesh.n_vertices(), mesh.n_isolated_vertices()), (5, 1));
 }
 
 #[test]
-fn the_result_takes_the_place_of_the_first_in_the_list() {
+fn the_result_replaces_the_first_mesh_of_the_list() {
     let object = |name| Object::mesh(name, shapes::square());
     let mut scene = scene(vec![object("x"), object("a"), object("y"), object("b")]);
     op::test::run(&step(r#"(objects: ["b", "a"], name: "a")"#), &mut scene).unwrap();
@@ -72,7 +72,7 @@ fn the_result_takes_the_place_of_the_first_in_the_list() {
 }
 
 #[test]
-fn parts_keep_their_names_as_tags() {
+fn faces_are_tagged_with_the_names_of_the_parts() {
     let (mesh, _) = joined(shapes::square(), shapes::grid(2, 1));
     assert_eq!(mesh.tag(Domain::Face, "a").unwrap(), [true, false, false]);
     assert_eq!(mesh.tag(Domain::Face, "b").unwrap(), [false, true, true]);
@@ -84,7 +84,7 @@ fn parts_keep_their_names_as_tags() {
 }
 
 #[test]
-fn a_tag_of_a_parts_name_is_added_to_and_another_attribute_is_kept() {
+fn an_existing_tag_is_extended_and_an_existing_attribute_is_kept() {
     let mut a = shapes::square();
     a.set(Attribute::<FaceId, bool>::new("b", Rule::Copy), vec![true]);
     a.set(Attribute::<FaceId, i32>::new("a", Rule::Copy), vec![7]);
@@ -97,7 +97,7 @@ fn a_tag_of_a_parts_name_is_added_to_and_another_attribute_is_kept() {
     );
     assert_eq!(report.notes.len(), 2);
     assert!(
-        report.notes[1].starts_with("the faces of \"a\" get no tag"),
+        report.notes[1].starts_with("the faces of \"a\" are not tagged"),
         "{:?}",
         report.notes
     );
@@ -136,7 +136,7 @@ fn equal_materials_become_one() {
 }
 
 #[test]
-fn values_stay_with_their_elements_and_missing_ones_are_zero_with_a_note() {
+fn values_stay_with_their_elements_and_missing_values_are_zero_with_a_note() {
     let mut a = shapes::square();
     a.set(UV, vec![DVec2::ONE; 8]);
     let (mesh, report) = joined(shapes::square(), a);
@@ -153,7 +153,7 @@ fn values_stay_with_their_elements_and_missing_ones_are_zero_with_a_note() {
 }
 
 #[test]
-fn normals_that_one_part_lacks_are_lost() {
+fn normals_are_lost_if_one_part_lacks_them() {
     let mut with = shapes::square();
     with.set(VERTEX_NORMAL, vec![DVec3::Z; 4]);
     let (mesh, report) = joined(with.clone(), shapes::square());
@@ -199,7 +199,7 @@ fn values_of_another_type_are_lost() {
 }
 
 #[test]
-fn bad_lists_are_refused_in_plan_and_scene_and_nothing_changes() {
+fn invalid_lists_are_errors_in_plan_and_apply_and_nothing_changes() {
     let objects = || {
         scene(vec![
             Object::mesh("a", shapes::square()),
@@ -248,7 +248,7 @@ fn planned(scene: &Scene) -> Plan {
 }
 
 #[test]
-fn the_plan_is_what_happens() {
+fn the_plan_agrees_with_the_result() {
     let mut colored = shapes::tetrahedron();
     colored.set(UV, vec![DVec2::ONE; 12]);
     let mut scene = scene(vec![

@@ -1,11 +1,11 @@
-//! The map that the parameters describe: where points and normals go.
+//! The affine map of the parameters, for points and normals.
 
 use glam::{DMat3, DVec3};
 use op::Turn;
 
 use crate::transform::Transform;
 
-/// p -> L (p - center) + center + shift, where L scales and then turns.
+/// The map p -> L (p - center) + center + shift, where L scales and then rotates.
 pub(crate) struct Map {
     linear: DMat3,
     turns: DMat3,
@@ -14,7 +14,7 @@ pub(crate) struct Map {
 }
 
 impl Map {
-    /// The map of parameters.
+    /// Creates the map of the parameters.
     pub(crate) fn new(transform: &Transform) -> Self {
         let scale = transform.scale.get();
         let turns = Turn::all(&transform.rotate);
@@ -26,21 +26,21 @@ impl Map {
         }
     }
 
-    /// Where a point goes.
+    /// Returns the image of a point.
     pub(crate) fn point(&self, p: DVec3, center: DVec3) -> DVec3 {
         if self.only_moves() {
-            // Without the rounding of p - center + center.
+            // Avoids the rounding error of p - center + center.
             return p + self.shift;
         }
         self.linear * (p - center) + center + self.shift
     }
 
-    /// Where a unit normal goes: zero stays zero. A mirror turns it over, as it does the faces;
-    /// reversing them afterwards turns both back.
+    /// Returns the image of a unit normal; a zero vector stays zero. A mirror negates the normal, because it also turns
+    /// the faces over. Reversing the mesh afterwards negates it again.
     ///
-    /// By the inverse transpose of R S, which is R S^-1 (Turkowski, "Properties of Surface-Normal
-    /// Transformations", 1990). Only the direction counts: the smallest factor that matters
-    /// multiplies S^-1, so that nothing overflows and not everything underflows.
+    /// Normals are transformed by the inverse transpose of R S, which is R S^-1 (Turkowski, "Properties of Surface-Normal
+    /// Transformations", 1990). Only the direction of the result matters, so S^-1 is multiplied by the smallest factor of
+    /// the nonzero coordinates: then no coordinate overflows and not all of them underflow.
     pub(crate) fn normal(&self, n: DVec3) -> DVec3 {
         let zero = n.cmpeq(DVec3::ZERO);
         if zero.all() {
@@ -49,22 +49,22 @@ impl Map {
         let smallest = DVec3::select(zero, DVec3::INFINITY, self.scale.abs()).min_element();
         let smallest = if self.mirrors() { -smallest } else { smallest };
         let inverse = DVec3::select(zero, DVec3::ZERO, smallest / self.scale);
-        let turned = self.turns * (n * inverse);
-        (turned / turned.abs().max_element()).normalize()
+        let image = self.turns * (n * inverse);
+        (image / image.abs().max_element()).normalize()
     }
 
-    /// Whether points are neither scaled nor turned.
+    /// Whether points are neither scaled nor rotated.
     pub(crate) fn only_moves(&self) -> bool {
         self.linear == DMat3::IDENTITY
     }
 
-    /// Whether left and right are exchanged.
+    /// Whether the map reverses orientation.
     pub(crate) fn mirrors(&self) -> bool {
         let DVec3 { x, y, z } = self.scale;
         (x < 0.0) ^ (y < 0.0) ^ (z < 0.0)
     }
 
-    /// The z coordinate of all points of the plane z = 0 afterwards, or `None` if they differ.
+    /// Returns the z coordinate of the image of the plane z = 0, or `None` if it is not constant.
     pub(crate) fn height_of_plane(&self, center: DVec3) -> Option<f64> {
         let level = self.linear.x_axis.z == 0.0 && self.linear.y_axis.z == 0.0;
         level.then(|| self.point(DVec3::new(center.x, center.y, 0.0), center).z)

@@ -22,12 +22,12 @@ fn scene_of(geometry: Geometry) -> Scene {
 }
 
 #[test]
-fn nothing_to_do_changes_nothing() {
+fn the_default_transform_changes_nothing() {
     assert_eq!(applied("()", shapes::cube()), shapes::cube());
 }
 
 #[test]
-fn points_are_scaled_then_turned_then_moved() {
+fn points_are_scaled_then_rotated_then_moved() {
     let text = "(scale: (2, 1, 1), rotate: [(axis: Z, angle: 90)], move: (3, 1, 0))";
     let mesh = applied(text, shapes::square());
     let at = |x, y| DVec3::new(x, y, 0.0);
@@ -38,15 +38,15 @@ fn points_are_scaled_then_turned_then_moved() {
 }
 
 #[test]
-fn turns_are_done_in_order() {
+fn rotations_are_applied_in_order() {
     let text = "(rotate: [(axis: Z, angle: 90), (axis: X, angle: 90)])";
     let mesh = applied(text, shapes::square());
-    // x goes to y and on to z.
+    // The first rotation maps x to y, and the second maps y to z.
     assert_eq!(mesh.positions()[1], DVec3::Z);
 }
 
 #[test]
-fn four_quarter_turns_are_none() {
+fn four_quarter_turns_change_nothing() {
     for axis in ["X", "Y", "Z"] {
         let mut mesh = shapes::cube();
         for _ in 0..4 {
@@ -57,7 +57,7 @@ fn four_quarter_turns_are_none() {
 }
 
 #[test]
-fn a_turn_changes_no_area_and_no_volume() {
+fn a_rotation_keeps_area_and_volume() {
     let torus = shapes::torus(7, 5, 2.0, 0.5);
     let text = "(rotate: [(axis: X, angle: 33), (axis: Y, angle: -71.5)], about: Point(4, 5, 6))";
     let mesh = applied(text, torus.clone());
@@ -66,7 +66,7 @@ fn a_turn_changes_no_area_and_no_volume() {
 }
 
 #[test]
-fn scaling_multiplies_the_volume_whatever_the_signs() {
+fn scaling_multiplies_the_volume_for_all_signs() {
     for signs in 0..8 {
         let sign = |bit: i32| if signs & bit == 0 { 1 } else { -1 };
         let (x, y, z) = (2 * sign(1), 3 * sign(2), sign(4));
@@ -81,7 +81,7 @@ fn scaling_multiplies_the_volume_whatever_the_signs() {
 }
 
 #[test]
-fn two_mirrors_are_none() {
+fn two_mirrors_change_nothing() {
     let mesh = shapes::grid(3, 2);
     let once = applied("(scale: (-1, 1, 1))", mesh.clone());
     assert_ne!(once, mesh);
@@ -89,7 +89,7 @@ fn two_mirrors_are_none() {
 }
 
 #[test]
-fn the_center_of_each_object_stays() {
+fn the_center_of_each_object_is_fixed() {
     let far = applied("(move: (100, 200, 300))", shapes::cube());
     let text = "(scale: (2, 2, 2), rotate: [(axis: Y, angle: 90)], about: Center)";
     let [min, max] = geometry::bounds(&applied(text, far)).unwrap();
@@ -103,7 +103,7 @@ fn the_center_of_each_object_stays() {
 }
 
 #[test]
-fn the_point_about_stays() {
+fn the_point_of_about_is_fixed() {
     let text = "(scale: (3, -3, 5), rotate: [(axis: Z, angle: 90)], about: Point(1, 1, 0))";
     assert_eq!(
         applied(text, shapes::square()).positions()[2],
@@ -112,7 +112,7 @@ fn the_point_about_stays() {
 }
 
 #[test]
-fn normals_stay_normal_to_their_faces() {
+fn normals_stay_perpendicular_to_their_faces() {
     for scale in ["(1, 1, 1)", "(4, 0.5, 1)", "(-4, 0.5, 1)", "(-1, -2, -3)"] {
         let mut mesh = shapes::icosahedron();
         let corners = mesh
@@ -138,7 +138,7 @@ fn normals_stay_normal_to_their_faces() {
 }
 
 #[test]
-fn normals_survive_extreme_factors() {
+fn normals_are_correct_for_extreme_factors() {
     let mut mesh = shapes::square();
     mesh.set(VERTEX_NORMAL, vec![DVec3::Z; 4]);
     let mesh = applied("(scale: (1e-300, 1, 1e300))", mesh);
@@ -146,7 +146,7 @@ fn normals_survive_extreme_factors() {
 }
 
 #[test]
-fn a_mirrored_patch_keeps_its_outer_side() {
+fn a_mirrored_patch_keeps_its_orientation() {
     let points =
         [0, 1, 2, 3].map(|r| [0, 1, 2, 3].map(|c| DVec3::new(f64::from(c), f64::from(r), 0.0)));
     let mut scene = scene_of(Geometry::Patches(vec![Patch::new(points).unwrap()]));
@@ -170,7 +170,7 @@ fn curve() -> Geometry {
 }
 
 #[test]
-fn a_curve_turns_and_moves_in_its_plane() {
+fn a_curve_rotates_and_moves_in_its_plane() {
     let mut scene = scene_of(curve());
     op::test::run(
         &step("(rotate: [(axis: Z, angle: 90)], move: (1, 0, 0))"),
@@ -186,12 +186,12 @@ fn a_curve_turns_and_moves_in_its_plane() {
         scene.objects()[0].geometry,
         Geometry::Curve(Curve::new(points).unwrap())
     );
-    // A half turn around x stays in the plane too.
+    // A half turn around x also keeps the curve in the plane.
     assert!(op::test::run(&step("(rotate: [(axis: X, angle: 180)])"), &mut scene).is_ok());
 }
 
 #[test]
-fn a_curve_does_not_leave_its_plane() {
+fn a_curve_must_not_leave_its_plane() {
     let files = op::Files::default();
     let cx = PlanContext {
         files: &files,
@@ -231,7 +231,7 @@ fn polylines_move() {
 }
 
 #[test]
-fn only_the_objects_of_on_change() {
+fn only_objects_named_in_on_change() {
     let mut scene = scene_of(Geometry::Mesh(Arc::new(shapes::cube())));
     scene.insert(Object::mesh("b", shapes::cube())).unwrap();
     let files = op::Files::default();

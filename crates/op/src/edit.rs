@@ -18,7 +18,7 @@ pub enum OnRefusal {
 }
 
 impl OnRefusal {
-    /// Returns how many of the `selected` elements are edited: all, or at most all if refusals are skipped.
+    /// Returns how many of the `selected` elements are edited: all of them, or from 0 to all if refusals are skipped.
     #[must_use]
     pub fn done(self, selected: Range) -> Range {
         match self {

@@ -148,10 +148,11 @@ impl OpError {
         }
     }
 
-    /// The error for a coordinate that would not be finite, with the operation and the parameters that it comes from.
+    /// Creates the error for a coordinate that is not finite. The message names the operation and the parameters that
+    /// cause it.
     pub fn overflow(operation: &str, parameters: &str) -> Self {
         Self::Parameter(format!(
-            "{operation}: {parameters} give a coordinate beyond the largest number, 1.8e308"
+            "{operation}: {parameters} give a coordinate that exceeds the largest number, 1.8e308"
         ))
     }
 

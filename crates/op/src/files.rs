@@ -4,8 +4,8 @@
 //! folder: a path that leads out of it is refused.
 //!
 //! All uses of files are logged, so that the step cache knows the dependencies of a step. An operation that
-//! reads files reports each of them with [`Files::has_read`]. If an operation requests a path and reports no
-//! file, its dependencies are unknown, and the step is never taken from the cache.
+//! reads files reports each of them with [`Files::has_read`]. If an operation requests a path but does not
+//! report that it read the file, the dependencies of the step are unknown, and the step is never cached.
 
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -118,7 +118,7 @@ impl Files {
         full
     }
 
-    /// Logs that a file was read: a path that [`to_read`](Self::to_read) returned, or a file that such a file
+    /// Logs that a file was read: a path that [`to_read`](Self::to_read) returned, or a file that one of these files
     /// refers to. A step can be cached if it calls this for every requested path. Its result must then not
     /// depend on the contents of other files.
     pub fn has_read(&self, path: impl Into<PathBuf>) {

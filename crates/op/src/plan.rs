@@ -23,17 +23,17 @@ impl Range {
         max: u64::MAX,
     };
 
-    /// Exactly this number.
+    /// Creates the range that contains only `n`.
     pub const fn exactly(n: u64) -> Self {
         Self { min: n, max: n }
     }
 
-    /// From 0 to this number.
+    /// Creates the range from 0 to `max`.
     pub const fn at_most(max: u64) -> Self {
         Self { min: 0, max }
     }
 
-    /// From `min` to `max`.
+    /// Creates the range from `min` to `max`.
     pub const fn between(min: u64, max: u64) -> Self {
         Self { min, max }
     }
@@ -404,7 +404,7 @@ impl Plan {
         };
         let mut problems = Vec::from_iter(check(&full));
         if self.outputs.contains(&full) {
-            let message = format!("an earlier step already writes \"{path}\"");
+            let message = format!("an earlier step writes \"{path}\" too");
             problems.push(Problem::error(message).at(["path"]));
         }
         self.outputs.push(full);

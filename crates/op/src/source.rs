@@ -35,7 +35,7 @@ pub struct Source<'a> {
     name: &'a str,
     counts: MeshPlan,
     scale: DVec3,
-    /// The operation and the parameters that `scale` comes from, for errors.
+    /// The operation and the parameters that determine `scale`, for error messages.
     origin: [&'static str; 2],
     center: DVec3,
     problems: Vec<Problem>,
@@ -63,8 +63,8 @@ impl<'a> Source<'a> {
     }
 
     /// Multiplies the coordinates by a factor above 0 for each axis, and then moves the mesh from the origin to
-    /// `center`, the parameter of that name. Errors
-    /// name the operation and the parameters that the factors come from.
+    /// `center`, the parameter of that name. Error messages name the operation and the parameters that determine
+    /// the factors.
     #[must_use]
     pub fn placed(
         mut self,
@@ -240,7 +240,7 @@ mod tests {
         let made = insert(source, &mut Scene::new(), u64::MAX);
         assert_eq!(
             made.unwrap_err().to_string(),
-            "Square: size and center give a coordinate beyond the largest number, 1.8e308"
+            "Square: size and center give a coordinate that exceeds the largest number, 1.8e308"
         );
     }
 }

@@ -60,7 +60,7 @@ impl MeshOperation for Crease {
             return Err(OpError::Parameter(NO_SELECTION.to_owned()));
         }
         cx.advance("crease", 0, 1)?;
-        // Both selections are evaluated before the first change, because tags and values can change.
+        // Both selections are evaluated before the first change.
         let edges = self.edges.as_ref();
         let edges = edges.map(|s| s.resolve(mesh, cx)).transpose()?;
         let vertices = self.vertices.as_ref();

@@ -54,7 +54,7 @@ impl Torus {
         );
         let reach = self.major.get() + self.minor.get();
         if !reach.is_finite() {
-            let message = "major + minor is beyond the largest number, 1.8e308";
+            let message = "`major` + `minor` exceeds the largest number, 1.8e308";
             return source.with(Problem::error(message).at(["major"]));
         }
         if self.minor.get() < self.major.get() {
@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn a_torus_beyond_the_largest_number_is_refused() {
+    fn a_torus_whose_coordinates_overflow_is_an_error() {
         let text = r#"(name: "a", around: 5, across: 4, major: 1e308, minor: 1e308)"#;
         let step: Torus = op::test::read(text).unwrap();
         let problems = step.source().plan(&mut Plan::default());

@@ -229,7 +229,7 @@ impl<S: Select> Shared<'_, S> {
             }
             Self::Nearest { to, count, of } => {
                 lowest::<S, f64>(mesh, count, &of.mask(mesh, cx)?, |id| {
-                    middle::<S>(mesh, id).distance_squared(to.into())
+                    center::<S>(mesh, id).distance_squared(to.into())
                 })
             }
             Self::Expect { count, of } => {
@@ -326,7 +326,7 @@ fn grow<S: Select>(mesh: &Mesh, mask: &[bool]) -> Vec<bool> {
 }
 
 /// Returns the mean position of the vertices of an element.
-fn middle<S: Select>(mesh: &Mesh, id: S::Id) -> DVec3 {
+fn center<S: Select>(mesh: &Mesh, id: S::Id) -> DVec3 {
     let (mut sum, mut n) = (DVec3::ZERO, 0.0);
     for v in S::vertices(mesh, id) {
         sum += mesh.position(v);

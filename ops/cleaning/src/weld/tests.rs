@@ -264,7 +264,7 @@ fn a_face_that_visits_a_vertex_twice_is_removed() {
     let (welded, report) = try_applied(&weld(0.01), flat(&points, &[&[0, 1, 2, 3, 4, 5]])).unwrap();
     assert_eq!((welded.n_faces(), welded.n_vertices()), (0, 5));
     assert!(
-        report.notes[1].contains("1 face left out"),
+        report.notes[1].contains("1 face dropped"),
         "{:?}",
         report.notes
     );

@@ -19,7 +19,7 @@ const MAX_EDGES: u64 = (u32::MAX as u64 - 1) / 4;
 /// use op::{MeshPlan, Plan, Range, Source, Vector};
 ///
 /// let counts = MeshPlan::counted(4, 6, 4, Range::exactly(3));
-/// let source = || Source::new("tetra", counts.clone()).placed("Shape", "radius", [2.0; 3], Vector::literal(0.0, 0.0, 1.0));
+/// let source = || Source::new("Shape", Some("tetra"), counts.clone()).placed("radius", [2.0; 3], Vector::literal(0.0, 0.0, 1.0));
 ///
 /// let mut plan = Plan::default();
 /// assert_eq!(source().plan(&mut plan), []);
@@ -32,23 +32,26 @@ const MAX_EDGES: u64 = (u32::MAX as u64 - 1) / 4;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Source<'a> {
-    name: &'a str,
+    operation: &'static str,
+    name: Option<&'a str>,
     counts: MeshPlan,
     scale: DVec3,
-    /// The operation and the parameters that determine `scale`, for error messages.
-    origin: [&'static str; 2],
+    /// The parameters that determine `scale`, for error messages.
+    scale_parameters: &'static str,
     center: DVec3,
     problems: Vec<Problem>,
 }
 
 impl<'a> Source<'a> {
-    /// Creates a source for a new object with this name and a mesh with these counts.
-    pub fn new(name: &'a str, counts: MeshPlan) -> Self {
+    /// Creates a source for a new object and a mesh with these counts. If `name` is omitted, the object gets the name
+    /// of the operation in lower case, followed by `.2`, `.3` and so on if that name is taken.
+    pub fn new(operation: &'static str, name: Option<&'a str>, counts: MeshPlan) -> Self {
         let source = Self {
+            operation,
             name,
             counts,
             scale: DVec3::ONE,
-            origin: ["Source", "scale"],
+            scale_parameters: "scale",
             center: DVec3::ZERO,
             problems: Vec::new(),
         };
@@ -63,17 +66,10 @@ impl<'a> Source<'a> {
     }
 
     /// Multiplies the coordinates by a factor above 0 for each axis, and then moves the mesh from the origin to
-    /// `center`, the parameter of that name. Error messages name the operation and the parameters that determine
-    /// the factors.
+    /// `center`, the parameter of that name. Error messages name the parameters that determine the factors.
     #[must_use]
-    pub fn placed(
-        mut self,
-        operation: &'static str,
-        parameters: &'static str,
-        scale: [f64; 3],
-        center: Vector,
-    ) -> Self {
-        self.origin = [operation, parameters];
+    pub fn placed(mut self, parameters: &'static str, scale: [f64; 3], center: Vector) -> Self {
+        self.scale_parameters = parameters;
         self.scale = scale.into();
         self.center = center.get();
         self
@@ -88,8 +84,9 @@ impl<'a> Source<'a> {
 
     /// Adds the object to a plan and returns all problems.
     pub fn plan(self, plan: &mut Plan) -> Vec<Problem> {
+        let name = self.free_name(|name| plan.object(name).is_none());
         let mut problems = self.problems;
-        problems.extend(plan.insert(self.name, PlannedGeometry::Mesh(self.counts)));
+        problems.extend(plan.insert(&name, PlannedGeometry::Mesh(self.counts)));
         problems
     }
 
@@ -107,6 +104,7 @@ impl<'a> Source<'a> {
         make: impl FnOnce() -> Mesh,
     ) -> Result<Report, OpError> {
         let edges = self.counts.edges.min;
+        let name = self.free_name(|name| scene.object(name).is_none());
         if let Some(problem) = self.problems.into_iter().find(|p| !p.is_warning) {
             let path = problem.path.join(".");
             return Err(match path.as_str() {
@@ -115,7 +113,7 @@ impl<'a> Source<'a> {
                 _ => OpError::Parameter(format!("{path}: {}", problem.message)),
             });
         }
-        check_name(scene, self.name)?;
+        check_name(scene, &name)?;
         let bytes = self.counts.bytes().min;
         if bytes > cx.budget {
             let message = format!(
@@ -130,18 +128,26 @@ impl<'a> Source<'a> {
             *p = *p * self.scale + self.center;
         }
         if mesh.positions().iter().any(|p| !p.is_finite()) {
-            let [operation, parameters] = self.origin;
-            return Err(OpError::overflow(
-                operation,
-                &format!("{parameters} and center"),
-            ));
+            let parameters = format!("{} and center", self.scale_parameters);
+            return Err(OpError::overflow(self.operation, &parameters));
         }
         let report = Report::changed(mesh.n_faces());
         cx.advance("make", 1, 1)?;
         scene
-            .insert(Object::mesh(self.name, mesh))
+            .insert(Object::mesh(name, mesh))
             .expect("the name is free");
         Ok(report)
+    }
+
+    /// Returns the given name, or the first default name that is free.
+    fn free_name(&self, is_free: impl Fn(&str) -> bool) -> String {
+        if let Some(name) = self.name {
+            return name.to_owned();
+        }
+        let name = self.operation.to_lowercase();
+        let numbered = (2..).map(|n| format!("{name}.{n}"));
+        let mut names = std::iter::once(name.clone()).chain(numbered);
+        names.find(|name| is_free(name)).unwrap_or(name)
     }
 }
 
@@ -190,12 +196,27 @@ mod tests {
     #[test]
     fn a_taken_name_is_refused_in_plan_and_scene() {
         let mut plan = Plan::default();
-        assert_eq!(Source::new("a", square()).plan(&mut plan), []);
-        assert_eq!(Source::new("a", square()).plan(&mut plan)[0].path, ["name"]);
+        assert_eq!(
+            Source::new("Shape", Some("a"), square()).plan(&mut plan),
+            []
+        );
+        assert_eq!(
+            Source::new("Shape", Some("a"), square()).plan(&mut plan)[0].path,
+            ["name"]
+        );
 
         let mut scene = Scene::new();
-        insert(Source::new("a", square()), &mut scene, u64::MAX).unwrap();
-        let second = insert(Source::new("a", square()), &mut scene, u64::MAX);
+        insert(
+            Source::new("Shape", Some("a"), square()),
+            &mut scene,
+            u64::MAX,
+        )
+        .unwrap();
+        let second = insert(
+            Source::new("Shape", Some("a"), square()),
+            &mut scene,
+            u64::MAX,
+        );
         assert!(matches!(second, Err(OpError::Object(_))));
         assert_eq!(scene.objects().len(), 1);
     }
@@ -206,20 +227,27 @@ mod tests {
         let files = Files::default();
         let mut cx = Context::new(&NoProgress, &files);
         let huge = MeshPlan::counted(1, MAX_EDGES + 1, 1, Range::exactly(4));
-        let made = Source::new("a", huge).insert(&mut scene, &cx, || unreachable!());
+        let made = Source::new("Shape", Some("a"), huge).insert(&mut scene, &cx, || unreachable!());
         assert!(matches!(made, Err(OpError::Budget(_))));
 
         cx.budget = square().bytes().min - 1;
-        let made = Source::new("a", square()).insert(&mut scene, &cx, || unreachable!());
+        let made =
+            Source::new("Shape", Some("a"), square()).insert(&mut scene, &cx, || unreachable!());
         assert!(matches!(made, Err(OpError::Budget(_))));
-        assert!(insert(Source::new("a", square()), &mut scene, square().bytes().min).is_ok());
+        assert!(
+            insert(
+                Source::new("Shape", Some("a"), square()),
+                &mut scene,
+                square().bytes().min
+            )
+            .is_ok()
+        );
     }
 
     #[test]
     fn the_mesh_is_scaled_and_then_moved() {
         let mut scene = Scene::new();
-        let source = Source::new("a", square()).placed(
-            "Square",
+        let source = Source::new("Shape", Some("a"), square()).placed(
             "size",
             [2.0, 3.0, 1.0],
             Vector::literal(1.0, 0.0, 5.0),
@@ -231,8 +259,7 @@ mod tests {
 
     #[test]
     fn coordinates_that_overflow_are_refused() {
-        let source = Source::new("a", square()).placed(
-            "Square",
+        let source = Source::new("Shape", Some("a"), square()).placed(
             "size",
             [f64::MAX; 3],
             Vector::literal(f64::MAX, 0.0, 0.0),
@@ -240,7 +267,7 @@ mod tests {
         let made = insert(source, &mut Scene::new(), u64::MAX);
         assert_eq!(
             made.unwrap_err().to_string(),
-            "Square: size and center give a coordinate that exceeds the largest number, 1.8e308"
+            "Shape: size and center give a coordinate that exceeds the largest number, 1.8e308"
         );
     }
 }

@@ -25,8 +25,9 @@ use op::prelude::*;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cube {
-    /// The name of the new object.
-    pub name: String,
+    /// The name of the new object. Defaults to the name of the operation in lower case, numbered if it is taken.
+    #[serde(default)]
+    pub name: Option<String>,
     /// The length of the edges, in scene units. More than 0.
     #[serde(default = "crate::two")]
     pub size: PositiveLength,
@@ -46,8 +47,7 @@ impl Cube {
         } else {
             MeshPlan::counted(8, 12, 6, Range::exactly(4))
         };
-        Source::new(&self.name, counts).placed(
-            Self::NAME,
+        Source::new(Self::NAME, self.name.as_deref(), counts).placed(
             "size",
             [self.size.get() / 2.0; 3],
             self.center,

@@ -20,9 +20,11 @@ use op::prelude::*;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cylinder {
-    /// The name of the new object.
-    pub name: String,
-    /// The number of sides. At least 3.
+    /// The name of the new object. Defaults to the name of the operation in lower case, numbered if it is taken.
+    #[serde(default)]
+    pub name: Option<String>,
+    /// The number of sides. At least 3. Defaults to 32.
+    #[serde(default = "crate::thirty_two")]
     pub around: Count<3>,
     /// The distance from the axis to the vertical edges, in scene units. More than 0.
     #[serde(default = "crate::one")]
@@ -48,8 +50,7 @@ impl Cylinder {
         };
         let counts = MeshPlan::counted(2 * n, 3 * n, n + caps, degrees);
         let (radius, height) = (self.radius.get(), self.height.get());
-        Source::new(&self.name, counts).placed(
-            Self::NAME,
+        Source::new(Self::NAME, self.name.as_deref(), counts).placed(
             "radius, height",
             [radius, radius, height / 2.0],
             self.center,

@@ -18,11 +18,14 @@ use op::prelude::*;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Grid {
-    /// The name of the new object.
-    pub name: String,
-    /// The number of squares along x. At least 1.
+    /// The name of the new object. Defaults to the name of the operation in lower case, numbered if it is taken.
+    #[serde(default)]
+    pub name: Option<String>,
+    /// The number of squares along x. At least 1. Defaults to 10.
+    #[serde(default = "crate::ten")]
     pub columns: Count<1>,
-    /// The number of squares along y. At least 1.
+    /// The number of squares along y. At least 1. Defaults to 10.
+    #[serde(default = "crate::ten")]
     pub rows: Count<1>,
     /// The side length of a square, in scene units. More than 0.
     #[serde(default = "crate::one")]
@@ -41,8 +44,7 @@ impl Grid {
             .saturating_add((columns + 1).saturating_mul(rows));
         let faces = columns.saturating_mul(rows);
         let counts = MeshPlan::counted(vertices, edges, faces, Range::exactly(4));
-        Source::new(&self.name, counts).placed(
-            Self::NAME,
+        Source::new(Self::NAME, self.name.as_deref(), counts).placed(
             "size",
             [self.size.get(); 3],
             self.center,

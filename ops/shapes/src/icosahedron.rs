@@ -16,8 +16,9 @@ use op::prelude::*;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Icosahedron {
-    /// The name of the new object.
-    pub name: String,
+    /// The name of the new object. Defaults to the name of the operation in lower case, numbered if it is taken.
+    #[serde(default)]
+    pub name: Option<String>,
     /// The distance from the center to the vertices, in scene units. More than 0.
     #[serde(default = "crate::one")]
     pub radius: PositiveLength,
@@ -29,8 +30,7 @@ pub struct Icosahedron {
 impl Icosahedron {
     fn source(&self) -> Source<'_> {
         let counts = MeshPlan::counted(12, 30, 20, Range::exactly(3));
-        Source::new(&self.name, counts).placed(
-            Self::NAME,
+        Source::new(Self::NAME, self.name.as_deref(), counts).placed(
             "radius",
             [self.radius.get(); 3],
             self.center,

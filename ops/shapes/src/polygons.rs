@@ -22,8 +22,9 @@ use op::prelude::*;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Polygons {
-    /// The name of the new object.
-    pub name: String,
+    /// The name of the new object. Defaults to the name of the operation in lower case, numbered if it is taken.
+    #[serde(default)]
+    pub name: Option<String>,
     /// The points: `(x, y, z)`, in scene units. Points that no face uses become isolated vertices.
     pub points: Vec<Vector>,
     /// The faces. Each is a list of the numbers of its points, counted from 0, counter-clockwise seen from outside. A face
@@ -70,11 +71,12 @@ impl Polygons {
     fn source(&self) -> (Source<'_>, Mesh, BuildReport) {
         match self.build() {
             Ok((mesh, changes)) => {
-                let source = Source::new(&self.name, MeshPlan::of(&mesh));
+                let source = Source::new(Self::NAME, self.name.as_deref(), MeshPlan::of(&mesh));
                 (source, mesh, changes)
             }
             Err(problem) => {
-                let source = Source::new(&self.name, MeshPlan::unknown()).with(problem);
+                let source = Source::new(Self::NAME, self.name.as_deref(), MeshPlan::unknown())
+                    .with(problem);
                 (source, Mesh::default(), BuildReport::default())
             }
         }

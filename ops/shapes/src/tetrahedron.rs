@@ -20,8 +20,9 @@ use op::prelude::*;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tetrahedron {
-    /// The name of the new object.
-    pub name: String,
+    /// The name of the new object. Defaults to the name of the operation in lower case, numbered if it is taken.
+    #[serde(default)]
+    pub name: Option<String>,
     /// The distance from the center to the vertices, in scene units. More than 0.
     #[serde(default = "crate::one")]
     pub radius: PositiveLength,
@@ -33,8 +34,7 @@ pub struct Tetrahedron {
 impl Tetrahedron {
     fn source(&self) -> Source<'_> {
         let counts = MeshPlan::counted(4, 6, 4, Range::exactly(3));
-        Source::new(&self.name, counts).placed(
-            Self::NAME,
+        Source::new(Self::NAME, self.name.as_deref(), counts).placed(
             "radius",
             [self.radius.get() / 3.0_f64.sqrt(); 3],
             self.center,

@@ -20,11 +20,14 @@ use op::prelude::*;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Torus {
-    /// The name of the new object.
-    pub name: String,
-    /// The number of faces around the z axis. At least 3.
+    /// The name of the new object. Defaults to the name of the operation in lower case, numbered if it is taken.
+    #[serde(default)]
+    pub name: Option<String>,
+    /// The number of faces around the z axis. At least 3. Defaults to 32.
+    #[serde(default = "crate::thirty_two")]
     pub around: Count<3>,
-    /// The number of faces around the tube. At least 3.
+    /// The number of faces around the tube. At least 3. Defaults to 16.
+    #[serde(default = "sixteen")]
     pub across: Count<3>,
     /// The distance from the z axis to the center of the tube, in scene units. More than 0.
     #[serde(default = "crate::one")]
@@ -41,13 +44,16 @@ const fn quarter() -> PositiveLength {
     PositiveLength::literal(0.25)
 }
 
+const fn sixteen() -> Count<3> {
+    Count::literal(16)
+}
+
 impl Torus {
     fn source(&self) -> Source<'_> {
         let faces = u64::from(self.around.get()).saturating_mul(u64::from(self.across.get()));
         let edges = faces.saturating_mul(2);
         let counts = MeshPlan::counted(faces, edges, faces, Range::exactly(4));
-        let source = Source::new(&self.name, counts).placed(
-            Self::NAME,
+        let source = Source::new(Self::NAME, self.name.as_deref(), counts).placed(
             "major, minor",
             [1.0; 3],
             self.center,

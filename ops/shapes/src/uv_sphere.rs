@@ -20,11 +20,14 @@ use op::prelude::*;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct UvSphere {
-    /// The name of the new object.
-    pub name: String,
-    /// The number of meridians. At least 3.
+    /// The name of the new object. Defaults to the name of the operation in lower case, numbered if it is taken.
+    #[serde(default)]
+    pub name: Option<String>,
+    /// The number of meridians. At least 3. Defaults to 32.
+    #[serde(default = "crate::thirty_two")]
     pub around: Count<3>,
-    /// The number of bands of faces from pole to pole. At least 2.
+    /// The number of bands of faces from pole to pole. At least 2. Defaults to 16.
+    #[serde(default = "sixteen")]
     pub rings: Count<2>,
     /// The distance from the center to the vertices, in scene units. More than 0.
     #[serde(default = "crate::one")]
@@ -32,6 +35,10 @@ pub struct UvSphere {
     /// The center of the sphere, in scene units.
     #[serde(default)]
     pub center: Vector,
+}
+
+const fn sixteen() -> Count<2> {
+    Count::literal(16)
 }
 
 impl UvSphere {
@@ -44,8 +51,7 @@ impl UvSphere {
         let edges = on_circles.saturating_add(faces);
         let degrees = Range::between(3, if rings > 2 { 4 } else { 3 });
         let counts = MeshPlan::counted(on_circles.saturating_add(2), edges, faces, degrees);
-        Source::new(&self.name, counts).placed(
-            Self::NAME,
+        Source::new(Self::NAME, self.name.as_deref(), counts).placed(
             "radius",
             [self.radius.get(); 3],
             self.center,

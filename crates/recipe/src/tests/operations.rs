@@ -30,7 +30,7 @@ impl Sheet {
     fn source(&self) -> Source<'_> {
         let n = u64::from(self.columns);
         let counts = MeshPlan::counted(2 * n + 2, 3 * n + 1, n, op::Range::exactly(4));
-        Source::new(&self.name, counts)
+        Source::new(Self::NAME, Some(&self.name), counts)
     }
 }
 

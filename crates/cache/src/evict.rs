@@ -106,7 +106,8 @@ fn sizes(folder: &Folder) -> PathBuf {
     folder.root().join("sizes")
 }
 
-/// Keeps the cache below its limit, if something was stored since the last call. Ignores errors; the next run tries again.
+/// Keeps the cache below its limit, if something was stored since the last call. Ignores errors; the next run tries
+/// again.
 pub(crate) fn after_run(folder: &Folder, limit: u64) {
     let added = folder.take_written();
     if added > 0 {

@@ -131,9 +131,9 @@ impl Folder {
         self.root.join("key")
     }
 
-    /// Returns the key of this cache: random bytes that only the user can read and that enter the digest of every record.
-    /// So a record that someone without the key has edited is rejected, even if its digest was computed again. The key is
-    /// read each time, because another process may have cleared the folder.
+    /// Returns the key of this cache: random bytes that only the user can read and that enter the digest of every
+    /// record. So a record that someone without the key has edited is rejected, even if its digest was computed again.
+    /// The key is read each time, because another process may have cleared the folder.
     pub(crate) fn key(&self) -> Result<Hash, Unusable> {
         let path = self.key_file();
         let key = Self::read(&path, size_of::<Hash>() as u64).and_then(|key| {

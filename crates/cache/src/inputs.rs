@@ -51,8 +51,8 @@ impl Inputs {
 #[derive(Debug)]
 pub(crate) struct FileChecker {
     run_start: SystemTime,
-    /// The digests of the files that were read. `None` if the path is not a regular file; an error if the file cannot be
-    /// read.
+    /// The digests of the files that were read. `None` if the path is not a regular file; an error if the file cannot
+    /// be read.
     known: BTreeMap<PathBuf, Result<Option<Hash>, String>>,
 }
 

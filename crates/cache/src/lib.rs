@@ -10,15 +10,15 @@
 //! ```
 //!
 //! **Keys.** The key of a step is the digest of everything that determines its result before it runs: the program, the
-//! operation with its version and parameters, the objects in `on`, the name that seeds random choices, the memory budget,
-//! and the state before the step. The state after a step is the digest of its key and of the contents of the files that
-//! it read. These files are known only after the step has run; their contents are compared again before a cached result
-//! is used. Modification times are not trusted.
+//! operation with its version and parameters, the objects in `on`, the name that seeds random choices, the memory
+//! budget, and the state before the step. The state after a step is the digest of its key and of the contents of the
+//! files that it read. These files are known only after the step has run; their contents are compared again before a
+//! cached result is used. Modification times are not trusted.
 //!
-//! **Integrity.** Only regular files are read, never links, and never more bytes than were stored. Every blob must match
-//! the digest in its name, and every record its digest, which depends on the secret key of the cache. Only the user can
-//! read that key, so an edited record is rejected even if its digest was computed again. The arrays of a scene are
-//! validated. A damaged file is removed and treated as missing. Files are written under a temporary name and then
+//! **Integrity.** Only regular files are read, never links, and never more bytes than were stored. Every blob must
+//! match the digest in its name, and every record its digest, which depends on the secret key of the cache. Only the
+//! user can read that key, so an edited record is rejected even if its digest was computed again. The arrays of a scene
+//! are validated. A damaged file is removed and treated as missing. Files are written under a temporary name and then
 //! renamed, so that neither concurrent nor killed processes leave incomplete files; no locks are needed. If the folder
 //! cannot be written, this is reported once, and the run continues without storing anything.
 //!
@@ -29,8 +29,8 @@
 //! time includes that of loading their scene. Equal arrays are stored once: a step that changes one attribute adds only
 //! that attribute.
 //!
-//! **Size.** Each run that has stored something adds up the bytes that all runs have added. If the sum exceeds the limit,
-//! all files are listed, and the least recently used ones are removed until nine tenths of the limit remain.
+//! **Size.** Each run that has stored something adds up the bytes that all runs have added. If the sum exceeds the
+//! limit, all files are listed, and the least recently used ones are removed until nine tenths of the limit remain.
 
 mod blob;
 mod evict;

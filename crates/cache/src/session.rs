@@ -303,8 +303,8 @@ impl<'a> Session<'a> {
         Err(first.unwrap_or(RerunReason::Gone))
     }
 
-    /// Checks that the step would have the result in the record if it ran now. If so, restores its output files into the
-    /// stage.
+    /// Checks that the step would have the result in the record if it ran now. If so, restores its output files into
+    /// the stage.
     fn use_record(
         &mut self,
         record: &Record,
@@ -375,8 +375,8 @@ impl<'a> Session<'a> {
         Some(stored)
     }
 
-    /// Stores the output files of a step, if storing them is faster than computing them again. `None` if the step has no
-    /// outputs.
+    /// Stores the output files of a step, if storing them is faster than computing them again. `None` if the step has
+    /// no outputs.
     fn store_outputs(&mut self, files: &Files, done: &CompletedStep) -> Option<Outputs> {
         let requested: Vec<_> = done
             .uses

@@ -57,10 +57,10 @@ pub use recipe::{
 pub use stop::{Stop, UnknownStep};
 pub use store::{Disk, Memory, Store};
 
-/// The memory that meshes may take unless another amount is given, in bytes.
+/// The default memory budget for meshes, in bytes.
 pub const BUDGET: u64 = 8 << 30;
 
-/// Reads and runs recipes. It knows the operations (a registry) and where files are (a store).
+/// Reads and runs recipes, with the operations of a registry and the files of a store.
 #[derive(Debug)]
 pub struct Engine<'r> {
     registry: &'r Registry,
@@ -69,14 +69,14 @@ pub struct Engine<'r> {
     store: Arc<dyn Store>,
 }
 
-/// How a recipe is read and checked.
+/// Options for reading and checking a recipe.
 #[derive(Clone, Copy, Debug)]
 pub struct Options<'a> {
     /// Values for the parameters of the recipe.
     pub values: Values<'a>,
     /// The folder for outputs. Defaults to `out`.
     pub out: &'a Path,
-    /// How many bytes meshes may take. Defaults to [`BUDGET`].
+    /// The memory budget for meshes, in bytes. Defaults to [`BUDGET`].
     pub budget: u64,
 }
 
@@ -91,7 +91,7 @@ impl Default for Options<'_> {
 }
 
 impl<'r> Engine<'r> {
-    /// An engine whose files are on the disk.
+    /// Creates an engine that reads and writes files on disk.
     pub fn new(registry: &'r Registry) -> Self {
         Self {
             registry,
@@ -100,13 +100,13 @@ impl<'r> Engine<'r> {
         }
     }
 
-    /// This engine, but with files in `store`.
+    /// Returns this engine with files in `store` instead.
     #[must_use]
     pub fn with_store(self, store: Arc<dyn Store>) -> Self {
         Self { store, ..self }
     }
 
-    /// The operations that recipes can use.
+    /// Returns the registry of operations that recipes can use.
     pub fn registry(&self) -> &'r Registry {
         self.registry
     }
@@ -120,7 +120,7 @@ impl<'r> Engine<'r> {
         Source::open_in(&*self.store, path)
     }
 
-    /// Reads and checks a recipe. What is wrong with it is among its [`diagnostics`](Loaded::diagnostics).
+    /// Reads and checks a recipe. Errors and warnings are in its [`diagnostics`](Loaded::diagnostics).
     pub fn load(&self, source: &Source, options: &Options) -> Loaded {
         let reading = recipe::read_by(&self.schemas, &*self.store, source, options.values);
         let is_read = !reading.has_errors();

@@ -1,28 +1,29 @@
-//! Failure capsules: a folder with what is needed to see a step fail again.
+//! Failure capsules: folders that contain everything needed to reproduce the failure of a step.
 //!
 //! ```text
-//! capsule/recipe.ron     loads before.mws, then the step that failed and those behind it
+//! capsule/recipe.ron     loads before.mws, then runs the step that failed and the steps after it
 //! capsule/before.mws     the scene before that step, bit for bit
 //! ```
 //!
-//! `recipe.ron` is a recipe like others: parameters are filled in, calls and repetitions are done. Steps keep
-//! their labels, so that random choices are the same, and files are read from where they were.
+//! `recipe.ron` is an ordinary recipe in which parameters are replaced by their values, and calls and repetitions by
+//! their steps. Steps keep their labels, so that random choices are the same. Files are read from their original
+//! places.
 
 use std::path::{Path, PathBuf};
 
 use store::Store;
 
-use crate::params::Move;
+use crate::params::Rebase;
 use crate::read::VERSION;
 use crate::recipe::{Recipe, RecipeStep};
-use crate::source::seen_from;
+use crate::source::rebase_path;
 use ron_tree::{Value, ValueKind, string_literal};
 
-/// The name of the scene in a capsule.
+/// The file name of the scene in a capsule.
 pub const BEFORE: &str = "before.mws";
 
-/// The text of the recipe of a capsule in `folder`: the steps of `recipe` from number `from`, which failed
-/// because of `message`. `inputs` are the files that the recipe reads.
+/// Returns the text of the recipe for a capsule in `folder`: the steps of `recipe` starting at the index `from`, where
+/// that step failed with `message`. `inputs` are the files that the recipe reads.
 pub fn capsule(
     recipe: &Recipe,
     from: usize,
@@ -40,25 +41,25 @@ pub fn capsule(
         string_literal(&about)
     );
     text += "    steps: [\n";
-    // In an empty scene nothing has to be loaded.
+    // Before the first step the scene is empty.
     if from > 0 {
         text += &format!("        Load(path: {}),\n", string_literal(BEFORE));
     }
     for step in &recipe.steps[from.min(recipe.steps.len())..] {
         let source = &recipe.sources[recipe.source_of(step.scope)];
         let mut value = step.value.clone();
-        let folders = Move {
+        let folders = Rebase {
             from: source.folder(),
             to: folder,
             store,
         };
-        lead(&mut value, folders, inputs);
+        rebase_inputs(&mut value, folders, inputs);
         text += &format!("        {},\n", line(step, &value));
     }
     text + "    ],\n)\n"
 }
 
-/// The step as it stands in a recipe.
+/// Returns the text of a step.
 fn line(step: &RecipeStep, value: &Value) -> String {
     let mut fields = Vec::new();
     if step.label != step.name {
@@ -83,13 +84,13 @@ fn line(step: &RecipeStep, value: &Value) -> String {
     format!("({})", fields.join(", "))
 }
 
-/// Leads the paths of files that are read from one folder to another.
-fn lead(value: &mut Value, folders: Move, inputs: &[PathBuf]) {
+/// Rewrites the paths of input files from one folder to another.
+fn rebase_inputs(value: &mut Value, folders: Rebase, inputs: &[PathBuf]) {
     match &mut value.kind {
         ValueKind::String(text) if inputs.contains(&folders.from.join(&**text)) => {
-            let path = seen_from(folders.store, text, folders.from, folders.to);
+            let path = rebase_path(folders.store, text, folders.from, folders.to);
             *text = path.to_string_lossy().into();
         }
-        _ => value.for_each_part(|part| lead(part, folders, inputs)),
+        _ => value.for_each_part(|part| rebase_inputs(part, folders, inputs)),
     }
 }

@@ -1,43 +1,44 @@
-//! The parameters of an operation in words, from its JSON schema.
+//! Describes the parameters of an operation in words, from its JSON schema.
 
 use serde_json::Value as Json;
 
 use crate::shape::Schema;
 
-/// A parameter as its documentation shows it.
+/// The documentation of a parameter.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FieldDoc {
-    /// Its name.
+    /// The name of the parameter.
     pub name: String,
-    /// What kind of value it takes, with its range.
+    /// The kind of value that it takes, with its range.
     pub kind: String,
-    /// The default as RON; `None` if the parameter is required.
+    /// The default as RON. `None` if the parameter is required.
     pub default: Option<String>,
-    /// What it is for.
+    /// The description of the parameter.
     pub doc: String,
-    /// The variants to choose from.
+    /// The variants of its type, if it is an enumeration.
     pub variants: Vec<VariantDoc>,
 }
 
-/// One variant of a choice, such as a selection or an expectation.
+/// The documentation of one variant of an enumeration, such as a selection or an expectation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct VariantDoc {
-    /// Its name.
+    /// The name of the variant.
     pub name: String,
-    /// How it is written: `Sharp(above: ..)`.
+    /// How the variant is written, such as `Sharp(above: ..)`.
     pub written: String,
-    /// What it means.
+    /// The description of the variant.
     pub doc: String,
-    /// Its fields, if they have names.
+    /// Its named fields.
     pub fields: Vec<FieldDoc>,
 }
 
-/// The parameters of an operation, in the order of its struct.
+/// Returns the parameters of an operation, in the order of its struct.
 pub fn fields(schema: &Json) -> Vec<FieldDoc> {
     fields_of(&Schema::root(schema), true)
 }
 
-/// The fields of a schema; with the variants of their types only if it is said, because selections contain selections.
+/// Returns the fields of a schema. The variants of their types are included only if `with_variants` is set: selections
+/// contain selections, so including them at every level would not end.
 fn fields_of(schema: &Schema, with_variants: bool) -> Vec<FieldDoc> {
     let required: Vec<&str> = schema.required().collect();
     let described = |name: &str| {
@@ -59,28 +60,27 @@ fn fields_of(schema: &Schema, with_variants: bool) -> Vec<FieldDoc> {
     schema.fields().filter_map(described).collect()
 }
 
-/// A type that parameters are made of: a choice of variants, or a group of fields.
+/// The documentation of a type of parameters: an enumeration or a struct.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TypeDoc {
-    /// Its name.
+    /// The name of the type.
     pub name: String,
-    /// What it is.
+    /// The description of the type.
     pub doc: String,
-    /// Its fields, if it is written `(a: .., b: ..)`.
+    /// Its fields, if it is a struct, written `(a: .., b: ..)`.
     pub fields: Vec<FieldDoc>,
-    /// Its variants, if it is a choice.
+    /// Its variants, if it is an enumeration.
     pub variants: Vec<VariantDoc>,
 }
 
 impl TypeDoc {
-    /// Whether it is one of the selections, or a region, which only selections name.
+    /// Whether the type is a selection, or a region, which is used only in selections.
     pub fn is_selection(&self) -> bool {
         self.name.ends_with("Selection") || self.name == "Region"
     }
 }
 
-/// The types that the parameters of an operation are made of, in order of their names; not those that
-/// are written as plain numbers.
+/// Returns the structs and enumerations that the parameters of an operation use, sorted by name.
 pub fn types(schema: &Json) -> Vec<TypeDoc> {
     let root = Schema::root(schema);
     let mut types: Vec<TypeDoc> = root
@@ -97,24 +97,24 @@ pub fn types(schema: &Json) -> Vec<TypeDoc> {
     types
 }
 
-/// The reasons that `refused:` can name.
+/// Returns the reasons that `refused:` can name.
 pub fn refusals() -> Vec<VariantDoc> {
     variants(&Schema::root(&crate::schema::of::<op::Refusal>()))
 }
 
-/// What recipes can expect, in the order of the documentation.
+/// Returns all expectations, in the order of the documentation.
 pub fn expectations() -> Vec<VariantDoc> {
     variants(&Schema::root(crate::schema::expectation()))
 }
 
-/// The kinds of selections and the region that some of them name.
+/// Returns the types of selections, and the region that some of them use.
 pub fn selections() -> Vec<TypeDoc> {
     let mut all = types(crate::schema::expectation());
     all.retain(TypeDoc::is_selection);
     all
 }
 
-/// What kind of value is meant: the name of its type, if it has one and is no tuple.
+/// Describes the kind of value: the name of its type if it has one and is not a tuple, or else its form.
 fn kind(schema: &Schema) -> String {
     match schema.reference() {
         Some(name) if schema.list("prefixItems").is_empty() => name.to_owned(),
@@ -122,7 +122,7 @@ fn kind(schema: &Schema) -> String {
     }
 }
 
-/// What kind of value is meant, whatever the name of its type.
+/// Describes the form of a value, without the name of its type.
 fn form(schema: &Schema) -> String {
     let options = schema.list("anyOf");
     if !options.is_empty() {
@@ -153,16 +153,16 @@ fn range(schema: &Schema) -> String {
     let is_number = schema.own("type").is_some_and(|name| name == "number");
     let mut text = String::new();
     for (key, word) in above.into_iter().chain(below) {
-        // The bounds of the type itself say nothing.
-        let says = |bound: &&serde_json::Number| is_number || bound.as_u64() != Some(0);
-        if let Some(bound) = schema.numbers(key).next().filter(says) {
+        // The minimum 0 of an unsigned integer is not worth mentioning.
+        let is_relevant = |bound: &&serde_json::Number| is_number || bound.as_u64() != Some(0);
+        if let Some(bound) = schema.numbers(key).next().filter(is_relevant) {
             text += &format!(" {word} {bound}");
         }
     }
     text
 }
 
-/// The variants of an enumeration.
+/// Returns the variants of an enumeration.
 fn variants(schema: &Schema) -> Vec<VariantDoc> {
     let units = |schema: &Schema, doc: &str| {
         let unit = |name: &str| VariantDoc {
@@ -208,7 +208,7 @@ fn variants(schema: &Schema) -> Vec<VariantDoc> {
     options.iter().flat_map(described).collect()
 }
 
-/// A default as RON, for a value of this schema.
+/// Formats a default value of this schema as RON.
 fn default_of(schema: &Schema, value: &Json) -> String {
     let is_list = schema.child("items").is_some() && schema.tuple().is_none();
     match value {
@@ -220,7 +220,8 @@ fn default_of(schema: &Schema, value: &Json) -> String {
     }
 }
 
-/// A value as RON: objects with one capitalised member are variants, and few numbers are a tuple.
+/// Formats a JSON value as RON. An object whose only key is capitalized is a variant, and an array of 1 to 4 numbers is
+/// a tuple.
 fn to_ron(value: &Json) -> String {
     match value {
         Json::Null => "none".to_owned(),

@@ -1,4 +1,4 @@
-//! Shows diagnostics in the manner of a compiler.
+//! Renders diagnostics like a compiler, with excerpts of the text.
 //!
 //! ```text
 //! error: `levels` is 9, expected at most 5
@@ -19,9 +19,9 @@ use std::fmt::Write as _;
 
 use crate::source::Source;
 
-/// Shows diagnostics with the lines they are about, sorted by place.
+/// Renders diagnostics with the lines that they are about, in the order of the text.
 ///
-/// `sources` are the texts of the recipe. The text holds no colour codes unless `colours`.
+/// `sources` are the texts of the recipe. If `colours` is set, the output contains ANSI color codes.
 pub fn render(sources: &[Source], diagnostics: &[Diagnostic], colours: bool) -> String {
     let mut sorted: Vec<&Diagnostic> = diagnostics.iter().collect();
     sorted.sort_by_key(|d| (d.source, d.span, d.severity));
@@ -63,15 +63,15 @@ pub fn render(sources: &[Source], diagnostics: &[Diagnostic], colours: bool) -> 
                 term::emit_into_string(&config, &texts, &report).ok()
             }
         };
-        // A line that no terminal can show is not shown; its place and message are.
+        // If a line is too long to be shown, only the position and the message are.
         let path = source.path.display().to_string();
         out += &rendered.unwrap_or_else(|| in_short(&path, diagnostic, index, &notes));
     }
     out
 }
 
-/// Longest line, in bytes, that is shown as an excerpt.
-const LONG_LINE: usize = 1000;
+/// The maximum length of a line that is shown, in bytes.
+const MAX_LINE_LEN: usize = 1000;
 
 fn has_long_line(diagnostic: &Diagnostic, lines: &LineIndex) -> bool {
     let places = diagnostic
@@ -80,7 +80,7 @@ fn has_long_line(diagnostic: &Diagnostic, lines: &LineIndex) -> bool {
         .chain(diagnostic.labels.iter().map(|(span, _)| span));
     places.into_iter().any(|span| {
         let (first, last) = (lines.position(span.start).0, lines.position(span.end).0);
-        lines.line(first).len() > LONG_LINE || lines.line(last).len() > LONG_LINE
+        lines.line(first).len() > MAX_LINE_LEN || lines.line(last).len() > MAX_LINE_LEN
     })
 }
 
@@ -115,7 +115,7 @@ fn to_codespan(diagnostic: &Diagnostic, source: &str) -> codespan::Diagnostic<us
         .with_labels(primary.into_iter().chain(others).collect())
 }
 
-/// A text that cannot steer the terminal, every byte of which stands where it was.
+/// Replaces control characters by `?`, so that the text cannot control the terminal. Byte offsets stay the same.
 fn without_control_characters(source: &str) -> Cow<'_, str> {
     let is_control = |c: char| c.is_ascii_control() && !matches!(c, '\n' | '\r' | '\t');
     if source.contains(is_control) {
@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn diagnostics_come_in_the_order_of_their_places() {
+    fn diagnostics_are_in_the_order_of_the_text() {
         let late = Diagnostic::error(Span::new(4, 5), "late");
         let early = Diagnostic::warning(Span::new(0, 1), "early");
 
@@ -168,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn a_problem_in_a_recipe_that_is_called_says_where_from() {
+    fn an_error_in_a_called_recipe_shows_the_call() {
         let sources = [Source::new("a.ron", "x\n  y"), Source::new("b.ron", "z")];
         let problem = Diagnostic {
             source: 1,
@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn a_very_long_line_is_left_out() {
+    fn a_very_long_line_is_not_shown() {
         let source = "x".repeat(1_000_000);
         let problem = Diagnostic::error(Span::new(9, 10), "here").with_help("look");
 
@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn a_text_cannot_steer_the_terminal() {
+    fn control_characters_are_not_printed() {
         let problem = Diagnostic::error(Span::new(0, 1), "bad");
 
         assert!(!render("x.ron", "\u{1b}[2J", &[problem], false).contains('\u{1b}'));

@@ -1,16 +1,16 @@
-//! Many runs at once: jobs on the threads of one pool, within a memory budget.
+//! Runs many jobs in parallel on one thread pool, within a memory budget.
 //!
 //! ```text
-//! jobs in order --admit--> thread 1: job 4     ended, in any order --InOrder--> results in order
+//! jobs in order --admit--> thread 1: job 4     results in any order --InOrder--> results in order
 //!                          thread 2: job 5
 //! ```
 //!
-//! Jobs run on the threads that their own parallel loops use. As long as every thread has a job of its
-//! own, loops find no idle thread and stay where they are, which costs nothing; when jobs run out, the
-//! threads that are free help the last ones. A thread never waits for memory to become free, as it could
-//! not help then: it goes back to the pool, and whoever ends a job calls it again. A thread that waits
-//! inside a job for a part of a loop never takes up another whole job meanwhile, so no job has to wait
-//! for another, and none holds a lock that such a job could want.
+//! Jobs run on the same threads as the parallel loops inside them. While every thread has a job, no thread is idle, so
+//! each loop runs on the thread of its job at no extra cost. When no jobs are left to start, idle threads help with the
+//! loops of the last jobs. A thread never blocks until memory becomes free, because it could not help then: it returns
+//! to the pool, and the thread that next completes a job wakes it again. A thread that waits inside a job for a part of
+//! a loop never starts another job in the meantime. So no job has to wait for another one, and a job cannot deadlock on
+//! a lock that a suspended job on the same thread holds.
 
 use std::any::Any;
 use std::cell::Cell;
@@ -24,25 +24,25 @@ use rayon::{Scope, ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 use crate::check::Forecast;
 
-/// How many jobs run at once, and on what.
+/// Limits for running jobs in parallel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct JobLimits {
-    /// The number of threads; 0 means one for each processor.
+    /// The number of threads. 0 means one for each processor.
     pub threads: usize,
-    /// Most jobs at once, at most one for each thread; 0 means as many as threads.
+    /// The maximum number of jobs that run at the same time, at most one for each thread. 0 means one for each thread.
     pub jobs: usize,
-    /// The bytes that the jobs that run at once may take together.
+    /// The memory budget, in bytes, that all running jobs share.
     pub budget: u64,
 }
 
 /// How a job ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum JobEnd<T> {
-    /// It gave a result.
+    /// The job returned this result.
     Done(T),
-    /// It panicked, with this message.
+    /// The job panicked with this message.
     Panicked(String),
-    /// It was not begun, because all were to stop.
+    /// The job was not started, because of `stop`.
     NotRun,
 }
 
@@ -51,32 +51,31 @@ pub enum JobEnd<T> {
 #[error("cannot start the threads: {0}")]
 pub struct JobsError(#[from] ThreadPoolBuildError);
 
-/// A list of jobs and what to do with each.
+/// A list of jobs. Each job is given by its index.
 #[derive(Clone, Copy, Debug)]
 pub struct Jobs<B, S, W> {
     /// The number of jobs.
     pub count: usize,
-    /// The bytes that a job takes at its peak, as far as known.
+    /// Returns the estimated peak memory of a job, in bytes.
     pub bytes: B,
-    /// Whether no further job is to begin.
+    /// Returns whether no more jobs should start.
     pub stop: S,
-    /// Does a job.
+    /// Runs a job.
     pub work: W,
 }
 
 impl<B, S, W> Jobs<B, S, W> {
-    /// Runs the jobs. `ended` is called on the calling thread with all jobs that ended since its last
-    /// call, in the order in which they ended; every job comes exactly once.
+    /// Runs the jobs. `ended` is called on the calling thread with all jobs that ended since the last call, in the
+    /// order in which they ended. Every job is passed to it exactly once.
     ///
-    /// Jobs begin in their order. One begins when the sum of the bytes of those that run, and its own,
-    /// is within the budget; one that is larger than the budget runs alone. A job that panics ends
-    /// itself and no other.
+    /// Jobs start in their order. A job starts when its bytes and those of the running jobs together are within the
+    /// budget. A job that exceeds the budget by itself runs alone. A panic ends only the job that panicked.
     ///
     /// Must not be called from a thread of a rayon pool, because it blocks.
     ///
     /// # Errors
     ///
-    /// [`JobsError`] if the threads cannot be started; then no job has begun.
+    /// [`JobsError`] if the threads cannot be started. No job has started then.
     pub fn run<T>(
         &self,
         limits: JobLimits,
@@ -90,27 +89,27 @@ impl<B, S, W> Jobs<B, S, W> {
     {
         let pool = pool(limits.threads)?;
         let threads = pool.current_num_threads();
-        let at_once = match limits.jobs {
+        let max_running = match limits.jobs {
             0 => threads,
             jobs => jobs.min(threads),
         };
         let (sender, receiver) = mpsc::channel();
         let runner = Runner {
             jobs: self,
-            at_once,
+            max_running,
             budget: limits.budget,
             state: Mutex::new(State::default()),
             sender,
         };
         pool.in_place_scope(|scope| {
             scope.spawn_broadcast(|scope, _| runner.work(scope, true));
-            hand_out(self.count, &receiver, &mut ended);
+            deliver(self.count, &receiver, &mut ended);
         });
         Ok(())
     }
 }
 
-/// A pool whose threads have the stack that the main thread has by custom.
+/// Returns a pool whose threads have stacks of 8 MiB, the usual stack size of a main thread.
 fn pool(threads: usize) -> Result<ThreadPool, ThreadPoolBuildError> {
     ThreadPoolBuilder::new()
         .num_threads(threads)
@@ -119,39 +118,40 @@ fn pool(threads: usize) -> Result<ThreadPool, ThreadPoolBuildError> {
         .build()
 }
 
-fn hand_out<T>(
+/// Passes the results of all jobs to `ended`.
+fn deliver<T>(
     count: usize,
     receiver: &Receiver<(usize, JobEnd<T>)>,
     ended: &mut impl FnMut(Vec<(usize, JobEnd<T>)>),
 ) {
-    let mut left = count;
-    while left > 0 {
+    let mut remaining = count;
+    while remaining > 0 {
         let Ok(first) = receiver.recv() else { return };
-        let mut together = vec![first];
-        together.extend(receiver.try_iter());
-        left -= together.len();
-        ended(together);
+        let mut results = vec![first];
+        results.extend(receiver.try_iter());
+        remaining -= results.len();
+        ended(results);
     }
 }
 
 thread_local! {
-    /// Whether this thread is at work on a job, perhaps waiting for a part of it.
-    static AT_WORK: Cell<bool> = const { Cell::new(false) };
+    /// Whether this thread runs a job. It may be waiting for a part of the job.
+    static RUNS_JOB: Cell<bool> = const { Cell::new(false) };
 }
 
 #[derive(Default)]
 struct State {
-    /// The next job to begin.
+    /// The next job to start.
     next: usize,
-    /// How many jobs run.
+    /// The number of running jobs.
     running: usize,
-    /// The bytes of those that run.
+    /// The bytes of the running jobs.
     used: u64,
 }
 
 struct Runner<'j, T, B, S, W> {
     jobs: &'j Jobs<B, S, W>,
-    at_once: usize,
+    max_running: usize,
     budget: u64,
     state: Mutex<State>,
     sender: Sender<(usize, JobEnd<T>)>,
@@ -164,32 +164,32 @@ where
     S: Fn() -> bool + Sync,
     W: Fn(usize) -> T + Sync,
 {
-    /// Does jobs as long as there are any that may begin. One of several threads that begin together
-    /// calls no others.
-    fn work<'s>(&'s self, scope: &Scope<'s>, begin_together: bool) {
-        // Taken up while a job on this thread waits for a part of its own: that job would have to wait
-        // for a whole other one.
-        if AT_WORK.get() {
+    /// Runs jobs as long as a job can start. With each job that it starts, wakes another thread if one more job could
+    /// start; but not with its first job if all threads were started together (`is_broadcast`).
+    fn work<'s>(&'s self, scope: &Scope<'s>, is_broadcast: bool) {
+        // This thread already runs a job, which waits for a part of a loop. It would have to wait until a whole other
+        // job has ended.
+        if RUNS_JOB.get() {
             return;
         }
-        let mut calls_others = !begin_together;
-        while let Some(begun) = self.begin() {
-            if calls_others && begun.is_room_for_more {
+        let mut wakes_others = !is_broadcast;
+        while let Some(started) = self.start() {
+            if wakes_others && started.is_room_for_more {
                 scope.spawn(|scope| self.work(scope, false));
             }
-            calls_others = true;
-            AT_WORK.set(true);
-            let end = match catch_unwind(AssertUnwindSafe(|| (self.jobs.work)(begun.job))) {
+            wakes_others = true;
+            RUNS_JOB.set(true);
+            let end = match catch_unwind(AssertUnwindSafe(|| (self.jobs.work)(started.job))) {
                 Ok(result) => JobEnd::Done(result),
                 Err(payload) => JobEnd::Panicked(message(payload.as_ref())),
             };
-            AT_WORK.set(false);
+            RUNS_JOB.set(false);
             let mut state = self.state();
             state.running -= 1;
-            state.used -= begun.bytes;
+            state.used -= started.bytes;
             drop(state);
-            // Nobody receives if the calling thread panicked: then there is nobody to tell.
-            let _ = self.sender.send((begun.job, end));
+            // Fails only if the calling thread has panicked. The result is not needed then.
+            let _ = self.sender.send((started.job, end));
         }
     }
 
@@ -197,8 +197,8 @@ where
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Begins the next job, if it may begin now.
-    fn begin(&self) -> Option<Begun> {
+    /// Starts the next job, if the limits allow it now.
+    fn start(&self) -> Option<StartedJob> {
         let mut state = self.state();
         if (self.jobs.stop)() {
             for i in state.next..self.jobs.count {
@@ -212,17 +212,17 @@ where
         state.running += 1;
         state.used += bytes;
         let is_room_for_more = self.admissible(&state).is_some();
-        Some(Begun {
+        Some(StartedJob {
             job,
             bytes,
             is_room_for_more,
         })
     }
 
-    /// The bytes of the next job, if there is one and it may begin. What is more than the budget counts
-    /// as all of it.
+    /// Returns the bytes of the next job, if there is one and the limits allow it to start. A job that exceeds the
+    /// budget counts as the whole budget.
     fn admissible(&self, state: &State) -> Option<u64> {
-        if state.next >= self.jobs.count || state.running >= self.at_once {
+        if state.next >= self.jobs.count || state.running >= self.max_running {
             return None;
         }
         let bytes = (self.jobs.bytes)(state.next).min(self.budget);
@@ -231,22 +231,22 @@ where
     }
 }
 
-/// A job that began.
-struct Begun {
+/// A job that was started.
+struct StartedJob {
     job: usize,
     bytes: u64,
-    /// Whether another one could begin beside it.
+    /// Whether another job could start in addition.
     is_room_for_more: bool,
 }
 
-/// The message of a panic.
+/// Returns the message of a panic.
 fn message(payload: &(dyn Any + Send)) -> String {
     let text = payload.downcast_ref::<&str>().copied();
     let text = text.or_else(|| payload.downcast_ref::<String>().map(String::as_str));
     text.unwrap_or("it panicked without a message").to_owned()
 }
 
-/// Puts results into the order of their jobs.
+/// Sorts results into the order of their jobs.
 #[derive(Debug)]
 pub struct InOrder<T> {
     next: usize,
@@ -263,12 +263,12 @@ impl<T> Default for InOrder<T> {
 }
 
 impl<T> InOrder<T> {
-    /// Takes the result of a job in.
+    /// Adds the result of a job.
     pub fn put(&mut self, job: usize, result: T) {
         self.waiting.insert(job, result);
     }
 
-    /// The next result in the order of the jobs with its job, if it is there.
+    /// Returns the next job in order with its result, if the result has been added.
     pub fn take(&mut self) -> Option<(usize, T)> {
         let result = self.waiting.remove(&self.next)?;
         self.next += 1;
@@ -276,13 +276,13 @@ impl<T> InOrder<T> {
     }
 }
 
-/// How many times the bytes of its input files a run takes that says nothing of its memory: the file
-/// itself, the mesh (one to three times the file for text and for binary files), and an edited copy.
+/// The estimated memory for each byte of input files, if a forecast has no upper limit for its meshes: the file itself,
+/// the mesh (one to three times the size of the file, for text and for binary files), and an edited copy.
 const BYTES_FOR_EACH_BYTE_READ: u64 = 8;
 
 impl Forecast {
-    /// The bytes that the run takes at its peak, at most, as far as can be told: its input files and
-    /// the largest its meshes can get; if a step says nothing of that, eight times its input files.
+    /// Returns the estimated peak memory of the run, in bytes: its input files and the largest size of its meshes. If a
+    /// step does not limit the size of its meshes, eight times its input files.
     pub fn peak_bytes(&self) -> u64 {
         let size = |path: &std::path::PathBuf| Path::metadata(path).map_or(0, |m| m.len());
         let read: u64 = self.inputs.iter().map(size).sum();
@@ -314,7 +314,7 @@ mod tests {
         }
     }
 
-    /// Runs jobs of no bytes, and puts their ends in order.
+    /// Runs jobs that take 0 bytes, and returns how they ended, in order.
     fn ends<T: Send>(
         count: usize,
         limits: JobLimits,
@@ -341,7 +341,7 @@ mod tests {
         all
     }
 
-    /// Work with loops inside loops, some of it slow.
+    /// Runs nested parallel loops, which are slow for some jobs.
     fn nested(i: usize) -> u64 {
         let sum = |n: u64| (0..n).into_par_iter().map(|x| x % 7).sum::<u64>();
         (0..40_u64)
@@ -359,12 +359,12 @@ mod tests {
     }
 
     #[test]
-    fn no_jobs_end_at_once() {
+    fn an_empty_list_of_jobs_ends_immediately() {
         assert_eq!(ends(0, limits(2, 0, 0), |i| i), []);
     }
 
     #[test]
-    fn a_job_that_panics_ends_no_other() {
+    fn a_panic_ends_only_its_job() {
         let found = ends(9, limits(3, 0, 0), |i| {
             assert!(i != 4, "job {i} is broken");
             (0..100)
@@ -383,7 +383,7 @@ mod tests {
     }
 
     #[test]
-    fn jobs_that_run_at_once_stay_within_the_budget() {
+    fn running_jobs_stay_within_the_budget() {
         let size = |i: usize| [10, 60, 30, 90, 500, 5, 5, 5, 50, 50][i % 10];
         let (used, most) = (AtomicU64::new(0), AtomicU64::new(0));
         let (running, at_once) = (AtomicUsize::new(0), AtomicUsize::new(0));
@@ -413,14 +413,14 @@ mod tests {
     }
 
     #[test]
-    fn jobs_begin_in_their_order() {
-        let begun = Mutex::new(Vec::new());
-        ends(200, limits(1, 0, 0), |i| begun.lock().unwrap().push(i));
-        assert_eq!(begun.into_inner().unwrap(), (0..200).collect::<Vec<_>>());
+    fn jobs_start_in_their_order() {
+        let started = Mutex::new(Vec::new());
+        ends(200, limits(1, 0, 0), |i| started.lock().unwrap().push(i));
+        assert_eq!(started.into_inner().unwrap(), (0..200).collect::<Vec<_>>());
     }
 
     #[test]
-    fn a_stop_lets_running_jobs_end_and_begins_no_other() {
+    fn stop_lets_running_jobs_end_and_starts_no_more() {
         let stop = AtomicBool::new(false);
         let jobs = Jobs {
             count: 50,

@@ -1,4 +1,4 @@
-//! Recipes: read, checked, forecast and run.
+//! Reads, checks and runs recipes.
 //!
 //! ```text
 //! text --read--> Recipe + diagnostics --check--> Forecast + diagnostics --run--> Outcome
@@ -38,7 +38,7 @@ pub use describe::{
 pub use diagnostic::render;
 pub use expect::{ActualValue, Expectation, OtherMesh, Reader};
 pub use jobs::{InOrder, JobEnd, JobLimits, Jobs, JobsError};
-pub use params::{Move, Param, ParamError};
+pub use params::{Param, ParamError, Rebase};
 pub use read::{Reading, VERSION, Values, read, read_by};
 pub use recipe::{
     MAX_STEPS, OnLoss, Origin, Parameter, Recipe, RecipeExpectation, RecipeStep, Scope,

@@ -1,4 +1,4 @@
-//! The parameters of a recipe: declared with a type and a default, set from the command line.
+//! The parameters of a recipe. They are declared with a type and a default, and can be set on the command line.
 
 use std::fmt::Display;
 use std::path::Path;
@@ -7,17 +7,17 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use store::Store;
 
-use crate::source::seen_from;
+use crate::source::rebase_path;
 use ron_tree::{Number, Span, Value, ValueKind, parse};
 
-/// Two folders: a relative path is seen from the one, and is to mean the same seen from the other.
+/// How to rewrite a relative path: a path relative to `from` becomes a path to the same file relative to `to`.
 #[derive(Clone, Copy, Debug)]
-pub struct Move<'a> {
-    /// Where the path is seen from.
+pub struct Rebase<'a> {
+    /// The folder that the given path is relative to.
     pub from: &'a Path,
-    /// Where it will be seen from.
+    /// The folder that the new path is relative to.
     pub to: &'a Path,
-    /// Where the folders are.
+    /// The store that contains the folders.
     pub store: &'a dyn Store,
 }
 
@@ -27,68 +27,69 @@ pub struct Move<'a> {
 pub enum Param {
     /// A whole number.
     Int {
-        /// The value unless another is set.
+        /// The default value.
         default: i64,
-        /// The lowest that is allowed.
+        /// The minimum allowed value.
         min: Option<i64>,
-        /// The highest that is allowed.
+        /// The maximum allowed value.
         max: Option<i64>,
-        /// What it is for.
+        /// The description of the parameter.
         doc: Option<String>,
     },
     /// A number.
     Float {
-        /// The value unless another is set.
+        /// The default value.
         default: f64,
-        /// The lowest that is allowed.
+        /// The minimum allowed value.
         min: Option<f64>,
-        /// The highest that is allowed.
+        /// The maximum allowed value.
         max: Option<f64>,
-        /// What it is for.
+        /// The description of the parameter.
         doc: Option<String>,
     },
     /// `true` or `false`.
     Bool {
-        /// The value unless another is set.
+        /// The default value.
         default: bool,
-        /// What it is for.
+        /// The description of the parameter.
         doc: Option<String>,
     },
-    /// A text.
+    /// Text.
     Text {
-        /// The value unless another is set.
+        /// The default value.
         default: String,
-        /// What it is for.
+        /// The description of the parameter.
         doc: Option<String>,
     },
-    /// The path of a file that is read. The default is seen from the recipe's folder, a path that is
-    /// set from the working directory. Output paths can use `{name.stem}` and `{name.name}`.
+    /// The path of an input file. The default is relative to the recipe's folder; a path set on the command line is
+    /// relative to the working directory. Output paths can contain `{name.stem}` and `{name.name}`, which stand for
+    /// the file name without and with its extension.
     Path {
-        /// The value unless another is set.
+        /// The default value.
         default: String,
-        /// What it is for.
+        /// The description of the parameter.
         doc: Option<String>,
     },
     /// One of several words, such as the variants of an operation's parameter.
     Choice {
-        /// The value unless another is set.
+        /// The default value.
         default: String,
-        /// The words that are allowed.
+        /// The allowed words.
         of: Vec<String>,
-        /// What it is for.
+        /// The description of the parameter.
         doc: Option<String>,
     },
     /// Three numbers `(x, y, z)`.
     Vector {
-        /// The value unless another is set.
+        /// The default value.
         default: (f64, f64, f64),
-        /// What it is for.
+        /// The description of the parameter.
         doc: Option<String>,
     },
 }
 
 impl Param {
-    /// The name of its type.
+    /// Returns the name of the parameter's type.
     pub fn type_name(&self) -> &'static str {
         self.words().0
     }
@@ -97,7 +98,7 @@ impl Param {
         self.words().1
     }
 
-    /// The name of its type, and what values it takes.
+    /// Returns the name of the parameter's type, and a description of its values.
     fn words(&self) -> (&'static str, &'static str) {
         match self {
             Self::Int { .. } => ("Int", "a whole number"),
@@ -110,7 +111,7 @@ impl Param {
         }
     }
 
-    /// What it is for, if the recipe says.
+    /// Returns the description of the parameter, if it has one.
     pub fn doc(&self) -> Option<&str> {
         match self {
             Self::Int { doc, .. }
@@ -123,11 +124,11 @@ impl Param {
         }
     }
 
-    /// The default as a value of a recipe.
+    /// Returns the default as a value of a recipe.
     ///
     /// # Errors
     ///
-    /// If the parameter does not allow its own default.
+    /// If the parameter does not allow its default.
     pub fn default_value(&self) -> Result<Value, ParamError> {
         match self {
             Self::Int { default, .. } => self.allowed_int(*default),
@@ -142,13 +143,17 @@ impl Param {
         }
     }
 
-    /// The value for the parameter that is written in a recipe, in the one form that such values have. A relative
-    /// path is led from one folder to another, if they are given.
+    /// Converts a value in a recipe to the canonical form of a value of this parameter. If `folders` is given, a
+    /// relative path is rewritten from one folder to the other.
     ///
     /// # Errors
     ///
-    /// If it is no value of this type or not allowed.
-    pub fn value_from(&self, written: &Value, folders: Option<Move>) -> Result<Value, ParamError> {
+    /// If the value does not have the type of the parameter or is not allowed.
+    pub fn value_from(
+        &self,
+        written: &Value,
+        folders: Option<Rebase>,
+    ) -> Result<Value, ParamError> {
         match (self, &written.kind) {
             (Self::Int { .. }, ValueKind::Number(number)) => {
                 let int = number.to_int().and_then(|int| i64::try_from(int).ok());
@@ -161,8 +166,8 @@ impl Param {
                 Ok(value(ValueKind::String(text.clone())))
             }
             (Self::Path { .. }, ValueKind::String(text)) => {
-                let moved = |f: Move| seen_from(f.store, text, f.from, f.to);
-                let path = folders.map_or_else(|| (&**text).into(), moved);
+                let rebased = |f: Rebase| rebase_path(f.store, text, f.from, f.to);
+                let path = folders.map_or_else(|| (&**text).into(), rebased);
                 Ok(value(ValueKind::String(path.to_string_lossy().into())))
             }
             (Self::Choice { of, .. }, ValueKind::String(text) | ValueKind::Name(text)) => {
@@ -185,13 +190,13 @@ impl Param {
         }
     }
 
-    /// The value that is given as plain text, as on the command line. A relative path is led from one folder to
-    /// another, if they are given.
+    /// Converts plain text, as given on the command line, to a value of this parameter. If `folders` is given, a
+    /// relative path is rewritten from one folder to the other.
     ///
     /// # Errors
     ///
-    /// If the text is no value of this type or not allowed.
-    pub fn value_of(&self, text: &str, folders: Option<Move>) -> Result<Value, ParamError> {
+    /// If the text is not a value of the parameter's type or is not allowed.
+    pub fn value_of(&self, text: &str, folders: Option<Rebase>) -> Result<Value, ParamError> {
         let parsed = match self {
             Self::Text { .. } | Self::Path { .. } | Self::Choice { .. } => {
                 return self.value_from(&value(ValueKind::String(text.into())), folders);
@@ -222,7 +227,7 @@ impl Param {
     }
 }
 
-/// Why something is no value of a parameter: what is expected and what was found.
+/// Why a value does not fit a parameter: what was expected and what was found.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct ParamError(String);
@@ -233,7 +238,7 @@ impl ParamError {
     }
 }
 
-/// A value that stands nowhere in the text.
+/// Returns a value without a span in the text.
 fn value(kind: ValueKind) -> Value {
     Value::new(Span::default(), kind)
 }
@@ -243,7 +248,7 @@ fn vector(parts: [f64; 3]) -> Result<Value, ParamError> {
     Ok(value(ValueKind::Tuple(parts)))
 }
 
-/// A number with a point, which reads back the same.
+/// Returns a number with a decimal point that is read back as the same number.
 fn float(x: f64) -> Result<Value, ParamError> {
     if !x.is_finite() {
         return Err(ParamError::new("a number", &format!("`{x:?}`")));
@@ -306,7 +311,7 @@ mod tests {
     }
 
     #[test]
-    fn values_that_are_not_allowed_say_why() {
+    fn values_that_are_not_allowed_are_refused_with_a_reason() {
         let refused = |p: &str, text| param(p).value_of(text, None).unwrap_err().to_string();
         assert_eq!(
             refused("Int(default: 1)", "1.5"),
@@ -327,7 +332,7 @@ mod tests {
     }
 
     #[test]
-    fn a_text_cannot_smuggle_in_another_field() {
+    fn text_is_escaped_so_that_it_cannot_add_fields() {
         let param = param("Text(default: \"\")");
         let text = "x\", on: [\"y";
         let value = param.value_of(text, None).unwrap();
@@ -336,10 +341,10 @@ mod tests {
     }
 
     #[test]
-    fn a_path_that_is_set_is_seen_from_the_working_directory() {
+    fn a_path_that_is_set_is_relative_to_the_working_directory() {
         let (from, to) = (Path::new("/work"), Path::new("/work/scenes"));
         let store = &store::Disk;
-        let folders = Some(Move { from, to, store });
+        let folders = Some(Rebase { from, to, store });
         let value = param("Path(default: \"a.obj\")").value_of("b.obj", folders);
         assert_eq!(value.unwrap().as_str(), Some("../b.obj"));
     }

@@ -1,4 +1,4 @@
-//! What a recipe says, once it is read: a list of steps, whatever calls and repetitions they came from.
+//! A recipe after reading: a flat list of steps, in which calls and repetitions are replaced by their steps.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -12,92 +12,92 @@ use crate::params::Param;
 use crate::source::Source;
 use ron_tree::{Diagnostic, Span, Value};
 
-/// The most steps that calls and repetitions may become.
+/// The maximum number of steps, after calls and repetitions are replaced by their steps.
 pub const MAX_STEPS: usize = 100_000;
 
-/// A recipe that was read, as far as it could be.
+/// A recipe that was read. If it has errors, it contains the parts that could be read.
 #[derive(Debug)]
 pub struct Recipe {
-    /// What the recipe says of itself.
+    /// The description of the recipe.
     pub about: Option<String>,
-    /// The texts that spans point into: its own first, then those of the recipes that it calls.
+    /// The texts that spans refer to: that of the recipe itself first, then those of the recipes that it calls.
     pub sources: Vec<Source>,
-    /// The parameters that steps were filled in with: its own first, then those of each call.
+    /// The scopes of parameters: that of the recipe itself first, then one for each call.
     pub scopes: Vec<Scope>,
     /// The names of its presets.
     pub presets: Vec<String>,
-    /// Its steps in the order in which they run: calls, repetitions and choices are done.
+    /// The steps in the order in which they run. Calls, repetitions and conditions are replaced by their steps.
     pub steps: Vec<RecipeStep>,
-    /// What must hold, in the order of the steps that it comes after.
+    /// The expectations, in the order of the steps after which they are checked.
     pub expectations: Vec<RecipeExpectation>,
 }
 
-/// A text with values for its parameters: the recipe itself, or one call of another.
+/// A text with values for its parameters: the recipe itself, or one call of another recipe.
 #[derive(Clone, Debug)]
 pub struct Scope {
-    /// The text, by its place in [`Recipe::sources`].
+    /// The index of the text in [`Recipe::sources`].
     pub source: usize,
     /// The parameters with their values.
     pub parameters: Vec<Parameter>,
-    /// Where the call stands: its scope, and its place in the text of that. `None` for the recipe itself.
+    /// The scope that contains the call, and the span of the call in its text. `None` for the recipe itself.
     pub called: Option<(usize, Span)>,
 }
 
 /// A parameter with its value.
 #[derive(Clone, Debug)]
 pub struct Parameter {
-    /// Its name.
+    /// The name of the parameter.
     pub name: String,
-    /// Its declaration.
+    /// The declaration of the parameter.
     pub param: Param,
-    /// Its value.
+    /// The current value.
     pub value: Value,
     /// Where the value comes from.
     pub origin: Origin,
 }
 
-/// Where the value of a parameter comes from. The later ones go before the earlier ones.
+/// Where the value of a parameter comes from. Later variants take precedence over earlier ones.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Origin {
-    /// The recipe's default.
+    /// The default in the recipe.
     Default,
-    /// The preset of this name.
+    /// The preset with this name.
     Preset(String),
     /// `with:` of the step that calls the recipe.
     Call,
-    /// The command line, or another program's choice.
+    /// The command line, or another program.
     Set,
 }
 
 impl Parameter {
-    /// Whether the value was chosen from outside the recipe.
+    /// Whether the value was set from outside the recipe, directly or by a preset.
     pub fn is_set(&self) -> bool {
         matches!(self.origin, Origin::Set | Origin::Preset(_))
     }
 
-    /// The value as plain text, as the command line takes it: texts stand without quotes.
+    /// Returns the value as plain text, as on the command line: strings have no quotes.
     pub fn plain_text(&self) -> String {
         let text = self.value.as_str().map(str::to_owned);
         text.unwrap_or_else(|| self.value.to_string())
     }
 }
 
-/// What happens when a step loses something: an attribute that it cannot carry, or what a file cannot
-/// hold.
+/// What happens if a step loses data: an attribute that it cannot preserve, or data that a file format cannot
+/// store.
 #[derive(Clone, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum OnLoss {
-    /// The loss is listed.
+    /// The loss is reported.
     #[default]
     Warn,
     /// The run fails.
     Error,
-    /// What has one of these names may be lost; any other loss fails the run.
+    /// Data with one of these names may be lost. Any other loss fails the run.
     Allow(Vec<String>),
 }
 
 impl OnLoss {
-    /// Whether something of this name may be lost.
+    /// Whether data with this name may be lost.
     pub fn allows(&self, name: &str) -> bool {
         match self {
             Self::Warn => true,
@@ -106,13 +106,13 @@ impl OnLoss {
         }
     }
 
-    /// The first loss that is not allowed.
+    /// Returns the first loss that is not allowed.
     pub fn forbidden<'l>(&self, losses: &'l [Loss]) -> Option<&'l Loss> {
         losses.iter().find(|loss| !self.allows(&loss.name))
     }
 }
 
-/// A step that holds steps.
+/// The kind of a step that contains steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     Call,
@@ -136,47 +136,47 @@ impl Kind {
 /// A step.
 #[derive(Clone, Debug)]
 pub struct RecipeStep {
-    /// The name that later parts of its text know it by.
+    /// The id, by which other parts of the recipe refer to the step.
     pub id: Option<String>,
-    /// The name that its operation has now, or as written if there is none of that name.
+    /// The current name of its operation. If the operation is unknown, the name as written.
     pub name: String,
-    /// The name to show, which also keys its random choices: the id or else the operation, behind the
-    /// calls and before the turns of the repetitions that it stands in, as in `clean/Weld#2`.
+    /// The label, which is shown to users and seeds random choices: the id or else the operation. The names of the
+    /// calls around the step precede it, and the repetitions around the step follow it, as in `clean/Weld#2`.
     pub label: String,
-    /// The operation; `None` if the step could not be read.
+    /// The operation. `None` if the step could not be read.
     pub step: Option<Arc<dyn Step>>,
-    /// The objects it was told to act on, with their places in the text.
+    /// The names of the objects in `on`, with their spans.
     pub on: Option<Vec<(String, Span)>>,
-    /// The reason for which it must be refused.
+    /// The reason for which the step must be refused.
     pub refused: Option<Refusal>,
-    /// What may be lost.
+    /// Which losses are allowed.
     pub on_loss: OnLoss,
-    /// Its parameters and its text, by their place in [`Recipe::scopes`].
+    /// The index of its scope in [`Recipe::scopes`].
     pub scope: usize,
-    /// The place of the name of the operation.
+    /// The span of the name of the operation.
     pub span: Span,
-    /// The operation as written, parameters filled in.
+    /// The operation as written, with parameters replaced by their values.
     pub value: Value,
-    /// The turn of each repetition around it, from 1, from the outside in.
+    /// For each repetition around the step, from the outside in, the number of the current repetition, counted from 1.
     pub(crate) turns: Vec<u32>,
-    /// The label without its turns.
+    /// The label without its repetitions.
     pub(crate) stem: String,
 }
 
 impl RecipeStep {
-    /// The name to show.
+    /// Returns the label.
     pub fn label(&self) -> &str {
         &self.label
     }
 
-    /// The objects it was told to act on.
+    /// Returns the names of the objects in `on`.
     pub fn on_names(&self) -> Option<Vec<String>> {
         self.on
             .as_ref()
             .map(|on| on.iter().map(|(name, _)| name.clone()).collect())
     }
 
-    /// The same step in a turn of a repetition around all that it stands in so far.
+    /// Returns the step as it is in the repetition number `turn` of a `Repeat` around it.
     pub(crate) fn in_turn(mut self, turn: u32) -> Self {
         self.turns.insert(0, turn);
         let turns: Vec<String> = self.turns.iter().map(u32::to_string).collect();
@@ -185,29 +185,29 @@ impl RecipeStep {
     }
 }
 
-/// An expectation and where it belongs.
+/// An expectation, with the place in the recipe where it is checked.
 #[derive(Clone, Debug)]
 pub struct RecipeExpectation {
-    /// The step after which it must hold, by its place in the list; at the end if `None`.
+    /// The index of the step after which it is checked. If `None`, it is checked at the end.
     pub after: Option<usize>,
-    /// The objects that are meant; all if `None`.
+    /// The names of the objects that it is checked for. If `None`, all objects.
     pub on: Option<Vec<String>>,
-    /// What must hold.
+    /// The expectation.
     pub that: Expectation,
-    /// Its text, by its place in [`Recipe::scopes`].
+    /// The index of its scope in [`Recipe::scopes`].
     pub scope: usize,
-    /// Its place in the text.
+    /// The span of the expectation.
     pub span: Span,
 }
 
 impl Recipe {
-    /// The parameters of the recipe itself.
+    /// Returns the parameters of the recipe itself.
     pub fn parameters(&self) -> &[Parameter] {
         self.scopes.first().map_or(&[], |scope| &scope.parameters)
     }
 
-    /// The texts that stand for placeholders in output paths of the recipe itself: `{name.stem}` and
-    /// `{name.name}` for each parameter that is a path.
+    /// Returns the placeholders for output paths of the recipe itself, with their values: `name.stem` and `name.name`
+    /// for each parameter that is a path.
     pub fn placeholders(&self) -> Vec<(String, String)> {
         self.scopes
             .first()
@@ -215,8 +215,8 @@ impl Recipe {
             .unwrap_or_default()
     }
 
-    /// The folders of each scope: `files` for the recipe itself; a recipe that is called reads from its own
-    /// folder, and has its own placeholders.
+    /// Returns the file settings of each scope. The recipe itself has `files`. A called recipe reads from its own
+    /// folder and has its own placeholders.
     pub fn files(&self, files: &Files) -> Vec<Files> {
         let of = |(i, scope): (usize, &Scope)| {
             if i == 0 {
@@ -231,25 +231,25 @@ impl Recipe {
         self.scopes.iter().enumerate().map(of).collect()
     }
 
-    /// Whether files that it writes are held against others.
+    /// Whether the recipe has `Output` expectations.
     pub(crate) fn checks_outputs(&self) -> bool {
         self.expectations
             .iter()
             .any(|placed| placed.that.output().is_some())
     }
 
-    /// The text of a scope, by its place in [`Recipe::sources`].
+    /// Returns the index of a scope's text in [`Recipe::sources`].
     pub fn source_of(&self, scope: usize) -> usize {
         self.scopes.get(scope).map_or(0, |scope| scope.source)
     }
 
-    /// A diagnostic about something in a scope, with its text and the calls that led there.
+    /// Sets the text of a diagnostic to that of a scope, and its calls to those that led to the scope.
     pub fn located(&self, diagnostic: Diagnostic, scope: usize) -> Diagnostic {
         located(diagnostic, scope, &self.scopes)
     }
 
-    /// The digest of what the recipe does: its operations with all their parameters, in their
-    /// canonical form. Layout, comments and notes do not count.
+    /// Returns the digest of what the recipe does: of its operations with all their parameters in canonical form.
+    /// Layout, comments and notes do not matter.
     pub fn digest(&self) -> String {
         let mut hasher = blake3::Hasher::new();
         for step in &self.steps {
@@ -258,11 +258,11 @@ impl Recipe {
                 .as_ref()
                 .map(|s| s.canonical())
                 .unwrap_or_default();
-            // A step without an id had none here before labels held more.
+            // `None` for a label that is just the operation, so that such digests agree with those of older versions.
             let id = (step.label != step.name).then_some(&step.label);
             let line = format!("{id:?} {:?} {} {canonical}\n", step.on_names(), step.name);
             hasher.update(line.as_bytes());
-            // The same path means another file in another folder.
+            // The same relative path refers to a different file in a different folder.
             let called = self.source_of(step.scope);
             if called > 0 {
                 let folder = self.sources[called].folder().to_string_lossy();
@@ -275,7 +275,7 @@ impl Recipe {
     }
 }
 
-/// The diagnostic with its text, and the calls that led there.
+/// Sets the text of a diagnostic to that of a scope, and its calls to those that led to the scope.
 pub(crate) fn located(mut diagnostic: Diagnostic, scope: usize, scopes: &[Scope]) -> Diagnostic {
     let Some(mut at) = scopes.get(scope) else {
         return diagnostic;

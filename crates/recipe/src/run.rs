@@ -262,8 +262,8 @@ impl Runner<'_> {
         Ok(digest)
     }
 
-    /// Advances `scene` to the scene before step `to`, whose predecessors are all done: loads a scene from the cache and
-    /// runs the steps after it again.
+    /// Advances `scene` to the scene before step `to`, whose predecessors are all done: loads a scene from the cache
+    /// and runs the steps after it again.
     fn advance_scene(&mut self, to: usize, listener: &dyn Listener) -> Result<(), Stopped> {
         if self.scene_index < to
             && let Some(session) = &mut self.session

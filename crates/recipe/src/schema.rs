@@ -1,4 +1,4 @@
-//! JSON schemas: of whole recipes for editors, and of their parts for the reader.
+//! JSON schemas of whole recipes, for editors, and of their parts, for the reader.
 
 use std::collections::HashMap;
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
@@ -11,53 +11,53 @@ use crate::expect::Expectation;
 use crate::params::Param;
 use crate::recipe::{Kind, MAX_STEPS, OnLoss};
 
-/// The operations of a registry and their schemas, each made when it is first asked for: for whoever reads
-/// many recipes, on any number of threads.
+/// The operations of a registry with their schemas. Each schema is created when it is first needed. Can be shared by
+/// threads that read many recipes.
 #[derive(Debug)]
 pub struct Schemas<'r> {
     pub(crate) registry: &'r Registry,
-    made: Mutex<HashMap<&'static str, Arc<Json>>>,
+    created: Mutex<HashMap<&'static str, Arc<Json>>>,
 }
 
 impl<'r> Schemas<'r> {
-    /// Those of `registry`; none is made yet.
+    /// Returns the schemas of `registry`.
     pub fn new(registry: &'r Registry) -> Self {
         Self {
             registry,
-            made: Mutex::new(HashMap::new()),
+            created: Mutex::new(HashMap::new()),
         }
     }
 
-    /// The schema of an operation of the registry.
+    /// Returns the schema of an operation of the registry.
     pub(crate) fn of(&self, entry: &Entry) -> Arc<Json> {
-        let made = || self.made.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(schema) = made().get(entry.name) {
+        let created = || self.created.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(schema) = created().get(entry.name) {
             return schema.clone();
         }
-        // Made without the lock: at worst, twice.
+        // Created without the lock: two threads may create the same schema, and one of them is used.
         let schema = Arc::new(entry.schema());
-        made().entry(entry.name).or_insert(schema).clone()
+        created().entry(entry.name).or_insert(schema).clone()
     }
 }
 
-/// The schema of a type.
+/// Returns the schema of a type.
 pub(crate) fn of<T: JsonSchema>() -> Json {
     schemars::schema_for!(T).to_value()
 }
 
-/// The schema of a declared parameter.
+/// Returns the schema of a parameter declaration.
 pub(crate) fn param() -> &'static Json {
     static SCHEMA: LazyLock<Json> = LazyLock::new(of::<Param>);
     &SCHEMA
 }
 
-/// The schema of an expectation alone.
+/// Returns the schema of an expectation without the fields around it.
 pub(crate) fn expectation() -> &'static Json {
     static SCHEMA: LazyLock<Json> = LazyLock::new(of::<Expectation>);
     &SCHEMA
 }
 
-/// The fields around a recipe; steps and expectations can be anything.
+/// Returns the schema of the fields of a recipe, in which steps and expectations can be anything.
 pub(crate) fn envelope() -> &'static Json {
     static SCHEMA: LazyLock<Json> = LazyLock::new(|| {
         with_definitions(|defined| {
@@ -68,20 +68,20 @@ pub(crate) fn envelope() -> &'static Json {
     &SCHEMA
 }
 
-/// The fields around an operation; the operation can be anything.
+/// Returns the schema of the fields of a step, in which the operation can be anything.
 pub(crate) fn step_envelope() -> &'static Json {
     static SCHEMA: LazyLock<Json> =
         LazyLock::new(|| with_definitions(|defined| step_fields(&json!({}), defined)));
     &SCHEMA
 }
 
-/// The parameters of a step that holds steps; the steps inside can be anything.
+/// Returns the schema of the parameters of a step that contains steps, in which the inner steps can be anything.
 pub(crate) fn flow(kind: Kind) -> Json {
     flow_fields(kind, &json!({}))
 }
 
-/// The steps that hold steps, [`Call`, `Repeat` and `If`](crate::read()): their names, and the schemas of their
-/// parameters.
+/// Returns the names of the steps that contain steps, [`Call`, `Repeat` and `If`](crate::read()), and the schemas of
+/// their parameters.
 pub fn step_kinds() -> Vec<(&'static str, Json)> {
     let kinds = Kind::ALL.into_iter();
     kinds.map(|kind| (kind.name(), flow(kind))).collect()
@@ -91,16 +91,16 @@ fn flow_fields(kind: Kind, step: &Json) -> Json {
     let steps = |doc: &str| json!({ "type": "array", "items": step, "description": doc });
     let (doc, properties, required) = match kind {
         Kind::Call => (
-            "Run another recipe on the scene as it is",
+            "Run another recipe on the current scene",
             json!({
                 "recipe": {
                     "type": "string",
-                    "description": "The recipe, seen from the folder of this one.",
+                    "description": "The path of the recipe, relative to the folder of this recipe.",
                 },
                 "with": {
                     "type": "object",
                     "additionalProperties": {},
-                    "description": "Values for its parameters; the others keep their defaults.",
+                    "description": "Values for its parameters. The other parameters keep their defaults.",
                 },
             }),
             json!(["recipe"]),
@@ -112,9 +112,9 @@ fn flow_fields(kind: Kind, step: &Json) -> Json {
                     "type": "integer",
                     "minimum": 0,
                     "maximum": MAX_STEPS,
-                    "description": "How many times.",
+                    "description": "The number of repetitions.",
                 },
-                "steps": steps("The steps."),
+                "steps": steps("The steps to repeat."),
             }),
             json!(["times", "steps"]),
         ),
@@ -122,9 +122,9 @@ fn flow_fields(kind: Kind, step: &Json) -> Json {
             "Run steps if a parameter has a value",
             json!({
                 "param": { "type": "string", "description": "The name of the parameter." },
-                "is": { "description": "The value that it must have; `true` if this is left out." },
-                "steps": steps("The steps that run if it has the value."),
-                "otherwise": steps("The steps that run if it has not."),
+                "is": { "description": "The value to compare the parameter with. Defaults to `true`." },
+                "steps": steps("The steps that run if the parameter has the value."),
+                "otherwise": steps("The steps that run if the parameter has a different value."),
             }),
             json!(["param", "steps"]),
         ),
@@ -138,15 +138,15 @@ fn flow_fields(kind: Kind, step: &Json) -> Json {
     })
 }
 
-/// The fields around an expectation; the expectation can be anything.
+/// Returns the schema of the fields around an expectation, in which the expectation can be anything.
 pub(crate) fn expectation_envelope() -> Json {
     expectation_fields(&json!({}))
 }
 
-/// The schema of whole recipes with the operations of `registry`, in the JSON form of RON: `Name(a: 1)`
+/// Returns the schema of whole recipes with the operations of `registry`, for the JSON form of RON: `Name(a: 1)`
 /// is `{"Name": {"a": 1}}`, and a name without parameters is a string.
 pub fn schema(registry: &Registry) -> Json {
-    // A step can hold steps, so it has a name.
+    // A step can contain steps, so its schema needs a name to refer to.
     let step_reference = json!({ "$ref": "#/$defs/Step" });
     let mut step = Json::Null;
     let mut schema = with_definitions(|defined| {
@@ -210,26 +210,32 @@ fn recipe(param: &Json, step: &Json, expectation: &Json, on_loss: &Json) -> Json
 }
 
 fn step_fields(operation: &Json, defined: &mut SchemaGenerator) -> Json {
-    // What stands beside a reference or a choice goes with it.
-    let told = |schema: &Json, doc: &str| json!({ "allOf": [schema], "description": doc });
+    // Keywords beside `$ref` or `oneOf` in the same object would mix with it, so the schema is wrapped in `allOf`.
+    let described = |schema: &Json, doc: &str| json!({ "allOf": [schema], "description": doc });
     json!({
         "type": "object",
         "properties": {
             "id": {
                 "type": "string",
                 "minLength": 1,
-                "description": "The name that later parts of the recipe know the step by.",
+                "description": "The name by which other parts of the recipe refer to the step.",
             },
-            "run": told(operation, "The operation."),
+            "run": described(operation, "The operation."),
             "on": {
                 "type": "array",
                 "items": { "type": "string" },
                 "minItems": 1,
-                "description": "The objects that it acts on; all that it can if this is left out.",
+                "description": "The names of the objects that the step acts on. If omitted, all suitable objects.",
             },
-            "note": { "type": "string", "description": "For readers." },
-            "refused": told(&reference::<Refusal>(defined), "The reason for which it must be refused, and change nothing."),
-            "on_loss": told(&reference::<OnLoss>(defined), "What may be lost; as the recipe says if this is left out."),
+            "note": { "type": "string", "description": "A comment for readers." },
+            "refused": described(
+                &reference::<Refusal>(defined),
+                "The reason for which the step must be refused. The scene stays unchanged.",
+            ),
+            "on_loss": described(
+                &reference::<OnLoss>(defined),
+                "What happens if the step loses data. Defaults to the `on_loss` of the recipe.",
+            ),
         },
         "required": ["run"],
         "additionalProperties": false,
@@ -249,7 +255,7 @@ fn expectation_fields(that: &Json) -> Json {
     })
 }
 
-/// A schema with the definitions that `build` refers to.
+/// Returns the schema that `build` creates, with the definitions that it refers to.
 fn with_definitions(build: impl FnOnce(&mut SchemaGenerator) -> Json) -> Json {
     let mut defined = SchemaGenerator::default();
     let mut schema = build(&mut defined);
@@ -257,12 +263,13 @@ fn with_definitions(build: impl FnOnce(&mut SchemaGenerator) -> Json) -> Json {
     schema
 }
 
-/// A reference to the schema of a type.
+/// Returns a reference to the schema of a type.
 fn reference<T: JsonSchema>(defined: &mut SchemaGenerator) -> Json {
     defined.subschema_for::<T>().to_value()
 }
 
-/// Where the outer name of a value may be left out, lets what stands in its brackets stand alone.
+/// Extends each enumeration marked with `x-shorthand`, whose outer name can be omitted, by the contents of its
+/// variants.
 fn allow_shorthand(schema: &mut Json) {
     match schema {
         Json::Object(object) => {

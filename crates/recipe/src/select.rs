@@ -1,9 +1,9 @@
-//! Selections on their own, outside of a recipe: read from a text, and asked of a mesh.
+//! Selections outside of a recipe: reads them from text, and resolves them on a mesh.
 //!
 //! ```text
-//! "Sharp(above: 30)"   only edges can be sharp           ---> edges
-//! "Vertices([0, 4])"   only vertices have this           ---> vertices
-//! "Boundary"           vertices, edges and faces can     ---> say which are meant
+//! "Sharp(above: 30)"   exists only for edges                  ---> edges
+//! "Vertices([0, 4])"   exists only for vertices               ---> vertices
+//! "Boundary"           exists for vertices, edges and faces   ---> an error: the kind must be specified
 //! ```
 
 use mesh::Mesh;
@@ -16,13 +16,13 @@ use crate::schema;
 use crate::shape;
 use ron_tree::{Diagnostic, Value, ValueKind};
 
-/// Reads a selection as recipes write it: of `kind`, or else of the one kind of elements that has such
-/// selections.
+/// Reads a selection in the syntax of recipes. It selects elements of `kind` or, if `None`, of the only kind that has a
+/// selection like this.
 ///
 /// # Errors
 ///
-/// Everything that is wrong with it, with places in `source`. Where no kind is given and none fits, that
-/// is told of the kind that fits furthest; where several fit, that one must be given.
+/// All errors, with spans in `source`. If `kind` is `None` and no kind fits, the errors are those for the kind that
+/// fits best. If several kinds fit, the error says that the kind must be specified.
 pub fn read_selection(
     source: &str,
     kind: Option<ElementKind>,
@@ -40,11 +40,11 @@ pub fn read_selection(
     }
 }
 
-/// Reads the parameters of a step `Name(parameters)`, whatever the name.
+/// Reads the parameters of a step `Name(parameters)`. The name is not checked.
 ///
 /// # Errors
 ///
-/// Everything that is wrong with them, with places in `source`.
+/// All errors, with spans in `source`.
 pub fn read_step<T: DeserializeOwned + JsonSchema>(source: &str) -> Result<T, Vec<Diagnostic>> {
     let parsed = ron_tree::parse(source);
     let step = &parsed.value;
@@ -65,12 +65,12 @@ fn typed<T: DeserializeOwned + JsonSchema>(value: &Value) -> Result<T, Vec<Diagn
     shape::typed(value, &schema::of::<T>())
 }
 
-/// The elements of an object that a selection matches. `stream` keys random choices: the id of a step, or
-/// else the name of its operation, gives the choice that this step makes.
+/// Returns the elements of an object that a selection matches. `stream` seeds random choices. To get the same choices
+/// as a step, pass the id of the step or, if it has none, the name of its operation.
 ///
 /// # Errors
 ///
-/// As [`Elements::resolve`].
+/// The errors of [`Elements::resolve`].
 pub fn resolve(
     elements: &Elements,
     object: &Object,
@@ -92,16 +92,16 @@ mod tests {
     use super::*;
 
     fn wrong(source: &str, kind: Option<ElementKind>) -> Vec<(String, String, String)> {
-        let told = |d: Diagnostic| {
+        let shown = |d: Diagnostic| {
             let place = d.span.unwrap_or_default().of(source).to_owned();
             (place, d.message, d.help.unwrap_or_default())
         };
         let diagnostics = read_selection(source, kind).unwrap_err();
-        diagnostics.into_iter().map(told).collect()
+        diagnostics.into_iter().map(shown).collect()
     }
 
     #[test]
-    fn the_kind_is_told_by_the_text_where_only_one_fits() {
+    fn the_kind_can_be_omitted_if_only_one_fits() {
         for (source, kind) in [
             ("Sharp(above: 30)", ElementKind::Edges),
             ("Isolated", ElementKind::Vertices),
@@ -118,12 +118,12 @@ mod tests {
     }
 
     #[test]
-    fn a_text_that_several_kinds_have_needs_a_word() {
+    fn the_kind_must_be_specified_if_several_fit() {
         assert_eq!(
             wrong("All", None),
             [(
                 "All".to_owned(),
-                "this selects vertices or edges or faces: say which are meant".to_owned(),
+                "this can select vertices or edges or faces: specify which".to_owned(),
                 "write `Vertices(All)` or `Edges(All)` or `Faces(All)`".to_owned()
             )]
         );
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn the_kind_may_be_said_in_full() {
+    fn the_kind_can_be_written_in_full() {
         for (full, short) in [
             ("Edges(Sharp(above: 30))", "Sharp(above: 30)"),
             ("Faces(Faces([1]))", "Faces([1])"),
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn an_unknown_selection_has_the_nearest_of_all_kinds() {
+    fn suggestions_for_an_unknown_selection_come_from_all_kinds() {
         assert_eq!(
             wrong("Shrp(above: 30)", None),
             [(
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn errors_are_those_of_the_kind_that_fits_best() {
+    fn errors_are_reported_for_the_kind_that_fits_best() {
         assert_eq!(
             wrong("And([Boundary, Sharp(abov: 30)])", None)
                 .into_iter()
@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn elements_are_those_that_the_selection_has() {
+    fn resolve_returns_the_selected_elements() {
         let object = Object::mesh("cube", shapes::cube());
         let mesh = object.as_mesh().unwrap();
         let found = |source, kind| {

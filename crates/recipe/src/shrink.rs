@@ -1,9 +1,8 @@
-//! Makes a scene smaller on which a step fails: objects and faces are taken away as long as it fails in the
-//! same way.
+//! Reduces a scene on which a step fails: removes objects and faces as long as the step fails in the same way.
 //!
-//! Faces go in blocks, halved down to single faces, as in the algorithm ddmin of Zeller and Hildebrandt,
-//! "Simplifying and Isolating Failure-Inducing Input", 2002. Vertices keep their numbers until the end, when
-//! those without faces go too, if the step still fails then.
+//! Faces are removed in blocks, whose size is halved down to single faces, as in the algorithm ddmin of Zeller and
+//! Hildebrandt, "Simplifying and Isolating Failure-Inducing Input", 2002. Vertices keep their ids until the end. Then
+//! isolated vertices are removed too, if the step still fails without them.
 
 use std::sync::Arc;
 
@@ -15,11 +14,11 @@ use crate::check::forbidden;
 use crate::recipe::RecipeStep;
 use crate::run::run_step;
 
-/// How a step fails on a scene; `None` if it does what the recipe wants of it. The scene stays as it is.
+/// Runs a step on a copy of a scene and returns the message of its failure. `None` if the step does not fail.
 ///
 /// # Errors
 ///
-/// [`OpError::Cancelled`] if `progress` asks to stop.
+/// [`OpError::Cancelled`] if `progress` requests to stop.
 pub fn failure(
     step: &RecipeStep,
     scene: &Scene,
@@ -32,23 +31,23 @@ pub fn failure(
             let lost = step.on_loss.forbidden(&report.losses);
             Ok(lost.map(|loss| forbidden(step, loss).message))
         }
-        Err(Some(fault)) => Ok(Some(fault.message)),
+        Err(Some(error)) => Ok(Some(error.message)),
         Err(None) => Err(OpError::Cancelled),
     }
 }
 
-/// Whether two failures are the same but for the numbers in them.
+/// Whether two failure messages are the same except for the numbers in them.
 pub fn is_alike(a: &str, b: &str) -> bool {
     let words = |text: &str| text.replace(|c: char| c.is_ascii_digit() || "+-.".contains(c), "");
     words(a) == words(b)
 }
 
-/// A scene as small as it was found on which `fails` still holds, as it does for `scene`. Tries at most
-/// `tries` scenes.
+/// Returns the smallest scene that was found for which `fails` is still true. It must be true for `scene`. Tries at
+/// most `tries` scenes.
 ///
 /// # Errors
 ///
-/// What `fails` returns.
+/// The errors of `fails`.
 pub fn shrink(
     scene: &Scene,
     tries: usize,
@@ -85,7 +84,7 @@ struct Search<F> {
 }
 
 impl<F: FnMut(&Scene) -> Result<bool, OpError>> Search<F> {
-    /// Takes a scene if the step fails on it too.
+    /// Replaces the best scene if the step also fails on `scene`. Returns whether it does.
     fn attempt(&mut self, scene: Scene) -> Result<bool, OpError> {
         if self.left == 0 {
             return Ok(false);
@@ -117,10 +116,10 @@ impl<F: FnMut(&Scene) -> Result<bool, OpError>> Search<F> {
                     None => false,
                 };
                 is_smaller |= is_done;
-                // The faces behind those that went have their numbers now.
+                // After a removal, the following faces have moved down to the removed ids.
                 first = if is_done { first } else { last };
             }
-            // A face that could not go may be able to after others went.
+            // Single faces are tried again, because a face can become removable after other faces were removed.
             block = if block == 1 && is_smaller {
                 1
             } else {
@@ -139,7 +138,7 @@ impl<F: FnMut(&Scene) -> Result<bool, OpError>> Search<F> {
     }
 }
 
-/// The scene with an edit of one mesh, unless that cannot be done.
+/// Returns a copy of the scene with one mesh edited. `None` if the edit is not possible.
 fn edited(scene: &Scene, name: &str, edit: impl FnOnce(&mut mesh::Mesh) -> bool) -> Option<Scene> {
     let mut scene = scene.clone();
     let (Geometry::Mesh(mesh), _) = scene.parts_mut(name)? else {
@@ -167,8 +166,8 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_matter_goes() {
-        // A square that has one corner in the middle of the sheet.
+    fn irrelevant_objects_and_faces_are_removed() {
+        // The failure needs a square with a corner in the middle of the sheet.
         let corner = mesh::DVec3::ZERO;
         let matters = |scene: &Scene| {
             let near = |o: &Object| {
@@ -183,7 +182,7 @@ mod tests {
         assert!(matters(&scene()).unwrap());
         let small = shrink(&scene(), 1000, matters).unwrap();
         let [grid] = small.objects() else {
-            panic!("the cube went")
+            panic!("the cube was not removed")
         };
         let mesh = grid.as_mesh().unwrap();
         assert_eq!((mesh.n_faces(), mesh.n_vertices()), (1, 4));
@@ -191,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_goes_where_everything_matters_and_the_tries_end() {
+    fn the_number_of_tries_is_limited() {
         let whole = scene().digest();
         let mut n = 0;
         let same = shrink(&scene(), 50, |scene| {
@@ -202,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn failures_are_alike_whatever_their_numbers() {
+    fn failures_are_alike_if_only_numbers_differ() {
         assert!(is_alike(
             "the edge v0-v1 is on the boundary",
             "the edge v17-v2 is on the boundary"

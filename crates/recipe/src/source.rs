@@ -1,4 +1,4 @@
-//! The texts of a recipe: its own, and those of the recipes that it calls.
+//! The texts of a recipe: that of the recipe itself, and those of the recipes that it calls.
 
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
@@ -6,17 +6,17 @@ use std::sync::Arc;
 use ron_tree::MAX_BYTES;
 use store::{Disk, Store};
 
-/// A text and the file that it comes from.
+/// A text with the path of its file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Source {
-    /// The file, as it is shown; relative paths in the text are seen from its folder.
+    /// The path of the file, as shown in messages. Paths in the text are relative to its folder.
     pub path: PathBuf,
     /// The text.
     pub text: Arc<str>,
 }
 
 impl Source {
-    /// A text that is said to stand in the file `path`.
+    /// Creates a source from a text. The file `path` is not read.
     pub fn new(path: impl Into<PathBuf>, text: impl Into<Arc<str>>) -> Self {
         Self {
             path: path.into(),
@@ -24,16 +24,16 @@ impl Source {
         }
     }
 
-    /// Reads a file of the disk, as [`open_in`](Self::open_in) does.
+    /// Reads a file from disk. See [`open_in`](Self::open_in).
     ///
     /// # Errors
     ///
-    /// As [`open_in`](Self::open_in).
+    /// The errors of [`open_in`](Self::open_in).
     pub fn open(path: &Path) -> Result<Self, String> {
         Self::open_in(&Disk, path)
     }
 
-    /// Reads a file. No more of it is read than a recipe may be long.
+    /// Reads a file. Stops reading when the file exceeds the maximum length of a recipe.
     ///
     /// # Errors
     ///
@@ -45,7 +45,7 @@ impl Source {
         if bytes.len() > MAX_BYTES {
             let mebibytes = MAX_BYTES >> 20;
             return Err(format!(
-                "{shown}: a recipe of more than {mebibytes} MiB is not read"
+                "{shown}: the recipe is larger than {mebibytes} MiB"
             ));
         }
         let text = String::from_utf8(bytes).map_err(|error| {
@@ -56,15 +56,15 @@ impl Source {
         Ok(Self::new(path, text))
     }
 
-    /// The folder of the file.
+    /// Returns the folder of the file.
     pub fn folder(&self) -> &Path {
         self.path.parent().unwrap_or(Path::new(""))
     }
 }
 
-/// The file that `text` names in `from`, as a path that names it in `to`: relative if `text` is, so that
-/// a recipe means the same wherever its folders stand.
-pub(crate) fn seen_from(store: &dyn Store, text: &str, from: &Path, to: &Path) -> PathBuf {
+/// Converts a path relative to the folder `from` into a path to the same file relative to the folder `to`. The result
+/// is absolute if `text` is absolute, or if a relative path would lead to a different file because of links.
+pub(crate) fn rebase_path(store: &dyn Store, text: &str, from: &Path, to: &Path) -> PathBuf {
     let (Ok(target), Ok(to)) = (
         std::path::absolute(from.join(text)),
         std::path::absolute(to),
@@ -74,30 +74,30 @@ pub(crate) fn seen_from(store: &dyn Store, text: &str, from: &Path, to: &Path) -
     if Path::new(text).is_absolute() {
         return target;
     }
-    // The way up from a folder that is a link leads elsewhere than its name says.
+    // If a folder is a link, `..` does not lead to the folder that contains the link.
     let is_same = |relative: &PathBuf| {
-        let (there, here) = (
+        let (rebased, original) = (
             store.canonical(&to.join(relative)),
             store.canonical(&target),
         );
-        there.ok() == here.ok()
+        rebased.ok() == original.ok()
     };
-    match pathdiff::diff_paths(without_ways_up(&target), without_ways_up(&to)) {
+    match pathdiff::diff_paths(normalized(&target), normalized(&to)) {
         Some(relative) if is_same(&relative) => relative,
         _ => target,
     }
 }
 
-/// The path that `a/../b` means if `a` is no link.
-fn without_ways_up(path: &Path) -> PathBuf {
-    let mut clean = PathBuf::new();
+/// Removes `..` from a path, assuming that no folder is a link: `a/../b` becomes `b`.
+fn normalized(path: &Path) -> PathBuf {
+    let mut normalized = PathBuf::new();
     for part in path.components() {
         match part {
-            Component::ParentDir => _ = clean.pop(),
-            part => clean.push(part),
+            Component::ParentDir => _ = normalized.pop(),
+            part => normalized.push(part),
         }
     }
-    clean
+    normalized
 }
 
 #[cfg(test)]
@@ -105,32 +105,35 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_path_is_led_from_one_folder_to_another() {
-        let seen = |text, from, to| seen_from(&Disk, text, Path::new(from), Path::new(to));
-        assert_eq!(seen("cow.obj", "/a/b", "/a/b"), Path::new("cow.obj"));
-        assert_eq!(seen("cow.obj", "/a/b", "/a/c"), Path::new("../b/cow.obj"));
-        assert_eq!(seen("../cow.obj", "a/b", "a"), Path::new("cow.obj"));
-        assert_eq!(seen("/x/cow.obj", "/a/b", "/a"), Path::new("/x/cow.obj"));
-        assert_eq!(seen("cow.obj", "", "lib"), Path::new("../cow.obj"));
+    fn a_path_is_rewritten_from_one_folder_to_another() {
+        let rebased = |text, from, to| rebase_path(&Disk, text, Path::new(from), Path::new(to));
+        assert_eq!(rebased("cow.obj", "/a/b", "/a/b"), Path::new("cow.obj"));
+        assert_eq!(
+            rebased("cow.obj", "/a/b", "/a/c"),
+            Path::new("../b/cow.obj")
+        );
+        assert_eq!(rebased("../cow.obj", "a/b", "a"), Path::new("cow.obj"));
+        assert_eq!(rebased("/x/cow.obj", "/a/b", "/a"), Path::new("/x/cow.obj"));
+        assert_eq!(rebased("cow.obj", "", "lib"), Path::new("../cow.obj"));
     }
 
     #[test]
     #[cfg(unix)]
-    fn the_way_out_of_a_linked_folder_is_not_taken_by_name() {
+    fn the_path_out_of_a_linked_folder_is_absolute() {
         let root = tempfile::tempdir().unwrap();
         let at = |name: &str| root.path().join(name);
         std::fs::create_dir_all(at("far/away")).unwrap();
         std::os::unix::fs::symlink(at("far/away"), at("lib")).unwrap();
         std::fs::write(at("cow.obj"), "").unwrap();
         assert_eq!(
-            seen_from(&Disk, "cow.obj", root.path(), &at("lib")),
+            rebase_path(&Disk, "cow.obj", root.path(), &at("lib")),
             at("cow.obj"),
             "lib/../cow.obj would be far/cow.obj"
         );
     }
 
     #[test]
-    fn what_is_no_text_is_refused_with_its_line() {
+    fn a_file_that_is_not_utf_8_is_refused_with_the_line() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.ron");
         std::fs::write(&path, b"(\n\xff)").unwrap();
@@ -143,14 +146,14 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_is_too_long_is_not_read_whole() {
+    fn a_file_that_is_too_large_is_not_read_completely() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.ron");
         let file = std::fs::File::create(&path).unwrap();
         file.set_len(1 << 40).unwrap();
         let error = Source::open(&path).unwrap_err();
         assert!(
-            error.ends_with("a recipe of more than 64 MiB is not read"),
+            error.ends_with("the recipe is larger than 64 MiB"),
             "{error}"
         );
     }

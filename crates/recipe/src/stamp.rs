@@ -1,11 +1,11 @@
-//! The stamp: the line that a written file carries about the run that made it.
+//! The stamp: one line that an output file contains about the run that wrote it (its provenance).
 //!
 //! ```text
 //! meshwright 0.1.0, recipe 1f0c..e2, {"file":"teapot.ron","set":{"levels":"2"},"inputs":{"a.bez":"9a.."}}
 //! ```
 //!
-//! The digest of the recipe stands first, so that formats with little room keep it. The stamp holds no path
-//! of the machine: inputs are seen from the recipe's folder, and absolute ones are named without folders.
+//! The digest of the recipe comes first, so that formats that store only a short text keep it. The stamp contains no
+//! absolute paths: inputs are relative to the recipe's folder, or only their file name if their path is absolute.
 
 use std::fmt;
 use std::path::Path;
@@ -15,18 +15,18 @@ use store::{Store, StoreError};
 
 use crate::recipe::{Origin, Recipe};
 
-/// What a stamp says.
+/// The content of a stamp.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Stamp {
     /// The program and its version.
     pub program: String,
     /// The digest of the recipe, with its parameters.
     pub recipe: String,
-    /// The rest, unless there was no room for it.
+    /// The remaining content, unless the stamp was truncated.
     pub run: Option<Run>,
 }
 
-/// What is needed to run the recipe again.
+/// The information needed to run the recipe again.
 #[derive(Clone, Debug, Default, Deserialize, Eq, PartialEq, Serialize)]
 pub struct Run {
     /// The name of the recipe's file.
@@ -34,7 +34,7 @@ pub struct Run {
     /// The preset that was chosen.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub preset: Option<String>,
-    /// The parameters that were set, and their values as text; paths are seen from the recipe's folder.
+    /// The parameters that were set, and their values as text. Paths are relative to the recipe's folder.
     #[serde(default, skip_serializing_if = "Pairs::is_empty")]
     pub set: Pairs,
     /// The files that were read, and their digests.
@@ -42,18 +42,18 @@ pub struct Run {
     pub inputs: Pairs,
 }
 
-/// Names with texts, in order.
+/// Names with texts, sorted by name.
 pub type Pairs = std::collections::BTreeMap<String, String>;
 
 impl Stamp {
-    /// The stamp of files that a run of `recipe` writes. `inputs` are the files that it reads.
+    /// Returns the stamp for the files that a run of `recipe` writes. `inputs` are the files that it reads.
     pub fn new(recipe: &Recipe, inputs: &[impl AsRef<Path>], store: &dyn Store) -> Self {
         let mut run = Run::default();
         if let Some(source) = recipe.sources.first() {
             let name = source.path.file_name().unwrap_or_default();
             run.file = name.to_string_lossy().into_owned();
             for input in inputs.iter().map(AsRef::as_ref) {
-                // What cannot be read fails the run that would write the stamp.
+                // A file that cannot be read is skipped: the run will fail anyway.
                 if let Ok(digest) = digest(store, input) {
                     run.inputs.insert(shown(input, source.folder()), digest);
                 }
@@ -76,7 +76,7 @@ impl Stamp {
         }
     }
 
-    /// Reads a stamp; `None` if the text is none.
+    /// Parses a stamp. `None` if the text is not a stamp.
     pub fn parse(text: &str) -> Option<Self> {
         let (program, rest) = text.split_once(", recipe ")?;
         let (recipe, rest) = rest.split_once(", ").unwrap_or((rest, ""));
@@ -100,7 +100,7 @@ impl fmt::Display for Stamp {
     }
 }
 
-/// The digest of a file's bytes.
+/// Returns the digest of the bytes of a file.
 ///
 /// # Errors
 ///
@@ -111,16 +111,16 @@ pub fn digest(store: &dyn Store, path: &Path) -> Result<String, StoreError> {
     Ok(digest.to_hex()[..32].to_owned())
 }
 
-/// The name of an input in a stamp.
+/// Returns the name of an input file in a stamp. `folder` is the recipe's folder.
 pub fn shown(input: &Path, folder: &Path) -> String {
-    let seen = match input.strip_prefix(folder) {
+    let relative = match input.strip_prefix(folder) {
         Ok(below) => below.to_owned(),
         Err(_) if input.is_relative() => {
             pathdiff::diff_paths(input, folder).unwrap_or_else(|| input.to_owned())
         }
         Err(_) => input.file_name().unwrap_or_default().into(),
     };
-    seen.to_string_lossy().replace('\\', "/")
+    relative.to_string_lossy().replace('\\', "/")
 }
 
 #[cfg(test)]
@@ -129,7 +129,7 @@ mod tests {
     use crate::{Source, Values};
 
     #[test]
-    fn a_stamp_says_what_is_needed_to_run_again() {
+    fn a_stamp_has_the_information_to_run_the_recipe_again() {
         let folder = tempfile::tempdir().unwrap();
         let input = folder.path().join("a.bez");
         std::fs::write(&input, "0").unwrap();
@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stamp_that_was_cut_off_keeps_the_digest() {
+    fn a_truncated_stamp_keeps_the_digest() {
         let line = "meshwright 0.1.0, recipe 0123456789abcdef0123456789abcdef, {\"fi";
         let stamp = Stamp::parse(line).unwrap();
         assert_eq!((stamp.recipe.len(), stamp.run), (32, None));

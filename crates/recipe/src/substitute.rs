@@ -1,12 +1,13 @@
-//! Fills the parameters of a recipe in: `arg("name")` becomes the value of the parameter.
+//! Substitutes the parameters of a recipe: `arg("name")` is replaced by the value of the parameter.
 
 use ron_tree::{Call, Diagnostic, Span, Value, ValueKind};
 
-/// Fills the parameters in `value` in: `resolve` gets the name of a parameter and the place of that name, and gives
-/// its value. What is put in has the place of its `arg(..)`, and the name of the parameter.
+/// Replaces each `arg("name")` in `value` by the value of the parameter. `resolve` is called with the name of the
+/// parameter and the span of that name, and returns its value. The new value has the span of its `arg(..)` and the name
+/// of the parameter.
 ///
-/// Returns what `resolve` says of each parameter that it has no value for, and an error for each `arg` that names none;
-/// these stay as they are.
+/// Returns the errors of `resolve`, and an error for each `arg` without a name. In these cases the `arg` stays
+/// unchanged.
 pub fn substitute(
     value: &mut Value,
     mut resolve: impl FnMut(&str, Span) -> Result<Value, Box<Diagnostic>>,
@@ -29,7 +30,7 @@ pub fn substitute(
 }
 
 fn no_name(span: Span) -> Box<Diagnostic> {
-    let message = "expected the name of one parameter of the recipe in `arg(..)`";
+    let message = "expected the name of a parameter of the recipe in `arg(..)`";
     Box::new(Diagnostic::error(span, message).with_help("write `arg(\"name\")`"))
 }
 
@@ -48,7 +49,7 @@ fn fill(
     }
 }
 
-/// Gives all parts of a value the place of the `arg(..)` and the name of its parameter.
+/// Sets the span and the parameter of a value and of all its parts.
 fn mark(value: &mut Value, span: Span, parameter: &str) {
     value.span = span;
     value.parameter = Some(parameter.into());
@@ -75,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn values_take_the_place_of_the_calls() {
+    fn values_replace_the_calls_of_arg() {
         let filled = filled();
 
         assert_eq!(filled.to_string(), "[Grid(x: 8, y: [(1, 0.5), 3])]");

@@ -1,4 +1,4 @@
-//! Recipes over a small registry of their own, from the text to the outcome.
+//! Tests of recipes with a small registry of test operations, from the text to the outcome.
 
 mod check;
 mod flow;
@@ -16,10 +16,10 @@ use scene::Object;
 use self::operations::{registry, steps};
 use crate::{Diagnostic, Forecast, Outcome, Reader, Reading, Settings, Silent};
 
-/// Reads objects by a function, and compares no pictures.
+/// A reader that reads objects with a function and cannot compare pictures.
 pub(crate) struct Objects<F>(F);
 
-/// For closures, whose parameters the compiler then knows.
+/// Creates the reader from a closure. The bound lets the compiler infer the types of its parameters.
 pub(crate) fn objects<F>(read: F) -> Objects<F>
 where
     F: Fn(&Path, &Files) -> Result<Vec<Object>, String> + Sync,
@@ -38,11 +38,11 @@ impl<F: Fn(&Path, &Files) -> Result<Vec<Object>, String> + Sync> Reader for Obje
         _: (&Path, &[u8]),
         _: u8,
     ) -> Result<Option<String>, String> {
-        Err("no pictures are compared here".to_owned())
+        Err("these tests compare no pictures".to_owned())
     }
 }
 
-/// Reads a recipe that is said to lie in the working directory `/work`.
+/// Reads a recipe as if it were the file `/work/test.ron`.
 fn read(text: &str) -> Reading {
     read_with(text, &[])
 }
@@ -69,7 +69,7 @@ fn files(reading: &Reading, output: &Path) -> Files {
     }
 }
 
-/// Checks a recipe without mistakes to be read.
+/// Reads a recipe, which must not have errors, and checks it.
 #[track_caller]
 fn checked(text: &str, budget: u64) -> Forecast {
     let reading = read(text);
@@ -77,14 +77,14 @@ fn checked(text: &str, budget: u64) -> Forecast {
     crate::check(&reading.recipe, &files(&reading, Path::new("out")), budget)
 }
 
-/// Runs a recipe that is read without mistakes, and that reads and writes no file.
+/// Runs a recipe without errors that reads and writes no files.
 #[track_caller]
 fn run(reading: &Reading) -> Outcome {
     assert!(!reading.has_errors(), "{:#?}", reading.diagnostics);
     let settings = Settings {
         files: &files(reading, Path::new("out")),
         budget: u64::MAX,
-        reader: &objects(|path, _| Err(format!("there is no file {}", path.display()))),
+        reader: &objects(|path, _| Err(format!("the file {} does not exist", path.display()))),
         keep_outputs: false,
         writes: false,
         cache: None,
@@ -92,10 +92,10 @@ fn run(reading: &Reading) -> Outcome {
     crate::run(&reading.recipe, settings, &Silent)
 }
 
-/// What each diagnostic points at, its message and its advice.
+/// Returns the spanned text, the message and the help of each diagnostic.
 fn shown<'t>(text: &'t str, diagnostics: &'t [Diagnostic]) -> Vec<(&'t str, &'t str, &'t str)> {
     let one = |d: &'t Diagnostic| {
-        let place = d.span.map_or("nowhere", |span| span.of(text));
+        let place = d.span.map_or("no span", |span| span.of(text));
         (place, d.message.as_str(), d.help.as_deref().unwrap_or(""))
     };
     diagnostics.iter().map(one).collect()

@@ -1,9 +1,9 @@
-//! Renewing what a recipe records: expectations whose recorded value is not the one that was found get the
-//! found one, in the text of the recipe, and everything else in the text stays as it is.
+//! Updates the recorded values of a recipe: in the text of the recipe, replaces the recorded value of each expectation
+//! that does not hold by the actual value. The rest of the text stays unchanged.
 //!
-//! Recorded are `eq`, `is`, the corners of `Bounds`, `Digest`, and the file beside the recipe of `Output`. What
-//! bounds a result from one side, such as `min` and `below`, and what holds or not, such as `Manifold`, is what
-//! somebody wants of it: it is never changed. A value that a parameter brings is changed by whoever changes the parameter.
+//! Recorded values are `eq`, `is`, the corners of `Bounds`, `Digest`, and the reference file of `Output`. Requirements
+//! are never changed: one-sided bounds such as `min` and `below`, and conditions such as `Manifold`. A value that comes
+//! from a parameter is not changed either.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -13,53 +13,53 @@ use crate::recipe::Recipe;
 use crate::run::{Outcome, UnmetExpectation};
 use ron_tree::{Diagnostic, LineIndex, Span, Value, ValueKind, string_literal};
 
-/// A recipe with its recorded values renewed.
+/// A recipe with updated recorded values.
 #[derive(Clone, Debug)]
 pub struct Update {
-    /// The text.
+    /// The new text of the recipe.
     pub text: String,
-    /// What was changed, in the order of the text.
+    /// The changes, in the order of the text.
     pub changes: Vec<Change>,
-    /// Files beside the recipe with what they should hold.
+    /// The reference files to write, with their contents.
     pub files: BTreeMap<PathBuf, Vec<u8>>,
-    /// What went wrong and is not mended by that, each with a word on why, in the order of the run.
+    /// The failures that the update does not fix, in the order of the run. Their help tells why.
     pub left: Vec<Diagnostic>,
 }
 
-/// A value that was changed.
+/// A change of a recorded value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Change {
-    /// The place of the expectation in the text before.
+    /// The span of the expectation in the old text.
     pub span: Span,
-    /// Its line in the text before, from 1.
+    /// The line of the expectation in the old text, counted from 1.
     pub line: usize,
-    /// The expectation as it was, in one line.
+    /// The old expectation, in one line.
     pub was: String,
-    /// The value that it has now.
+    /// The new value.
     pub found: String,
 }
 
-/// Renews the recorded values in the text of the recipe itself by what its run found.
+/// Updates the recorded values in the text of the recipe itself to the actual values of a run.
 pub fn update(recipe: &Recipe, outcome: &Outcome) -> Update {
     let source: &str = recipe.sources.first().map_or("", |source| &source.text);
     let tree = ron_tree::parse(source).value;
     let lines = LineIndex::new(source);
-    let (mut edits, mut changes, mut mended) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut edits, mut changes, mut fixed) = (Vec::new(), Vec::new(), Vec::new());
     let mut left = outcome.failures.clone();
     let mut files = BTreeMap::new();
-    for turns in in_the_text(recipe, outcome) {
-        let renewed = renewal(&tree, recipe, &turns).and_then(|(value, fix)| {
-            let is_other = |(path, bytes): &(PathBuf, Vec<u8>)| {
+    for turns in unmet_in_text(recipe, outcome) {
+        let fix = find_fix(&tree, recipe, &turns).and_then(|(value, fix)| {
+            let is_conflict = |(path, bytes): &(PathBuf, Vec<u8>)| {
                 files.get(path).is_some_and(|before| before != bytes)
             };
             match &fix.file {
-                Some(file) if is_other(file) => {
-                    Err("another expectation records another file there".to_owned())
+                Some(file) if is_conflict(file) => {
+                    Err("another expectation records a different file under this name".to_owned())
                 }
                 _ => Ok((value, fix)),
             }
         });
-        match renewed {
+        match fix {
             Ok((value, fix)) => {
                 changes.push(Change {
                     span: value.span,
@@ -69,7 +69,7 @@ pub fn update(recipe: &Recipe, outcome: &Outcome) -> Update {
                 });
                 edits.extend(fix.edits);
                 files.extend(fix.file);
-                mended.extend(turns.iter().flatten().map(|unmet| unmet.failure));
+                fixed.extend(turns.iter().flatten().map(|unmet| unmet.failure));
             }
             Err(why) => {
                 for unmet in turns.iter().flatten() {
@@ -80,15 +80,15 @@ pub fn update(recipe: &Recipe, outcome: &Outcome) -> Update {
             }
         }
     }
-    mended.sort_unstable();
+    fixed.sort_unstable();
     changes.sort_by_key(|change| change.span);
     let mut number = 0..;
     left.retain(|_| {
         number
             .next()
-            .is_some_and(|i| mended.binary_search(&i).is_err())
+            .is_some_and(|i| fixed.binary_search(&i).is_err())
     });
-    // Expectations lie apart, and so do the values in them.
+    // The edits cannot overlap, because neither expectations nor the values in them do.
     let text = ron_tree::replace(source, edits).unwrap_or_else(|_| source.to_owned());
     Update {
         text,
@@ -98,16 +98,16 @@ pub fn update(recipe: &Recipe, outcome: &Outcome) -> Update {
     }
 }
 
-/// The expectations that do not hold, together with those that stand at the same place in the text: in a
-/// repetition one of each turn, `None` for a turn in which it holds.
-fn in_the_text<'o>(
+/// Returns the expectations of the text that do not hold. Each is a list with one entry for each repetition of its
+/// step, which is `None` if the expectation holds in that repetition.
+fn unmet_in_text<'o>(
     recipe: &Recipe,
     outcome: &'o Outcome,
 ) -> Vec<Vec<Option<&'o UnmetExpectation>>> {
     let mut unmet = vec![None; recipe.expectations.len()];
-    for broken in &outcome.unmet {
-        if let Some(slot) = unmet.get_mut(broken.expectation) {
-            *slot = Some(broken);
+    for expectation in &outcome.unmet {
+        if let Some(slot) = unmet.get_mut(expectation.expectation) {
+            *slot = Some(expectation);
         }
     }
     let mut places: BTreeMap<_, Vec<Option<&UnmetExpectation>>> = BTreeMap::new();
@@ -121,35 +121,36 @@ fn in_the_text<'o>(
     places.into_values().collect()
 }
 
-/// What makes an expectation record what was found, and where it stands; or why that cannot be done.
-fn renewal<'t>(
+/// Returns an expectation in the tree and the fix that makes it record the actual value, or the reason why it cannot be
+/// fixed. `turns` has one entry for each repetition.
+fn find_fix<'t>(
     tree: &'t Value,
     recipe: &Recipe,
     turns: &[Option<&UnmetExpectation>],
 ) -> Result<(&'t Value, Fix), String> {
-    let broken = turns.iter().flatten().next().ok_or(NOT_RECORDED)?;
+    let unmet = turns.iter().flatten().next().ok_or(NOT_RECORDED)?;
     let placed = recipe
         .expectations
-        .get(broken.expectation)
+        .get(unmet.expectation)
         .ok_or(NOT_RECORDED)?;
     if recipe.source_of(placed.scope) != 0 {
-        let help = "it stands in a recipe that this one calls, so it is not updated";
+        let help = "the expectation is in a called recipe, so it is not updated";
         return Err(help.to_owned());
     }
     let value = expectation_at(tree, placed.span).ok_or(NOT_RECORDED)?;
-    let fix = fix(value, broken.found.as_ref())?;
-    let is_same = |turn: &UnmetExpectation| turn.found == broken.found;
+    let fix = fix(value, unmet.found.as_ref())?;
+    let is_same = |turn: &UnmetExpectation| turn.found == unmet.found;
     if !turns.iter().all(|turn| turn.is_some_and(is_same)) {
-        let help = "the turns of a repetition find different values, so it is not updated";
+        let help = "the repetitions give different values, so the expectation is not updated";
         return Err(help.to_owned());
     }
     Ok((value, fix))
 }
 
 const NOT_RECORDED: &str =
-    "this is no recorded value (`eq`, `is`, `Bounds`, `Digest`, `Output`), so it is not updated";
+    "this is not a recorded value (`eq`, `is`, `Bounds`, `Digest`, `Output`), so it is not updated";
 
-/// The expectation that stands at `span`.
+/// Returns the expectation at `span`.
 fn expectation_at(tree: &Value, span: Span) -> Option<&Value> {
     let listed = tree.field("expect")?.items()?;
     listed
@@ -161,16 +162,17 @@ fn expectation_at(tree: &Value, span: Span) -> Option<&Value> {
         .find(|item| item.span == span)
 }
 
-/// The changes of the text for one expectation.
+/// The changes that make one expectation record the actual value.
 struct Fix {
+    /// The edits of the text.
     edits: Vec<(Span, String)>,
-    /// The file beside the recipe that is to be written.
+    /// The reference file to write, with its content.
     file: Option<(PathBuf, Vec<u8>)>,
-    /// The new value in a few words.
+    /// The new value, as shown to users.
     shown: String,
 }
 
-/// What makes the expectation record what was found, or why that cannot be done.
+/// Returns the fix that makes the expectation record the actual value, or the reason why it cannot be fixed.
 fn fix(expectation: &Value, found: Option<&ActualValue>) -> Result<Fix, String> {
     let found = found.ok_or(NOT_RECORDED)?;
     let recorded = |field: &str| -> Result<&Value, String> {
@@ -202,7 +204,7 @@ fn fix(expectation: &Value, found: Option<&ActualValue>) -> Result<Fix, String> 
             shown: format!("{} is written", golden.display()),
         }),
         ActualValue::Position { at, tolerance } => {
-            // With every coordinate off by no more than this, the place is near enough.
+            // If every coordinate is off by at most half of the tolerance, the distance is within the tolerance.
             let edits = vector(recorded("is")?, at.to_array(), 0.5 * tolerance)?;
             Fix::several(edits, format!("({}, {}, {})", at.x, at.y, at.z))
         }
@@ -211,7 +213,7 @@ fn fix(expectation: &Value, found: Option<&ActualValue>) -> Result<Fix, String> 
             max,
             tolerance,
         } => {
-            // Each coordinate may be off by the whole tolerance.
+            // The tolerance of `Bounds` is for each coordinate.
             let mut edits = vector(recorded("min")?, min.to_array(), *tolerance)?;
             edits.extend(vector(recorded("max")?, max.to_array(), *tolerance)?);
             let corner = |p: &mesh::DVec3| format!("({}, {}, {})", p.x, p.y, p.z);
@@ -241,8 +243,7 @@ impl Fix {
     }
 }
 
-/// The changes of the numbers of a vector that are off by more than `allowed`: the others stay as somebody
-/// wrote them.
+/// Returns the edits of the numbers of a vector that are off by more than `allowed`. The other numbers stay as written.
 fn vector(value: &Value, found: [f64; 3], allowed: f64) -> Result<Vec<(Span, String)>, String> {
     not_from_parameter(value)?;
     let body = match &value.kind {
@@ -274,7 +275,8 @@ fn number_text(value: &Value) -> Result<&str, String> {
     }
 }
 
-/// A recipe is not changed where a parameter brings the value: others may use it.
+/// Returns an error if the value comes from a parameter. It is not updated, because other values may depend on the
+/// parameter.
 fn not_from_parameter(value: &Value) -> Result<(), String> {
     match &value.kind {
         ValueKind::Call(call) if &*call.name.text == "arg" => Err(format!(
@@ -284,13 +286,13 @@ fn not_from_parameter(value: &Value) -> Result<(), String> {
     }
 }
 
-/// A number as RON, in the way of the one that it stands for: with a point or without where both will do,
-/// and with groups of digits.
+/// Formats a number as RON in the style of the number that it replaces: with or without a decimal point if both are
+/// possible, and with or without digit groups.
 fn float_like(x: f64, written: &str) -> Result<String, String> {
     if !x.is_finite() {
         return Err(format!("{x} cannot be recorded"));
     }
-    // Zero has no sign here.
+    // Adding 0 turns -0 into 0.
     let text = format!("{:?}", x + 0.0);
     let is_whole = !written.contains(['.', 'e', 'E']);
     let text = match text.strip_suffix(".0") {
@@ -300,7 +302,7 @@ fn float_like(x: f64, written: &str) -> Result<String, String> {
     Ok(grouped_like(text, written))
 }
 
-/// The digits before the point in groups of three, if those of `written` are in groups.
+/// Writes the digits before the decimal point in groups of three, if `written` has digit groups.
 fn grouped_like(text: &str, written: &str) -> String {
     if !written.contains('_') || text.contains('e') {
         return text.to_owned();
@@ -324,7 +326,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_written_as_those_that_they_replace() {
+    fn numbers_are_written_in_the_style_of_those_that_they_replace() {
         let float = |x, written| float_like(x, written).unwrap();
         assert_eq!(float(24.0, "23"), "24");
         assert_eq!(float(24.0, "23.0"), "24.0");

@@ -1,7 +1,7 @@
-//! Older spellings in a recipe: found when it is read, and rewritten by `meshwright upgrade`.
+//! Old names in a recipe: the reader accepts them with a warning, and `meshwright upgrade` replaces them.
 //!
-//! An operation that was renamed keeps its old names as aliases. A field or variant that was renamed keeps them
-//! for `serde` and in its schema:
+//! A renamed operation keeps its old names as aliases. A renamed field or variant declares them for `serde` and in its
+//! schema:
 //!
 //! ```text
 //! #[serde(alias = "amount")]
@@ -11,34 +11,33 @@
 
 use op::Registry;
 
-use crate::read::{VERSION, other_version};
+use crate::read::{VERSION, wrong_version};
 use crate::schema::{self, Schemas};
 pub use crate::shape::Rename;
 use crate::shape::{check_step, checked};
 use ron_tree::{Diagnostic, LineIndex, Value, ValueKind};
 
-/// A recipe in the spelling of today.
+/// A recipe with current names.
 #[derive(Clone, Debug)]
 pub struct Upgraded {
-    /// The text; comments and layout are as they were.
+    /// The new text. Comments and layout are unchanged.
     pub text: String,
-    /// What was rewritten, in the order of the text before, with the line of each, from 1.
+    /// The replaced names in the order of the text, each with its line in the old text, counted from 1.
     pub renames: Vec<(usize, Rename)>,
 }
 
-/// Rewrites older spellings in a recipe. Nothing else about it needs to be right, as long as the text can be
-/// read.
+/// Replaces old names in a recipe. The recipe can have other errors, as long as its text can be parsed.
 ///
 /// # Errors
 ///
-/// Everything that keeps the text from being read: slips, no version, a newer version.
+/// The syntax errors of the text, or an error if the version is missing or not supported.
 pub fn upgrade(source: &str, registry: &Registry) -> Result<Upgraded, Vec<Diagnostic>> {
     let parsed = ron_tree::parse(source);
     let root = &parsed.value;
     if !parsed.diagnostics.is_empty() {
         return Err(parsed.diagnostics);
     }
-    if let Some(problem) = wrong_version(root) {
+    if let Some(problem) = missing_or_wrong_version(root) {
         return Err(vec![problem]);
     }
     let schemas = Schemas::new(registry);
@@ -59,7 +58,7 @@ pub fn upgrade(source: &str, registry: &Registry) -> Result<Upgraded, Vec<Diagno
     found.sort_by_key(|rename| rename.span);
     found.dedup();
     let edits = found.iter().map(|r| (r.span, r.to.clone())).collect();
-    let text = ron_tree::replace(source, edits).expect("names lie apart");
+    let text = ron_tree::replace(source, edits).expect("names do not overlap");
     let lines = LineIndex::new(source);
     let renames = found
         .into_iter()
@@ -68,19 +67,19 @@ pub fn upgrade(source: &str, registry: &Registry) -> Result<Upgraded, Vec<Diagno
     Ok(Upgraded { text, renames })
 }
 
-fn wrong_version(root: &Value) -> Option<Diagnostic> {
+fn missing_or_wrong_version(root: &Value) -> Option<Diagnostic> {
     let Some(version) = root.field("recipe") else {
         let message = "expected a recipe, found a text without `recipe: 1`";
         return Some(Diagnostic::error(root.span, message));
     };
     if matches!(&version.kind, ValueKind::Number(number) if number.is_int()) {
-        return other_version(root, "recipe", VERSION);
+        return wrong_version(root, "recipe", VERSION);
     }
     let message = format!("expected version {VERSION}, found {}", version.describe());
     Some(Diagnostic::error(version.span, message).with_help("write 1"))
 }
 
-/// `Name(..)`, or `(run: Name(..), ..)`; steps may hold lists of steps.
+/// Collects the old names in a step: `Name(..)` or `(run: Name(..), ..)`. Steps can contain lists of steps.
 fn step(written: &Value, schemas: &Schemas, found: &mut Vec<Rename>) {
     let envelope = matches!(written.kind, ValueKind::Struct(_));
     let run = written.field("run").filter(|_| envelope).unwrap_or(written);

@@ -1,4 +1,4 @@
-//! Attributes: `#![schema = ".."]` and their like.
+//! Attributes such as `#![schema = ".."]`.
 
 use super::lexer::{Bracket, TokenKind};
 use super::parser::Parser;
@@ -7,8 +7,8 @@ use crate::diagnostic::Diagnostic;
 impl Parser<'_> {
     /// Reads an attribute, whose `#` is `current`.
     ///
-    /// `#![type = ".."]` and `#![schema = ".."]` say something to editors only; they stand at the
-    /// start of the text, as `is_start` says of this one.
+    /// `#![type = ".."]` and `#![schema = ".."]` are for editors only and are ignored. They must be at the start of the
+    /// text; `is_start` tells whether this attribute is.
     pub(super) fn attribute(&mut self, is_start: bool) {
         let start = self.bump().span;
         let bang = self.take(TokenKind::Bang);
@@ -30,12 +30,12 @@ impl Parser<'_> {
         let (message, help) = match name {
             "type" | "schema" if has_text && is_start => return,
             "type" | "schema" if has_text => (
-                "attributes stand at the start of the text",
+                "attributes must be at the start of the text",
                 "move it to the first line",
             ),
             "enable" => (
-                "recipes do not choose extensions of RON",
-                "remove it: `Some(..)` may always be left out, and no other extension is used",
+                "recipes cannot enable extensions of RON",
+                "remove it: `Some(..)` can always be omitted, and other extensions are not supported",
             ),
             _ => (
                 "unknown attribute",

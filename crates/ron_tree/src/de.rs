@@ -1,8 +1,8 @@
-//! Reads values into Rust types.
+//! Deserializes values into Rust types.
 //!
-//! What a type accepts is what the `ron` crate accepts with `IMPLICIT_SOME`: `Some(..)` may be left out, and the
-//! name of a struct may stand before its brackets. The tree is not changed or copied, and an error has the place of the
-//! innermost value that it is about.
+//! A type accepts the same values as with the `ron` crate and its extension `IMPLICIT_SOME`: `Some(..)` can be omitted,
+//! and the name of a struct can precede its parentheses. The tree is neither changed nor copied. An error has the span
+//! of the innermost value that it is about.
 
 use std::fmt;
 use std::slice;
@@ -17,13 +17,13 @@ use crate::diagnostic::Span;
 use crate::parser::parse;
 use crate::tree::{Field, Value, ValueKind};
 
-/// Why a value could not be read into a type.
+/// Why a value could not be deserialized.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct Error {
-    /// What is wrong, in one line.
+    /// The message, in one line.
     pub message: String,
-    /// The place of the value; `None` if the text as a whole cannot be read.
+    /// The span of the value. `None` if the error is about the text as a whole.
     pub span: Option<Span>,
 }
 
@@ -38,11 +38,11 @@ impl serde::de::Error for Error {
 
 type Result<T> = std::result::Result<T, Error>;
 
-/// Reads a text into a type.
+/// Parses a text and deserializes its value.
 ///
 /// # Errors
 ///
-/// The first problem of the text, or else why it is no value of the type.
+/// The first syntax error of the text, or else the reason why its value does not have the type.
 ///
 /// ```
 /// #[derive(serde::Deserialize)]
@@ -71,7 +71,7 @@ impl Value {
         })
     }
 
-    /// Gives an error that has no place yet the place of this value.
+    /// Gives an error without a span the span of this value.
     fn locate<T>(&self, result: Result<T>) -> Result<T> {
         result.map_err(|error| Error {
             span: error.span.or(Some(self.span)),
@@ -79,12 +79,12 @@ impl Value {
         })
     }
 
-    /// Reads the value into the type of `seed`.
+    /// Deserializes the value into the type of `seed`.
     fn read<'de, T: DeserializeSeed<'de>>(&'de self, seed: T) -> Result<T::Value> {
         self.locate(seed.deserialize(self))
     }
 
-    /// What stands in the brackets after the name of a struct, or the value itself.
+    /// Returns the part in parentheses after the name of a struct, or the value itself if it has no name.
     fn without_name(&self, name: &str) -> &Self {
         match &self.kind {
             ValueKind::Call(call) if &*call.name.text == name => &call.body,
@@ -96,7 +96,7 @@ impl Value {
         match &self.kind {
             ValueKind::Number(number) if number.is_int() => {
                 let value = number.to_int().and_then(|value| value.try_into().ok());
-                value.map_or_else(|| self.expected("a smaller whole number"), Ok)
+                value.map_or_else(|| self.expected("a whole number in the allowed range"), Ok)
             }
             _ => self.expected("a whole number"),
         }
@@ -128,7 +128,7 @@ impl Value {
     }
 }
 
-/// A deserialiser method that takes one kind of values.
+/// Defines deserializer methods for types that accept one kind of value.
 macro_rules! deserialize_kind {
     ($($method:ident, $visit:ident, $value:ident => $read:expr;)*) => {$(
         fn $method<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
@@ -320,7 +320,7 @@ impl<'de> SeqAccess<'de> for &mut Items<'de> {
     }
 }
 
-/// The key of an entry of a map, or the name of a field or variant, with its place.
+/// The key of a map entry, or the name of a field or variant with its span.
 enum Key<'de> {
     Name(&'de str, Span),
     Value(&'de Value),
@@ -384,7 +384,7 @@ impl<'de> EnumAccess<'de> for Variant<'de> {
 }
 
 impl<'de> Variant<'de> {
-    /// What stands in the brackets.
+    /// Returns the part in parentheses.
     fn body(&self) -> Result<&'de Value> {
         match &self.0.kind {
             ValueKind::Call(call) => Ok(&call.body),

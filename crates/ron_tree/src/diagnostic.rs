@@ -1,28 +1,28 @@
-//! Places in a text, and problems with them.
+//! Diagnostics (errors and warnings) and the spans of text that they refer to.
 
 use std::ops::Range;
 
-/// One problem of a text.
+/// An error or a warning about a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// Whether the text can be used in spite of it.
+    /// Whether it is an error or a warning.
     pub severity: Severity,
-    /// What is wrong, in one line: lower case, no full stop.
+    /// The message: one line that starts in lower case and has no final period.
     pub message: String,
-    /// The text that the places are in: its index in a list of texts that the reader keeps, 0 for the first.
+    /// The text that the spans refer to: its index in the list of texts that the reader keeps. 0 is the first text.
     pub source: usize,
-    /// The place, if the problem has one.
+    /// The span that the message is about, if it is about a part of the text.
     pub span: Option<Span>,
-    /// Other places that matter, each with a few words on why.
+    /// Other relevant spans, each with a short explanation.
     pub labels: Vec<(Span, String)>,
-    /// What to do about it.
+    /// How to correct the text.
     pub help: Option<String>,
-    /// The calls that led to the text, the last one first: their texts and places.
+    /// The calls that led to the text, the innermost first: the index of the calling text and the span of the call.
     pub calls: Vec<(usize, Span)>,
 }
 
 impl Diagnostic {
-    /// An error at `span`.
+    /// Creates an error at `span`.
     pub fn error(span: Span, message: impl Into<String>) -> Self {
         Self {
             severity: Severity::Error,
@@ -35,7 +35,7 @@ impl Diagnostic {
         }
     }
 
-    /// A warning at `span`.
+    /// Creates a warning at `span`.
     pub fn warning(span: Span, message: impl Into<String>) -> Self {
         Self {
             severity: Severity::Warning,
@@ -43,7 +43,7 @@ impl Diagnostic {
         }
     }
 
-    /// An error that belongs to no place in the text.
+    /// Creates an error that is not about a part of the text.
     pub fn without_place(message: impl Into<String>) -> Self {
         Self {
             span: None,
@@ -51,28 +51,28 @@ impl Diagnostic {
         }
     }
 
-    /// The same, with a second place.
+    /// Adds a label.
     #[must_use]
     pub fn with_label(mut self, span: Span, text: impl Into<String>) -> Self {
         self.labels.push((span, text.into()));
         self
     }
 
-    /// The same, with advice.
+    /// Sets the help text.
     #[must_use]
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
     }
 
-    /// Whether the text is refused because of it.
+    /// Whether this is an error.
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
     }
 
-    /// The diagnostic in one line, `file:line:column: error: message`.
+    /// Returns the diagnostic in one line: `file:line:column: error: message`.
     ///
-    /// `lines` is the index of the text that the spans point into.
+    /// `lines` is the line index of the text that the spans refer to.
     pub fn short(&self, path: &str, lines: &LineIndex) -> String {
         let severity = self.severity.name();
         let message = &self.message;
@@ -86,17 +86,17 @@ impl Diagnostic {
     }
 }
 
-/// How bad a problem is.
+/// The severity of a diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
-    /// The text is refused.
+    /// The text cannot be used.
     Error,
-    /// The text is accepted, and somebody should look at it.
+    /// The text can be used, but is probably not as intended.
     Warning,
 }
 
 impl Severity {
-    /// `error` or `warning`.
+    /// Returns `error` or `warning`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Error => "error",
@@ -105,7 +105,7 @@ impl Severity {
     }
 }
 
-/// A range of bytes in a text; `end` is not part of it.
+/// A range of bytes in a text. `end` is exclusive.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Span {
     /// The first byte.
@@ -115,22 +115,22 @@ pub struct Span {
 }
 
 impl Span {
-    /// The bytes from `start` up to `end`.
+    /// Creates the span from `start` up to, but not including, `end`.
     pub fn new(start: usize, end: usize) -> Self {
         Self { start, end }
     }
 
-    /// The number of bytes.
+    /// Returns the number of bytes.
     pub fn len(self) -> usize {
         self.end.saturating_sub(self.start)
     }
 
-    /// Whether no byte lies in it.
+    /// Whether the span has no bytes.
     pub fn is_empty(self) -> bool {
         self.end <= self.start
     }
 
-    /// From the start of this span to the end of `other`.
+    /// Returns the span from the start of this span to the end of `other`.
     #[must_use]
     pub fn to(self, other: Self) -> Self {
         Self::new(self.start, other.end)
@@ -141,17 +141,17 @@ impl Span {
         self.start <= other.start && other.end <= self.end
     }
 
-    /// The part of `source` that the span covers; empty if it does not fit the text.
+    /// Returns the part of `source` that the span covers. Empty if the span is out of range or splits a character.
     pub fn of(self, source: &str) -> &str {
         source.get(self.range()).unwrap_or("")
     }
 
-    /// The span as a range.
+    /// Returns the span as a range.
     pub fn range(self) -> Range<usize> {
         self.start..self.end
     }
 
-    /// The span as a range that lies in `source` and splits no character.
+    /// Returns the span as a range, moved to the nearest positions in `source` that do not split a character.
     pub fn fitted(self, source: &str) -> Range<usize> {
         let start = char_start(source, self.start);
         start..char_start(source, self.end).max(start)
@@ -162,12 +162,12 @@ impl Span {
 #[derive(Clone, Debug)]
 pub struct LineIndex<'s> {
     source: &'s str,
-    /// The byte at which each line starts.
+    /// The offset of the first byte of each line.
     starts: Vec<usize>,
 }
 
 impl<'s> LineIndex<'s> {
-    /// Indexes `source`; a line ends after its line feed.
+    /// Indexes `source`. A line ends after its line feed.
     pub fn new(source: &'s str) -> Self {
         let after_feeds = source
             .bytes()
@@ -180,9 +180,10 @@ impl<'s> LineIndex<'s> {
         }
     }
 
-    /// Line and column of the byte at `offset`, both from 1; columns count characters.
+    /// Returns the line and the column of the byte at `offset`, both counted from 1. Columns count characters.
     ///
-    /// An offset behind the end of the text, or inside a character, gives the place before it.
+    /// An offset beyond the end of the text counts as the end; an offset inside a character, as the start of that
+    /// character.
     pub fn position(&self, offset: usize) -> (usize, usize) {
         let offset = char_start(self.source, offset);
         let line = self.starts.partition_point(|&start| start <= offset);
@@ -190,7 +191,7 @@ impl<'s> LineIndex<'s> {
         (line, self.source[start..offset].chars().count() + 1)
     }
 
-    /// The text of a line counted from 1, with its line feed; empty if there is no such line.
+    /// Returns the text of a line (counted from 1) with its line feed. Empty if the line does not exist.
     pub fn line(&self, line: usize) -> &'s str {
         let Some(&start) = self.starts.get(line - 1) else {
             return "";
@@ -200,7 +201,7 @@ impl<'s> LineIndex<'s> {
     }
 }
 
-/// The start of the character at `offset`, or the end of the text.
+/// Returns the start of the character at `offset`, or the end of the text.
 fn char_start(source: &str, offset: usize) -> usize {
     let mut offset = offset.min(source.len());
     while !source.is_char_boundary(offset) {

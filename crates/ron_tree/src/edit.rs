@@ -1,20 +1,20 @@
-//! Replaces parts of a text and leaves the rest as it is.
+//! Replaces parts of a text and leaves the rest unchanged.
 
 use crate::diagnostic::Span;
 
-/// Two edits of one text that cannot both be done, or one that lies outside of it.
+/// An edit that overlaps another edit, or is not within the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("expected edits that lie apart in the text, found bytes {} to {} twice or outside", .0.start, .0.end)]
+#[error("the edit of bytes {} to {} overlaps another edit or is not within the text", .0.start, .0.end)]
 pub struct EditOverlap(pub Span);
 
-/// Puts each text in place of its span; comments and layout around them stay.
+/// Replaces each span by its text. Comments and layout around the spans stay.
 ///
-/// The edits come in any order. An empty span inserts; several insertions at one place come in
-/// the order given.
+/// The edits can be in any order. An edit with an empty span inserts its text; several insertions at the same offset
+/// keep their order.
 ///
 /// # Errors
 ///
-/// [`EditOverlap`] if two spans overlap, or one does not fit the text.
+/// [`EditOverlap`] if two spans overlap, or a span is out of range or splits a character.
 ///
 /// # Examples
 ///
@@ -58,7 +58,7 @@ mod tests {
     }
 
     #[test]
-    fn edits_come_in_any_order() {
+    fn edits_can_be_in_any_order() {
         assert_eq!(
             edited(&[(4, 5, "E"), (0, 2, ""), (3, 3, "+"), (3, 3, "-")]).unwrap(),
             "c+-dEf"

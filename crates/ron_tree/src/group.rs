@@ -1,4 +1,4 @@
-//! Reads what stands between brackets: fields, items, entries.
+//! Parses groups in brackets: fields of structs, items of lists and tuples, entries of maps.
 
 use super::lexer::{Bracket, TokenKind};
 use super::parser::{MAX_DEPTH, Parser, excerpt, starts_value};
@@ -7,24 +7,25 @@ use super::tree::{Field, Name, Struct, Value, ValueKind};
 use crate::diagnostic::{Diagnostic, Span};
 use std::collections::BTreeMap;
 
-/// What stands between two brackets.
+/// The contents of a group in brackets.
 pub(super) struct Contents {
     pub(super) bracket: Bracket,
     pub(super) fields: Vec<Field>,
     values: Vec<Value>,
     entries: Vec<(Value, Value)>,
+    /// Whether everything could be read so far.
     complete: bool,
 }
 
 impl Contents {
-    /// Whether there are values without names so far, and nothing else.
+    /// Whether the group is a tuple so far: it has values without names, and no fields.
     pub(super) fn is_tuple(&self) -> bool {
         self.bracket == Bracket::Round && self.fields.is_empty() && !self.values.is_empty()
     }
 }
 
 impl Parser<'_> {
-    /// Reads what starts with the bracket that is `current`.
+    /// Parses the group whose opening bracket is `current`.
     pub(super) fn group(&mut self, bracket: Bracket, has_name: bool) -> Value {
         if self.open.len() >= MAX_DEPTH {
             return self.skip_group();
@@ -50,13 +51,13 @@ impl Parser<'_> {
         Value::new(span, self.finish(contents))
     }
 
-    /// Reads items up to the closing bracket, and passes it if it is there.
+    /// Parses items up to the closing bracket, and consumes that bracket if it exists.
     fn contents(&mut self, contents: &mut Contents) {
         loop {
             match self.current.kind {
                 None => return self.ended_inside(),
                 Some(TokenKind::Close(found)) => match self.closing(contents.bracket, found) {
-                    Closing::Ours => {
+                    Closing::Matching => {
                         self.bump();
                         return;
                     }
@@ -73,7 +74,7 @@ impl Parser<'_> {
                     }
                     Closing::Stray => {
                         let text = excerpt(self.current.span.of(self.source));
-                        let message = format!("{text} closes nothing");
+                        let message = format!("{text} has no matching opening bracket");
                         self.complain(Diagnostic::error(self.current.span, message));
                         self.bump();
                         self.complained_at = Some(self.current.span.start);
@@ -122,7 +123,7 @@ impl Parser<'_> {
         }
     }
 
-    /// A field of a struct or an item of a tuple.
+    /// Parses a field of a struct or an item of a tuple.
     fn round_item(&mut self, contents: &mut Contents) {
         use TokenKind as K;
         let quoted = self.current.kind == Some(K::String) && self.next.kind == Some(K::Colon);
@@ -131,7 +132,7 @@ impl Parser<'_> {
                 && match self.next.kind {
                     Some(K::Colon | K::Equals) => true,
                     Some(K::Open(Bracket::Round)) => false,
-                    // `levels 3`: the colon is missing. `levels,` among fields: the value is.
+                    // In `levels 3`, the colon is missing. In `levels,` among fields, the value is missing.
                     Some(K::Comma | K::Close(_)) => !contents.fields.is_empty(),
                     next => starts_value(next) && contents.values.is_empty(),
                 };
@@ -141,8 +142,8 @@ impl Parser<'_> {
             !contents.fields.is_empty()
         };
         if mixed && contents.complete {
-            let message = "either all values in brackets have a name, or none has";
-            let help = "parameters are written `name: value`";
+            let message = "named and unnamed values cannot be mixed";
+            let help = "write parameters as `name: value`";
             self.complain(Diagnostic::error(self.current.span, message).with_help(help));
             contents.complete = false;
         }
@@ -152,7 +153,7 @@ impl Parser<'_> {
             return;
         }
         if quoted {
-            let message = "names of fields stand without quotes";
+            let message = "field names are written without quotes";
             self.complain(Diagnostic::error(self.current.span, message));
         }
         let name = match self.current.kind {
@@ -167,19 +168,20 @@ impl Parser<'_> {
         };
         let value = if matches!(self.current.kind, Some(K::Comma | K::Close(_))) {
             self.missing(&format!("the value of `{}`", name.text));
-            self.nothing()
+            self.missing_value()
         } else {
             self.colon();
             self.value_after_colon(|| format!("`{}`", name.text))
         };
         if contents.fields.is_empty() {
-            // Most steps have one parameter: millions of them should not reserve room for four.
+            // Most steps have one parameter. The default capacity of 4 would waste memory in recipes with millions of
+            // steps.
             contents.fields.reserve_exact(1);
         }
         contents.fields.push(Field { name, value });
     }
 
-    /// Passes a colon, or complains that there is none.
+    /// Consumes a colon, or reports that it is missing.
     fn colon(&mut self) {
         match self.current.kind {
             Some(TokenKind::Colon) => {
@@ -210,12 +212,12 @@ impl Parser<'_> {
                 .is_some_and(|open| open.bracket == Bracket::Round);
         if is_next_field || !starts_value(self.current.kind) {
             self.missing(&format!("the value of {}", of()));
-            return self.nothing();
+            return self.missing_value();
         }
         self.value("a value")
     }
 
-    /// Passes the comma between two items, or complains that there is none.
+    /// Consumes the comma between two items, or reports that it is missing.
     fn separator(&mut self, contents: &mut Contents) {
         use TokenKind as K;
         loop {
@@ -234,7 +236,7 @@ impl Parser<'_> {
                     if !pairs || !starts_value(self.current.kind) {
                         return;
                     }
-                    // `[a: 1]` is one slip: the 1 belongs to the a.
+                    // In `[a: 1]`, only the colon is reported: the 1 is not another item without a comma.
                     self.value("a value");
                 }
                 _ => return self.missing("`,`"),
@@ -251,8 +253,8 @@ impl Parser<'_> {
             complete,
         } = contents;
         if !complete && (bracket == Bracket::Square || !values.is_empty()) {
-            // The number of items is not known.
-            values.push(self.nothing());
+            // An unreadable item, because the number of items is unknown.
+            values.push(self.missing_value());
         }
         let has_fields = !fields.is_empty();
         if fields.len() > 1 {
@@ -284,12 +286,12 @@ impl Parser<'_> {
         }
     }
 
-    /// Passes a bracket that lies too deep, and all that it holds.
+    /// Skips a group that is nested too deeply.
     fn skip_group(&mut self) -> Value {
         let start = self.current.span;
         if !self.too_deep {
             self.too_deep = true;
-            let message = format!("more than {MAX_DEPTH} brackets inside each other");
+            let message = format!("brackets are nested more than {MAX_DEPTH} deep");
             self.report(Diagnostic::error(start, message));
         }
         let mut depth = 0_usize;
@@ -312,14 +314,14 @@ impl Parser<'_> {
             let message = format!("this `{}` is not closed", open.bracket.open());
             let help = format!("`{}` is missing", open.bracket.close());
             let diagnostic = Diagnostic::error(open.span, message)
-                .with_label(self.gap(), "most likely here")
+                .with_label(self.gap(), "probably here")
                 .with_help(help);
             self.report(diagnostic);
             self.complained_at = Some(self.current.span.start);
         }
     }
 
-    /// Reports, once, that the text ends inside of brackets.
+    /// Reports, once, that the text ends inside brackets.
     fn ended_inside(&mut self) {
         let Some((innermost, others)) = self.open.split_last() else {
             return;
@@ -333,7 +335,7 @@ impl Parser<'_> {
             let text = format!("and this `{}`", open.bracket.open());
             diagnostic = diagnostic.with_label(open.span, text);
         }
-        // All brackets outside end here too.
+        // Reported only once for `current`, although the outer groups end here too.
         self.complain(diagnostic);
     }
 }

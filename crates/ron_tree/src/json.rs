@@ -1,10 +1,10 @@
-//! The values of a recipe as JSON, in the form that serde gives to Rust data.
+//! Converts the values of a recipe to JSON, in the form that serde uses for Rust data.
 
 use super::literal::Number;
 use super::tree::{Value, ValueKind};
 use serde_json::{Map, Value as Json};
 
-/// The value as serde writes the same Rust data in JSON, with enumerations tagged on the outside.
+/// Returns the value as JSON, as serde writes the same Rust data, with externally tagged enumerations.
 ///
 /// ```text
 /// Area          "Area"                 (a: 1)   {"a": 1}      None      null
@@ -13,8 +13,8 @@ use serde_json::{Map, Value as Json};
 /// Box(a: 1)     {"Box": {"a": 1}}      {k: v}   {"k": v}      inf, NaN  null
 /// ```
 ///
-/// `(x)` alone is a tuple of one. Whole numbers beyond 64 bits become floating ones. Keys of maps
-/// that are no strings are written as in the recipe. What could not be read becomes null.
+/// `(x)` without a name is a tuple with one item. Whole numbers that do not fit 64 bits become floating-point numbers.
+/// Keys of maps that are not strings are written as in the recipe. Values that could not be read become null.
 pub fn to_json(value: &Value) -> Json {
     match &value.kind {
         ValueKind::Bool(value) => Json::Bool(*value),
@@ -74,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn every_form_becomes_what_serde_writes() {
+    fn every_kind_of_value_is_converted_as_by_serde() {
         assert_eq!(
             converted(
                 "(a: Area, b: Grow(All), c: Pair(1, 0xFF), d: Box(x: 1_000.5), e: (true, 'c'), \
@@ -89,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn large_whole_numbers_stay_whole_as_long_as_they_fit() {
+    fn whole_numbers_stay_whole_if_they_fit_64_bits() {
         assert_eq!(converted("18446744073709551615"), json!(u64::MAX));
         assert_eq!(
             converted("18446744073709551616"),

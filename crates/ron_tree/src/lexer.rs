@@ -1,17 +1,17 @@
-//! Cuts a recipe into tokens, without losing a byte and without giving up.
+//! Splits a recipe into tokens.
 //!
-//! Every byte of the text lies in exactly one token: the tokens, written one after the other, are
-//! the text. What is no RON becomes a bad token, and lexing goes on behind it. Literals are cut
-//! out here and read in [`literal`](super::literal).
+//! Every byte of the text belongs to exactly one token, so that the concatenated tokens are the text. Invalid
+//! characters become tokens of their own kinds, and lexing continues after them. The lexer only finds the extent of
+//! literals; [`literal`](super::literal) reads their values.
 
 use crate::diagnostic::Span;
 
-/// A piece of the text.
+/// A token of the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Token {
-    /// What it is.
+    /// The kind of the token.
     pub kind: TokenKind,
-    /// Where it stands; never empty.
+    /// The span of the token, which is never empty.
     pub span: Span,
 }
 
@@ -26,13 +26,13 @@ pub enum TokenKind {
     BlockComment,
     /// `name` or `r#name`.
     Ident,
-    /// What starts like a number, up to the next thing that cannot belong to one.
+    /// Text that starts like a number, up to the next character that cannot be part of one.
     Number,
     /// `".."`.
     String,
     /// `r".."`, `r#".."#` and so on.
     RawString,
-    /// `b".."`, `br".."` or `b'.'`, which RON has and recipes do not.
+    /// `b".."`, `br".."` or `b'.'`, which are valid in RON but not in recipes.
     Bytes,
     /// `'.'`.
     Char,
@@ -52,18 +52,18 @@ pub enum TokenKind {
     Equals,
     /// `;`.
     Semicolon,
-    /// A text in single quotes that is no single character.
+    /// Text in single quotes that is not exactly one character.
     BadChar,
-    /// A string without its closing quote.
+    /// A string without a closing quote.
     UnclosedString,
-    /// A comment without its end; it goes to the end of the text.
+    /// A block comment without `*/`. It extends to the end of the text.
     UnclosedComment,
-    /// Characters that mean nothing in RON.
+    /// Characters that are not valid in RON.
     Unknown,
 }
 
 impl TokenKind {
-    /// Whether the token only stands between others.
+    /// Whether the token is whitespace or a comment.
     pub fn is_trivia(self) -> bool {
         matches!(
             self,
@@ -84,7 +84,7 @@ pub enum Bracket {
 }
 
 impl Bracket {
-    /// The opening character.
+    /// Returns the opening character.
     pub fn open(self) -> char {
         match self {
             Self::Round => '(',
@@ -93,7 +93,7 @@ impl Bracket {
         }
     }
 
-    /// The closing character.
+    /// Returns the closing character.
     pub fn close(self) -> char {
         match self {
             Self::Round => ')',
@@ -105,29 +105,29 @@ impl Bracket {
 
 /// The tokens of a text, in order.
 ///
-/// Time is linear in the length of the text, and nothing is stored.
+/// Takes time linear in the length of the text, and constant memory.
 #[derive(Clone, Debug)]
 pub struct Lexer<'s> {
     source: &'s str,
     at: usize,
-    /// Whether a `"` string ends with its line at the latest.
+    /// Whether a `"` string must end in the line in which it starts.
     lines_end_strings: bool,
-    /// A raw string with this many hashes, or more, has no end in the rest of the text.
-    endless_hashes: usize,
+    /// A raw string with at least this number of hashes has no end in the rest of the text.
+    unclosed_hashes: usize,
 }
 
 impl<'s> Lexer<'s> {
-    /// The tokens of `source`.
+    /// Creates a lexer for `source`.
     ///
-    /// Strings may span lines. But if the quotes of the text do not pair up, one of them is
-    /// missing, and all text behind it would seem to be inside out: then a string ends with its
-    /// line, so that only the line with the slip is misread.
+    /// Strings can span lines. But if a quote of the text has no partner, a quote is missing, and all text after it
+    /// would be taken for strings and all strings for text. In that case every string ends with its line at the latest,
+    /// so that only the line with the missing quote is misread.
     pub fn new(source: &'s str) -> Self {
         let mut lexer = Self {
             source,
             at: 0,
             lines_end_strings: false,
-            endless_hashes: usize::MAX,
+            unclosed_hashes: usize::MAX,
         };
         let unbalanced = lexer.clone().any(|t| t.kind == TokenKind::UnclosedString);
         lexer.lines_end_strings = unbalanced;
@@ -138,7 +138,7 @@ impl<'s> Lexer<'s> {
         &self.source[self.at..]
     }
 
-    /// Kind and length of the token at the start of `rest`, whose first character is `first`.
+    /// Returns the kind and the length of the token at the start of `rest`, whose first character is `first`.
     fn token(&mut self, rest: &'s str, first: char) -> (TokenKind, usize) {
         use TokenKind as K;
         match first {
@@ -173,7 +173,7 @@ impl<'s> Lexer<'s> {
                 K::Ident,
                 2 + length_while(&rest[2..], is_raw_ident_character),
             ),
-            // The byte order mark that some editors write.
+            // A byte order mark, which some editors write.
             '\u{FEFF}' if self.at == 0 => (K::Whitespace, first.len_utf8()),
             _ if is_whitespace(first) => (K::Whitespace, length_while(rest, is_whitespace)),
             _ if starts_ident(first) => (K::Ident, length_while(rest, continues_ident)),
@@ -182,7 +182,7 @@ impl<'s> Lexer<'s> {
         }
     }
 
-    /// A string that starts with the quote at the start of `text`.
+    /// Lexes the string whose opening quote is at the start of `text`.
     fn string(&self, text: &str, kind: TokenKind) -> (TokenKind, usize) {
         let bytes = text.as_bytes();
         let mut at = 1;
@@ -192,10 +192,10 @@ impl<'s> Lexer<'s> {
                 Some(b'\n') if self.lines_end_strings => break,
                 Some(b'"') => {
                     let length = at + 1;
-                    // `"a.bez, name: "b"`: the closing quote is the opening one of the next.
-                    let swallowed =
+                    // In `"a.bez, name: "b"`, this quote is the opening quote of the next string.
+                    let opens_next =
                         self.lines_end_strings && text[length..].starts_with(char::is_alphanumeric);
-                    if let (true, Some(end)) = (swallowed, next_field(&text[..at])) {
+                    if let (true, Some(end)) = (opens_next, next_field(&text[..at])) {
                         return (TokenKind::UnclosedString, end);
                     }
                     return (kind, length);
@@ -208,7 +208,8 @@ impl<'s> Lexer<'s> {
         if !self.lines_end_strings {
             return (TokenKind::UnclosedString, line.len());
         }
-        // What most likely stood behind the missing quote is given back.
+        // End the string where its closing quote is probably missing: before the next field, or before trailing
+        // brackets.
         let end = next_field(line).unwrap_or_else(|| {
             line.trim_end_matches([')', ']', '}', ',', ' ', '\t', '\r'])
                 .len()
@@ -216,19 +217,19 @@ impl<'s> Lexer<'s> {
         (TokenKind::UnclosedString, end.max(1))
     }
 
-    /// A raw string whose hashes, or quote, are at the start of `text`.
+    /// Lexes a raw string after its prefix. `text` starts with its hashes or its quote.
     fn raw_string(&mut self, text: &str, kind: TokenKind) -> (TokenKind, usize) {
         let hashes = length_while(text, |c| c == '#');
         let Some(inside) = text[hashes..].strip_prefix('"') else {
             return (TokenKind::Unknown, hashes);
         };
         let start = text.len() - inside.len();
-        if hashes < self.endless_hashes {
+        if hashes < self.unclosed_hashes {
             let end = format!("\"{}", &text[..hashes]);
             if let Some(found) = inside.find(&end) {
                 return (kind, start + found + end.len());
             }
-            self.endless_hashes = hashes;
+            self.unclosed_hashes = hashes;
         }
         (
             TokenKind::UnclosedString,
@@ -244,8 +245,8 @@ impl Iterator for Lexer<'_> {
         let rest = self.rest();
         let first = rest.chars().next()?;
         let (kind, mut length) = self.token(rest, first);
-        // A backslash at the very end, or before a character of several bytes, was skipped as two
-        // bytes.
+        // `string` skips two bytes for an escape. That is too much at the end of the text, and can end inside a
+        // character of several bytes.
         length = length.clamp(first.len_utf8(), rest.len());
         while !rest.is_char_boundary(length) {
             length += 1;
@@ -256,12 +257,12 @@ impl Iterator for Lexer<'_> {
     }
 }
 
-/// Longest text that guesses about missing quotes look at: they must not make lexing quadratic.
-const GUESS: usize = 4096;
+/// The maximum length of text that is searched for a missing quote, so that lexing takes linear time.
+const MAX_GUESS_LEN: usize = 4096;
 
-/// Where the next `, name:` starts in the rest of a line that lost its quote.
+/// Returns where the next `, name:` starts in the rest of a line with a missing quote.
 fn next_field(line: &str) -> Option<usize> {
-    if line.len() > GUESS {
+    if line.len() > MAX_GUESS_LEN {
         return None;
     }
     line.match_indices(',').map(|(i, _)| i).find(|&i| {
@@ -271,7 +272,7 @@ fn next_field(line: &str) -> Option<usize> {
     })
 }
 
-/// What starts with a single quote: a character, or a slip.
+/// Lexes text that starts with a single quote: a character, or an error.
 fn quoted(text: &str) -> (TokenKind, usize) {
     let mut rest = text[1..].char_indices();
     let (first, second) = (rest.next(), rest.next());
@@ -279,8 +280,8 @@ fn quoted(text: &str) -> (TokenKind, usize) {
         (Some((_, '\\')), Some((i, escaped))) => {
             let from = 1 + i + escaped.len_utf8();
             // The longest escape is `\u{10ffff}`.
-            let mut behind = text[from..].char_indices().take(10);
-            if let Some((end, _)) = behind.find(|&(_, c)| c == '\'') {
+            let mut following = text[from..].char_indices().take(10);
+            if let Some((end, _)) = following.find(|&(_, c)| c == '\'') {
                 return (TokenKind::Char, from + end + 1);
             }
         }
@@ -292,7 +293,7 @@ fn quoted(text: &str) -> (TokenKind, usize) {
     let close = text
         .char_indices()
         .skip(1)
-        .take(GUESS)
+        .take(MAX_GUESS_LEN)
         .find(|&(_, c)| c == '\'' || c == '\n');
     match close {
         Some((end, '\'')) => (TokenKind::BadChar, end + 1),
@@ -320,7 +321,8 @@ fn block_comment(text: &str) -> (TokenKind, usize) {
     (TokenKind::BlockComment, at)
 }
 
-/// The length of the number at the start of `text`, or of what its author took for one.
+/// Returns the length of the number at the start of `text`. Includes invalid characters that can only be meant as part
+/// of the number, such as a unit.
 fn number_length(text: &str) -> usize {
     let digits = text.trim_start_matches(['+', '-']);
     let hexadecimal = digits.starts_with("0x");
@@ -346,7 +348,7 @@ fn starts_number(text: &str) -> bool {
         || (signed && (unsigned.starts_with("inf") || unsigned.starts_with("NaN")))
 }
 
-/// The length of the run of characters that mean nothing.
+/// Returns the length of the run of invalid characters at the start of `text`.
 fn unknown_length(text: &str) -> usize {
     let known = |i: usize, c: char| {
         is_whitespace(c)
@@ -364,12 +366,12 @@ fn after(prefix: usize, (kind, length): (TokenKind, usize)) -> (TokenKind, usize
     (kind, prefix + length)
 }
 
-/// Whether a raw string follows the `r`: `"`, `#"` or `##`, as `ron` tells it from `r#name`.
+/// Whether a raw string follows the `r`: `"`, `#"` or `##`. This is how `ron` distinguishes it from `r#name`.
 fn is_raw_string(rest: &str) -> bool {
     rest.starts_with('"') || rest.starts_with("#\"") || rest.starts_with("##")
 }
 
-/// What `ron` takes for white space.
+/// Whether `ron` treats the character as whitespace.
 fn is_whitespace(c: char) -> bool {
     matches!(
         c,
@@ -420,7 +422,7 @@ mod tests {
     }
 
     #[test]
-    fn a_step_is_cut_into_its_tokens() {
+    fn a_step_is_split_into_tokens() {
         assert_eq!(
             texts("Load(path: \"a\\\"b\", at: -1.5e-3) // end"),
             [
@@ -462,7 +464,7 @@ mod tests {
     }
 
     #[test]
-    fn characters_and_bytes_are_told_apart_from_slips() {
+    fn characters_and_bytes_are_distinguished_from_errors() {
         use TokenKind::{BadChar, Bytes, Char, Unknown};
 
         assert_eq!(
@@ -475,13 +477,13 @@ mod tests {
     }
 
     #[test]
-    fn bad_characters_become_one_token_and_lexing_goes_on() {
+    fn invalid_characters_become_one_token_and_lexing_continues() {
         assert_eq!(texts("1 @$% 2"), ["1", "@$%", "2"]);
         assert_eq!(kinds("@ a"), [TokenKind::Unknown, TokenKind::Ident]);
     }
 
     #[test]
-    fn a_missing_quote_costs_only_its_line() {
+    fn a_missing_quote_affects_only_its_line() {
         let lines = "(path: \"a.bez),\n(path: \"b.bez\")";
         assert_eq!(texts(lines)[3..7], ["\"a.bez", ")", ",", "("]);
 
@@ -493,7 +495,7 @@ mod tests {
     }
 
     #[test]
-    fn strings_may_span_lines_when_the_quotes_pair_up() {
+    fn strings_can_span_lines_if_every_quote_has_a_partner() {
         assert_eq!(texts("\"a\nb\" 1"), ["\"a\nb\"", "1"]);
     }
 
@@ -521,7 +523,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_tokens_are_the_text(text in "(\\PC|[\\n\"'/*#rb()\\\\,:]){0,80}") {
+        fn the_concatenated_tokens_are_the_text(text in "(\\PC|[\\n\"'/*#rb()\\\\,:]){0,80}") {
             let mut end = 0;
             for token in Lexer::new(&text) {
                 prop_assert_eq!(token.span.start, end);

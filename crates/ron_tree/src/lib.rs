@@ -1,4 +1,4 @@
-//! RON as a tree that keeps every place, comment and slip.
+//! A parser for RON that keeps the span of every value and recovers from syntax errors.
 //!
 //! ```text
 //! text --Lexer--> tokens --parse--> tree of values with spans --Deserialize--> Rust types
@@ -6,10 +6,10 @@
 //!   +---------------- replace <--------------+
 //! ```
 //!
-//! `ron` stops at the first slip, and says little about its place. This tree goes on behind slips, so that all of them
-//! are reported. It serves whatever must know where something stands: problems found later, parameters, and
-//! programs that rewrite recipes and keep their comments. The tree is a [`serde::Deserializer`], so that a value is read
-//! into its type without a second look at the text.
+//! The `ron` crate stops at the first syntax error and tells little about its location. This parser continues after an
+//! error, so that all errors are reported. The spans are used by errors that are found later, by parameters, and by
+//! programs that rewrite recipes without losing comments. [`Value`] is a [`serde::Deserializer`], so that a value is
+//! read into a Rust type without parsing the text again.
 
 mod attribute;
 mod de;

@@ -1,7 +1,7 @@
-//! Reads the literals that the lexer cut out: numbers, strings, characters, names.
+//! Reads the values of literals: numbers, strings, characters, names.
 //!
-//! The rules are those of `ron`, save that numbers carry no type (`1u32`) and that only text is
-//! text (no bytes).
+//! The rules are those of `ron`, except that numbers cannot have a type suffix (`1u32`) and byte strings are not
+//! supported.
 
 use std::str::FromStr;
 
@@ -10,26 +10,25 @@ use serde::de::DeserializeOwned;
 
 use crate::diagnostic::Span;
 
-/// What is wrong with a literal, and where in it.
+/// An error in a literal.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct BadLiteral {
-    /// The bad part, counted from the start of the literal.
+    /// The span of the error, relative to the start of the literal.
     pub(super) span: Span,
-    /// What is wrong.
     pub(super) message: &'static str,
 }
 
-/// A number as it was written.
+/// A number as written in the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Number {
-    /// A whole number, in any of the bases that RON has.
+    /// A whole number in base 2, 8, 10 or 16.
     Int(Box<str>),
-    /// A number with a point, an exponent, `inf` or `NaN`.
+    /// A number with a decimal point or an exponent, or `inf` or `NaN`.
     Float(Box<str>),
 }
 
 impl Number {
-    /// Reads a number; `None` if it is none.
+    /// Parses a number. `None` if the text is not a number.
     pub fn parse(text: &str) -> Option<Self> {
         if parse_int(text).is_some() {
             Some(Self::Int(text.into()))
@@ -40,14 +39,14 @@ impl Number {
         }
     }
 
-    /// The number as it was written.
+    /// Returns the number as written in the text.
     pub fn text(&self) -> &str {
         match self {
             Self::Int(text) | Self::Float(text) => text,
         }
     }
 
-    /// The value of a whole number; `None` for others, and beyond 128 bits.
+    /// Returns the value of a whole number. `None` if the number is not whole or does not fit 128 bits.
     pub fn to_int(&self) -> Option<i128> {
         match self {
             Self::Int(text) => parse_int(text)?.ok(),
@@ -60,7 +59,7 @@ impl Number {
         matches!(self, Self::Int(_))
     }
 
-    /// The value, rounded to the nearest number of 64 bits.
+    /// Returns the value, rounded to the nearest 64-bit floating-point number.
     pub fn to_float(&self) -> f64 {
         let whole = || self.to_int().map(|int| int as f64);
         parse_float(self.text())
@@ -68,7 +67,7 @@ impl Number {
             .unwrap_or(f64::INFINITY)
     }
 
-    /// The value, rounded to the nearest number of 32 bits.
+    /// Returns the value, rounded to the nearest 32-bit floating-point number.
     pub fn to_single(&self) -> f32 {
         let whole = || self.to_int().map(|int| int as f32);
         parse_float(self.text())
@@ -76,14 +75,13 @@ impl Number {
             .unwrap_or(f32::INFINITY)
     }
 
-    /// Whether the number is whole and written with `0x`, `0o` or `0b`, as `ron` reads whole
-    /// numbers only.
+    /// Whether the number is written with `0x`, `0o` or `0b`. `ron` accepts these only for integer types.
     pub fn has_base(&self) -> bool {
         matches!(self, Self::Int(text) if base(text.trim_start_matches(['+', '-'])).0 != 10)
     }
 }
 
-/// The value of a whole number, or that it is beyond 128 bits; `None` if the text is none.
+/// Parses a whole number. `None` if the text is not one; `Some(Err(()))` if the value does not fit 128 bits.
 fn parse_int(text: &str) -> Option<Result<i128, ()>> {
     let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
     let (base, digits) = base(unsigned);
@@ -105,7 +103,7 @@ fn parse_int(text: &str) -> Option<Result<i128, ()>> {
     )
 }
 
-/// The base of a whole number and its digits.
+/// Returns the base of a whole number, and its digits.
 fn base(unsigned: &str) -> (u32, &str) {
     let prefixes = [("0x", 16), ("0o", 8), ("0b", 2)];
     let mut found = prefixes
@@ -118,14 +116,14 @@ fn parse_float<T: FromStr>(text: &str) -> Option<T> {
     if matches!(text.trim_start_matches(['+', '-']), "inf" | "NaN") {
         return text.parse().ok();
     }
-    // `ron` takes an underscore behind a digit or an exponent, not at the start or behind a point.
-    let mut may_follow = false;
+    // `ron` accepts an underscore after a digit or an exponent, but not at the start or after the decimal point.
+    let mut allows_underscore = false;
     let mut plain = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
-            '_' if may_follow => continue,
-            '0'..='9' | 'e' | 'E' => may_follow = true,
-            '.' => may_follow = false,
+            '_' if allows_underscore => continue,
+            '0'..='9' | 'e' | 'E' => allows_underscore = true,
+            '.' => allows_underscore = false,
             '+' | '-' => {}
             _ => return None,
         }
@@ -134,7 +132,7 @@ fn parse_float<T: FromStr>(text: &str) -> Option<T> {
     plain.parse().ok()
 }
 
-/// The text of a `".."` literal.
+/// Returns the text of a `".."` literal.
 pub(super) fn unescape_string(literal: &str) -> Result<String, BadLiteral> {
     if literal.contains('\\') {
         unescape(literal)
@@ -143,18 +141,18 @@ pub(super) fn unescape_string(literal: &str) -> Result<String, BadLiteral> {
     }
 }
 
-/// The character of a `'.'` literal.
+/// Returns the character of a `'.'` literal.
 pub(super) fn unescape_char(literal: &str) -> Result<char, BadLiteral> {
     unescape(literal)
 }
 
-/// Reads a literal with escapes as `ron` does, and says which of them is wrong.
+/// Reads a literal with escapes as `ron` does. The error has the span of the invalid escape.
 fn unescape<T: DeserializeOwned>(literal: &str) -> Result<T, BadLiteral> {
     ron::from_str(literal).map_err(|error| {
         if error.code == ron::Error::ExpectedChar {
             return BadLiteral {
                 span: Span::new(0, literal.len()),
-                message: "more than one character",
+                message: "more than one character in single quotes",
             };
         }
         let Position { line, col } = error.span.end;
@@ -167,23 +165,25 @@ fn unescape<T: DeserializeOwned>(literal: &str) -> Result<T, BadLiteral> {
         BadLiteral {
             span: Span::new(start, start + 1 + escaped.map_or(0, char::len_utf8)),
             message: match escaped {
-                Some('x') => "`\\x` is followed by two hexadecimal digits of a character in UTF-8",
-                Some('u') => {
-                    "`\\u` is followed by the hexadecimal number of a character, as `\\u{e9}`"
+                Some('x') => {
+                    "`\\x` must be followed by two hexadecimal digits that are part of valid UTF-8"
                 }
-                _ => "unknown escape in a string: a backslash is written `\\\\`",
+                Some('u') => {
+                    "`\\u` must be followed by the hexadecimal code of a character, as in `\\u{e9}`"
+                }
+                _ => "unknown escape: write a backslash as `\\\\`",
             },
         }
     })
 }
 
-/// The text of a raw string literal, which starts with `r`.
+/// Returns the text of a raw string literal, which starts with `r`.
 pub(super) fn raw_string(literal: &str) -> String {
     let hashes = literal[1..].find('"').unwrap_or(0);
     literal[2 + hashes..literal.len() - 1 - hashes].to_owned()
 }
 
-/// A name without the `r#` of raw ones.
+/// Returns a name without the `r#` of a raw name.
 pub(super) fn name(text: &str) -> &str {
     text.strip_prefix("r#").unwrap_or(text)
 }
@@ -206,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_is_refused() {
+    fn invalid_numbers_are_refused() {
         for text in [
             "1u32", "0x", "0b2", "_1", "1.2.3", "1..2", "1._5", "12abc", "1e", "-_1", "30deg",
         ] {
@@ -242,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bad_escape_is_pointed_at() {
+    fn an_invalid_escape_has_its_span() {
         let error = unescape_string(r#""C:\models""#).unwrap_err();
 
         assert_eq!(error.span, Span::new(3, 5));

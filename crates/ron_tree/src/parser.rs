@@ -1,9 +1,8 @@
-//! Reads a text into a tree of values, whatever the text.
+//! Parses a text into a tree of values. Every text gives a tree, whatever its errors.
 //!
-//! One slip gives one diagnostic, and reading goes on behind it. What was meant is guessed from
-//! what people do: one bracket is missing or mistyped, lines and indents are right, an entry of a
-//! list starts on a line of its own. [`recovery`](super::recovery) holds the guesses about
-//! brackets.
+//! Each error gives one diagnostic, and parsing continues after it. To recover, the parser assumes common mistakes: one
+//! bracket is missing or mistyped, while line breaks and indentation are right and each item of a list starts on its
+//! own line. The module [`recovery`](super::recovery) handles brackets.
 
 use super::lexer::{Bracket, Lexer, Token, TokenKind};
 use super::literal::{self, BadLiteral, Number};
@@ -11,38 +10,36 @@ use super::recovery::OpenBracket;
 use super::tree::{Call, Name, Value, ValueKind};
 use crate::diagnostic::{Diagnostic, Span};
 
-/// Longest text that is read, in bytes.
+/// The maximum length of a text, in bytes.
 pub const MAX_BYTES: usize = 64 << 20;
 
-/// Most brackets inside each other.
+/// The maximum nesting depth of brackets.
 pub const MAX_DEPTH: usize = 128;
 
-/// Most values in a text: each takes about a hundred bytes.
+/// The maximum number of values in a text. Each takes about a hundred bytes of memory.
 pub const MAX_VALUES: usize = 4 << 20;
 
-/// Most problems that are reported.
+/// The maximum number of errors that are reported.
 const MAX_DIAGNOSTICS: usize = 100;
 
-/// A text that was read.
+/// A parsed text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parsed {
-    /// The value; what could not be read in it is [`ValueKind::Error`].
+    /// The value. Parts that could not be read are [`ValueKind::Error`].
     pub value: Value,
-    /// What is wrong with the text, in its order.
+    /// The errors, in the order of the text.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Reads a text that holds one value.
+/// Parses a text that contains one value.
 ///
-/// Attributes `#![type = ".."]` and `#![schema = ".."]` may stand before it. Takes time and
-/// memory in proportion to the text, which is refused above [`MAX_BYTES`], [`MAX_VALUES`] and
-/// [`MAX_DEPTH`].
+/// The attributes `#![type = ".."]` and `#![schema = ".."]` can precede the value. Takes time and memory proportional
+/// to the length of the text. Exceeding [`MAX_BYTES`], [`MAX_VALUES`] or [`MAX_DEPTH`] is an error.
 pub fn parse(source: &str) -> Parsed {
     if source.len() > MAX_BYTES {
         let message = format!(
-            "the text has {} MiB, expected at most {}",
-            source.len() >> 20,
-            MAX_BYTES >> 20
+            "the text has {} bytes, expected at most {MAX_BYTES}",
+            source.len()
         );
         let diagnostics = vec![Diagnostic::without_place(message)];
         return Parsed {
@@ -63,7 +60,7 @@ pub fn parse(source: &str) -> Parsed {
     Parsed { value, diagnostics }
 }
 
-/// A token that is no trivia, or the end of the text.
+/// A token that is not trivia, or the end of the text.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lexeme {
     /// `None` at the end of the text.
@@ -71,10 +68,10 @@ pub(super) struct Lexeme {
     pub(super) span: Span,
     /// The number of line feeds before it.
     pub(super) line: usize,
-    /// Whether it is the first of its line.
+    /// Whether it is the first token of its line.
     pub(super) starts_line: bool,
-    /// Whether characters before it were reported and skipped.
-    after_junk: bool,
+    /// Whether invalid characters before it were reported and skipped.
+    after_invalid: bool,
 }
 
 pub(super) struct Parser<'s> {
@@ -82,16 +79,16 @@ pub(super) struct Parser<'s> {
     pub(super) lexer: Lexer<'s>,
     pub(super) current: Lexeme,
     pub(super) next: Lexeme,
-    /// Where the last token before `current` ends.
+    /// The end of the last token before `current`.
     pub(super) previous_end: usize,
     /// The brackets around `current`, outermost first.
     pub(super) open: Vec<OpenBracket>,
     diagnostics: Vec<Diagnostic>,
-    /// The token that was complained about last: once is enough.
+    /// The start of the token that the last error was about, so that it is not reported twice.
     pub(super) complained_at: Option<usize>,
     values: usize,
     pub(super) too_deep: bool,
-    /// Whether the rest of the text is not read.
+    /// Whether parsing stopped before the end of the text.
     stopped: bool,
 }
 
@@ -102,7 +99,7 @@ impl<'s> Parser<'s> {
             span: Span::new(0, 0),
             line: 0,
             starts_line: true,
-            after_junk: false,
+            after_invalid: false,
         };
         let mut parser = Self {
             source,
@@ -123,25 +120,25 @@ impl<'s> Parser<'s> {
         parser
     }
 
-    /// Goes one token on and returns the one that is left behind; stays at the end of the text.
+    /// Consumes `current` and returns it. At the end of the text, nothing is consumed.
     pub(super) fn bump(&mut self) -> Lexeme {
-        let passed = self.current;
-        if passed.kind.is_some() {
-            self.previous_end = passed.span.end;
+        let consumed = self.current;
+        if consumed.kind.is_some() {
+            self.previous_end = consumed.span.end;
             self.current = self.next;
             self.next = self.lexeme();
         }
-        passed
+        consumed
     }
 
-    /// The lexeme after `next`.
+    /// Returns the lexeme after `next`.
     fn lexeme(&mut self) -> Lexeme {
         if self.next.kind.is_none() && self.next.span.end > 0 {
             return self.next;
         }
         let last_end = self.next.span.end;
         let mut line = self.next.line + line_feeds(self.next.span.of(self.source));
-        let (mut starts_line, mut after_junk) = (last_end == 0, false);
+        let (mut starts_line, mut after_invalid) = (last_end == 0, false);
         let (kind, span) = loop {
             let Some(Token { kind, span }) = self.lexer.next() else {
                 break (None, Span::new(self.source.len(), self.source.len()));
@@ -152,16 +149,16 @@ impl<'s> Parser<'s> {
                 TokenKind::Unknown => {
                     let text = excerpt(span.of(self.source));
                     self.report(Diagnostic::error(span, format!("unexpected {text}")));
-                    after_junk = true;
+                    after_invalid = true;
                 }
                 TokenKind::UnclosedComment => {
                     let start = Span::new(span.start, span.start + 2);
                     self.report(
-                        Diagnostic::error(start, "this comment has no end")
+                        Diagnostic::error(start, "this comment is not closed")
                             .with_help("end it with `*/`"),
                     );
-                    // Whatever is missing may stand in the comment.
-                    after_junk = true;
+                    // Errors at the end of the text may only be consequences of the comment.
+                    after_invalid = true;
                 }
                 _ => break (Some(kind), span),
             }
@@ -172,11 +169,11 @@ impl<'s> Parser<'s> {
             span,
             line,
             starts_line,
-            after_junk,
+            after_invalid,
         }
     }
 
-    /// Reports a problem that is not about `current`.
+    /// Reports an error that is not about `current`.
     pub(super) fn report(&mut self, diagnostic: Diagnostic) {
         if self.stopped {
             return;
@@ -188,15 +185,15 @@ impl<'s> Parser<'s> {
         }
     }
 
-    /// Reports a problem with `current`, unless it was complained about already.
+    /// Reports an error about `current`, unless an error about it was already reported.
     pub(super) fn complain(&mut self, diagnostic: Diagnostic) {
         let start = self.current.span.start;
-        // These tokens are complained about for themselves.
+        // These tokens are errors themselves, and `value` reports them.
         let is_bad = matches!(
             self.current.kind,
             Some(TokenKind::UnclosedString | TokenKind::BadChar)
         );
-        if self.complained_at != Some(start) && !self.current.after_junk && !is_bad {
+        if self.complained_at != Some(start) && !self.current.after_invalid && !is_bad {
             self.report(diagnostic);
         }
         self.complained_at = Some(start);
@@ -216,17 +213,17 @@ impl<'s> Parser<'s> {
         self.complain(Diagnostic::error(self.gap(), format!("missing {what}")));
     }
 
-    /// The place before `current`, behind the last token.
+    /// Returns the empty span after the last token before `current`.
     pub(super) fn gap(&self) -> Span {
         Span::new(self.previous_end, self.previous_end)
     }
 
-    /// A value that is missing before `current`.
-    pub(super) fn nothing(&self) -> Value {
+    /// Returns an error value in place of a value that is missing before `current`.
+    pub(super) fn missing_value(&self) -> Value {
         Value::new(self.gap(), ValueKind::Error)
     }
 
-    /// Reads no further.
+    /// Stops parsing with an error.
     fn stop(&mut self, message: &str) {
         if !self.stopped {
             self.stopped = true;
@@ -243,7 +240,7 @@ impl<'s> Parser<'s> {
         self.current = self.next;
     }
 
-    /// Passes `current` if it is of this kind.
+    /// Consumes `current` if it has this kind, and returns whether it does.
     pub(super) fn take(&mut self, kind: TokenKind) -> bool {
         let found = self.current.kind == Some(kind);
         if found {
@@ -252,7 +249,7 @@ impl<'s> Parser<'s> {
         found
     }
 
-    /// Reads a value. If `current` starts none, it is not passed.
+    /// Parses a value. If no value starts with `current`, reports an error and consumes nothing.
     pub(super) fn value(&mut self, expected: &str) -> Value {
         use TokenKind as K;
         self.values += 1;
@@ -291,11 +288,12 @@ impl<'s> Parser<'s> {
                 Err(error) => self.bad_literal(span, &error),
             },
             Some(K::Bytes) => {
-                self.report(Diagnostic::error(span, "recipes hold text, no bytes"));
+                let message = "byte strings are not supported in recipes";
+                self.report(Diagnostic::error(span, message));
                 ValueKind::Error
             }
             Some(K::BadChar) => {
-                let help = "a string stands in double quotes: `\"..\"`";
+                let help = "write strings in double quotes: `\"..\"`";
                 let message = "more than one character in single quotes";
                 self.report(Diagnostic::error(span, message).with_help(help));
                 ValueKind::Error
@@ -313,7 +311,7 @@ impl<'s> Parser<'s> {
             }
             _ => {
                 self.unexpected(expected);
-                return self.nothing();
+                return self.missing_value();
             }
         };
         self.bump();
@@ -322,8 +320,7 @@ impl<'s> Parser<'s> {
 
     fn bad_number(&mut self, span: Span) -> ValueKind {
         let text = excerpt(span.of(self.source));
-        let help =
-            "numbers are written as 7, 1_000, 0.5, -3 or 1e-6, with no unit or type behind them";
+        let help = "write numbers as 7, 1_000, 0.5, -3 or 1e-6, without a unit or a type suffix";
         self.report(Diagnostic::error(span, format!("{text} is not a number")).with_help(help));
         ValueKind::Error
     }
@@ -346,7 +343,7 @@ impl<'s> Parser<'s> {
     }
 }
 
-/// Whether a value starts with a token of this kind, be it one that cannot be read.
+/// Whether a value, valid or not, can start with a token of this kind.
 pub(super) fn starts_value(kind: Option<TokenKind>) -> bool {
     use TokenKind as K;
     matches!(
@@ -365,7 +362,7 @@ pub(super) fn starts_value(kind: Option<TokenKind>) -> bool {
     )
 }
 
-/// A short text in backticks.
+/// Returns the start of the first line of `text`, in backticks.
 pub(super) fn excerpt(text: &str) -> String {
     let line = text.lines().next().unwrap_or("");
     let mut shown: String = line.chars().take(20).flat_map(char::escape_debug).collect();

@@ -1,49 +1,55 @@
-//! Finds the place of a parameter that is known by its path only.
+//! Finds the span of a parameter that is given by its path.
 
 use super::tree::{Value, ValueKind};
 use crate::diagnostic::Span;
 
-/// The place of the value at `path` in `value`.
+/// Returns the span of the value at `path` in `value`.
 ///
-/// The path holds names of fields, variants and keys, and numbers of items from 0, from the outside
-/// in, as in the JSON form: `["edges", "Random", "count"]` leads to the 24 of
-/// `FlipEdges(edges: Random(count: 24))`. The name of the outermost call, `Some(..)` and the
-/// brackets of a variant with one value need not be named. Where the path leads nowhere, since a
-/// parameter was left out, its deepest part that exists is the place.
+/// The path consists of names of fields, variants and keys, and of indices of items (counted from 0), from the outside
+/// in, as in the JSON form: `["edges", "Random", "count"]` leads to the 24 in
+/// `FlipEdges(edges: Random(count: 24))`. The name of the outermost call, `Some(..)` and the parentheses of a variant
+/// with one value can be omitted in the path. If the path leads to a parameter that was omitted, returns the span of
+/// the deepest value on the path that exists.
 pub fn field_span(value: &Value, path: &[String]) -> Span {
     let (mut value, mut deepest) = (value, value);
-    // Whether the name of the call at `value` was named in the path.
-    let mut named = false;
+    // Whether the path has already used the name of the variant at `value`.
+    let mut is_variant_matched = false;
     let mut rest = path;
     while let Some((item, after)) = rest.split_first() {
-        match step(value, item, named) {
-            Step::Into(inner) => (value, deepest, rest, named) = (inner, inner, after, false),
-            Step::Variant => (deepest, rest, named) = (value, after, true),
-            // The value inside may be the one that has the item.
-            Step::Through(inner) => (value, named) = (inner, false),
-            Step::Nowhere => break,
+        match step(value, item, is_variant_matched) {
+            Step::Into(inner) => {
+                (value, deepest, rest, is_variant_matched) = (inner, inner, after, false);
+            }
+            Step::Variant => (deepest, rest, is_variant_matched) = (value, after, true),
+            // The inner value may match the item.
+            Step::Through(inner) => (value, is_variant_matched) = (inner, false),
+            Step::NotFound => break,
         }
     }
     deepest.span
 }
 
+/// How a path continues from a value.
 enum Step<'v> {
-    /// The item leads to this value.
+    /// The item of the path leads to this value.
     Into(&'v Value),
-    /// The item is the name of the call.
+    /// The item is the name of the variant.
     Variant,
-    /// The item is not used yet.
+    /// The item must be looked up in this inner value.
     Through(&'v Value),
-    Nowhere,
+    /// The item does not exist.
+    NotFound,
 }
 
-fn step<'v>(value: &'v Value, item: &str, named: bool) -> Step<'v> {
+fn step<'v>(value: &'v Value, item: &str, is_variant_matched: bool) -> Step<'v> {
     if let Some(inner) = value.some() {
         return Step::Through(inner);
     }
     let index = item.parse::<usize>();
     let found = match &value.kind {
-        ValueKind::Call(call) if !named && *item == *call.name.text => return Step::Variant,
+        ValueKind::Call(call) if !is_variant_matched && *item == *call.name.text => {
+            return Step::Variant;
+        }
         ValueKind::Call(call) => return Step::Through(&call.body),
         ValueKind::Name(name) if *item == **name => return Step::Variant,
         ValueKind::Struct(_) => value.field(item),
@@ -51,8 +57,8 @@ fn step<'v>(value: &'v Value, item: &str, named: bool) -> Step<'v> {
             .iter()
             .find(|(key, _)| key.as_str() == Some(item))
             .map(|(_, value)| value),
-        // The only value of a variant is the variant's content, and not its first item, if it
-        // has parts itself.
+        // A tuple with one item is usually the content of a variant. The path skips it, unless it has an index and the
+        // item has no items of its own.
         ValueKind::Tuple(items)
             if items.len() == 1
                 && (index.is_err()
@@ -63,7 +69,7 @@ fn step<'v>(value: &'v Value, item: &str, named: bool) -> Step<'v> {
         ValueKind::Tuple(items) | ValueKind::List(items) => index.ok().and_then(|i| items.get(i)),
         _ => None,
     };
-    found.map_or(Step::Nowhere, Step::Into)
+    found.map_or(Step::NotFound, Step::Into)
 }
 
 #[cfg(test)]
@@ -94,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn the_deepest_part_that_exists_is_the_place() {
+    fn a_path_to_a_missing_value_leads_to_the_deepest_existing_value() {
         assert_eq!(found(&["at", "7"]), "(1, 2)");
         assert_eq!(
             found(&["edges", "Random", "seed"]),

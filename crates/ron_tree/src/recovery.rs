@@ -1,11 +1,11 @@
-//! Guesses which bracket was forgotten or mistyped.
+//! Error recovery: guesses which bracket is missing or mistyped.
 //!
 //! ```text
 //! steps: [
-//!     FlipEdges(edges: Vertices([1, 2)),     the `]` is missing: the others pair up without it
-//!     Load(path: "a.bez"],                   the `]` stands for a `)`
-//!     Weld(distance: 0.1)),                  the second `)` is one too many
-//!     Tessellate(segments: 8,                the `)` is missing: a step starts on a line
+//!     FlipEdges(edges: Vertices([1, 2)),     the `]` is missing: the other brackets match without it
+//!     Load(path: "a.bez"],                   the `]` should be a `)`
+//!     Weld(distance: 0.1)),                  the second `)` has no matching bracket
+//!     Tessellate(segments: 8,                the `)` is missing: the next line starts a new step
 //!     Save(path: "a.obj"),
 //! ]
 //! ```
@@ -20,30 +20,31 @@ use crate::diagnostic::Span;
 pub(super) struct OpenBracket {
     pub(super) bracket: Bracket,
     pub(super) span: Span,
-    /// Whether a name stands before it.
+    /// Whether a name precedes it, as in `Name(`.
     pub(super) has_name: bool,
     /// The number of line feeds before it.
     pub(super) line: usize,
 }
 
-/// What a closing bracket is to the innermost open one.
+/// How a closing bracket relates to the innermost open bracket.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Closing {
-    /// It closes it.
-    Ours,
-    /// It was meant to close it.
+    /// It closes the innermost bracket.
+    Matching,
+    /// It was typed in place of the bracket that closes the innermost one.
     Mistyped,
-    /// It closes one further out: the innermost one was not closed.
+    /// It closes an outer bracket: the closing bracket of the innermost one is missing.
     Missing,
-    /// It is one too many.
+    /// It has no matching open bracket.
     Stray,
 }
 
 impl Parser<'_> {
-    /// What the closing bracket at `current` is to the innermost open bracket.
-    pub(super) fn closing(&self, ours: Bracket, found: Bracket) -> Closing {
-        if found == ours {
-            return Closing::Ours;
+    /// Guesses how the closing bracket at `current`, of kind `found`, relates to the innermost open bracket, of kind
+    /// `innermost_kind`.
+    pub(super) fn closing(&self, innermost_kind: Bracket, found: Bracket) -> Closing {
+        if found == innermost_kind {
+            return Closing::Matching;
         }
         let Some((innermost, outer)) = self.open.split_last() else {
             return Closing::Stray;
@@ -54,14 +55,14 @@ impl Parser<'_> {
             return Closing::Stray;
         }
         let indent = self.indent(self.current.span.start);
-        let as_ours = indent == self.indent(innermost.span.start);
+        let has_same_indent = indent == self.indent(innermost.span.start);
         match partner {
-            None if self.current.starts_line && !as_ours => Closing::Stray,
+            None if self.current.starts_line && !has_same_indent => Closing::Stray,
             None => Closing::Mistyped,
             Some(partner) if partner.line == line => {
-                // Brackets of one line usually close in that line.
-                let to_close = self.open.iter().filter(|open| open.line == line).count();
-                if self.closing_run() >= to_close {
+                // Brackets that open in a line are usually closed in that line.
+                let n_open = self.open.iter().filter(|open| open.line == line).count();
+                if self.closing_run() >= n_open {
                     Closing::Mistyped
                 } else {
                     Closing::Missing
@@ -69,7 +70,7 @@ impl Parser<'_> {
             }
             Some(_) if !self.current.starts_line => Closing::Mistyped,
             Some(partner) => {
-                if as_ours && indent != self.indent(partner.span.start) {
+                if has_same_indent && indent != self.indent(partner.span.start) {
                     Closing::Mistyped
                 } else {
                     Closing::Missing
@@ -78,8 +79,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Whether `current` starts an item of a bracket further out, so that the innermost one was
-    /// not closed.
+    /// Whether `current` seems to start an item of an outer bracket, so that the innermost bracket is not closed.
     pub(super) fn belongs_outside(&self, contents: &Contents) -> bool {
         let Lexeme {
             kind, starts_line, ..
@@ -94,10 +94,10 @@ impl Parser<'_> {
             .last()
             .is_some_and(|open| open.bracket == Bracket::Round);
         match contents.bracket {
-            // In a tuple without a name, the next field of the struct around it.
+            // In a tuple without a name: a field of the enclosing struct.
             Bracket::Round if contents.is_tuple() && names_field => !innermost.has_name && in_round,
             _ if !starts_line => false,
-            // Among named fields, the next step of the list around them.
+            // Among named fields: an item of the enclosing list.
             Bracket::Round => {
                 !contents.fields.is_empty()
                     && (kind == Some(TokenKind::Open(Bracket::Round)) || is_ident && next_opens)
@@ -109,13 +109,13 @@ impl Parser<'_> {
                             open.bracket == Bracket::Square && open.line < self.current.line
                         })
             }
-            // In a list, the next field of the struct around it.
+            // In a list: a field of the enclosing struct.
             Bracket::Square => names_field && in_round,
             Bracket::Curly => false,
         }
     }
 
-    /// The number of closing brackets from `current` on, without anything between them.
+    /// Returns the number of consecutive closing brackets, starting at `current`.
     fn closing_run(&self) -> usize {
         let closes = |kind| matches!(kind, Some(TokenKind::Close(_)));
         if !closes(self.next.kind) {
@@ -129,9 +129,9 @@ impl Parser<'_> {
         2 + rest.take_while(|&kind| closes(Some(kind))).count()
     }
 
-    /// The white space at the start of the line that the byte `at` stands on.
-    fn indent(&self, at: usize) -> &str {
-        let before = &self.source[..at];
+    /// Returns the indentation of the line that contains the byte at `offset`.
+    fn indent(&self, offset: usize) -> &str {
+        let before = &self.source[..offset];
         let line = &self.source[before.rfind('\n').map_or(0, |feed| feed + 1)..];
         &line[..line.len() - line.trim_start_matches([' ', '\t']).len()]
     }

@@ -1,4 +1,4 @@
-//! Tests of the reader as a whole: what valid texts give, and how many slips are found.
+//! Tests of the parser as a whole: the values of valid texts, and the errors of invalid ones.
 
 mod de;
 
@@ -9,7 +9,7 @@ use serde_json::json;
 
 const RECIPE: &str = include_str!("tests/teapot.ron");
 
-/// The messages and places of the problems of a text.
+/// Returns the message and the spanned text of each error in a text.
 fn problems(source: &str) -> Vec<(String, &str)> {
     let place = |d: &Diagnostic| d.span.map_or("", |span| span.of(source));
     parse(source)
@@ -19,7 +19,7 @@ fn problems(source: &str) -> Vec<(String, &str)> {
         .collect()
 }
 
-/// The only problem of a text.
+/// Returns the only error in a text.
 fn problem(source: &str) -> (String, &str) {
     let mut found = problems(source);
     assert_eq!(found.len(), 1, "{source}\n{found:#?}");
@@ -27,7 +27,7 @@ fn problem(source: &str) -> (String, &str) {
 }
 
 #[test]
-fn a_recipe_is_read() {
+fn a_recipe_is_parsed() {
     let parsed = parse(RECIPE);
 
     assert_eq!(parsed.diagnostics, []);
@@ -45,17 +45,17 @@ fn a_recipe_is_read() {
 }
 
 #[test]
-fn a_valid_text_printed_is_the_same_text_to_read() {
+fn a_printed_value_is_parsed_as_the_same_value() {
     let value = parse(RECIPE).value;
 
-    let again = parse(&value.to_string());
+    let reparsed = parse(&value.to_string());
 
-    assert_eq!(again.diagnostics, []);
-    assert_eq!(to_json(&again.value), to_json(&value));
+    assert_eq!(reparsed.diagnostics, []);
+    assert_eq!(to_json(&reparsed.value), to_json(&value));
 }
 
 #[test]
-fn five_slips_in_five_steps_are_five_problems() {
+fn five_mistakes_in_five_steps_give_five_errors() {
     let source = r#"(
     recipe: 1,
     steps: [
@@ -82,7 +82,7 @@ fn five_slips_in_five_steps_are_five_problems() {
     assert_eq!(steps, 7);
 }
 
-/// A recipe with one line in the place of a step.
+/// Returns a recipe in which one step is replaced by the given text.
 fn with_step(step: &str) -> String {
     format!(
         "(\n    recipe: 1,\n    steps: [\n        Load(path: \"a.bez\"),\n        {step}\n        \
@@ -91,7 +91,7 @@ fn with_step(step: &str) -> String {
 }
 
 #[test]
-fn one_slip_is_one_problem_and_the_other_steps_are_read() {
+fn one_mistake_gives_one_error_and_the_other_steps_are_parsed() {
     for step in [
         "Loop(levels 1),",
         "Loop(levels = 1),",
@@ -163,7 +163,7 @@ fn one_slip_is_one_problem_and_the_other_steps_are_read() {
 }
 
 #[test]
-fn a_bracket_that_is_missing_further_out_is_one_problem() {
+fn a_missing_outer_bracket_gives_one_or_two_errors() {
     let recipe = with_step("Loop(levels: 1),");
     for broken in [
         recipe.replacen("    ],\n", "", 1),
@@ -187,7 +187,7 @@ fn a_bracket_that_is_missing_further_out_is_one_problem() {
 }
 
 #[test]
-fn messages_say_what_is_missing_and_where() {
+fn messages_tell_what_is_missing_and_where() {
     assert_eq!(problem("(a 1)"), ("missing `:`".into(), ""));
     assert_eq!(problem("(a = 1)"), ("expected `:`, found `=`".into(), "="));
     assert_eq!(problem("(a: )"), ("missing the value of `a`".into(), ""));
@@ -208,7 +208,7 @@ fn messages_say_what_is_missing_and_where() {
     assert_eq!(problem("[1, 2)"), ("expected `]`, found `)`".into(), ")"));
     assert_eq!(
         problem("[\n1, 2), 3\n]"),
-        ("`)` closes nothing".into(), ")")
+        ("`)` has no matching opening bracket".into(), ")")
     );
     assert_eq!(problem("[1 @ , 2]"), ("unexpected `@`".into(), "@"));
     assert_eq!(
@@ -217,21 +217,24 @@ fn messages_say_what_is_missing_and_where() {
     );
     assert_eq!(
         problem("[1] /* a"),
-        ("this comment has no end".into(), "/*")
+        ("this comment is not closed".into(), "/*")
     );
     assert_eq!(problem("5m"), ("`5m` is not a number".into(), "5m"));
     assert_eq!(
         problem("'ab'").0,
         "more than one character in single quotes"
     );
-    assert_eq!(problem("b'a'").0, "recipes hold text, no bytes");
+    assert_eq!(
+        problem("b'a'").0,
+        "byte strings are not supported in recipes"
+    );
     assert_eq!(
         problem("(1, a: 2)").0,
-        "either all values in brackets have a name, or none has"
+        "named and unnamed values cannot be mixed"
     );
     assert_eq!(
         problem("(\"a\": 2)").0,
-        "names of fields stand without quotes"
+        "field names are written without quotes"
     );
     assert_eq!(
         problem("1 2"),
@@ -248,7 +251,7 @@ fn messages_say_what_is_missing_and_where() {
 }
 
 #[test]
-fn a_field_given_twice_names_both_places() {
+fn a_field_given_twice_has_both_spans() {
     let source = "(a: 1, b: 2, a: 3)";
     let found = parse(source).diagnostics;
 
@@ -261,7 +264,7 @@ fn a_field_given_twice_names_both_places() {
 }
 
 #[test]
-fn attributes_that_choose_extensions_are_refused() {
+fn attributes_that_enable_extensions_are_refused() {
     assert_eq!(
         problems("#![schema = \"recipe-1\"] #![type = \"x\"] (a: 1)"),
         []
@@ -269,7 +272,7 @@ fn attributes_that_choose_extensions_are_refused() {
     assert_eq!(
         problem("#![enable(implicit_some, unwrap_newtypes)]\n(a: 1)"),
         (
-            "recipes do not choose extensions of RON".into(),
+            "recipes cannot enable extensions of RON".into(),
             "#![enable(implicit_some, unwrap_newtypes)]"
         )
     );
@@ -287,7 +290,7 @@ fn depth_is_limited() {
     assert_eq!(problems(&nested(MAX_DEPTH)), []);
     assert_eq!(
         problem(&nested(MAX_DEPTH + 1)).0,
-        "more than 128 brackets inside each other"
+        "brackets are nested more than 128 deep"
     );
     assert_eq!(
         problem(&format!("[{}, {}]", nested(10_000), nested(10_000))).1,
@@ -297,7 +300,7 @@ fn depth_is_limited() {
 }
 
 #[test]
-fn hostile_texts_end_soon() {
+fn hostile_texts_take_little_time() {
     for part in [
         "@ ",
         "[}",
@@ -322,7 +325,10 @@ fn hostile_texts_end_soon() {
 #[test]
 fn a_text_that_is_too_large_is_refused() {
     let found = parse(&" ".repeat(MAX_BYTES + 1)).diagnostics;
-    assert_eq!(found[0].message, "the text has 64 MiB, expected at most 64");
+    assert_eq!(
+        found[0].message,
+        "the text has 67108865 bytes, expected at most 67108864"
+    );
 
     let found = parse(&format!("[{}]", "1,".repeat(MAX_VALUES + 1))).diagnostics;
     assert_eq!(found.len(), 1);
@@ -333,11 +339,11 @@ fn a_text_that_is_too_large_is_refused() {
 }
 
 #[test]
-fn a_byte_order_mark_and_windows_line_ends_are_fine() {
+fn a_byte_order_mark_and_windows_line_ends_are_accepted() {
     assert_eq!(problems("\u{feff}(a: 1,\r\n b: 2)\r\n"), []);
 }
 
-/// RON of any shape, as a text.
+/// Generates valid RON text.
 fn any_ron() -> impl Strategy<Value = String> {
     let leaf = prop_oneof![
         Just("true".to_owned()),
@@ -373,21 +379,21 @@ fn any_ron() -> impl Strategy<Value = String> {
 
 proptest! {
     #[test]
-    fn any_text_is_read(text in "(\\PC|[()\\[\\]{}:,;=#!\"'/*\\\\ \n]|[a-z0-9]){0,120}") {
+    fn any_text_is_parsed(text in "(\\PC|[()\\[\\]{}:,;=#!\"'/*\\\\ \n]|[a-z0-9]){0,120}") {
         let parsed = parse(&text);
         for d in &parsed.diagnostics {
             let span = d.span.unwrap();
             prop_assert!(text.get(span.range()).is_some(), "{:?}", d);
         }
         let _ = (to_json(&parsed.value), parsed.value.to_string());
-        // What is reported is broken, and what is broken is reported.
+        // A text without diagnostics has no values that could not be read.
         if parsed.diagnostics.is_empty() {
             prop_assert!(!parsed.value.has_errors());
         }
     }
 
     #[test]
-    fn a_recipe_with_a_piece_cut_out_is_read(start in 0..RECIPE.len(), length in 0_usize..40) {
+    fn a_recipe_with_a_part_removed_is_parsed(start in 0..RECIPE.len(), length in 0_usize..40) {
         let end = (start + length).min(RECIPE.len());
         let text = format!("{}{}", &RECIPE[..start], &RECIPE[end..]);
         let parsed = parse(&text);
@@ -395,14 +401,14 @@ proptest! {
     }
 
     #[test]
-    fn a_valid_value_printed_reads_back_the_same(text in any_ron()) {
+    fn any_printed_value_is_parsed_as_the_same_value(text in any_ron()) {
         let parsed = parse(&text);
         prop_assert_eq!(&parsed.diagnostics, &[]);
         let printed = parsed.value.to_string();
-        let again = parse(&printed);
-        prop_assert_eq!(&again.diagnostics, &[]);
-        prop_assert_eq!(again.value.to_string(), printed);
-        prop_assert_eq!(to_json(&again.value), to_json(&parsed.value));
+        let reparsed = parse(&printed);
+        prop_assert_eq!(&reparsed.diagnostics, &[]);
+        prop_assert_eq!(reparsed.value.to_string(), printed);
+        prop_assert_eq!(to_json(&reparsed.value), to_json(&parsed.value));
     }
 
     #[test]
@@ -417,7 +423,7 @@ proptest! {
     }
 
     #[test]
-    fn ron_reads_what_the_tree_reads(text in any_ron()) {
+    fn ron_accepts_the_same_valid_texts(text in any_ron()) {
         let read = ron::from_str::<serde::de::IgnoredAny>(&text);
         prop_assert!(read.is_ok(), "{}\n{:?}", text, read);
     }

@@ -1,24 +1,23 @@
-//! The values of a recipe, each with its place in the text.
+//! The syntax tree: the values of a recipe, each with its span in the text.
 
 use super::literal::Number;
 use crate::diagnostic::Span;
 use std::fmt;
 
-/// A value and where it stands.
+/// A value with its span.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Value {
-    /// The place in the text, from the first to the last character of the value.
+    /// The span of the value in the text.
     pub span: Span,
-    /// What it is.
+    /// The kind of value, and its content.
     pub kind: ValueKind,
-    /// The parameter of the recipe that this value was put in for, if it was: the span is then
-    /// that of the `arg(..)`.
+    /// The recipe parameter that this value was substituted for, if any. The span is then that of the `arg(..)`.
     pub parameter: Option<Box<str>>,
 }
 
-/// The forms of values that RON has.
+/// The kinds of values in RON.
 ///
-/// `Some(x)` is a call and `None` a name: only a schema can tell an option from an enumeration.
+/// `Some(x)` is a call and `None` is a name, because only a schema can distinguish an option from an enumeration.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ValueKind {
     /// `true` or `false`.
@@ -29,7 +28,7 @@ pub enum ValueKind {
     String(Box<str>),
     /// `'c'`.
     Char(char),
-    /// `Area`: a variant without parameters, or `None`.
+    /// A variant without parameters, such as `Area`, or `None`.
     Name(Box<str>),
     /// `()`.
     Unit,
@@ -43,17 +42,17 @@ pub enum ValueKind {
     Map(Vec<(Value, Value)>),
     /// `Name(..)`.
     Call(Box<Call>),
-    /// Something that could not be read; a diagnostic says why.
+    /// A value that could not be read. A diagnostic tells the reason.
     Error,
 }
 
-/// The fields between two brackets.
+/// The fields of a struct.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Struct {
     /// The fields in the order of the text.
     pub fields: Vec<Field>,
-    /// Whether everything between the brackets could be read. If not, a field that seems to be
-    /// missing may be there.
+    /// Whether everything between the parentheses could be read. If not, a field that seems to be missing may be in the
+    /// part that could not be read.
     pub complete: bool,
 }
 
@@ -71,21 +70,21 @@ pub struct Field {
 pub struct Call {
     /// The name.
     pub name: Name,
-    /// What stands in brackets, with the brackets: a unit, a struct or a tuple.
+    /// The parentheses and their content: a unit, a struct or a tuple.
     pub body: Value,
 }
 
-/// A name and where it stands.
+/// A name with its span.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Name {
-    /// Where, with the `r#` of a raw name.
+    /// The span, including the `r#` of a raw name.
     pub span: Span,
     /// The name without `r#`.
     pub text: Box<str>,
 }
 
 impl Value {
-    /// A value that stands in the text itself.
+    /// Creates a value that is written in the text itself, not substituted for a parameter.
     pub fn new(span: Span, kind: ValueKind) -> Self {
         Self {
             span,
@@ -94,7 +93,7 @@ impl Value {
         }
     }
 
-    /// The fields, if the value is `(a: 1, ..)` or `Name(a: 1, ..)`; none for `()` and `Name()`.
+    /// Returns the fields of `(a: 1, ..)` or `Name(a: 1, ..)`. Empty for all other values.
     pub fn fields(&self) -> &[Field] {
         match &self.kind {
             ValueKind::Struct(fields) => &fields.fields,
@@ -103,7 +102,7 @@ impl Value {
         }
     }
 
-    /// The value of the field with this name, if there is one.
+    /// Returns the value of the field with this name, if it exists.
     pub fn field(&self, name: &str) -> Option<&Self> {
         self.fields()
             .iter()
@@ -111,7 +110,7 @@ impl Value {
             .map(|field| &field.value)
     }
 
-    /// The same, to be changed.
+    /// Returns the value of the field with this name for modification, if it exists.
     pub fn field_mut(&mut self, name: &str) -> Option<&mut Self> {
         match &mut self.kind {
             ValueKind::Struct(body) => (body.fields.iter_mut())
@@ -122,7 +121,7 @@ impl Value {
         }
     }
 
-    /// The name of `Name` and `Name(..)`, and where it stands.
+    /// Returns the name of `Name` or `Name(..)` with its span.
     pub fn name(&self) -> Option<(&str, Span)> {
         match &self.kind {
             ValueKind::Name(name) => Some((name, self.span)),
@@ -131,7 +130,7 @@ impl Value {
         }
     }
 
-    /// The text of a string.
+    /// Returns the text of a string.
     pub fn as_str(&self) -> Option<&str> {
         match &self.kind {
             ValueKind::String(text) => Some(text),
@@ -139,7 +138,7 @@ impl Value {
         }
     }
 
-    /// The items of `[..]`.
+    /// Returns the items of `[..]`.
     pub fn items(&self) -> Option<&[Self]> {
         match &self.kind {
             ValueKind::List(items) => Some(items),
@@ -147,7 +146,7 @@ impl Value {
         }
     }
 
-    /// The x of `Some(x)`.
+    /// Returns the x of `Some(x)`.
     pub fn some(&self) -> Option<&Self> {
         match &self.kind {
             ValueKind::Call(call) if &*call.name.text == "Some" => call.body.single(),
@@ -155,7 +154,7 @@ impl Value {
         }
     }
 
-    /// The x of `(x)`.
+    /// Returns the x of `(x)`.
     pub fn single(&self) -> Option<&Self> {
         match &self.kind {
             ValueKind::Tuple(items) if items.len() == 1 => items.first(),
@@ -163,7 +162,7 @@ impl Value {
         }
     }
 
-    /// Calls `change` with each value that this one is directly made of, in the order of the text.
+    /// Calls `change` for each direct child of this value, in the order of the text.
     pub fn for_each_part(&mut self, mut change: impl FnMut(&mut Self)) {
         match &mut self.kind {
             ValueKind::Call(call) => change(&mut call.body),
@@ -179,7 +178,7 @@ impl Value {
         }
     }
 
-    /// The values that this one is directly made of, in the order of the text.
+    /// Returns the direct children of this value, in the order of the text.
     pub fn parts(&self) -> Box<dyn Iterator<Item = &Self> + '_> {
         match &self.kind {
             ValueKind::Call(call) => Box::new(std::iter::once(&call.body)),
@@ -190,7 +189,7 @@ impl Value {
         }
     }
 
-    /// Whether something in the value could not be read.
+    /// Whether a part of the value could not be read.
     pub fn has_errors(&self) -> bool {
         match &self.kind {
             ValueKind::Error => true,
@@ -199,7 +198,7 @@ impl Value {
         }
     }
 
-    /// What the value is, in a few words for a message: `1.5`, `a string`, `a list`.
+    /// Describes the value for a message, such as `1.5`, `a string` or ``a list `[..]` ``.
     pub fn describe(&self) -> String {
         match &self.kind {
             ValueKind::Bool(_) | ValueKind::Name(_) => format!("`{self}`"),
@@ -214,14 +213,14 @@ impl Value {
             ValueKind::List(_) => "a list `[..]`".to_owned(),
             ValueKind::Map(_) => "a map `{..}`".to_owned(),
             ValueKind::Call(call) => format!("`{}(..)`", call.name.text),
-            ValueKind::Error => "something unreadable".to_owned(),
+            ValueKind::Error => "a value that could not be read".to_owned(),
         }
     }
 }
 
-/// Writes the value in one line, as RON that reads back as the same value.
+/// Writes the value in one line of RON that is parsed as the same value.
 ///
-/// An unreadable value is written as `_`.
+/// A value that could not be read is written as `_`.
 impl fmt::Display for Value {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.kind {
@@ -250,7 +249,7 @@ impl fmt::Display for Value {
     }
 }
 
-/// `text` as a RON string literal.
+/// Returns `text` as a RON string literal.
 ///
 /// ```
 /// assert_eq!(ron_tree::string_literal("a \"b\"\n"), r#""a \"b\"\n""#);

@@ -45,7 +45,7 @@ fn missing_reference_files_are_reported_and_written_by_update() {
     let folder = Folder::with_recipe(RECIPE);
     folder.run("check recipe.ron").with_code(0).complains(&[
         "goldens/sheet.png",
-        "run `meshwright test --update` to make it",
+        "run `meshwright test --update` to create it",
     ]);
     for command in ["run recipe.ron", "test recipe.ron"] {
         folder.run(command).with_code(1).complains(&[
@@ -215,7 +215,7 @@ fn paths_that_lead_out_and_files_that_no_step_writes_are_refused() {
     Folder::with_recipe(&early)
         .run("check recipe.ron")
         .with_code(1)
-        .complains(&["no step writes \"a/sheet.png\" before this is held"]);
+        .complains(&["no step writes \"a/sheet.png\" before this expectation is checked"]);
 }
 
 #[cfg(unix)]
@@ -249,7 +249,7 @@ fn an_output_can_be_expected_to_differ() {
     folder
         .run("test recipe.ron --update")
         .with_code(1)
-        .complains(&["which is not there"]);
+        .complains(&["which does not exist"]);
     let folder = folder.with("goldens/sheet.png", &same[..same.len() / 2]);
     folder
         .run("test recipe.ron")
@@ -301,7 +301,7 @@ fn inputs_and_files_of_a_different_kind_are_never_overwritten() {
         (
             "b.ron",
             recipe(cube, r#"Output(path: "p.png", as: "b.ron")"#),
-            "is no file of the kind of \"p.png\"",
+            "\"b.ron\" and \"p.png\" are files of different formats",
         ),
         (
             "c.ron",
@@ -336,5 +336,5 @@ fn two_outputs_cannot_have_the_same_reference_file() {
     folder
         .run("test recipe.ron --update")
         .with_code(1)
-        .complains(&["another expectation records another file there"]);
+        .complains(&["another expectation records a different file under this name"]);
 }

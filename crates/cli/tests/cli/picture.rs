@@ -93,7 +93,7 @@ fn invalid_options_are_reported_like_those_of_a_step() {
             &["--highlight", "Shrp(above: 30)"],
             "unknown selection `Shrp`",
         ),
-        (&["--highlight", "Boundary"], "say which are meant"),
+        (&["--highlight", "Boundary"], "specify which"),
         (&["--color-by", "Wealth"], "unknown variant `Wealth`"),
         (&["--with", "style: (sharpp: 3)"], "unknown field `sharpp`"),
         (&["--size", "0x10"], "expected a size such as 1280x960"),

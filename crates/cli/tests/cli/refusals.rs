@@ -42,7 +42,7 @@ fn five_different_mistakes_are_five_errors_and_nothing_runs() {
         "help: did you mean `Boundary`?\n",
         "error: the expectation has no bound, so it can never fail\n",
         "recipe.ron:10:28\n",
-        "help: give it a bound, such as `eq`, `min` or `max`\n",
+        "help: add a bound, such as `eq`, `min` or `max`\n",
         "5 errors, no step was run\n",
     ]);
     assert_eq!(ended.stderr.matches("error: ").count(), 5);
@@ -170,7 +170,7 @@ fn a_missing_recipe_and_one_that_is_not_text_are_one_line_of_error() {
 #[test]
 fn a_recipe_of_a_newer_version_is_refused() {
     fails(&Folder::with_recipe("(recipe: 2, stages: [])")).complains(&[
-        "error: this recipe is of version 2, expected 1\n",
+        "error: this recipe has version 2, expected 1\n",
         "recipe.ron:1:10\n",
         "help: a newer meshwright can read it\n",
     ]);

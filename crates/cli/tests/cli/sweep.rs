@@ -235,7 +235,7 @@ fn invalid_sweeps_are_refused_with_a_reason() {
         ),
         (
             format!("(sweep: 2, recipe: \"recipe.ron\", {keep})"),
-            "this sweep is of version 2, expected 1",
+            "this sweep has version 2, expected 1",
         ),
         (
             format!("(sweep: 1, recipe: \"broken.ron\", {keep})"),

@@ -1,8 +1,9 @@
-//! The flow of attributes: what a step needs is there, and what it loses may be lost.
+//! Checks attributes through a recipe: a step must have the attributes that it needs, and must not lose attributes
+//! unless `on_loss` allows it.
 //!
-//! The plan of each step says which attributes it keeps, provides and drops. What a mesh has for certain
-//! before a step and not after it is lost; what no step has made, on a mesh that has nothing else, is
-//! missing.
+//! The plan of each step tells which attributes it keeps, provides and drops. An attribute is lost if a mesh certainly
+//! has it before a step but not after the step. It is missing if no earlier step provides it and all attributes of the
+//! mesh are known.
 
 use std::collections::HashSet;
 
@@ -14,39 +15,39 @@ use crate::recipe::{OnLoss, RecipeExpectation, RecipeStep};
 use crate::shape::did_you_mean;
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
-/// What steps have dropped so far.
+/// The attributes that steps have dropped so far.
 #[derive(Debug, Default)]
 pub(super) struct Attributes {
-    dropped: Vec<Dropped>,
+    dropped: Vec<DroppedAttribute>,
 }
 
 #[derive(Debug)]
-struct Dropped {
+struct DroppedAttribute {
     object: String,
     domain: Domain,
     name: String,
-    /// The label of the step.
+    /// The label of the step that dropped the attribute.
     step: String,
 }
 
-/// The certain attributes of each mesh.
-pub(super) type Before = Vec<(String, Vec<PlannedAttribute>)>;
+/// For each mesh, its name and the attributes that it certainly has.
+pub(super) type CertainAttributes = Vec<(String, Vec<PlannedAttribute>)>;
 
 fn key(attribute: &PlannedAttribute) -> (Domain, &str) {
     (attribute.domain, &attribute.name)
 }
 
 impl Attributes {
-    /// Reports what a step loses for certain and may not lose.
+    /// Reports attributes that a step certainly loses although `on_loss` does not allow it.
     pub(super) fn losses(
         &mut self,
         step: &RecipeStep,
-        before: &Before,
+        before: &CertainAttributes,
         plan: &Plan,
         found: &mut Vec<Diagnostic>,
     ) {
         for (object, had) in before {
-            // An object that is gone was taken away, and not by accident.
+            // Removing a whole object is deliberate, so it is not reported as a loss.
             let Some(PlannedGeometry::Mesh(mesh)) = plan.object(object).map(|o| &o.geometry) else {
                 continue;
             };
@@ -60,7 +61,7 @@ impl Attributes {
                 if !step.on_loss.allows(&lost.name) {
                     found.push(forbidden(step, &loss));
                 }
-                self.dropped.push(Dropped {
+                self.dropped.push(DroppedAttribute {
                     object: object.clone(),
                     domain: lost.domain,
                     name: lost.name.clone(),
@@ -70,9 +71,9 @@ impl Attributes {
         }
     }
 
-    /// Reports tags that a step selects by and that are on no element for certain.
+    /// Reports tags that a step selects by although no element can have them.
     pub(super) fn needs(&self, step: &RecipeStep, plan: &Plan, found: &mut Vec<Diagnostic>) {
-        // What must be refused may well lack something.
+        // A step that must be refused may lack something.
         if plan.incomplete || step.refused.is_some() {
             return;
         }
@@ -81,13 +82,13 @@ impl Attributes {
         let on = step.on_names();
         for (tag, span) in tags {
             if let Some((object, help)) = self.lacking(plan, on.as_deref(), None, tag) {
-                let message = format!("nothing of \"{object}\" is tagged \"{tag}\"");
+                let message = format!("no element of \"{object}\" is tagged \"{tag}\"");
                 found.push(Diagnostic::error(span, message).with_help(help));
             }
         }
     }
 
-    /// Reports an expected attribute that cannot be there.
+    /// Reports an expected attribute that cannot exist at this point.
     pub(super) fn expected(
         &self,
         placed: &RecipeExpectation,
@@ -108,7 +109,7 @@ impl Attributes {
         }
     }
 
-    /// The first of the objects that are meant that cannot have an attribute, with advice.
+    /// Returns the first of the objects in `on` that cannot have the attribute, with a help text.
     fn lacking<'p>(
         &self,
         plan: &'p Plan,
@@ -126,26 +127,26 @@ impl Attributes {
         Some((object, self.help(object, domain, name, mesh)))
     }
 
-    /// Who dropped it, or else what it may have been meant to be.
+    /// Returns the help text for a missing attribute: which step dropped it, or else a similar name.
     fn help(&self, object: &str, domain: Option<Domain>, name: &str, mesh: &MeshPlan) -> String {
-        let is_it = |d: &&Dropped| {
+        let is_missing = |d: &&DroppedAttribute| {
             d.object == object && d.name == name && domain.is_none_or(|domain| d.domain == domain)
         };
-        if let Some(dropped) = self.dropped.iter().rev().find(is_it) {
-            return format!("the step {} has dropped it", dropped.step);
+        if let Some(dropped) = self.dropped.iter().rev().find(is_missing) {
+            return format!("the step {} dropped it", dropped.step);
         }
-        let here = mesh.attributes.iter();
-        let here = here.filter(|a| domain.is_none_or(|domain| a.domain == domain));
-        let mut names: Vec<&str> = here.map(|a| a.name.as_str()).collect();
+        let attributes = mesh.attributes.iter();
+        let attributes = attributes.filter(|a| domain.is_none_or(|domain| a.domain == domain));
+        let mut names: Vec<&str> = attributes.map(|a| a.name.as_str()).collect();
         names.dedup();
         if names.is_empty() {
-            return "no step before has made one".to_owned();
+            return "no earlier step creates one".to_owned();
         }
         did_you_mean(name, names)
     }
 }
 
-/// The error for a loss that a step may not have.
+/// Returns the error for a loss that `on_loss` does not allow.
 pub(crate) fn forbidden(step: &RecipeStep, loss: &Loss) -> Diagnostic {
     let (what, object, name) = (&loss.what, &loss.object, &loss.name);
     let message = format!(
@@ -156,14 +157,14 @@ pub(crate) fn forbidden(step: &RecipeStep, loss: &Loss) -> Diagnostic {
         OnLoss::Allow(names) => {
             let names = names.iter().chain([name]);
             let names: Vec<String> = names.map(|name| format!("{name:?}")).collect();
-            format!("`on_loss: Allow([{}])` lets it go", names.join(", "))
+            format!("allow it with `on_loss: Allow([{}])`", names.join(", "))
         }
-        _ => format!("`on_loss: Allow([{name:?}])` lets it go"),
+        _ => format!("allow it with `on_loss: Allow([{name:?}])`"),
     };
     Diagnostic::error(step.span, message).with_help(help)
 }
 
-/// The meshes among some objects, with their names.
+/// Returns the objects that are meshes, with their names.
 pub(super) fn meshes(objects: &[PlannedObject]) -> impl Iterator<Item = (&str, &MeshPlan)> {
     objects.iter().filter_map(|object| match &object.geometry {
         PlannedGeometry::Mesh(mesh) => Some((object.name.as_str(), mesh)),
@@ -171,7 +172,7 @@ pub(super) fn meshes(objects: &[PlannedObject]) -> impl Iterator<Item = (&str, &
     })
 }
 
-/// The names in `Tagged("..")` anywhere in a value, and their places.
+/// Collects the names in all `Tagged("..")` in a value, with their spans.
 fn tagged<'v>(value: &'v Value, tags: &mut Vec<(&'v str, Span)>) {
     if let ValueKind::Call(call) = &value.kind
         && &*call.name.text == "Tagged"

@@ -1,4 +1,4 @@
-//! Checking a recipe without running it: every step is planned on what is known of the scene before it.
+//! Checks a recipe without running it: plans every step on the forecast of the scene before it.
 
 mod attributes;
 
@@ -12,31 +12,31 @@ use crate::recipe::{Recipe, RecipeExpectation, RecipeStep};
 use crate::shape::did_you_mean;
 use ron_tree::{Diagnostic, Span, field_span};
 
-use attributes::{Attributes, Before, meshes};
+use attributes::{Attributes, CertainAttributes, meshes};
 
 pub(crate) use attributes::forbidden;
 
-/// What is known of the scene after a step.
+/// The forecast of the scene after a step.
 #[derive(Clone, Debug)]
 pub struct StepForecast {
-    /// The step's id or operation.
+    /// The step's id or, if it has none, its operation.
     pub label: String,
-    /// The vertices of all meshes together.
+    /// The number of vertices of all meshes together.
     pub vertices: Range,
-    /// The edges.
+    /// The number of edges of all meshes together.
     pub edges: Range,
-    /// The faces.
+    /// The number of faces of all meshes together.
     pub faces: Range,
-    /// The bytes that all meshes take.
+    /// The memory that all meshes take, in bytes.
     pub bytes: Range,
 }
 
-/// What was found without running anything.
+/// The result of checking a recipe without running it.
 #[derive(Clone, Debug, Default)]
 pub struct Forecast {
-    /// What is wrong.
+    /// The errors and warnings.
     pub diagnostics: Vec<Diagnostic>,
-    /// What is known after each step.
+    /// The forecast after each step.
     pub steps: Vec<StepForecast>,
     /// The files that the recipe writes.
     pub outputs: Vec<PathBuf>,
@@ -45,7 +45,7 @@ pub struct Forecast {
 }
 
 impl Forecast {
-    /// Whether the recipe cannot run.
+    /// Whether there are errors, so that the recipe cannot run.
     pub fn has_errors(&self) -> bool {
         self.diagnostics.iter().any(Diagnostic::is_error)
     }
@@ -56,16 +56,16 @@ impl Forecast {
     }
 }
 
-/// Plans every step. `budget` is how many bytes meshes may take.
+/// Plans every step. `budget` is the memory budget for meshes, in bytes.
 pub fn check(recipe: &Recipe, files: &Files, budget: u64) -> Forecast {
     let mut forecast = Forecast::default();
     let mut plan = Plan::default();
     let mut attributes = Attributes::default();
-    let mut known = Known::default();
+    let mut totals = Totals::default();
     let mut over_budget = false;
     let mut written = HashSet::new();
     let files = recipe.files(files);
-    // The expectations come in the order of their steps, those of the end last.
+    // Expectations are in the order of their steps; those for the end of the recipe come last.
     let mut expectations = recipe.expectations.iter().peekable();
     for (i, step) in recipe.steps.iter().enumerate() {
         let mut found = Vec::new();
@@ -73,30 +73,30 @@ pub fn check(recipe: &Recipe, files: &Files, budget: u64) -> Forecast {
         let files_of = &files[step.scope];
         plan_step(step, &mut plan, files_of, budget, &mut written, &mut found);
         if plan.take_edited() {
-            attributes.losses(step, &known.certain, &plan, &mut found);
-            known = Known::default();
+            attributes.losses(step, &totals.certain, &plan, &mut found);
+            totals = Totals::default();
         }
-        known.add_objects(&plan);
-        // Once: later steps only make it worse.
-        if known.bytes.min > budget && !over_budget {
+        totals.add_objects(&plan);
+        // Reported once, at the first step that exceeds the budget.
+        if totals.bytes.min > budget && !over_budget {
             over_budget = true;
             if !found.iter().any(Diagnostic::is_error) {
-                found.push(over(step, known.bytes.min, budget));
+                found.push(exceeds_budget(step, totals.bytes.min, budget));
             }
         }
         forecast.add(recipe, step.scope, found);
         while let Some(placed) = expectations.next_if(|p| p.after == Some(i)) {
-            let found = expected(placed, &plan, &attributes, &files);
+            let found = check_expectation(placed, &plan, &attributes, &files);
             forecast.add(recipe, placed.scope, found);
         }
-        forecast.steps.push(known.forecast(step, plan.incomplete));
+        forecast.steps.push(totals.forecast(step, plan.incomplete));
     }
     for placed in expectations {
-        let found = expected(placed, &plan, &attributes, &files);
+        let found = check_expectation(placed, &plan, &attributes, &files);
         forecast.add(recipe, placed.scope, found);
     }
     forecast.diagnostics.sort_by_key(|d| (d.source, d.span));
-    // The turns of a repetition say the same.
+    // Each repetition of a step gives the same diagnostics.
     forecast.diagnostics.dedup();
     forecast.outputs = plan.outputs;
     forecast.inputs = plan.inputs;
@@ -133,7 +133,7 @@ fn plan_step(
         budget,
     };
     if step.refused.is_some() {
-        // Must be refused when it runs, so it changes nothing and may well have problems.
+        // The step must be refused when it runs, so it changes nothing, and problems are not errors.
         operation.plan(&mut plan.clone(), &cx);
         return;
     }
@@ -150,7 +150,7 @@ fn plan_step(
     plan.incomplete |= problems.iter().any(|p| !p.is_warning);
     for problem in &problems {
         let span = field_span(&step.value, &problem.path);
-        // The whole step is shown by its name.
+        // A problem with the whole step is shown at its name.
         let span = if span == step.value.span {
             step.span
         } else {
@@ -161,28 +161,28 @@ fn plan_step(
 }
 
 fn diagnostic(problem: &Problem, span: Span) -> Diagnostic {
-    let made = if problem.is_warning {
+    let create = if problem.is_warning {
         Diagnostic::warning
     } else {
         Diagnostic::error
     };
-    let diagnostic = made(span, problem.message.clone());
+    let diagnostic = create(span, problem.message.clone());
     match &problem.help {
         Some(help) => diagnostic.with_help(help.clone()),
         None => diagnostic,
     }
 }
 
-fn over(step: &RecipeStep, bytes: u64, budget: u64) -> Diagnostic {
+fn exceeds_budget(step: &RecipeStep, bytes: u64, budget: u64) -> Diagnostic {
     let message = format!(
-        "meshes take {} after this step, and the budget is {}",
+        "the meshes take {} after this step, more than the memory budget of {}",
         mebibytes(bytes),
         mebibytes(budget)
     );
-    Diagnostic::error(step.span, message).with_help("allow more with --budget, or do less")
+    Diagnostic::error(step.span, message).with_help("raise the budget with --budget")
 }
 
-/// Bytes as text.
+/// Formats a number of bytes in MiB.
 pub fn mebibytes(bytes: u64) -> String {
     let mebi = bytes as f64 / f64::from(1 << 20);
     if mebi < 10.0 {
@@ -192,8 +192,8 @@ pub fn mebibytes(bytes: u64) -> String {
     }
 }
 
-/// What is wrong with an expectation at this point.
-fn expected(
+/// Returns the errors and warnings of an expectation at this point of the recipe.
+fn check_expectation(
     placed: &RecipeExpectation,
     plan: &Plan,
     attributes: &Attributes,
@@ -211,7 +211,7 @@ fn expected(
         None => {}
     }
     if let Some((path, golden)) = placed.that.output() {
-        found.extend(output(
+        found.extend(check_output(
             path,
             golden,
             plan,
@@ -227,8 +227,14 @@ fn expected(
     found
 }
 
-/// What is wrong with a file that is to be written and held against one beside the recipe.
-fn output(path: &str, beside: &str, plan: &Plan, files: &Files, span: Span) -> Vec<Diagnostic> {
+/// Returns the errors and warnings of an `Output` expectation: `path` is the written file, `beside` the reference file.
+fn check_output(
+    path: &str,
+    beside: &str,
+    plan: &Plan,
+    files: &Files,
+    span: Span,
+) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     match files.to_write(path) {
         Err(error) => found.push(Diagnostic::error(span, error.to_string())),
@@ -236,29 +242,30 @@ fn output(path: &str, beside: &str, plan: &Plan, files: &Files, span: Span) -> V
             let below = |path: &PathBuf| path.strip_prefix(&files.output).ok().map(Path::to_owned);
             let written: Vec<PathBuf> = plan.outputs.iter().filter_map(below).collect();
             let names = written.iter().filter_map(|path| path.to_str());
-            let message = format!("no step writes \"{path}\" before this is held");
+            let message = format!("no step writes \"{path}\" before this expectation is checked");
             let help = did_you_mean(path, names);
             found.push(Diagnostic::error(span, message).with_help(help));
         }
         Ok(_) => {}
     }
-    let ending = |path: &str| Path::new(path).extension().unwrap_or_default().to_owned();
-    if !ending(path).eq_ignore_ascii_case(ending(beside)) {
-        let message = format!("\"{beside}\" is no file of the kind of \"{path}\"");
-        let help = "both need the same ending";
+    let extension = |path: &str| Path::new(path).extension().unwrap_or_default().to_owned();
+    if !extension(path).eq_ignore_ascii_case(extension(beside)) {
+        let message = format!("\"{beside}\" and \"{path}\" are files of different formats");
+        let help = "both files must have the same extension";
         found.push(Diagnostic::error(span, message).with_help(help));
     }
     match golden(files, beside) {
         Err(message) => found.push(Diagnostic::error(span, message)),
         Ok(full) if plan.inputs.contains(&full) => {
-            let message = format!("a step reads \"{beside}\", which is to be what it makes");
-            let help = "hold the output against another file: `meshwright test --update` writes it";
+            let message =
+                format!("a step reads \"{beside}\", so it cannot be used as the reference file");
+            let help = "use a different file: `meshwright test --update` creates it";
             found.push(Diagnostic::error(span, message).with_help(help));
         }
         Ok(full) if !files.store.exists(&full) => {
-            // Not an error: then nothing could run that makes it.
-            let message = format!("there is no file {}", full.display());
-            let help = "run `meshwright test --update` to make it";
+            // Not an error, because the recipe must run to create the file.
+            let message = format!("the file {} does not exist", full.display());
+            let help = "run `meshwright test --update` to create it";
             found.push(Diagnostic::warning(span, message).with_help(help));
         }
         Ok(_) => {}
@@ -267,23 +274,23 @@ fn output(path: &str, beside: &str, plan: &Plan, files: &Files, span: Span) -> V
 }
 
 fn missing_file(files: &Files, path: &Path, span: Span) -> Option<Diagnostic> {
-    let message = format!("there is no file {}", path.display());
+    let message = format!("the file {} does not exist", path.display());
     (!files.store.is_file(path)).then(|| Diagnostic::error(span, message))
 }
 
-/// What is known of all meshes of a plan together. Objects that a step adds are added to it, so that a step takes no
-/// time in proportion to the objects that it leaves alone.
-struct Known {
-    /// How many objects are counted.
+/// The totals over all meshes of a plan. If a step only adds objects, only these are added to the totals, so that
+/// unchanged objects take no time.
+struct Totals {
+    /// The number of objects that are counted.
     objects: usize,
     vertices: Range,
     edges: Range,
     faces: Range,
     bytes: Range,
-    certain: Before,
+    certain: CertainAttributes,
 }
 
-impl Default for Known {
+impl Default for Totals {
     fn default() -> Self {
         let none = Range::exactly(0);
         Self {
@@ -292,12 +299,12 @@ impl Default for Known {
             edges: none,
             faces: none,
             bytes: none,
-            certain: Before::new(),
+            certain: CertainAttributes::new(),
         }
     }
 }
 
-impl Known {
+impl Totals {
     fn add_objects(&mut self, plan: &Plan) {
         for (name, mesh) in meshes(&plan.objects()[self.objects..]) {
             self.vertices = self.vertices.plus(mesh.vertices);

@@ -1,17 +1,17 @@
-//! The attributes of two meshes side by side.
+//! Compares the attributes of two meshes.
 
 use mesh::{Column, Domain, Id, Mesh, Values};
 
 use super::meshes::Order;
 
-/// An attribute that one of two meshes has, or both.
+/// The comparison of one attribute of two meshes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AttributeDifference {
-    /// What it belongs to.
+    /// The domain of the attribute.
     pub domain: Domain,
-    /// Its name.
+    /// The name of the attribute.
     pub name: String,
-    /// What differs.
+    /// How the attribute differs.
     pub difference: ColumnDifference,
 }
 
@@ -20,29 +20,29 @@ pub struct AttributeDifference {
 pub enum ColumnDifference {
     /// Every value is the same.
     None,
-    /// Only the first mesh has it.
+    /// Only the first mesh has the attribute.
     OnlyFirst,
-    /// Only the second mesh has it.
+    /// Only the second mesh has the attribute.
     OnlySecond,
     /// The types of the values differ.
     Types([&'static str; 2]),
-    /// Edits treat the values in another way.
+    /// The rules for how edits treat the values differ.
     Rules,
-    /// The meshes have other elements, so that values cannot be compared.
+    /// The connectivity of the meshes differs, so that values cannot be compared.
     Unknown,
     /// Values differ.
     Values {
-        /// How many.
+        /// The number of values that differ.
         count: usize,
-        /// By how much at most: the largest difference of a number in them; 1 between tags.
+        /// The largest difference between two numbers. Tags that differ count as 1.
         by: f64,
-        /// The element with that difference, such as `v12`, in the numbers of the first mesh.
+        /// The element of the first mesh with the largest difference, such as `v12`.
         element: String,
     },
 }
 
 impl AttributeDifference {
-    /// Whether both meshes have it and no value differs by more than `tolerance`.
+    /// Whether both meshes have the attribute and no value differs by more than `tolerance`.
     pub fn is_within(&self, tolerance: f64) -> bool {
         match &self.difference {
             ColumnDifference::None => true,
@@ -52,7 +52,7 @@ impl AttributeDifference {
     }
 }
 
-/// The attributes of both meshes; values are compared if the orders of their elements are given.
+/// Compares the attributes of two meshes. Values are compared only if the orders of their elements are given.
 pub(super) fn differences(
     [a, b]: [&Mesh; 2],
     orders: Option<&[Order; 2]>,
@@ -92,12 +92,12 @@ pub(super) fn differences(
     found
 }
 
-/// Compares the values of elements in pairs.
+/// Compares two columns: the value of each element in `first` with that of the corresponding element in `second`.
 fn values<I: Id>(a: &Column, b: &Column, first: &[I], second: &[I]) -> ColumnDifference {
     let (mut count, mut most, mut element) = (0, 0.0, None);
     for (&i, &j) in first.iter().zip(second) {
-        let by = apart(&a.values, i.index(), &b.values, j.index());
-        // What is no number on one side differs too.
+        let by = largest_difference(&a.values, i.index(), &b.values, j.index());
+        // A NaN counts as a difference too.
         if by == 0.0 {
             continue;
         }
@@ -116,8 +116,8 @@ fn values<I: Id>(a: &Column, b: &Column, first: &[I], second: &[I]) -> ColumnDif
     }
 }
 
-/// The largest difference between the numbers of two values of one type.
-fn apart(a: &Values, i: usize, b: &Values, j: usize) -> f64 {
+/// Returns the largest difference between the numbers of two values of the same type.
+fn largest_difference(a: &Values, i: usize, b: &Values, j: usize) -> f64 {
     match (a, b) {
         (Values::Float(a), Values::Float(b)) => (a[i] - b[j]).abs(),
         (Values::Vec2(a), Values::Vec2(b)) => (a[i] - b[j]).abs().max_element(),

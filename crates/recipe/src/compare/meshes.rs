@@ -1,4 +1,4 @@
-//! Two meshes side by side.
+//! Compares two meshes.
 
 use std::cmp::Ordering;
 
@@ -8,61 +8,61 @@ use super::attributes::{AttributeDifference, differences};
 use crate::expect::same_faces;
 use geometry::distance::Distance;
 
-/// Two meshes side by side; pairs are of the first and the second.
+/// The comparison of two meshes.
 #[derive(Clone, Debug)]
 pub struct MeshDifference {
-    /// How many elements each has, and how large it is.
+    /// The element counts and the sizes of the first and the second mesh.
     pub counts: [Counts; 2],
-    /// Whether faces join the same vertices.
+    /// Whether the faces join the same vertices.
     pub connectivity: Connectivity,
-    /// How vertices moved, if the connectivity is the same; `None` if none did.
+    /// The vertices that moved. `None` if none moved or the connectivity differs.
     pub moved: Option<Moved>,
-    /// The attributes of both, in order of domains and names.
+    /// The attributes of both meshes: those of the first mesh, then those that only the second has, for each domain.
     pub attributes: Vec<AttributeDifference>,
-    /// How far the surfaces are apart; `None` if they are identical or one has no faces.
+    /// The distance between the surfaces. `None` if the meshes are identical or one has no faces.
     pub distance: Option<Distance>,
 }
 
-/// How many elements a mesh has, and how large it is.
+/// The element counts and the size of a mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Counts {
-    /// Vertices.
+    /// The number of vertices.
     pub vertices: usize,
-    /// Edges.
+    /// The number of edges.
     pub edges: usize,
-    /// Faces.
+    /// The number of faces.
     pub faces: usize,
-    /// Connected parts.
+    /// The number of connected components.
     pub components: usize,
-    /// Holes.
+    /// The number of boundary loops.
     pub boundary_loops: usize,
     /// The sum of the areas of the faces.
     pub area: f64,
-    /// The volume inside; it means nothing if there are holes.
+    /// The enclosed volume. Meaningless if the mesh has boundary loops.
     pub volume: f64,
-    /// The lowest and highest coordinates; `None` without vertices.
+    /// The lowest and highest coordinates. `None` if the mesh has no vertices.
     pub bounds: Option<[DVec3; 2]>,
 }
 
 /// Whether the faces of two meshes join the same vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Connectivity {
-    /// The same faces of the same vertices, by their numbers.
+    /// The same faces join the same vertices, compared by ids.
     Same,
-    /// The vertices lie at the same places, and the faces are the same, but numbers differ.
+    /// The vertices have the same positions and the faces are the same, but ids differ.
     Reordered,
-    /// Other faces.
+    /// The faces differ.
     Different,
 }
 
-/// Vertices that moved.
+/// The vertices that moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moved {
-    /// How many.
+    /// The number of vertices that moved.
     pub count: usize,
-    /// The one that moved furthest.
+    /// The vertex that moved farthest.
     pub vertex: VertexId,
-    /// How far, in scene units.
+    /// How far that vertex moved, in scene units.
     pub by: f64,
 }
 
@@ -91,7 +91,7 @@ impl MeshDifference {
         }
     }
 
-    /// Whether the connectivity is the same and nothing else differs by more than `tolerance`.
+    /// Whether the connectivity is the same and no position or attribute value differs by more than `tolerance`.
     pub fn is_within(&self, tolerance: f64) -> bool {
         self.connectivity == Connectivity::Same
             && self.moved.is_none_or(|moved| moved.by <= tolerance)
@@ -114,13 +114,13 @@ impl Counts {
     }
 }
 
-/// The elements of a mesh in an order that only the numbers of vertices and faces decide.
+/// The elements of a mesh in an order that depends only on the ids of vertices and faces.
 pub(super) struct Order {
     pub(super) vertices: Vec<VertexId>,
     pub(super) faces: Vec<FaceId>,
-    /// Face by face, from the corner at the lowest vertex.
+    /// Sorted by face. Within a face, the corner at the lowest vertex comes first.
     pub(super) corners: Vec<HalfEdgeId>,
-    /// By their vertices, the lower one first.
+    /// Sorted by their lower vertex, then by their higher vertex.
     pub(super) edges: Vec<EdgeId>,
 }
 
@@ -131,12 +131,12 @@ impl Order {
         for &f in &faces {
             let begin = corners.len();
             corners.extend(mesh.face_half_edges(f));
-            let own = &mut corners[begin..];
-            let lowest = (0..own.len()).min_by_key(|&i| mesh.origin(own[i]));
-            own.rotate_left(lowest.unwrap_or(0));
+            let of_face = &mut corners[begin..];
+            let lowest = (0..of_face.len()).min_by_key(|&i| mesh.origin(of_face[i]));
+            of_face.rotate_left(lowest.unwrap_or(0));
         }
         let mut edges: Vec<EdgeId> = mesh.edges().collect();
-        // Several edges between the same vertices stay in the order of their numbers.
+        // The sort is stable: several edges between the same vertices stay in the order of their ids.
         edges.sort_by_key(|&e| pair(mesh, e));
         Self {
             vertices: mesh.vertices().collect(),
@@ -164,8 +164,8 @@ fn same_connectivity(a: &Mesh, b: &Mesh, [p, q]: &[Order; 2]) -> bool {
         && edges.all(|(&e, &d)| pair(a, e) == pair(b, d))
 }
 
-/// Whether the meshes are the same up to the order of their elements. Of vertices at one place the first of
-/// one mesh is taken for the first of the other.
+/// Whether the meshes are the same up to the order of their elements. Several vertices at the same position are matched
+/// in the order of their ids.
 fn same_up_to_order(a: &Mesh, b: &Mesh, [p, q]: &[Order; 2]) -> bool {
     let sorted = |mesh: &Mesh, order: &Order| {
         let mut vertices = order.vertices.clone();
@@ -181,8 +181,8 @@ fn same_up_to_order(a: &Mesh, b: &Mesh, [p, q]: &[Order; 2]) -> bool {
         vertices
     };
     let (vertices, others) = (sorted(a, p), sorted(b, q));
-    let is_there = |(&v, &w): (&VertexId, &VertexId)| a.position(v) == b.position(w);
-    if vertices.len() != others.len() || !vertices.iter().zip(&others).all(is_there) {
+    let is_same_position = |(&v, &w): (&VertexId, &VertexId)| a.position(v) == b.position(w);
+    if vertices.len() != others.len() || !vertices.iter().zip(&others).all(is_same_position) {
         return false;
     }
     let mut map = vec![VertexId::NONE; b.domain_len(Domain::Vertex)];

@@ -1,7 +1,7 @@
-//! Two scenes side by side: what one has and the other has not, and how far apart they are.
+//! Compares two scenes.
 //!
-//! Objects are held against those of the same name. One object that is left over on each side is held
-//! against the other too: two files that hold one mesh each name it after themselves.
+//! Objects with the same name are compared. If exactly one object remains in each scene, these two are also compared,
+//! because a file with a single mesh often gives it the name of the file.
 
 mod attributes;
 mod meshes;
@@ -11,42 +11,43 @@ use scene::{Geometry, Object, Scene};
 pub use attributes::{AttributeDifference, ColumnDifference};
 pub use meshes::{Connectivity, Counts, MeshDifference, Moved};
 
-/// Two scenes side by side.
+/// The comparison of two scenes.
 #[derive(Clone, Debug)]
 pub struct Difference {
-    /// Whether both have the same digest, or would have if their only objects were named alike.
+    /// Whether both scenes have the same objects in the same order. The name of a remaining object is ignored if it is
+    /// compared with the other remaining object.
     pub identical: bool,
     /// Objects that only the first scene has.
     pub only_first: Vec<String>,
     /// Objects that only the second scene has.
     pub only_second: Vec<String>,
-    /// Objects that both have, in the order of the first.
+    /// Objects that both scenes have, in the order of the first scene.
     pub objects: Vec<ObjectDifference>,
 }
 
-/// Two objects side by side.
+/// The comparison of two objects.
 #[derive(Clone, Debug)]
 pub struct ObjectDifference {
-    /// Their names.
+    /// The names of the two objects.
     pub names: [String; 2],
     /// The kinds of their geometry.
     pub kinds: [&'static str; 2],
-    /// Whether they are equal bit by bit, names apart.
+    /// Whether the objects are identical bit by bit, except for their names.
     pub identical: bool,
-    /// What differs between the meshes, if both are.
+    /// The comparison of the meshes, if both objects are meshes.
     pub mesh: Option<Box<MeshDifference>>,
     /// Materials that only the first object has.
     pub materials_only_first: Vec<String>,
     /// Materials that only the second object has.
     pub materials_only_second: Vec<String>,
-    /// Materials that both have under one name and that are not equal.
+    /// Names of materials that both objects have with different values.
     pub materials_differ: Vec<String>,
-    /// Whether both have the same names of materials, and in another order.
+    /// Whether both objects have the same names of materials, but in a different order.
     pub materials_reordered: bool,
 }
 
 impl Difference {
-    /// Holds two scenes against each other. Distances are measured between meshes that are not identical.
+    /// Compares two scenes. Measures the distance between meshes that are not identical.
     pub fn between(first: &Scene, second: &Scene) -> Self {
         let is_in = |scene: &Scene, o: &&Object| scene.object(&o.name).is_some();
         let mut pairs: Vec<(&Object, &Object)> = first
@@ -90,8 +91,8 @@ impl Difference {
         }
     }
 
-    /// Whether the scenes have the same objects with the same elements in the same order, and no position
-    /// and no value of an attribute differs by more than `tolerance`, in the unit that it has.
+    /// Whether the scenes have the same objects with the same elements in the same order, and no position or attribute
+    /// value differs by more than `tolerance`, in the unit of that value.
     pub fn is_within(&self, tolerance: f64) -> bool {
         self.identical
             || (self.only_first.is_empty()
@@ -138,7 +139,8 @@ impl ObjectDifference {
         }
     }
 
-    /// As [`Difference::is_within`].
+    /// Whether the objects have equal materials, and their meshes differ by at most `tolerance`. See
+    /// [`Difference::is_within`].
     pub fn is_within(&self, tolerance: f64) -> bool {
         let same_materials = self.materials_only_first.is_empty()
             && self.materials_only_second.is_empty()
@@ -149,7 +151,7 @@ impl ObjectDifference {
     }
 }
 
-/// Whether two objects are the same but for their names, to the last bit.
+/// Whether two objects are identical bit by bit, except for their names.
 fn same_bits(a: &Object, b: &Object) -> bool {
     let digest = |object: &Object| {
         let mut scene = Scene::new();

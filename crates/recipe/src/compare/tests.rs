@@ -1,4 +1,4 @@
-//! Scenes that differ in one thing at a time.
+//! Tests with scenes that differ in one property at a time.
 
 use geometry::shapes;
 use mesh::{DVec2, DVec3, Domain, Mesh, UV, VertexId};
@@ -23,7 +23,7 @@ fn mesh_difference(a: Mesh, b: Mesh) -> MeshDifference {
 }
 
 #[test]
-fn equal_scenes_are_identical_whatever_their_only_object_is_called() {
+fn the_name_of_the_only_object_does_not_matter() {
     let difference = Difference::between(&scene("a", shapes::cube()), &scene("b", shapes::cube()));
     assert!(difference.identical && difference.is_within(0.0));
     assert_eq!(difference.objects[0].names, ["a", "b"]);
@@ -33,7 +33,7 @@ fn equal_scenes_are_identical_whatever_their_only_object_is_called() {
 }
 
 #[test]
-fn objects_meet_by_name_and_the_rest_is_told() {
+fn objects_are_matched_by_name_and_the_others_are_listed() {
     let mut first = scene("a", shapes::cube());
     first.insert(Object::mesh("x", shapes::cube())).unwrap();
     first.insert(Object::mesh("y", shapes::cube())).unwrap();
@@ -48,7 +48,7 @@ fn objects_meet_by_name_and_the_rest_is_told() {
 }
 
 #[test]
-fn a_vertex_that_moved_is_told_and_allowed_within_a_tolerance() {
+fn a_moved_vertex_is_reported_and_allowed_within_a_tolerance() {
     let mut moved = shapes::cube();
     moved.positions_mut()[3].z += 0.25;
     let difference = mesh_difference(shapes::cube(), moved);
@@ -64,7 +64,7 @@ fn a_vertex_that_moved_is_told_and_allowed_within_a_tolerance() {
 }
 
 #[test]
-fn other_faces_are_another_connectivity() {
+fn different_faces_are_a_different_connectivity() {
     let difference = mesh_difference(shapes::cube(), shapes::fans(&shapes::cube()));
     assert_eq!(difference.connectivity, Connectivity::Different);
     assert!(!difference.is_within(1e9));
@@ -74,7 +74,7 @@ fn other_faces_are_another_connectivity() {
 }
 
 #[test]
-fn vertices_in_another_order_are_told() {
+fn a_different_order_of_vertices_is_reported() {
     let cube = shapes::cube();
     let number = |v: VertexId| u32::try_from(7 - v.index()).unwrap();
     let positions: Vec<DVec3> = (0..8).rev().map(|i| cube.positions()[i]).collect();

@@ -497,8 +497,8 @@ pub(super) fn check_number(
     )
 }
 
-/// Fails with the first of the bounds `eq`, `min` and `max` that is violated. The violation has the actual value only if
-/// `eq` alone is violated, because only then recording that value makes the expectation hold.
+/// Fails with the first of the bounds `eq`, `min` and `max` that is violated. The violation has the actual value only
+/// if `eq` alone is violated, because only then recording that value makes the expectation hold.
 fn check_bounds<T: PartialOrd + Copy>(
     found: T,
     [eq, min, max]: [Option<T>; 3],

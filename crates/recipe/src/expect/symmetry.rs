@@ -62,8 +62,8 @@ impl Group {
     }
 }
 
-/// Counts the motions that map every vertex onto a vertex within the tolerance and, if `connectivity` is set, every face
-/// onto a face.
+/// Counts the motions that map every vertex onto a vertex within the tolerance and, if `connectivity` is set, every
+/// face onto a face.
 pub(super) fn count(mesh: &Mesh, motions: &[Motion], tolerance: f64, connectivity: bool) -> u64 {
     let points = PositionIndex::new(mesh);
     let keeps = |motion: &Motion| {

@@ -1,4 +1,4 @@
-//! The expectations of a text.
+//! Reads the expectations of a recipe.
 
 use super::Reader;
 use crate::expect::Expectation;
@@ -8,8 +8,8 @@ use crate::shape::{check_shape, did_you_mean};
 use ron_tree::{Value, ValueKind};
 
 impl Reader<'_, '_> {
-    /// `Name(..)`, or `(after: "id", on: [..], that: Name(..) or a list of them)`. Returns the id of the steps behind
-    /// which it must hold; `None` stands for the end of the text.
+    /// Reads `Name(..)` or `(after: "id", on: [..], that: Name(..) or a list of them)`. Returns the id of the step
+    /// after which the expectations are checked (`None` for the end of the recipe), and the expectations.
     pub(super) fn expectation(
         &mut self,
         mut value: Value,
@@ -51,8 +51,8 @@ impl Reader<'_, '_> {
         let that: Expectation = self.typed(value, schema::expectation())?;
         if let Some(problem) = that.problem() {
             let help = match that.output() {
-                Some(_) => "leave `tolerance` out",
-                None => "give it a bound, such as `eq`, `min` or `max`",
+                Some(_) => "remove `tolerance`",
+                None => "add a bound, such as `eq`, `min` or `max`",
             };
             self.error(value.span, problem, help);
             return None;

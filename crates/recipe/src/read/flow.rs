@@ -1,34 +1,34 @@
-//! Steps that hold steps:
+//! Steps that contain steps:
 //!
 //! ```text
-//! Call(recipe: "clean.ron", with: {"distance": 1e-6})    the steps of another recipe
-//! Repeat(times: 3, steps: [..])                          the steps so many times
-//! If(param: "smooth", steps: [..], otherwise: [..])      the steps if a parameter is true, or is a value
+//! Call(recipe: "clean.ron", with: {"distance": 1e-6})    runs the steps of another recipe
+//! Repeat(times: 3, steps: [..])                          runs the steps 3 times
+//! If(param: "smooth", steps: [..], otherwise: [..])      runs the steps if a parameter is true or has a value
 //! ```
 //!
-//! They are done while the recipe is read. A recipe that is called works on the scene as it is, reads
-//! from its own folder, knows its own parameters and ids only, and what it expects must hold when its
-//! steps are done.
+//! They are replaced by the inner steps while the recipe is read. A called recipe works on the current scene, reads
+//! from its own folder, and knows only its own parameters and ids. Its expectations are checked when its steps are
+//! done.
 
 use std::path::Path;
 
 use store::Store;
 
-use super::{Draft, Reader, real, take_items};
-use crate::params::{Move, Param};
+use super::{Draft, Reader, canonical, take_items};
+use crate::params::{Param, Rebase};
 use crate::recipe::{Kind, MAX_STEPS, Origin, Scope};
 use crate::schema;
 use crate::shape::{check_shape, check_step, did_you_mean};
 use crate::source::Source;
 use ron_tree::{Span, Value, ValueKind};
 
-/// The most calls inside each other.
+/// The maximum nesting depth of calls.
 const MAX_CALLS: usize = 32;
 
-/// Reading a text takes as long as so many steps.
-const PRICE_OF_CALL: usize = 20;
+/// The number of steps that a call counts as, in addition to its own steps, because reading a text takes time.
+const STEPS_PER_CALL: usize = 20;
 
-/// The kind of a step, if it is one that holds steps.
+/// Returns the kind of a step that contains steps, or `None` for other steps.
 pub(super) fn kind(written: &Value) -> Option<Kind> {
     let is_envelope = matches!(written.kind, ValueKind::Struct(_));
     let run = if is_envelope {
@@ -41,10 +41,10 @@ pub(super) fn kind(written: &Value) -> Option<Kind> {
 }
 
 impl Reader<'_, '_> {
-    /// Does a step that holds steps.
+    /// Replaces a step that contains steps by the inner steps.
     pub(super) fn flow(&mut self, kind: Kind, mut value: Value) -> Vec<Draft> {
         let is_envelope = matches!(value.kind, ValueKind::Struct(_));
-        // The steps inside are filled in one by one, as all steps are.
+        // The inner steps are read, and their parameters substituted, one by one, like all steps.
         let bodies = ["steps", "otherwise"].map(|field| {
             let run = if is_envelope {
                 value.field_mut("run")
@@ -63,7 +63,7 @@ impl Reader<'_, '_> {
             for field in ["on", "refused", "on_loss"] {
                 if let Some(found) = value.field(field) {
                     let message = format!("{} does not take `{field}`", kind.name());
-                    let help = "give it to the steps inside";
+                    let help = "set it on the inner steps";
                     self.error(found.span, message, help);
                 }
             }
@@ -98,12 +98,12 @@ impl Reader<'_, '_> {
         };
         let times = u32::try_from(times).unwrap_or(0);
         let more = body.len().saturating_mul(times.saturating_sub(1) as usize);
-        let Some(left) = self.shared.left.checked_sub(more) else {
-            let n = (MAX_STEPS - self.shared.left).saturating_add(more);
+        let Some(remaining) = self.shared.remaining_steps.checked_sub(more) else {
+            let n = (MAX_STEPS - self.shared.remaining_steps).saturating_add(more);
             self.too_many(run, n);
             return body;
         };
-        self.shared.left = left;
+        self.shared.remaining_steps = remaining;
         if body.is_empty() {
             return body;
         }
@@ -118,29 +118,30 @@ impl Reader<'_, '_> {
 
     fn choice(&mut self, run: &Value, bodies: [Vec<Value>; 2], is_whole: bool) -> Vec<Draft> {
         let [then, otherwise] = bodies;
-        // Both are read, so that a mistake is found in whichever is not taken.
+        // Both branches are read, so that errors in the branch that is not taken are found too.
         let known = self.ids.len();
         let then = self.steps(then);
-        // Only one of them is done, so that both may have a step of one id.
+        // Only one branch is taken, so both can have a step with the same id.
         let ids = self.ids.split_off(known);
         let otherwise = self.steps(otherwise);
         self.ids.extend(ids);
-        match is_whole.then(|| self.holds(run)).flatten() {
+        match is_whole.then(|| self.condition(run)).flatten() {
             Some(false) => otherwise,
             _ => then,
         }
     }
 
-    /// Whether the parameter of an `If` has the value it asks for.
-    fn holds(&mut self, run: &Value) -> Option<bool> {
-        let at = run.field("param")?;
-        let name = at.as_str()?;
+    /// Whether the parameter of an `If` has the requested value. `None` if that cannot be determined because of an
+    /// error.
+    fn condition(&mut self, run: &Value) -> Option<bool> {
+        let param = run.field("param")?;
+        let name = param.as_str()?;
         self.used.insert(name.to_owned());
         if self.broken.iter().any(|b| b == name) {
             return None;
         }
         let Some(parameter) = self.parameters.iter().find(|p| p.name == name) else {
-            let unknown = self.unknown(name, at.span);
+            let unknown = self.unknown(name, param.span);
             self.diagnostics.push(unknown);
             return None;
         };
@@ -149,14 +150,15 @@ impl Reader<'_, '_> {
                 return Some(parameter.value.kind == ValueKind::Bool(true));
             }
             let kind = parameter.param.type_name();
-            let message = format!("`{name}` is of the type {kind}, expected Bool");
-            self.error(at.span, message, "`is: value` asks for one of its values");
+            let message = format!("`{name}` has the type {kind}, expected Bool");
+            let help = "add `is: value` to compare the parameter with a value";
+            self.error(param.span, message, help);
             return None;
         };
         match parameter.param.value_from(is, None) {
             Ok(value) => Some(parameter.value == value),
             Err(problem) => {
-                let message = format!("`{name}` can never be this: {problem}");
+                let message = format!("`{name}` cannot have this value: {problem}");
                 self.error(is.span, message, "");
                 None
             }
@@ -171,14 +173,14 @@ impl Reader<'_, '_> {
             return Vec::new();
         };
         let path = self.source.folder().join(text);
-        let Some(source) = self.opened(&path, span) else {
+        let Some(source) = self.open_called(&path, span) else {
             return Vec::new();
         };
-        if self.shared.left < PRICE_OF_CALL {
+        if self.shared.remaining_steps < STEPS_PER_CALL {
             self.too_many(run, MAX_STEPS + 1);
             return Vec::new();
         }
-        self.shared.left -= PRICE_OF_CALL;
+        self.shared.remaining_steps -= STEPS_PER_CALL;
         let scope = self.shared.scopes.len();
         self.shared.scopes.push(Scope {
             source,
@@ -196,7 +198,7 @@ impl Reader<'_, '_> {
                 return;
             };
             let to = called.source.clone();
-            let folders = Move {
+            let folders = Rebase {
                 from: from.folder(),
                 to: to.folder(),
                 store: called.shared.store,
@@ -213,7 +215,7 @@ impl Reader<'_, '_> {
         match drafts.last_mut() {
             Some(draft) => draft.then.extend(last),
             None if !last.is_empty() => {
-                let message = "the recipe expects something, but none of its steps is run";
+                let message = "the called recipe has expectations, but none of its steps runs";
                 self.error(span, message, "");
             }
             None => {}
@@ -221,16 +223,17 @@ impl Reader<'_, '_> {
         drafts
     }
 
-    /// The text of a recipe that is called, by its place; unless it cannot be read or calls this one.
-    fn opened(&mut self, path: &Path, span: Span) -> Option<usize> {
+    /// Returns the index of the text of a called recipe. `None`, with an error, if it cannot be read or calls itself.
+    fn open_called(&mut self, path: &Path, span: Span) -> Option<usize> {
         let mut chain = vec![self.scope];
         while let Some((caller, _)) = self.shared.scopes[*chain.last()?].called {
             chain.push(caller);
         }
         let sources = (chain.iter().rev()).map(|&scope| self.shared.scopes[scope].source);
         let chain: Vec<usize> = sources.collect();
-        let real = real(self.shared.store, path);
-        if let Some(first) = (chain.iter()).position(|&source| self.shared.real[source] == real) {
+        let canonical = canonical(self.shared.store, path);
+        let is_called = |&source: &usize| self.shared.canonical_paths[source] == canonical;
+        if let Some(first) = chain.iter().position(is_called) {
             let names = chain[first..].iter();
             let names = names.map(|&source| self.shared.sources[source].path.as_path());
             let names: Vec<String> = (names.chain([path]))
@@ -241,7 +244,7 @@ impl Reader<'_, '_> {
             return None;
         }
         if chain.len() > MAX_CALLS {
-            let message = format!("more than {MAX_CALLS} calls inside each other");
+            let message = format!("calls are nested more than {MAX_CALLS} deep");
             self.error(span, message, "");
             return None;
         }
@@ -251,22 +254,22 @@ impl Reader<'_, '_> {
         match Source::open_in(self.shared.store, path) {
             Ok(source) => {
                 self.shared.sources.push(source);
-                self.shared.real.push(real);
+                self.shared.canonical_paths.push(canonical);
                 Some(self.shared.sources.len() - 1)
             }
             Err(error) => {
-                self.error(span, error, neighbours(self.shared.store, path));
+                self.error(span, error, similar_files(self.shared.store, path));
                 None
             }
         }
     }
 }
 
-/// The nearest names in the folder of a file that is not there.
-fn neighbours(store: &dyn Store, path: &Path) -> String {
+/// Returns a suggestion of similar file names in the folder of a missing recipe. Empty if there is none.
+fn similar_files(store: &dyn Store, path: &Path) -> String {
     let folder = path.parent().filter(|_| !store.exists(path));
-    let beside = folder.and_then(|folder| store.list(folder).ok());
-    let names: Vec<String> = (beside.into_iter().flatten())
+    let siblings = folder.and_then(|folder| store.list(folder).ok());
+    let names: Vec<String> = (siblings.into_iter().flatten())
         .filter(|path| path.extension().is_some_and(|e| e == "ron"))
         .filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned()))
         .collect();

@@ -1,10 +1,11 @@
-//! Reading a recipe: text to operations with their parameters, and every error on the way.
+//! Reads a recipe: converts its text to operations with their parameters, and reports all errors at once.
 //!
-//! Three stages: the text becomes a tree that survives slips; each step is held against the schema of
-//! its operation; what passes is read into the operation's struct. One broken step hides no other.
+//! There are three stages. The text is parsed into a tree, with recovery from syntax errors. Each step is checked
+//! against the schema of its operation. Each valid step is deserialized into the struct of its operation. An error in
+//! one step does not hide errors in other steps.
 //!
-//! Steps that hold steps ([`flow`]) are done here: the recipe becomes one list, and later stages know of
-//! nothing else. A recipe that is called is read in a scope of its own, with its own parameters and ids.
+//! Steps that contain steps ([`flow`]) are replaced by their inner steps here, so that later stages work on a flat
+//! list. A called recipe is read in its own scope, with its own parameters and ids.
 
 mod expectations;
 mod flow;
@@ -32,40 +33,41 @@ use ron_tree::{Diagnostic, Span, Value, ValueKind};
 /// The version of recipes that this program reads.
 pub const VERSION: i128 = 1;
 
-/// A recipe and what is wrong with it.
+/// A recipe with its errors and warnings.
 #[derive(Debug)]
 pub struct Reading {
-    /// The recipe, as far as it could be read.
+    /// The recipe. If it has errors, only the parts that could be read.
     pub recipe: Recipe,
-    /// What is wrong, in order.
+    /// The errors and warnings, in the order of the text.
     pub diagnostics: Vec<Diagnostic>,
 }
 
 impl Reading {
-    /// Whether the recipe cannot run.
+    /// Whether there are errors, so that the recipe cannot run.
     pub fn has_errors(&self) -> bool {
         self.diagnostics.iter().any(Diagnostic::is_error)
     }
 }
 
-/// The values that a recipe's parameters get from outside; by default none.
+/// Values for the parameters of a recipe that are set from outside. Empty by default.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Values<'a> {
-    /// Names of parameters and their values as text.
+    /// Names of parameters and their values as plain text.
     pub set: &'a [(String, String)],
-    /// One of the recipe's presets.
+    /// The name of one of the recipe's presets.
     pub preset: Option<&'a str>,
-    /// The folder that relative paths in `set` are seen from, such as the working directory; the
-    /// recipe's own if `None`.
+    /// The folder that relative paths in `set` are relative to, such as the working directory. If `None`, the folder of
+    /// the recipe.
     pub folder: Option<&'a Path>,
 }
 
-/// Reads a recipe, and those that it calls.
+/// Reads a recipe and the recipes that it calls.
 pub fn read(source: &Source, registry: &Registry, values: Values) -> Reading {
     read_by(&Schemas::new(registry), &Disk, source, values)
 }
 
-/// The same with schemas that serve several recipes; recipes that are called are read from `store`.
+/// Does the same as [`read`](read()) with `schemas` that several recipes can share. Called recipes are read from
+/// `store`.
 pub fn read_by(schemas: &Schemas, store: &dyn Store, source: &Source, values: Values) -> Reading {
     let mut shared = Shared {
         schemas,
@@ -76,8 +78,8 @@ pub fn read_by(schemas: &Schemas, store: &dyn Store, source: &Source, values: Va
             parameters: Vec::new(),
             called: None,
         }],
-        real: vec![real(store, &source.path)],
-        left: MAX_STEPS,
+        canonical_paths: vec![canonical(store, &source.path)],
+        remaining_steps: MAX_STEPS,
         diagnostics: Vec::new(),
     };
     let mut reader = Reader::new(&mut shared, 0, String::new());
@@ -114,14 +116,14 @@ pub fn read_by(schemas: &Schemas, store: &dyn Store, source: &Source, values: Va
     }
 }
 
-/// Refuses a text that says that it is of another version: `recipe: 2`.
-pub(crate) fn other_version(root: &Value, kind: &str, expected: i128) -> Option<Diagnostic> {
+/// Returns an error if a text declares a version other than the expected one, such as `recipe: 2`.
+pub(crate) fn wrong_version(root: &Value, kind: &str, expected: i128) -> Option<Diagnostic> {
     let version = root.field(kind)?;
     let ValueKind::Number(number) = &version.kind else {
         return None;
     };
     let found = number.to_int().filter(|&found| found != expected)?;
-    let message = format!("this {kind} is of version {found}, expected {expected}");
+    let message = format!("this {kind} has version {found}, expected {expected}");
     let help = if found > expected {
         "a newer meshwright can read it"
     } else {
@@ -130,36 +132,36 @@ pub(crate) fn other_version(root: &Value, kind: &str, expected: i128) -> Option<
     Some(Diagnostic::error(version.span, message).with_help(help))
 }
 
-/// What the texts of one recipe share while they are read.
+/// The state that the texts of one recipe share while they are read.
 struct Shared<'a> {
     schemas: &'a Schemas<'a>,
-    /// Where recipes that are called are.
+    /// The store that called recipes are read from.
     store: &'a dyn Store,
     sources: Vec<Source>,
-    /// The files of the sources, links followed.
-    real: Vec<PathBuf>,
+    /// The paths of the sources with links resolved.
+    canonical_paths: Vec<PathBuf>,
     scopes: Vec<Scope>,
-    /// How many more steps there may be.
-    left: usize,
+    /// The number of steps that can still be added.
+    remaining_steps: usize,
     diagnostics: Vec<Diagnostic>,
 }
 
-/// A path with its links followed, if the file is there.
-fn real(store: &dyn Store, path: &Path) -> PathBuf {
+/// Returns the path with links resolved, if the file exists.
+fn canonical(store: &dyn Store, path: &Path) -> PathBuf {
     store.canonical(path).unwrap_or_else(|_| path.to_owned())
 }
 
-/// A step, and what hangs on it.
+/// A step, with the ids and expectations that belong to it.
 #[derive(Clone)]
 struct Draft {
     step: RecipeStep,
-    /// The ids of this text whose work ends with the step.
+    /// The ids, in this text, of the step and of the calls, repetitions and conditions whose last step it is.
     ends: Vec<String>,
-    /// What must hold after it.
+    /// The expectations that are checked after the step.
     then: Vec<RecipeExpectation>,
 }
 
-/// The items of a list, which leaves it empty; none if it is no list.
+/// Takes the items out of a list. Returns no items if the value is not a list.
 fn take_items(list: Option<&mut Value>) -> Vec<Value> {
     match list.map(|list| &mut list.kind) {
         Some(ValueKind::List(items)) => std::mem::take(items),
@@ -171,23 +173,23 @@ fn take_items(list: Option<&mut Value>) -> Vec<Value> {
 struct Reader<'s, 'a> {
     shared: &'s mut Shared<'a>,
     source: Source,
-    /// The scope, by its place.
+    /// The index of the scope.
     scope: usize,
-    /// What the labels of steps begin with.
+    /// The prefix of the labels of steps.
     prefix: String,
     on_loss: OnLoss,
     diagnostics: Vec<Diagnostic>,
     about: Option<String>,
     parameters: Vec<Parameter>,
     presets: Vec<parameters::Preset>,
-    /// Parameters that are declared, but wrongly.
+    /// The names of parameters whose declarations have errors.
     broken: Vec<String>,
-    /// Parameters that some `arg(..)` names.
+    /// The names of parameters that an `arg(..)` or an `If` uses.
     used: HashSet<String>,
     /// The ids of steps.
     ids: IndexSet<String>,
-    /// Whether it was reported that there are too many steps.
-    is_over: bool,
+    /// Whether the error about too many steps was reported.
+    has_too_many_steps: bool,
 }
 
 impl<'s, 'a> Reader<'s, 'a> {
@@ -206,20 +208,20 @@ impl<'s, 'a> Reader<'s, 'a> {
             broken: Vec::new(),
             used: HashSet::new(),
             ids: IndexSet::new(),
-            is_over: false,
+            has_too_many_steps: false,
         }
     }
 
-    /// Reads the text. `values` gives the parameters their values when they are declared. Returns the steps,
-    /// and what must hold at the end.
+    /// Reads the text. `values` sets the parameters after they are declared. Returns the steps, and the expectations
+    /// for the end of the recipe.
     fn text(&mut self, values: impl FnOnce(&mut Self)) -> (Vec<Draft>, Vec<RecipeExpectation>) {
         let text = self.source.text.clone();
         let parsed = ron_tree::parse(&text);
         let mut root = parsed.value;
         self.diagnostics.extend(parsed.diagnostics);
         let nothing = (Vec::new(), Vec::new());
-        // The version is read before anything else is interpreted.
-        if let Some(problem) = other_version(&root, "recipe", VERSION) {
+        // The version is checked before anything else is interpreted.
+        if let Some(problem) = wrong_version(&root, "recipe", VERSION) {
             self.diagnostics.push(problem);
             return nothing;
         }
@@ -236,7 +238,7 @@ impl<'s, 'a> Reader<'s, 'a> {
             self.needs(needs);
         }
         if let Some(on_loss) = root.field("on_loss") {
-            // A wrong one was reported with the envelope.
+            // `check_shape` has reported an invalid value.
             self.on_loss = OnLoss::deserialize(on_loss).unwrap_or_default();
         }
         self.declare(root.field("params"));
@@ -246,7 +248,7 @@ impl<'s, 'a> Reader<'s, 'a> {
             .parameters
             .clone_from(&self.parameters);
         let mut drafts = self.steps(take_items(root.field_mut("steps")));
-        // Each turn of a repetition has a step with the id, and a branch that is not taken has none.
+        // An id has one step for each repetition, and no step if it is in a branch that is not taken.
         let mut ends: HashMap<String, Vec<usize>> = HashMap::new();
         for (i, draft) in drafts.iter().enumerate() {
             for id in &draft.ends {
@@ -269,7 +271,7 @@ impl<'s, 'a> Reader<'s, 'a> {
         (drafts, last)
     }
 
-    /// Hands the diagnostics over, with their text and the calls that led to it.
+    /// Adds the diagnostics to those of the whole recipe, with their text and calls.
     fn close(self) {
         let scopes = &self.shared.scopes;
         let located = (self.diagnostics.into_iter()).map(|d| located(d, self.scope, scopes));
@@ -284,15 +286,15 @@ impl<'s, 'a> Reader<'s, 'a> {
         let Some(text) = needs.as_str() else { return };
         let problem = match numbers(text) {
             None => format!("expected a version such as \"{here}\", found \"{text}\""),
-            Some(wanted) if Some(&wanted) > numbers(here).as_ref() => {
-                format!("this recipe needs meshwright {text}, and this is {here}")
+            Some(needed) if Some(&needed) > numbers(here).as_ref() => {
+                format!("this recipe needs meshwright {text}, but this is version {here}")
             }
             Some(_) => return,
         };
         self.error(needs.span, problem, "");
     }
 
-    /// Adds an error, with advice unless that is empty.
+    /// Adds an error, with a help text unless it is empty.
     fn error(&mut self, span: Span, message: impl Into<String>, help: impl Into<String>) {
         let (error, help) = (Diagnostic::error(span, message), help.into());
         self.diagnostics.push(if help.is_empty() {
@@ -302,7 +304,7 @@ impl<'s, 'a> Reader<'s, 'a> {
         });
     }
 
-    /// Holds a value against a schema and reads it into its type.
+    /// Checks a value against a schema and deserializes it.
     fn typed<T: DeserializeOwned>(&mut self, value: &Value, schema: &Json) -> Option<T> {
         match shape::typed(value, schema) {
             Ok(typed) => Some(typed),

@@ -1,23 +1,22 @@
-//! The parameters of a text: declared, given values, and filled in.
+//! The parameters of a recipe: reads their declarations, sets their values, and substitutes them in steps.
 
 use super::{Reader, Values};
-use crate::params::{Move, Param};
+use crate::params::{Param, Rebase};
 use crate::recipe::{Origin, Parameter};
 use crate::schema;
 use crate::shape::did_you_mean;
 use crate::substitute::substitute;
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
-/// Values for some parameters, under one name.
+/// A named set of values for parameters.
 pub(super) struct Preset {
-    /// Its name.
     pub(super) name: String,
-    /// Names of parameters and their values.
+    /// The names of parameters and their values.
     values: Vec<(String, Value)>,
 }
 
 impl Reader<'_, '_> {
-    /// Reads the declarations; each parameter has its default.
+    /// Reads the declarations. Each parameter gets its default.
     pub(super) fn declare(&mut self, params: Option<&Value>) {
         for (key, value) in entries(params) {
             let Some(name) = key.as_str() else { continue };
@@ -41,7 +40,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Reads the presets, all of them, whichever is chosen.
+    /// Reads all presets, so that errors are also found in presets that are not chosen.
     pub(super) fn declare_presets(&mut self, presets: Option<&Value>) {
         for (key, values) in entries(presets) {
             let Some(name) = key.as_str() else { continue };
@@ -54,11 +53,11 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// The values of `{"name": value}`, and what is wrong with them.
+    /// Reads `{"name": value}`. Returns the values and the errors.
     pub(super) fn values_of(
         &self,
         values: &Value,
-        folders: Option<Move>,
+        folders: Option<Rebase>,
     ) -> (Vec<(String, Value)>, Vec<Diagnostic>) {
         let (mut found, mut wrong) = (Vec::new(), Vec::new());
         for (key, value) in entries(Some(values)) {
@@ -80,7 +79,7 @@ impl Reader<'_, '_> {
         (found, wrong)
     }
 
-    /// Gives parameters values.
+    /// Sets the values of parameters.
     pub(super) fn assign(&mut self, values: &[(String, Value)], origin: &Origin) {
         for (name, value) in values {
             if let Some(parameter) = self.parameters.iter_mut().find(|p| p.name == *name) {
@@ -89,7 +88,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Takes the values of one of the presets.
+    /// Sets the values of the preset with this name.
     pub(super) fn choose_preset(&mut self, name: Option<&str>) {
         let Some(name) = name else { return };
         if let Some(preset) = self.presets.iter().find(|p| p.name == name) {
@@ -98,7 +97,8 @@ impl Reader<'_, '_> {
             return;
         }
         let help = if self.presets.is_empty() {
-            "it has none; `presets: {\"name\": {\"parameter\": value}}` makes one".to_owned()
+            "it has no presets; declare one with `presets: {\"name\": {\"parameter\": value}}`"
+                .to_owned()
         } else {
             did_you_mean(name, self.presets.iter().map(|p| p.name.as_str()))
         };
@@ -107,7 +107,7 @@ impl Reader<'_, '_> {
             .push(Diagnostic::without_place(message).with_help(help));
     }
 
-    /// Takes the values that are set from outside.
+    /// Sets the values that are given from outside.
     pub(super) fn set(&mut self, values: Values) {
         for (name, text) in values.set {
             if self.broken.contains(name) {
@@ -124,7 +124,7 @@ impl Reader<'_, '_> {
             let to = self.source.folder();
             let from = values.folder.unwrap_or(to);
             let store = self.shared.store;
-            let folders = Some(Move { from, to, store });
+            let folders = Some(Rebase { from, to, store });
             match parameter.param.value_of(text, folders) {
                 Ok(value) => {
                     (parameter.value, parameter.origin) = (value, Origin::Set);
@@ -143,10 +143,10 @@ impl Reader<'_, '_> {
             .with_help(did_you_mean(name, known))
     }
 
-    /// Fills parameters in. Returns whether all of them have values.
+    /// Replaces each `arg(..)` in a value by the value of its parameter. Returns whether all parameters have values.
     pub(super) fn fill(&mut self, value: &mut Value) -> bool {
         let mut used = Vec::new();
-        // The declarations of these were reported already.
+        // Uses of parameters whose declarations have errors. These errors were already reported.
         let mut reported = Vec::new();
         let resolve = |name: &str, span: Span| {
             if !self.used.contains(name) {
@@ -168,8 +168,8 @@ impl Reader<'_, '_> {
         is_whole
     }
 
-    /// Warns of parameters that neither an `arg(..)`, an `If` nor a placeholder in a path names. Says
-    /// nothing beside errors: one of them may be the use.
+    /// Warns about parameters that no `arg(..)`, `If` or placeholder in a path uses. Does nothing if there are errors,
+    /// because a use may be in a part that could not be read.
     pub(super) fn unused(&mut self, params: Option<&Value>) {
         if self.diagnostics.iter().any(Diagnostic::is_error) {
             return;
@@ -180,7 +180,7 @@ impl Reader<'_, '_> {
                 && !self.source.text.contains(&format!("{{{name}."))
             {
                 let message = format!("the parameter `{name}` is never used");
-                let help = format!("a step takes its value with arg(\"{name}\")");
+                let help = format!("use its value in a step with arg(\"{name}\")");
                 self.diagnostics
                     .push(Diagnostic::warning(key.span, message).with_help(help));
             }
@@ -188,7 +188,7 @@ impl Reader<'_, '_> {
     }
 }
 
-/// The entries of a map; none if it is no map.
+/// Returns the entries of a map. Empty if the value is not a map.
 fn entries(value: Option<&Value>) -> &[(Value, Value)] {
     match value.map(|v| &v.kind) {
         Some(ValueKind::Map(entries)) => entries,

@@ -1,4 +1,4 @@
-//! The steps of a text.
+//! Reads the steps of a recipe.
 
 use std::sync::Arc;
 
@@ -19,19 +19,18 @@ impl Reader<'_, '_> {
             if let Some(kind) = flow::kind(&item) {
                 let steps = self.flow(kind, item);
                 drafts.extend(steps);
-            } else if self.shared.left == 0 {
-                // Nothing more is said of the others.
+            } else if self.shared.remaining_steps == 0 {
                 self.too_many(&item, MAX_STEPS + 1);
                 break;
             } else {
-                self.shared.left -= 1;
+                self.shared.remaining_steps -= 1;
                 drafts.push(self.step(item));
             }
         }
         drafts
     }
 
-    /// `Name(..)`, or `(id: .., run: Name(..), ..)`.
+    /// Reads `Name(..)` or `(id: .., run: Name(..), ..)`.
     fn step(&mut self, mut value: Value) -> Draft {
         let is_envelope = matches!(value.kind, ValueKind::Struct(_) | ValueKind::Unit);
         if !self.fill(&mut value) {
@@ -48,7 +47,7 @@ impl Reader<'_, '_> {
             run = inner;
         }
         let Some((name, span)) = run.name() else {
-            // A slip that was reported already leaves no name.
+            // If an error was already reported, it may be the reason for the missing name.
             if !run.has_errors() && self.diagnostics.len() == before {
                 let message = format!("expected an operation, found {}", run.describe());
                 self.error(run.span, message, "");
@@ -74,13 +73,13 @@ impl Reader<'_, '_> {
         if let (Some(entry), Some(on)) = (&entry, envelope("on"))
             && !entry.takes_on
         {
-            let help = "it names its objects in parameters of its own, or makes new ones";
+            let help = "the operation names its objects in its parameters, or creates new ones";
             self.error(on.span, format!("{} does not take `on`", entry.name), help);
         }
-        // A wrong reason or a wrong name was reported with the envelope.
+        // `check_shape` has reported invalid values.
         let refused = envelope("refused").and_then(|reason| Refusal::deserialize(reason).ok());
         let on_loss = envelope("on_loss").and_then(|on_loss| OnLoss::deserialize(on_loss).ok());
-        // The name keys random choices: an older one must not make others.
+        // The name seeds random choices, so an old name must give the same ones as the current name.
         let name = entry.as_ref().map_or(name, |entry| entry.name).to_owned();
         Draft::new(RecipeStep {
             step,
@@ -112,7 +111,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// A step that could not be read keeps its place in the list, and its id.
+    /// Returns a placeholder for a step that could not be read, with its id, so that the steps keep their indices.
     pub(super) fn broken_step(&mut self, written: Value) -> Draft {
         let run = written.field("run").unwrap_or(&written);
         let (name, span) = run.name().unwrap_or(("?", written.span));
@@ -141,7 +140,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Takes the id of a step, which no step before it may have.
+    /// Adds the id of a step. Reports an error if an earlier step has the same id.
     pub(super) fn id(&mut self, id: Option<&Value>) -> Option<String> {
         let (value, text) = id.and_then(|id| Some((id, id.as_str()?)))?;
         if !self.ids.insert(text.to_owned()) {
@@ -152,17 +151,18 @@ impl Reader<'_, '_> {
         Some(text.to_owned())
     }
 
-    /// Refuses a recipe of too many steps, once.
-    pub(super) fn too_many(&mut self, at: &Value, n: usize) {
-        if !std::mem::replace(&mut self.is_over, true) {
-            let message = format!("the recipe has {n} steps or more, expected at most {MAX_STEPS}");
-            let span = at.name().map_or(at.span, |(_, span)| span);
+    /// Reports, once, that the recipe has too many steps.
+    pub(super) fn too_many(&mut self, step: &Value, n: usize) {
+        if !std::mem::replace(&mut self.has_too_many_steps, true) {
+            let message =
+                format!("the recipe has at least {n} steps, expected at most {MAX_STEPS}");
+            let span = step.name().map_or(step.span, |(_, span)| span);
             self.error(span, message, "");
         }
     }
 }
 
-/// The operation of a step, without what stands around it.
+/// Returns the operation of a step, without the fields around it.
 fn run_of(mut written: Value) -> Value {
     let is_envelope = matches!(written.kind, ValueKind::Struct(_));
     match written.field_mut("run").filter(|_| is_envelope) {

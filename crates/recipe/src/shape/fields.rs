@@ -7,7 +7,7 @@ use ron_tree::{Field, Span, Value, ValueKind};
 impl Checker {
     /// Checks `(a: 1, b: 2)`.
     ///
-    /// `owner` is the place of the name, or of the bracket, that missing fields are reported at.
+    /// `owner` is the span of the name, or of the opening bracket. Missing fields are reported there.
     pub(super) fn check_struct(
         &mut self,
         value: &Value,
@@ -18,13 +18,15 @@ impl Checker {
         let (fields, complete): (&[Field], bool) = match &value.kind {
             ValueKind::Struct(body) => (&body.fields, body.complete),
             ValueKind::Unit => (&[], true),
-            // `ron` lets the name of a struct stand before its brackets.
+            // `ron` accepts the name of a struct before its parentheses.
             ValueKind::Call(call) if schema.name() == Some(&*call.name.text) => {
                 return self.check_struct(&call.body, schema, place, call.name.span);
             }
             _ => {
                 let help = match &value.kind {
-                    ValueKind::Map(_) => Some("fields stand in round brackets, without quotes"),
+                    ValueKind::Map(_) => {
+                        Some("write fields in parentheses, and their names without quotes")
+                    }
                     _ => None,
                 };
                 let expected = schema.expectation();
@@ -106,7 +108,7 @@ impl Checker {
     }
 }
 
-/// How the missing fields are written: `count: (a whole number)`.
+/// Describes how to write the missing fields, such as `` `count:` with a whole number ``.
 fn usage_of(missing: &[&str], schema: &Schema) -> String {
     let one = |name: &&str| {
         let expectation = schema

@@ -1,8 +1,8 @@
-//! Holds values of a recipe against the JSON schema of the Rust type that they are meant for.
+//! Checks values of a recipe against the JSON schema of their Rust type.
 //!
-//! The schema is one that `schemars` derives, and the values are as `ron` writes the type: what is
-//! accepted here, `ron` reads. But here every error of every value is found, with its place and
-//! with advice.
+//! The schema is derived by `schemars`, and the values are written as `ron` writes the type: every value that is
+//! accepted here can be deserialized. Unlike deserialization, the check finds all errors of a value, each with its span
+//! and a help text.
 //!
 //! ```text
 //! schema                                        in the recipe
@@ -15,10 +15,9 @@
 //! anyOf with null, type with null               7, Some(7) or None
 //! ```
 //!
-//! A schema does not say everything that `ron` needs to know, so types of parameters keep to
-//! three rules. A variant around a tuple or struct has it as a type of its own (a `$ref`), and
-//! not inlined. A struct around one value is `#[serde(transparent)]`. A list of one length is an
-//! array, and not a `Vec`.
+//! A schema does not contain everything that `ron` needs to know, so types of parameters must follow three rules. The
+//! content of a newtype variant around a tuple or struct is a named type (a `$ref`), not inlined. A struct around one
+//! value is `#[serde(transparent)]`. A list of fixed length is an array, not a `Vec`.
 
 mod fields;
 mod nearest;
@@ -36,27 +35,27 @@ use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
 use shorthand::Short;
 
-/// Every way in which `value` does not fit `schema`, in the order of the text.
+/// Returns all errors of `value` against `schema`, in the order of the text.
 ///
-/// `schema` is a root schema: references in it are looked up in its `$defs`. Parts of the value
-/// that could not be read are passed over.
+/// `schema` is a root schema: references in it are looked up in its `$defs`. Parts of the value that could not be read
+/// are skipped.
 pub fn check_shape(value: &Value, schema: &Json) -> Vec<Diagnostic> {
     checked(value, schema).wrong
 }
 
-/// What comes of holding a value against a schema.
+/// Checks a value against a schema.
 pub(crate) fn checked(value: &Value, schema: &Json) -> Checked {
     let mut checker = Checker::default();
     checker.check(value, &Schema::root(schema), Place::default());
     checker.finish()
 }
 
-/// Reads a value into its type, whose schema is `schema`.
+/// Deserializes a value into a type whose schema is `schema`.
 ///
 /// # Errors
 ///
-/// Every way in which it does not fit. None if it holds something that could not be read, of which a
-/// diagnostic tells already.
+/// All errors of the value against the schema. Empty if a part of the value could not be read, because the parser has
+/// already reported that.
 pub(crate) fn typed<T: DeserializeOwned>(
     value: &Value,
     schema: &Json,
@@ -69,14 +68,12 @@ pub(crate) fn typed<T: DeserializeOwned>(
     read.map_err(|error| vec![unread(value.span, error)])
 }
 
-/// A value that fits its schema, and still not its type.
+/// Returns the error for a value that fits the schema but cannot be deserialized.
 pub(crate) fn unread(span: Span, error: ron_tree::Error) -> Diagnostic {
     Diagnostic::error(error.span.unwrap_or(span), error.message)
 }
 
-/// The same for a step `Name(parameters)`, or `Name`, whose name the caller knows already.
-///
-/// The schema is that of the parameters.
+/// Checks a step `Name(parameters)` or `Name` against the schema of its parameters. The name is not checked.
 pub(crate) fn check_step(step: &Value, schema: &Json) -> Checked {
     let mut checker = Checker::default();
     let schema = Schema::root(schema);
@@ -95,32 +92,32 @@ pub(crate) fn check_step(step: &Value, schema: &Json) -> Checked {
     checker.finish()
 }
 
-/// An older name in a recipe.
+/// An old name in a recipe.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rename {
-    /// Its place in the text.
+    /// The span of the old name.
     pub span: Span,
-    /// The older name.
+    /// The old name.
     pub from: String,
-    /// The name that stands for it now.
+    /// The current name.
     pub to: String,
 }
 
 impl Rename {
-    /// What the reader says of it.
+    /// Returns the warning for the old name.
     pub(crate) fn warning(&self) -> Diagnostic {
-        let message = format!("`{}` is called `{}` now", self.from, self.to);
+        let message = format!("`{}` was renamed to `{}`", self.from, self.to);
         Diagnostic::warning(self.span, message)
-            .with_help("meshwright upgrade writes the new name into the recipe")
+            .with_help("run `meshwright upgrade` to replace old names in the recipe")
     }
 }
 
-/// Where a value stands, for messages.
+/// The field or variant that a value belongs to, for messages.
 #[derive(Clone, Copy, Debug, Default)]
 struct Place<'n> {
-    /// The nearest field or variant around the value.
+    /// The name of the innermost field or variant around the value.
     name: Option<&'n str>,
-    /// Whether the value is only a part of that.
+    /// Whether the value is only a part of the field or variant.
     inside: bool,
 }
 
@@ -139,7 +136,7 @@ impl<'n> Place<'n> {
         }
     }
 
-    /// The subject of a sentence.
+    /// Returns the subject of a sentence about the value.
     fn subject(self) -> String {
         match self.name {
             Some(name) if self.inside => format!("a value in `{name}`"),
@@ -148,7 +145,7 @@ impl<'n> Place<'n> {
         }
     }
 
-    /// The end of `expected a number ..`.
+    /// Returns the end of a phrase such as `expected a number for ..`.
     fn of(self) -> String {
         match self.name {
             Some(name) if self.inside => format!(" in `{name}`"),
@@ -161,15 +158,15 @@ impl<'n> Place<'n> {
 #[derive(Default)]
 struct Checker {
     diagnostics: Vec<Diagnostic>,
-    /// How many more there are than are kept.
+    /// The number of errors beyond [`MAX_DIAGNOSTICS`], which are only counted.
     more: usize,
-    /// Older names that were met.
+    /// The old names that were found.
     renames: Vec<Rename>,
-    /// Names that were left out.
+    /// The values whose outer names were omitted.
     shorts: Vec<Short>,
 }
 
-/// Most problems of one value that are reported one by one.
+/// The maximum number of errors of one value that are reported one by one.
 const MAX_DIAGNOSTICS: usize = 100;
 
 impl Checker {
@@ -187,7 +184,7 @@ impl Checker {
         }
     }
 
-    /// Notes an older name, unless a parameter of the recipe brought it.
+    /// Records an old name, unless it comes from a parameter of the recipe.
     fn renamed(&mut self, value: &Value, span: Span, from: &str, to: &str) {
         if value.parameter.is_none() {
             let (from, to) = (from.to_owned(), to.to_owned());
@@ -195,7 +192,7 @@ impl Checker {
         }
     }
 
-    /// Reports a problem of `value`, saying so if a parameter of the recipe brought it.
+    /// Reports an error of `value`. If the value comes from a parameter of the recipe, the message names the parameter.
     fn report(&mut self, value: &Value, span: Span, message: String, help: Option<String>) {
         if self.diagnostics.len() >= MAX_DIAGNOSTICS {
             self.more += 1;
@@ -213,7 +210,7 @@ impl Checker {
 
     fn mismatch(&mut self, value: &Value, expected: &str, place: Place, help: Option<String>) {
         if value.has_errors() {
-            // What it would have been is not known.
+            // The intended value is unknown.
             return;
         }
         let message = format!(
@@ -263,7 +260,7 @@ impl Checker {
             ("object", _) if schema.is_map() => return self.check_map(value, schema, place),
             ("object", _) => return self.check_struct(value, schema, place, opening(value)),
             ("boolean", ValueKind::Bool(_)) => true,
-            // `ron` reads no space between the brackets of a value that is nothing else.
+            // `ron` does not accept a space inside `()`.
             ("null", ValueKind::Unit) => value.span.len() == 2 || value.parameter.is_some(),
             _ => false,
         };
@@ -277,7 +274,7 @@ impl Checker {
                     Some("write `false`".to_owned())
                 }
                 ("integer" | "number", ValueKind::String(_)) => {
-                    Some("numbers stand without quotes".to_owned())
+                    Some("write numbers without quotes".to_owned())
                 }
                 _ => None,
             };
@@ -300,7 +297,7 @@ impl Checker {
     fn check_array(&mut self, value: &Value, schema: &Schema, place: Place) {
         if let Some(items) = schema.tuple() {
             let expected = schema.expectation() + &place.of();
-            // `ron` lets the name of a struct stand before its brackets.
+            // `ron` accepts the name of a struct before its parentheses.
             let body = match &value.kind {
                 ValueKind::Call(call) if schema.name() == Some(&*call.name.text) => &call.body,
                 _ => value,
@@ -309,7 +306,7 @@ impl Checker {
         }
         let ValueKind::List(values) = &value.kind else {
             let help = match &value.kind {
-                ValueKind::Tuple(_) => Some("a list stands in square brackets: `[..]`".to_owned()),
+                ValueKind::Tuple(_) => Some("write lists in square brackets: `[..]`".to_owned()),
                 _ => None,
             };
             return self.mismatch(value, &schema.expectation(), place, help);
@@ -325,13 +322,13 @@ impl Checker {
         }
     }
 
-    /// Checks `(1, 2)`, of which `expected` says what it should be.
+    /// Checks `(1, 2)`. `expected` describes the expected value, for messages.
     fn check_tuple(&mut self, value: &Value, items: &[Schema], expected: &str, place: Place) {
         let values = match &value.kind {
             ValueKind::Tuple(values) => values.as_slice(),
             ValueKind::Unit => &[],
             ValueKind::List(_) => {
-                let help = "values of a fixed number stand in round brackets: `(1, 2, 3)`";
+                let help = "write tuples in parentheses: `(1, 2, 3)`";
                 return self.mismatch(value, expected, Place::default(), Some(help.to_owned()));
             }
             _ => return self.mismatch(value, expected, Place::default(), None),
@@ -347,7 +344,7 @@ impl Checker {
         }
     }
 
-    /// Checks a number of things: characters of a text or items of a list.
+    /// Checks a count against its limits: characters of a text or items of a list.
     fn check_count(
         &mut self,
         value: &Value,
@@ -368,7 +365,7 @@ impl Checker {
     }
 }
 
-/// Where a value starts: its name, or its bracket.
+/// Returns the span of the name of a value, or else of its first character.
 fn opening(value: &Value) -> Span {
     match value.name() {
         Some((_, span)) => span,
@@ -376,12 +373,12 @@ fn opening(value: &Value) -> Span {
     }
 }
 
-/// `1 value`, `2 values`.
-fn counted(count: usize, thing: &str) -> String {
+/// Returns a number with its noun, such as `1 value` or `2 values`.
+pub(crate) fn counted(count: usize, thing: &str) -> String {
     format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
 }
 
-/// Names in backticks, with commas.
+/// Returns a list of names in backticks, separated by commas.
 fn listed<'n>(names: impl IntoIterator<Item = &'n str>) -> String {
     let quoted: Vec<String> = names.into_iter().map(|name| format!("`{name}`")).collect();
     quoted.join(", ")

@@ -1,10 +1,11 @@
-//! Guesses which name was meant.
+//! Suggests names that are similar to an unknown name.
 
 use super::listed;
 
-/// The candidates that resemble `name` most, the nearest first: three at most, often none.
+/// Returns the candidates that are most similar to `name`, the most similar first. At most three; none if no candidate
+/// is similar.
 ///
-/// Capitals and underscores do not count: `loop_subdivide` is `LoopSubdivide`.
+/// Case and underscores are ignored: `loop_subdivide` equals `LoopSubdivide`.
 ///
 /// ```
 /// let operations = ["LoopSubdivide", "Load", "FlipEdges"];
@@ -12,20 +13,20 @@ use super::listed;
 /// assert!(recipe::shape::nearest("Extrude", operations).is_empty());
 /// ```
 pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) -> Vec<&'c str> {
-    // Long names are no slips of known ones, and slow to compare.
+    // Only the start of a long name is compared: the comparison is slow, and known names are short.
     let sought = plain(name.get(..name.len().min(64)).unwrap_or(name));
     let mut near: Vec<(usize, &str)> = candidates
         .into_iter()
         .filter_map(|candidate| {
             let known = plain(candidate);
-            let begins =
+            let is_prefix =
                 sought.len() >= 3 && (known.starts_with(&sought) || sought.starts_with(&known));
-            let allowed = known.chars().count().max(3) / 3;
-            if !begins && least_slips(&sought, &known) > allowed {
+            let max_distance = known.chars().count().max(3) / 3;
+            if !is_prefix && min_distance(&sought, &known) > max_distance {
                 return None;
             }
-            let slips = strsim::damerau_levenshtein(&sought, &known);
-            (slips <= allowed || begins).then_some((slips, candidate))
+            let distance = strsim::damerau_levenshtein(&sought, &known);
+            (distance <= max_distance || is_prefix).then_some((distance, candidate))
         })
         .collect();
     near.sort_unstable();
@@ -33,9 +34,9 @@ pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) ->
     near.into_iter().map(|(_, candidate)| candidate).collect()
 }
 
-/// At least so many slips lie between two names: the letters that one has and the other lacks. Quick, as most
-/// names are far from each other.
-fn least_slips(a: &str, b: &str) -> usize {
+/// Returns a lower bound of the edit distance of two names: the number of letters that only one of them has. It is fast
+/// to compute, and rules out most names.
+fn min_distance(a: &str, b: &str) -> usize {
     let mut surplus = [0_isize; 32];
     a.bytes()
         .for_each(|byte| surplus[usize::from(byte % 32)] += 1);
@@ -48,7 +49,7 @@ fn least_slips(a: &str, b: &str) -> usize {
             .sum::<usize>()
     };
     let bytes = only(1).max(only(-1));
-    // One letter can have four bytes.
+    // A character has at most 4 bytes.
     if a.is_ascii() && b.is_ascii() {
         bytes
     } else {
@@ -56,7 +57,7 @@ fn least_slips(a: &str, b: &str) -> usize {
     }
 }
 
-/// Advice on an unknown name: the nearest of the known ones, or all of them if none is near.
+/// Returns a help text for an unknown name: the most similar known names, or all known names if none is similar.
 ///
 /// ```
 /// let known = ["segments", "levels"];
@@ -64,8 +65,8 @@ fn least_slips(a: &str, b: &str) -> usize {
 /// assert_eq!(recipe::shape::did_you_mean("x", known), "known: `segments`, `levels`");
 /// ```
 pub fn did_you_mean<'n>(name: &str, known: impl IntoIterator<Item = &'n str>) -> String {
-    /// More names than this are no advice.
-    const MOST: usize = 40;
+    /// The maximum number of names that are listed.
+    const MAX_NAMES: usize = 40;
     let known: Vec<&str> = known.into_iter().collect();
     let near = nearest(name, known.iter().copied());
     if !near.is_empty() {
@@ -73,12 +74,12 @@ pub fn did_you_mean<'n>(name: &str, known: impl IntoIterator<Item = &'n str>) ->
     } else if known.is_empty() {
         "there are none".to_owned()
     } else {
-        let rest = if known.len() > MOST {
+        let rest = if known.len() > MAX_NAMES {
             " and others"
         } else {
             ""
         };
-        format!("known: {}{rest}", listed(known.into_iter().take(MOST)))
+        format!("known: {}{rest}", listed(known.into_iter().take(MAX_NAMES)))
     }
 }
 
@@ -103,12 +104,12 @@ mod tests {
     }
 
     #[test]
-    fn swapped_letters_are_one_slip() {
+    fn two_swapped_letters_are_one_edit() {
         assert_eq!(nearest("egdes", ["edges", "faces"]), ["edges"]);
     }
 
     #[test]
-    fn the_start_of_a_name_is_near() {
+    fn the_start_of_a_name_is_similar() {
         assert_eq!(
             nearest("LoopSub", ["LoopSubdivide", "Load"]),
             ["LoopSubdivide"]
@@ -117,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_far_is_not_suggested() {
+    fn names_that_are_not_similar_are_not_suggested() {
         assert!(nearest("xyz", ["levels", "creases", "at"]).is_empty());
         assert!(nearest(&"x".repeat(100_000), ["levels"]).is_empty());
     }

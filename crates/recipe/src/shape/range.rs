@@ -16,13 +16,13 @@ impl Checker {
             return self.mismatch(value, &schema.expectation(), place, None);
         }
         let (least, most) = integer_range(schema);
-        // A number beyond 128 bits is beyond every range.
-        let beyond = if number.text().starts_with('-') {
+        // A number that does not fit 128 bits is out of every range.
+        let out_of_range = if number.text().starts_with('-') {
             i128::MIN
         } else {
             i128::MAX
         };
-        let int = number.to_int().unwrap_or(beyond);
+        let int = number.to_int().unwrap_or(out_of_range);
         let limit = if int < least {
             format!("at least {least}")
         } else if int > most {
@@ -47,7 +47,7 @@ impl Checker {
         place: Place,
     ) {
         if number.has_base() {
-            let help = Some("only whole numbers may be written with `0x`, `0o` or `0b`".to_owned());
+            let help = Some("only whole numbers can be written with `0x`, `0o` or `0b`".to_owned());
             return self.mismatch(value, "a number", place, help);
         }
         let float = number.to_float();
@@ -65,7 +65,7 @@ impl Checker {
             return self.report(value, value.span, message, help);
         }
         let bounds = Bounds::of(schema);
-        if let Some(limit) = bounds.broken_by(float) {
+        if let Some(limit) = bounds.violated_by(float) {
             let message = format!("{} is {}, expected {limit}", place.subject(), number.text());
             self.report(
                 value,
@@ -79,13 +79,13 @@ impl Checker {
 
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "to see whether it is too large is the point"
+    reason = "the truncation shows whether the value is too large"
 )]
 fn is_infinite_single(value: f64) -> bool {
     (value as f32).is_infinite()
 }
 
-/// The least and the largest whole number that a schema and its Rust type allow.
+/// Returns the smallest and the largest whole number that a schema and its Rust type allow.
 fn integer_range(schema: &Schema) -> (i128, i128) {
     let (mut least, mut most) = match schema.format() {
         Some("int8") => (i8::MIN.into(), i8::MAX.into()),
@@ -115,7 +115,7 @@ fn integer_range(schema: &Schema) -> (i128, i128) {
 
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "casts of floating numbers saturate"
+    reason = "casts of floating-point numbers saturate"
 )]
 fn to_int(limit: &serde_json::Number, round: fn(f64) -> f64) -> i128 {
     limit
@@ -123,20 +123,19 @@ fn to_int(limit: &serde_json::Number, round: fn(f64) -> f64) -> i128 {
         .unwrap_or_else(|| round(limit.as_f64().unwrap_or(0.0)) as i128)
 }
 
-/// A range of numbers whose ends may be left out of it.
+/// A range of numbers. Each limit is given with whether it is exclusive.
 struct Bounds {
     least: Option<(f64, bool)>,
     most: Option<(f64, bool)>,
 }
 
 impl Bounds {
-    /// Each end with whether the number itself is left out.
     fn of(schema: &Schema) -> Self {
-        let limits = |keyword, is_open| {
+        let limits = |keyword, is_exclusive| {
             let numbers = schema
                 .numbers(keyword)
                 .filter_map(serde_json::Number::as_f64);
-            numbers.map(move |limit| (limit, is_open))
+            numbers.map(move |limit| (limit, is_exclusive))
         };
         let lower = limits("minimum", false).chain(limits("exclusiveMinimum", true));
         let upper = limits("maximum", false).chain(limits("exclusiveMaximum", true));
@@ -146,8 +145,8 @@ impl Bounds {
         }
     }
 
-    /// The limit that `value` breaks.
-    fn broken_by(&self, value: f64) -> Option<String> {
+    /// Returns a description of the limit that `value` violates, if it violates one.
+    fn violated_by(&self, value: f64) -> Option<String> {
         let below = |&(limit, open): &(f64, bool)| value < limit || open && value <= limit;
         let above = |&(limit, open): &(f64, bool)| value > limit || open && value >= limit;
         let lower = self.least.filter(below).map(lower_limit);

@@ -1,33 +1,33 @@
-//! Reads JSON schemas as `schemars` derives them (draft 2020-12).
+//! Reads the JSON schemas that `schemars` derives (draft 2020-12).
 
 use super::{counted, listed};
 use serde_json::{Map, Value as Json};
 
-/// A schema, with what it refers to.
+/// A schema, with the schemas that it refers to.
 #[derive(Clone, Debug)]
 pub(crate) struct Schema<'s> {
     root: &'s Json,
-    /// The schema and those that it takes in by `$ref` and `allOf`: a value fits all of them.
+    /// The schema and those that it includes by `$ref` and `allOf`. A value must fit all of them.
     layers: Vec<&'s Map<String, Json>>,
     /// The name of the type, if it has one.
     name: Option<&'s str>,
-    /// Whether the schema stands in `$defs` rather than in its place.
+    /// Whether the schema is defined in `$defs` and referred to by `$ref`.
     is_reference: bool,
 }
 
-/// A choice between variants of an enumeration, or other schemas.
+/// The alternatives of a schema: variants of an enumeration, or other schemas.
 #[derive(Debug, Default)]
 pub(super) struct Choice<'s> {
     /// Variants without content.
     pub(super) units: Vec<&'s str>,
-    /// Variants with content, whose schemas are read when they are asked for.
+    /// Variants with content. Their schemas are read only when needed.
     variants: Vec<(&'s str, &'s Json)>,
     root: Option<&'s Json>,
-    /// Anything else, save null: the type inside an option.
+    /// Other schemas except null, such as the type inside an option.
     pub(super) others: Vec<Schema<'s>>,
 }
 
-/// Most schemas that one takes in: a schema that refers to itself has no end.
+/// The maximum number of layers, because a schema can refer to itself.
 const MAX_LAYERS: usize = 32;
 
 impl<'s> Schema<'s> {
@@ -57,7 +57,7 @@ impl<'s> Schema<'s> {
         if let Some(path) = layer.get("$ref").and_then(Json::as_str) {
             self.is_reference = true;
             self.name = self.name.or(path.rsplit('/').next());
-            // What cannot be found says nothing.
+            // A reference to a missing definition is ignored.
             if let Some(target) = path
                 .strip_prefix('#')
                 .and_then(|path| self.root.pointer(path))
@@ -75,7 +75,7 @@ impl<'s> Schema<'s> {
         }
     }
 
-    /// The values of a keyword in all layers, outermost first.
+    /// Returns the values of a keyword in all layers, outermost first.
     fn all(&self, keyword: &str) -> impl Iterator<Item = &'s Json> {
         self.layers
             .iter()
@@ -86,40 +86,40 @@ impl<'s> Schema<'s> {
         self.all(keyword).find_map(Json::as_str)
     }
 
-    /// The numbers of a keyword in all layers.
+    /// Returns the numbers of a keyword in all layers.
     pub(crate) fn numbers(&self, keyword: &str) -> impl Iterator<Item = &'s serde_json::Number> {
         self.all(keyword).filter_map(Json::as_number)
     }
 
-    /// A number of things.
+    /// Returns the value of a keyword that is a count.
     pub(super) fn count(&self, keyword: &str) -> Option<u64> {
         self.all(keyword).find_map(Json::as_u64)
     }
 
-    /// What the schema itself says, before all that it refers to.
+    /// Returns the value of a keyword in the schema itself, without the schemas that it refers to.
     pub(crate) fn own(&self, keyword: &str) -> Option<&'s Json> {
         self.layers.first()?.get(keyword)
     }
 
-    /// What the value is for; empty if that is not said.
+    /// Returns the description of the schema itself. Empty if it has none.
     pub(crate) fn doc(&self) -> String {
         let doc = self.own("description").and_then(Json::as_str);
         doc.unwrap_or_default().to_owned()
     }
 
-    /// The name of the type, if the schema refers to it.
+    /// Returns the name of the type, if the schema is a reference to a named type.
     pub(crate) fn reference(&self) -> Option<&'s str> {
         self.name.filter(|_| self.is_reference)
     }
 
-    /// The types that have a name.
+    /// Returns the named types in `$defs`.
     pub(crate) fn definitions(&self) -> impl Iterator<Item = (&'s str, Self)> {
         let (root, all) = (self.root, self.own("$defs").and_then(Json::as_object));
         let definitions = all.into_iter().flatten();
         definitions.map(move |(name, json)| (name.as_str(), Self::new(root, json)))
     }
 
-    /// The schemas in the list of a keyword.
+    /// Returns the schemas in the list of a keyword.
     pub(crate) fn list(&self, keyword: &str) -> Vec<Self> {
         let items = self.all(keyword).filter_map(Json::as_array).flatten();
         items.map(|item| Self::new(self.root, item)).collect()
@@ -139,7 +139,7 @@ impl<'s> Schema<'s> {
             .map(|json| Self::new(self.root, json))
     }
 
-    /// The types that are allowed, without null if there is another; none for any.
+    /// Returns the allowed types. `null` is included only if it is the only one. Empty if every type is allowed.
     pub(crate) fn types(&self) -> Vec<&'s str> {
         let mut types: Vec<&str> = match self.all("type").next() {
             Some(Json::String(name)) => vec![name],
@@ -158,12 +158,12 @@ impl<'s> Schema<'s> {
         self.all(keyword).next().is_some()
     }
 
-    /// Whether the outer name of a value may be left out.
+    /// Whether the outer name of a value can be omitted.
     pub(super) fn is_shorthand(&self) -> bool {
         self.all("x-shorthand").any(|is| is == &Json::Bool(true))
     }
 
-    /// Whether `None` is allowed besides something else.
+    /// Whether `None` is allowed in addition to other values.
     pub(super) fn is_nullable(&self) -> bool {
         let by_type = match self.all("type").next() {
             Some(Json::Array(names)) => names.len() > 1 && names.iter().any(|name| name == "null"),
@@ -175,13 +175,13 @@ impl<'s> Schema<'s> {
                 .any(|part| part.get("type").is_some_and(|t| t == "null"))
     }
 
-    /// The alternatives as they stand in the schema.
+    /// Returns the alternatives as JSON.
     fn parts(&self) -> impl Iterator<Item = &'s Json> {
         let lists = ["oneOf", "anyOf"].into_iter().flat_map(|key| self.all(key));
         lists.filter_map(Json::as_array).flatten()
     }
 
-    /// The alternatives of the schema, if it is a choice.
+    /// Returns the alternatives of the schema, if it has any.
     pub(super) fn choice(&self) -> Option<Choice<'s>> {
         let mut choice = Choice {
             root: Some(self.root),
@@ -190,7 +190,7 @@ impl<'s> Schema<'s> {
         let mut found = self.add_units(&mut choice);
         for part in self.parts() {
             found = true;
-            // Most alternatives are plain: a name alone, or one with content.
+            // A fast path for the most common alternatives: a name, or a name with content.
             if let Some(name) = unit(part) {
                 choice.units.push(name);
                 continue;
@@ -208,14 +208,14 @@ impl<'s> Schema<'s> {
         found.then_some(choice)
     }
 
-    /// Adds the names of `enum` and `const`, if the schema is one of a text that is one of these.
+    /// Adds the names of `enum` and `const` if the schema is for strings. Returns whether there are any.
     fn add_units(&self, choice: &mut Choice<'s>) -> bool {
         let before = choice.units.len();
         choice.units.extend(self.units());
         choice.units.len() > before
     }
 
-    /// The names of `enum` and `const`, if the schema is of a text that is one of these.
+    /// Returns the names of `enum` and `const` if the schema is for strings.
     pub(crate) fn units(&self) -> Vec<&'s str> {
         if !self.types().iter().all(|&name| name == "string") {
             return Vec::new();
@@ -225,7 +225,7 @@ impl<'s> Schema<'s> {
         names.filter_map(Json::as_str).collect()
     }
 
-    /// The schemas of the items, if the array has a fixed number of them.
+    /// Returns the schemas of the items, if the array has a fixed length.
     pub(crate) fn tuple(&self) -> Option<Vec<Self>> {
         let items = self.list("prefixItems");
         if !items.is_empty() {
@@ -237,7 +237,7 @@ impl<'s> Schema<'s> {
         }
         let length = (self.count("minItems")? == most).then_some(most)?;
         let item = self.child("items")?;
-        // Rust implements traits for arrays of up to 32 values.
+        // `serde` supports arrays of up to 32 items.
         Some(vec![
             item;
             usize::try_from(length).ok().filter(|&n| n <= 64)?
@@ -252,12 +252,12 @@ impl<'s> Schema<'s> {
         !self.has("properties") && (open || self.has("patternProperties"))
     }
 
-    /// Whether the keys of the map are texts: schemas say little of others.
+    /// Whether the keys of the map are strings. Schemas do not describe other keys precisely.
     pub(super) fn has_text_keys(&self) -> bool {
         !self.has("patternProperties")
     }
 
-    /// The schema of the values of a map.
+    /// Returns the schema of the values of a map.
     pub(super) fn map_values(&self) -> Option<Self> {
         let by_pattern = self
             .all("patternProperties")
@@ -268,7 +268,7 @@ impl<'s> Schema<'s> {
         Some(Self::new(self.root, json))
     }
 
-    /// The names of the fields of a struct.
+    /// Returns the names of the fields of a struct.
     pub(crate) fn fields(&self) -> impl Iterator<Item = &'s str> {
         self.all("properties")
             .filter_map(Json::as_object)
@@ -281,7 +281,7 @@ impl<'s> Schema<'s> {
         found.next().map(|json| Self::new(self.root, json))
     }
 
-    /// The field of this name, or that had it before, with its name.
+    /// Returns the field that has or had this name, with its current name.
     pub(super) fn field_or_alias(&self, name: &str) -> Option<(&'s str, Self)> {
         let fields = || self.all("properties").filter_map(Json::as_object).flatten();
         let (current, json) = fields()
@@ -290,14 +290,14 @@ impl<'s> Schema<'s> {
         Some((current, Self::new(self.root, json)))
     }
 
-    /// The variant that had this name before.
+    /// Returns the current name of the variant that had this name.
     pub(super) fn variant_by_alias(&self, name: &str) -> Option<&'s str> {
         let part = self.parts().find(|part| has_alias(part, name))?;
         let unit = part["const"].as_str();
         unit.or_else(|| Some(part["properties"].as_object()?.keys().next()?.as_str()))
     }
 
-    /// The fields that must be given.
+    /// Returns the names of the required fields.
     pub(crate) fn required(&self) -> impl Iterator<Item = &'s str> {
         self.all("required")
             .filter_map(Json::as_array)
@@ -305,8 +305,8 @@ impl<'s> Schema<'s> {
             .filter_map(Json::as_str)
     }
 
-    /// Whether the content of a variant is written as a value in its brackets, `Not((a: 1))`,
-    /// rather than as the brackets themselves, `Random(count: 1)`.
+    /// Whether the content of a variant is one value inside its parentheses, as in `Not((a: 1))`, rather than a list of
+    /// fields or items, as in `Random(count: 1)`.
     pub(super) fn is_one_value(&self) -> bool {
         let types = self.types();
         let spread = match types.as_slice() {
@@ -317,7 +317,7 @@ impl<'s> Schema<'s> {
         self.is_reference || !spread || self.is_nullable()
     }
 
-    /// What a value should be, in a few words.
+    /// Describes the expected value in a few words.
     pub(super) fn expectation(&self) -> String {
         if let Some(choice) = self.choice() {
             let names: Vec<&str> = choice.names().collect();
@@ -361,7 +361,7 @@ impl<'s> Schema<'s> {
         }
     }
 
-    /// How the content of a variant or struct is written: `Name(count: .., seed: ..)`.
+    /// Describes how the content of a variant or struct is written, such as `Name(count: .., seed: ..)`.
     pub(super) fn usage(&self, name: &str) -> String {
         if self.is_one_value() && !name.is_empty() {
             return format!("{name}(..)");
@@ -383,7 +383,7 @@ impl<'s> Schema<'s> {
 }
 
 impl<'s> Choice<'s> {
-    /// The names of all variants.
+    /// Returns the names of all variants.
     pub(super) fn names(&self) -> impl Iterator<Item = &'s str> {
         self.units
             .iter()
@@ -391,19 +391,19 @@ impl<'s> Choice<'s> {
             .chain(self.variants.iter().map(|(name, _)| *name))
     }
 
-    /// Whether there is a variant of this name.
+    /// Whether there is a variant with this name.
     pub(super) fn has(&self, name: &str) -> bool {
         self.names().any(|n| n == name)
     }
 
-    /// The schema of what stands in the brackets of a variant.
+    /// Returns the schema of the content of a variant.
     pub(super) fn content(&self, name: &str) -> Option<Schema<'s>> {
         let (_, json) = self.variants.iter().find(|(n, _)| *n == name)?;
         Some(Schema::new(self.root?, json))
     }
 }
 
-/// The name of the variant without content that a schema describes, if it does.
+/// Returns the name of the variant, if the schema describes a variant without content.
 fn unit(schema: &Json) -> Option<&str> {
     let layer = schema.as_object()?;
     let name = layer.get("const")?.as_str()?;
@@ -411,12 +411,12 @@ fn unit(schema: &Json) -> Option<&str> {
     (is_text && !layer.contains_key("enum") && !refers(layer)).then_some(name)
 }
 
-/// Whether a schema takes others in.
+/// Whether a schema includes other schemas.
 fn refers(layer: &Map<String, Json>) -> bool {
     layer.contains_key("$ref") || layer.contains_key("allOf")
 }
 
-/// Name and content of the variant that a schema describes, if it does.
+/// Returns the name and the content of the variant, if the schema describes a variant with content.
 fn variant(schema: &Json) -> Option<(&str, &Json)> {
     let layer = schema.as_object()?;
     let properties = layer.get("properties")?.as_object()?;
@@ -430,7 +430,7 @@ fn variant(schema: &Json) -> Option<(&str, &Json)> {
     (single && closed).then_some((name.as_str(), content))
 }
 
-/// Whether a field or variant had this name before.
+/// Whether a field or variant had this name earlier.
 fn has_alias(json: &Json, name: &str) -> bool {
     let aliases = json.get("aliases").and_then(Json::as_array);
     aliases.is_some_and(|aliases| aliases.iter().any(|alias| alias == name))
@@ -440,7 +440,7 @@ fn dots(count: usize) -> String {
     vec![".."; count].join(", ")
 }
 
-/// The name of a type with its article.
+/// Returns the name of a type with its article.
 fn article(name: &str) -> String {
     let vowel = name.starts_with(['A', 'E', 'I', 'O', 'U']);
     format!("{} `{name}`", if vowel { "an" } else { "a" })

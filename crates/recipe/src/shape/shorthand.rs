@@ -1,9 +1,9 @@
-//! Enumerations whose outer name may be left out where the content tells which variant is meant: those
-//! whose schema says `x-shorthand`, such as [`op::Elements`].
+//! Enumerations whose outer name can be omitted if the content fits only one variant. Their schema has the keyword
+//! `x-shorthand`. An example is [`op::Elements`].
 //!
 //! ```text
-//! Sharp(above: 30)   only edges can be sharp     ---> Edges(Sharp(above: 30))
-//! Boundary           vertices, edges, faces can  ---> an error: say which are meant
+//! Sharp(above: 30)   exists only for edges                ---> Edges(Sharp(above: 30))
+//! Boundary           exists for vertices, edges, faces    ---> an error: the kind must be specified
 //! ```
 
 use std::borrow::Cow;
@@ -13,17 +13,17 @@ use super::schema::{Choice, Schema};
 use super::{Checker, Place, Rename, did_you_mean};
 use ron_tree::{Call, Diagnostic, Name, Span, Value, ValueKind};
 
-/// A value whose outer name was left out.
+/// A value whose outer name was omitted.
 #[derive(Clone, Debug)]
 pub(super) struct Short {
-    /// Where it stands.
+    /// The span of the value.
     span: Span,
-    /// The name.
+    /// The name that was omitted.
     name: Box<str>,
 }
 
 impl Checker {
-    /// Checks a value that is a variant, or what stands in the brackets of one.
+    /// Checks a value that is a variant, or the content of a variant whose name was omitted.
     pub(super) fn check_shorthand(
         &mut self,
         value: &Value,
@@ -51,7 +51,7 @@ impl Checker {
         match fitting[..] {
             [one] => {
                 let place = trials.iter().position(|(name, ..)| *name == one);
-                let (_, _, trial) = trials.swap_remove(place.expect("one of them"));
+                let (_, _, trial) = trials.swap_remove(place.expect("its name is from `trials`"));
                 self.take(trial);
                 let (span, name) = (value.span, one.into());
                 self.shorts.push(Short { span, name });
@@ -60,7 +60,7 @@ impl Checker {
             [] => self.take_closest(value, trials),
             _ => {
                 let words: Vec<String> = fitting.iter().map(|name| name.to_lowercase()).collect();
-                let message = format!("this selects {}: say which are meant", words.join(" or "));
+                let message = format!("this can select {}: specify which", words.join(" or "));
                 let full: Vec<String> = (fitting.iter())
                     .map(|name| format!("`{}`", in_full(value, name)))
                     .collect();
@@ -70,7 +70,7 @@ impl Checker {
         }
     }
 
-    /// What is wrong with a value that fits no variant.
+    /// Reports the errors of a value that fits no variant: those for the variant that fits best.
     fn take_closest(&mut self, value: &Value, trials: Vec<(&str, Schema, Self)>) {
         let variants = |schema: &Schema| -> Vec<String> {
             let choice = schema.choice().unwrap_or_default();
@@ -91,7 +91,7 @@ impl Checker {
                 Some(help),
             );
         }
-        // The one that knows most of the names, and of those the first with the fewest errors.
+        // Prefers the variant that knows most of the names, then the fewest errors, then the first variant.
         let fit = |((_, _, trial), names): &((&str, Schema, Self), Vec<String>)| {
             (n_known(value, names), Reverse(trial.diagnostics.len()))
         };
@@ -114,18 +114,18 @@ impl Checker {
     }
 }
 
-/// What came of holding a value against a schema.
+/// The result of checking a value against a schema.
 pub(crate) struct Checked {
-    /// What is wrong.
+    /// The errors.
     pub(crate) wrong: Vec<Diagnostic>,
-    /// The older names of fields and variants, in the order of the text: those that the schema lists as `aliases`.
+    /// The old names of fields and variants (`aliases` in the schema), in the order of the text.
     pub(crate) renames: Vec<Rename>,
     pub(super) shorts: Vec<Short>,
 }
 
 impl Checked {
-    /// The older names in a step `Name(..)` that was checked, its own among them. `name` is that of its operation
-    /// today.
+    /// Returns the old names in a checked step `Name(..)`, including the name of the operation. `name` is the current
+    /// name of the operation.
     pub(crate) fn renames_in_step(self, run: &Value, name: &str) -> Vec<Rename> {
         let own = run.name().filter(|(own, _)| *own != name);
         let own = own.map(|(own, span)| Rename {
@@ -136,7 +136,7 @@ impl Checked {
         own.into_iter().chain(self.renames).collect()
     }
 
-    /// The value with all names that were left out.
+    /// Returns the value with all omitted names added.
     pub(crate) fn in_full<'v>(&self, value: &'v Value) -> Cow<'v, Value> {
         if self.shorts.is_empty() {
             return Cow::Borrowed(value);
@@ -147,16 +147,16 @@ impl Checked {
     }
 }
 
-/// Puts names around the values in `value` that stand where these were left out.
+/// Adds the omitted names to the values in `value`.
 fn complete(value: &mut Value, shorts: &[Short]) {
-    // Of several values at one place, the outermost is the one that was checked against the schema.
+    // If several nested values have the same span, the outermost one was checked against the schema.
     match shorts.iter().find(|short| short.span == value.span) {
         Some(short) => *value = in_full(value, &short.name),
         None => value.for_each_part(|part| complete(part, shorts)),
     }
 }
 
-/// `value` as the content of the variant of this name.
+/// Returns the variant with this name and with `value` as its content.
 fn in_full(value: &Value, name: &str) -> Value {
     let span = value.span;
     let body = Value::new(span, ValueKind::Tuple(vec![value.clone()]));
@@ -165,7 +165,7 @@ fn in_full(value: &Value, name: &str) -> Value {
     Value::new(span, ValueKind::Call(Box::new(Call { name, body })))
 }
 
-/// How many names in the value are among those of `names`.
+/// Counts the names in the value that are among `names`.
 fn n_known(value: &Value, names: &[String]) -> usize {
     let inside: usize = value.parts().map(|part| n_known(part, names)).sum();
     let is_known = |(name, _): (&str, _)| names.iter().any(|known| known == name);

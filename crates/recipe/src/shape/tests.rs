@@ -1,4 +1,4 @@
-//! Tests of the check against schemas that `schemars` derives, with `ron` as the judge.
+//! Tests of the check against derived schemas, compared with what `ron` accepts.
 
 use super::*;
 use crate::substitute;
@@ -8,7 +8,7 @@ use schemars::{JsonSchema, schema_for};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// An operation with every form of parameter.
+/// An operation with every kind of parameter.
 #[derive(Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Everything {
@@ -113,7 +113,7 @@ fn schema() -> Json {
     schema_for!(Everything).to_value()
 }
 
-/// The problems of a text, as `place: message`.
+/// Returns the errors of a text, as `spanned text: message`.
 fn problems(source: &str) -> Vec<String> {
     let parsed = parse(source);
     assert_eq!(parsed.diagnostics, [], "{source}");
@@ -124,14 +124,14 @@ fn problems(source: &str) -> Vec<String> {
         .collect()
 }
 
-/// The only problem with some parameters besides `levels`.
+/// Returns the only error in these parameters, which are added to `levels`.
 fn problem(parameters: &str) -> String {
     let mut found = problems(&format!("Everything(levels: 1, {parameters})"));
     assert_eq!(found.len(), 1, "{parameters}: {found:#?}");
     found.remove(0)
 }
 
-/// The advice on the only problem with some parameters.
+/// Returns the help of the only error in these parameters.
 fn help(parameters: &str) -> String {
     let parsed = parse(&format!("Everything(levels: 1, {parameters})"));
     check_step(&parsed.value, &schema())
@@ -141,7 +141,7 @@ fn help(parameters: &str) -> String {
         .unwrap()
 }
 
-/// Parameters that are right, each with something of its own.
+/// Valid parameters. Each uses a different feature.
 const GOOD: &[&str] = &[
     "levels: 0",
     "levels: 0x5, edges: All",
@@ -175,7 +175,7 @@ const GOOD: &[&str] = &[
 ];
 
 #[test]
-fn what_is_right_has_no_problems_and_is_read_by_ron() {
+fn valid_parameters_have_no_errors_and_are_read_by_ron() {
     for parameters in GOOD {
         let source = format!("Everything({parameters})");
         assert_eq!(problems(&source), [""; 0], "{source}");
@@ -185,10 +185,10 @@ fn what_is_right_has_no_problems_and_is_read_by_ron() {
             .iter()
             .any(|name| source.contains(name))
         {
-            // Only a schema tells the name of a struct, and a unit from a struct without fields.
+            // Without a schema, the name of a struct looks like a variant, and `()` like a unit.
             continue;
         }
-        // Our JSON is the JSON of serde, but for defaults.
+        // `to_json` gives the same JSON as serde, except for defaults.
         let given = to_json(&parse(&source).value);
         let (given, read) = (&given["Everything"], serde_json::to_value(&read).unwrap());
         let again: Everything = serde_json::from_value(given.clone()).unwrap();
@@ -197,7 +197,7 @@ fn what_is_right_has_no_problems_and_is_read_by_ron() {
 }
 
 #[test]
-fn unknown_fields_are_named_with_the_nearest() {
+fn unknown_fields_are_reported_with_a_suggestion() {
     assert_eq!(
         problem("egdes: All"),
         "egdes: unknown field `egdes` in `Everything`"
@@ -232,7 +232,7 @@ fn missing_fields_are_reported_at_the_name() {
 }
 
 #[test]
-fn a_wrong_type_says_what_was_expected_and_found() {
+fn a_wrong_type_tells_what_was_expected_and_found() {
     assert_eq!(
         problems("Everything(levels: 1.5)"),
         ["1.5: expected a whole number for `levels`, found 1.5"]
@@ -324,13 +324,13 @@ fn a_wrong_type_says_what_was_expected_and_found() {
 }
 
 #[test]
-fn variants_are_known() {
+fn unknown_variants_are_errors() {
     for (parameter, message) in [
         ("weight: Aera", "Aera: unknown variant `Aera` for `weight`"),
         ("weight: Area()", "(): `Area` takes no parameters"),
         (
             "weight: \"Area\"",
-            "\"Area\": the variant `Area` stands without quotes",
+            "\"Area\": the variant `Area` must not be in quotes",
         ),
         ("edges: Random", "Random: `Random` needs parameters"),
         (
@@ -392,14 +392,14 @@ fn variants_are_known() {
     assert_eq!(help("edges: Random"), "write `Random(count: ..)`");
     assert_eq!(
         help("edges: Near(0, 0, 1)"),
-        "the value has brackets of its own: `Near((.., .., ..))`"
+        "the value needs its own parentheses: `Near((.., .., ..))`"
     );
     assert_eq!(help("edges: Vertices(1, 2)"), "write `Vertices([..])`");
-    assert_eq!(help("edges: Not()"), "the value is a `Selection`");
+    assert_eq!(help("edges: Not()"), "the value must be a `Selection`");
 }
 
 #[test]
-fn ranges_hold() {
+fn values_must_be_in_range() {
     assert_eq!(
         problems("Everything(levels: 9)"),
         ["9: `levels` is 9, expected at most 5"]
@@ -465,7 +465,7 @@ fn ranges_hold() {
 }
 
 #[test]
-fn lengths_hold() {
+fn lengths_are_checked() {
     assert_eq!(
         problem("name: \"\""),
         "\"\": `name` has 0 characters, expected at least 1"
@@ -503,7 +503,7 @@ fn every_error_of_a_step_is_found() {
 }
 
 #[test]
-fn what_could_not_be_read_is_not_missed() {
+fn unreadable_fields_are_not_reported_as_missing() {
     for source in [
         "Everything(levels: @)",
         "Everything(levels 1)",
@@ -517,7 +517,7 @@ fn what_could_not_be_read_is_not_missed() {
 }
 
 #[test]
-fn a_parameter_is_named_with_its_value() {
+fn errors_name_the_parameter_that_the_value_comes_from() {
     let source = "Everything(levels: arg(\"n\"))";
     let mut value = parse(source).value;
     assert_eq!(substitute(&mut value, |_, _| Ok(parse("9").value)), []);
@@ -532,7 +532,7 @@ fn a_parameter_is_named_with_its_value() {
 }
 
 #[test]
-fn schemas_that_are_true_or_endless_do_no_harm() {
+fn trivial_and_recursive_schemas_are_handled() {
     let value = parse("(a: 1)").value;
 
     assert_eq!(check_shape(&value, &serde_json::json!(true)), []);
@@ -547,7 +547,7 @@ fn schemas_that_are_true_or_endless_do_no_harm() {
 }
 
 #[test]
-fn thousands_of_errors_are_counted() {
+fn errors_beyond_the_limit_are_counted() {
     let source = format!(
         "Everything(levels: 1, edges: Vertices([{}]))",
         "-1,".repeat(5000)
@@ -572,14 +572,14 @@ fn deep_selections_are_read_by_ron() {
     assert!(ron_options().from_str::<Everything>(&source).is_ok());
 }
 
-/// The options with which `ron` reads recipes: `Some(..)` may be left out.
+/// Returns the options with which `ron` reads recipes: `Some(..)` can be omitted.
 fn ron_options() -> ron::Options {
     ron::Options::default()
         .with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME)
         .without_recursion_limit()
 }
 
-/// Every token of [`GOOD`], and some that are always wrong somewhere.
+/// Returns every token of [`GOOD`], and some tokens that are often invalid.
 fn spare_tokens() -> Vec<String> {
     let mut tokens: Vec<String> = GOOD.iter().flat_map(|text| tokens(text)).collect();
     tokens.extend(
@@ -603,9 +603,9 @@ fn tokens(text: &str) -> Vec<String> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 2000, ..ProptestConfig::default() })]
 
-    /// Texts that are nearly right: where nothing is reported, `ron` finds nothing either.
+    /// For nearly valid texts: if no error is reported, `ron` accepts the text too.
     #[test]
-    fn what_ron_refuses_is_refused_before(
+    fn texts_that_ron_refuses_have_errors(
         base in 0..GOOD.len(),
         edits in prop::collection::vec((0_usize..4, any::<prop::sample::Index>(), any::<prop::sample::Index>()), 1..3),
     ) {

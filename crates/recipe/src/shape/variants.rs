@@ -1,4 +1,4 @@
-//! Checks values that are one of several things: variants of enumerations, above all.
+//! Checks values whose schema has alternatives, such as variants of enumerations.
 
 use super::schema::{Choice, Schema};
 use super::{Checker, Place, counted, listed, nearest};
@@ -18,7 +18,7 @@ impl Checker {
         match choice.others.as_slice() {
             [] => self.check_variant(value, schema, choice, place),
             [one] => self.check(value, one, place),
-            // No type of `serde` has several forms unless it is untagged, which parameters are not.
+            // Several other schemas occur only for untagged enumerations, which parameters do not use.
             _ => {}
         }
     }
@@ -34,7 +34,7 @@ impl Checker {
         let content = |name: &str| choice.content(name);
         let is_unit = |name: &str| choice.units.contains(&name);
         let is_known = |name: &str| is_unit(name) || content(name).is_some();
-        // A variant that was renamed is checked under its name of today.
+        // A renamed variant is checked under its current name.
         if let Some((name, span)) = value.name()
             && !is_known(name)
             && let Some(current) = schema.variant_by_alias(name).filter(|name| is_known(name))
@@ -72,7 +72,7 @@ impl Checker {
                 None => self.unknown_variant(value, &call.name.text, call.name.span, choice, place),
             },
             ValueKind::String(text) if is_unit(text) || content(text).is_some() => {
-                let message = format!("the variant `{text}` stands without quotes");
+                let message = format!("the variant `{text}` must not be in quotes");
                 self.report(value, value.span, message, Some(format!("write `{text}`")));
             }
             _ => {
@@ -106,7 +106,7 @@ impl Checker {
         );
     }
 
-    /// Checks what stands in the brackets of a variant.
+    /// Checks the content of a variant.
     fn check_content(&mut self, call: &Call, schema: &Schema) {
         let name = &*call.name.text;
         let place = Place::named(name);
@@ -137,17 +137,17 @@ impl Checker {
             Some(format!("write `{name}([..])`"))
         } else if wraps {
             Some(format!(
-                "the value has brackets of its own: `{name}({})`",
+                "the value needs its own parentheses: `{name}({})`",
                 schema.usage("")
             ))
         } else {
-            Some(format!("the value is {}", schema.expectation()))
+            Some(format!("the value must be {}", schema.expectation()))
         };
         self.report(&call.body, call.body.span, message, help);
     }
 }
 
-/// The same value under another name.
+/// Returns the value with a different name.
 fn renamed(value: &Value, name: &str) -> Value {
     let mut renamed = value.clone();
     match &mut renamed.kind {
@@ -158,7 +158,7 @@ fn renamed(value: &Value, name: &str) -> Value {
     renamed
 }
 
-/// The list of the variants, if it is not too long to read.
+/// Returns a help text that lists the variants, if there are at most 24.
 fn variants_help(names: &[&str]) -> Option<String> {
     (1..=24)
         .contains(&names.len())

@@ -1,4 +1,4 @@
-//! What a sweep keeps of each run: numbers, by the measures that expectations take.
+//! The metrics of a sweep: what it records of each run.
 
 use std::fmt;
 
@@ -11,63 +11,62 @@ use crate::expect::{OtherMesh, Reader, Subject};
 use crate::run::Outcome;
 use geometry::distance::Distance;
 
-/// What is kept of a run. Where it speaks of the mesh, it means all meshes at the end together.
+/// A value that a sweep records of each run. It is measured at the end of the run, for all meshes together.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Metric {
-    /// How many objects there are.
+    /// The number of objects.
     Objects,
-    /// How many vertices; points of polylines count too.
+    /// The number of vertices, including the points of polylines, curves and patches.
     Vertices,
-    /// How many edges.
+    /// The number of edges.
     Edges,
-    /// How many faces.
+    /// The number of faces.
     Faces,
-    /// How many connected parts.
+    /// The number of connected components.
     Components,
-    /// How many holes.
+    /// The number of boundary loops: closed loops of boundary edges.
     BoundaryLoops,
-    /// V - E + F.
+    /// The Euler characteristic: vertices - edges + faces.
     EulerCharacteristic,
-    /// How many handles.
+    /// The genus, which is the number of handles: 0 for a sphere, 1 for a torus.
     Genus,
     /// The sum of the areas of the faces, in square scene units.
     Area,
-    /// The volume inside, in cubic scene units.
+    /// The enclosed volume, in cubic scene units.
     Volume,
-    /// The smallest angle between neighboring sides of a face, in degrees.
+    /// The smallest corner angle of all faces, in degrees.
     MinAngle,
-    /// The largest distance between the surfaces of the mesh and another, as the expectation of this name
-    /// measures it, in scene units.
+    /// The two-sided Hausdorff distance between the surface of the mesh and that of another mesh, in scene units.
     DistanceTo {
-        /// The other.
+        /// The mesh to compare with.
         other: OtherMesh,
-        /// The object that is meant, if there are several meshes.
+        /// The name of the object to measure. Required if the scene has several meshes.
         on: Option<String>,
     },
-    /// How long the steps took, in seconds: the only one that two runs do not share.
+    /// The time that the steps took, in seconds. The only metric that differs between equal runs.
     Seconds,
     /// The digest of the scene.
     Digest,
 }
 
-/// A measure of a run.
+/// The value of a metric.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Measured {
     /// A whole number.
     Whole(i64),
-    /// A number; infinite where there is nothing to measure, as the distance to a mesh without faces.
+    /// A number. Infinite if there is nothing to measure, such as the distance to a mesh without faces.
     Number(f64),
     /// A text.
     Text(String),
 }
 
 impl Metric {
-    /// Measures a run that succeeded. `files` and `reader` serve to read what it is compared with.
+    /// Measures a successful run. `files` and `reader` are used to read the mesh to compare with.
     ///
     /// # Errors
     ///
-    /// What is missing, in one line: an object, a file, a face.
+    /// A message in one line, if an object, a file or a face is missing.
     pub fn measure(
         &self,
         outcome: &Outcome,
@@ -76,7 +75,7 @@ impl Metric {
     ) -> Result<Measured, String> {
         let scene = outcome.scene.as_ref();
         let subject = Subject {
-            scene: scene.ok_or("the scene stayed in the cache")?,
+            scene: scene.ok_or("the final scene was not loaded from the cache")?,
             on: None,
             files,
             reader,
@@ -95,7 +94,7 @@ impl Metric {
             Self::Volume => Measured::Number(subject.sum(geometry::volume)?),
             Self::MinAngle => {
                 let smallest = subject.smallest_angle(&FaceSelection::All);
-                Measured::Number(smallest.map_err(|broken| broken.message)?.0)
+                Measured::Number(smallest.map_err(|violation| violation.message)?.0)
             }
             Self::DistanceTo { other, on } => {
                 let on = on.as_ref().map(std::slice::from_ref);
@@ -112,7 +111,7 @@ impl Metric {
         })
     }
 
-    /// The object or file that it compares with.
+    /// Returns the mesh that the metric compares with, if any.
     pub fn other(&self) -> Option<&OtherMesh> {
         match self {
             Self::DistanceTo { other, .. } => Some(other),

@@ -1,22 +1,22 @@
-//! Sweeps: one recipe with many values of its parameters.
+//! Sweeps: run one recipe with many values of its parameters.
 //!
 //! ```text
 //! (
 //!     sweep: 1,
-//!     about: "how fine is fine enough",
-//!     recipe: "cow.ron",                      seen from the folder of the sweep
+//!     about: "find the coarsest level that is good enough",
+//!     recipe: "cow.ron",                      relative to the folder of the sweep
 //!     over: { "levels": [0, 1, 2], "ratio": Range(from: 0.1, to: 0.5, steps: 5) },
 //!     zip: { "width": [1, 2], "height": [3, 4] },
 //!     set: { "smooth": true },                the same in every cell
-//!     expect: true,                           hold the expectations of the recipe too
+//!     expect: true,                           also check the expectations of the recipe
 //!     keep: [Faces, Area, DistanceTo(other: File("cow.obj")), Seconds],
 //! )
 //! ```
 //!
-//! [`read_sweep`] reads the text and [`Sweep::grid`] holds its values against the parameters that the
-//! recipe declares; each reports everything that is wrong at once, with its place. The cells are the
-//! product of the lists of `over` in the order of the text, the last one changing first; the lists of
-//! `zip` go together and change before those of `over`.
+//! [`read_sweep`] reads the text, and [`Sweep::grid`] checks its values against the parameters that the recipe
+//! declares. Both report all errors at once. The cells are all combinations of the lists of `over`, in the order of the
+//! text; the last list changes fastest. The lists of `zip` are combined value by value, and change faster than those of
+//! `over`.
 
 mod metric;
 mod values;
@@ -26,10 +26,10 @@ use std::path::Path;
 
 use serde_json::json;
 
-use crate::read::other_version;
+use crate::read::wrong_version;
 use crate::recipe::Parameter;
 use crate::schema;
-use crate::shape::{self, check_shape, did_you_mean};
+use crate::shape::{self, check_shape, counted, did_you_mean};
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
 pub use metric::{Measured, Metric};
@@ -37,26 +37,26 @@ pub use metric::{Measured, Metric};
 /// The version of sweeps that this program reads.
 pub const SWEEP_VERSION: i128 = 1;
 
-/// Most cells of a sweep.
+/// The maximum number of cells of a sweep.
 pub const MAX_CELLS: usize = 10_000;
 
-/// A sweep that was read, its values not yet held against a recipe.
+/// A sweep that was read. Its values are not yet checked against the recipe.
 #[derive(Clone, Debug)]
 pub struct Sweep {
-    /// The path of the recipe, seen from the folder of the sweep.
+    /// The path of the recipe, relative to the folder of the sweep.
     pub recipe: String,
-    /// Where the path stands.
+    /// The span of that path.
     pub recipe_span: Span,
     /// Whether the recipe's expectations must hold in every cell.
     pub expects: bool,
-    /// What is kept of each cell, and where that stands.
+    /// The metrics that are recorded for each cell, with their spans.
     pub keep: Vec<(Metric, Span)>,
     over: Vec<Entry>,
     zip: Vec<Entry>,
     set: Vec<Entry>,
 }
 
-/// A parameter and what was written for it.
+/// A parameter with the value that the sweep has for it.
 #[derive(Clone, Debug)]
 struct Entry {
     name: String,
@@ -64,51 +64,50 @@ struct Entry {
     value: Value,
 }
 
-/// The values of a sweep, held against the parameters of its recipe.
+/// The cells of a sweep.
 #[derive(Clone, Debug, Default)]
 pub struct Grid {
     /// The parameters that change, in the order of the text.
     pub parameters: Vec<String>,
-    /// Those of them that change together, the last ones first: one of `over` alone, all of `zip`.
+    /// The axes: one for each parameter of `over`, and one for all parameters of `zip`. The last axis changes fastest.
     pub axes: Vec<Axis>,
-    /// The values of these for each cell.
+    /// For each cell, the values of `parameters`.
     pub cells: Vec<Vec<Setting>>,
-    /// The parameters that are the same in every cell.
+    /// The parameters that have the same value in every cell.
     pub set: Vec<(String, Setting)>,
 }
 
 /// Parameters that change together.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Axis {
-    /// Which of the [parameters](Grid::parameters).
+    /// The range of their indices in [`Grid::parameters`].
     pub parameters: Range<usize>,
-    /// How many values each of them takes.
+    /// The number of values of each parameter.
     pub len: usize,
 }
 
 /// A value of a parameter.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Setting {
-    /// The value as plain text, as [`read`](crate::read()) takes it; a path is seen from where the sweep
-    /// was said to be.
+    /// The value as plain text for [`read`](crate::read()). A path includes the folder of the sweep.
     pub text: String,
-    /// The value, as the sweep has it.
+    /// The value as written in the sweep.
     pub value: Value,
 }
 
 impl Setting {
-    /// The value as JSON.
+    /// Returns the value as JSON.
     pub fn json(&self) -> serde_json::Value {
         ron_tree::to_json(&self.value)
     }
 }
 
-/// A sweep and what is wrong with its text.
+/// A sweep with its errors and warnings.
 #[derive(Clone, Debug)]
 pub struct SweepReading {
-    /// The sweep; `None` if so much is wrong that nothing can be said of its parts.
+    /// The sweep. `None` if the errors make it impossible to read its parts.
     pub sweep: Option<Sweep>,
-    /// What is wrong.
+    /// The errors and warnings.
     pub diagnostics: Vec<Diagnostic>,
 }
 
@@ -121,7 +120,7 @@ pub fn read_sweep(source: &str) -> SweepReading {
         sweep: None,
         diagnostics,
     };
-    if let Some(problem) = other_version(&root, "sweep", SWEEP_VERSION) {
+    if let Some(problem) = wrong_version(&root, "sweep", SWEEP_VERSION) {
         return failed(vec![problem]);
     }
     if matches!(root.kind, ValueKind::Error) && !diagnostics.is_empty() {
@@ -154,13 +153,13 @@ pub fn read_sweep(source: &str) -> SweepReading {
 }
 
 impl SweepReading {
-    /// Whether the sweep cannot run.
+    /// Whether there are errors, so that the sweep cannot run.
     pub fn has_errors(&self) -> bool {
         self.diagnostics.iter().any(Diagnostic::is_error)
     }
 }
 
-/// The fields of a sweep; values of parameters can be anything.
+/// Returns the schema of the fields of a sweep, in which values of parameters can be anything.
 fn envelope() -> serde_json::Value {
     let values = json!({ "type": "object", "additionalProperties": {} });
     json!({
@@ -200,7 +199,7 @@ fn entries(map: Option<&Value>, diagnostics: &mut Vec<Diagnostic>) -> Vec<Entry>
     for (key, value) in written {
         let Some(name) = key.as_str() else { continue };
         if entries.iter().any(|e| e.name == name) {
-            let message = format!("`{name}` has values twice");
+            let message = format!("`{name}` is given twice");
             diagnostics.push(Diagnostic::error(key.span, message));
             continue;
         }
@@ -214,18 +213,17 @@ fn entries(map: Option<&Value>, diagnostics: &mut Vec<Diagnostic>) -> Vec<Entry>
 }
 
 impl Sweep {
-    /// Holds the values against the parameters of the recipe. `folder` is that of the sweep: relative
-    /// paths among the values are seen from there.
+    /// Checks the values against the parameters of the recipe and returns the cells. `folder` is the folder of the
+    /// sweep: paths among the values are relative to it.
     ///
     /// # Errors
     ///
-    /// Everything that is wrong: parameters that the recipe does not have, values of another type or
-    /// out of range, empty lists, a parameter that has values twice, lists of `zip` of different
-    /// lengths, more than [`MAX_CELLS`] cells.
+    /// All errors: parameters that the recipe does not have, values of a wrong type or out of range, empty lists, a
+    /// parameter that is given twice, lists of `zip` with different lengths, or more than [`MAX_CELLS`] cells.
     pub fn grid(&self, parameters: &[Parameter], folder: &Path) -> Result<Grid, Vec<Diagnostic>> {
         let mut diagnostics = Vec::new();
         self.check_names(parameters, &mut diagnostics);
-        let mut held = |entries: &[Entry], single: bool| -> Vec<(String, Span, Vec<Setting>)> {
+        let mut checked = |entries: &[Entry], single: bool| -> Vec<(String, Span, Vec<Setting>)> {
             let mut lists = Vec::new();
             for entry in entries {
                 let Some(parameter) = parameters.iter().find(|p| p.name == entry.name) else {
@@ -245,20 +243,20 @@ impl Sweep {
             lists
         };
         let (over, zip, set) = (
-            held(&self.over, false),
-            held(&self.zip, false),
-            held(&self.set, true),
+            checked(&self.over, false),
+            checked(&self.zip, false),
+            checked(&self.set, true),
         );
         if let Some((first, _, list)) = zip.first()
             && let Some((other, span, found)) = zip.iter().find(|z| z.2.len() != list.len())
         {
             let message = format!(
-                "`{other}` has {} values and `{first}` has {}, expected as many",
-                found.len(),
+                "`{other}` has {} but `{first}` has {}: the lists of `zip` must have the same length",
+                counted(found.len(), "value"),
                 list.len()
             );
             diagnostics.push(Diagnostic::error(*span, message).with_help(
-                "lists of `zip` go together, value by value; those of `over` meet each other",
+                "use `over` for all combinations of the values; `zip` combines them value by value",
             ));
         }
         let columns = |lists: &[(String, Span, Vec<Setting>)]| -> Vec<Vec<Vec<Setting>>> {
@@ -281,7 +279,7 @@ impl Sweep {
             );
             let span = self.over.first().or(self.zip.first()).map(|e| e.value.span);
             let place = Diagnostic::error(span.unwrap_or(self.recipe_span), message);
-            diagnostics.push(place.with_help("take fewer values, or several sweeps"));
+            diagnostics.push(place.with_help("use fewer values, or split the sweep"));
         }
         if !diagnostics.is_empty() {
             diagnostics.sort_by_key(|d| d.span);
@@ -322,14 +320,14 @@ impl Sweep {
             if let Some(earlier) = seen.iter().find(|e| e.name == *name) {
                 let message = format!("`{name}` has values in two places");
                 let twice = Diagnostic::error(entry.name_span, message);
-                diagnostics.push(twice.with_label(earlier.name_span, "here too"));
+                diagnostics.push(twice.with_label(earlier.name_span, "and here"));
             }
             seen.push(entry);
         }
     }
 }
 
-/// All combinations of a row of each axis, the last axis changing first.
+/// Returns all combinations of one row from each axis. The last axis changes fastest.
 fn product(axes: &[Vec<Vec<Setting>>]) -> Vec<Vec<Setting>> {
     let mut cells = vec![Vec::new()];
     for axis in axes {

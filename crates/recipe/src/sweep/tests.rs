@@ -30,7 +30,7 @@ fn sweep(fields: &str) -> String {
     format!("(sweep: 1, recipe: \"a.ron\", keep: [Faces], {fields})")
 }
 
-/// The grid of a sweep that is right.
+/// Returns the grid of a valid sweep.
 fn grid(fields: &str) -> Grid {
     let reading = read_sweep(&sweep(fields));
     assert_eq!(reading.diagnostics, []);
@@ -38,13 +38,13 @@ fn grid(fields: &str) -> Grid {
     sweep.grid(&parameters(), Path::new("sweeps")).unwrap()
 }
 
-/// The cells of a sweep that is right, each value as text.
+/// Returns the cells of a valid sweep, with each value as text.
 fn cells(fields: &str) -> Vec<Vec<String>> {
     let cell = |cell: &Vec<Setting>| cell.iter().map(|s| s.text.clone()).collect();
     grid(fields).cells.iter().map(cell).collect()
 }
 
-/// Everything that is wrong: the text that it is about, and the message.
+/// Returns all errors of a sweep: the text that each is about, and its message.
 fn wrong(fields: &str) -> Vec<(String, String)> {
     let source = sweep(fields);
     let reading = read_sweep(&source);
@@ -59,7 +59,7 @@ fn wrong(fields: &str) -> Vec<(String, String)> {
 }
 
 #[test]
-fn cells_are_the_product_and_the_last_parameter_changes_first() {
+fn cells_are_all_combinations_and_the_last_parameter_changes_fastest() {
     let over = "over: {\"n\": [0, 1], \"x\": [0.5, 2], \"flag\": [true]}";
     assert_eq!(
         cells(over),
@@ -74,7 +74,7 @@ fn cells_are_the_product_and_the_last_parameter_changes_first() {
 }
 
 #[test]
-fn zipped_lists_go_together_within_the_others() {
+fn zipped_lists_change_together_and_faster_than_the_others() {
     assert_eq!(
         cells("over: {\"n\": [0, 1]}, zip: {\"x\": [3, 4], \"kind\": [A, \"B\"]}"),
         [
@@ -108,7 +108,7 @@ fn a_range_has_both_ends_and_round_numbers_between_them() {
 }
 
 #[test]
-fn values_of_every_type_are_held() {
+fn values_of_every_type_are_accepted() {
     let grid = grid(
         "set: {\"n\": 0x5, \"flag\": true, \"kind\": B, \"model\": \"b.obj\", \"to\": (1, 2, 3), \"text\": \"a\\\"b\"}",
     );
@@ -131,7 +131,7 @@ fn values_of_every_type_are_held() {
 }
 
 #[test]
-fn everything_that_is_wrong_with_the_values_comes_at_once() {
+fn all_errors_in_the_values_are_reported_at_once() {
     let found = wrong(
         "over: {\"m\": [1], \"n\": [1.5, 12, \"2\", 3], \"x\": [], \"flag\": true, \"to\": [(1, 2)],
          \"kind\": Range(from: 0, to: 1, steps: 2)}, zip: {\"text\": [Area]}, set: {\"n\": 1, \"model\": 5}",
@@ -152,7 +152,7 @@ fn everything_that_is_wrong_with_the_values_comes_at_once() {
         ),
         (
             "Range(from: 0, to: 1, steps: 2)",
-            "expected a list of values `[..]`: the parameter is of type Choice, and a range is for numbers",
+            "expected a list of values `[..]`: `Range` is for numbers, but the parameter has the type Choice",
         ),
         ("Area", "expected a text in quotes, found `Area`"),
         ("\"n\"", "`n` has values in two places"),
@@ -163,7 +163,7 @@ fn everything_that_is_wrong_with_the_values_comes_at_once() {
 }
 
 #[test]
-fn ranges_that_make_no_sense_say_why() {
+fn invalid_ranges_are_refused_with_a_reason() {
     let found = |range: &str| {
         wrong(&format!("over: {{\"n\": Range({range})}}"))
             .remove(0)
@@ -171,7 +171,7 @@ fn ranges_that_make_no_sense_say_why() {
     };
     assert_eq!(
         found("from: 0, to: 1, steps: 3"),
-        "expected whole numbers, and 0.5 is in this range"
+        "expected whole numbers, but this range contains 0.5"
     );
     assert_eq!(
         found("from: 0, to: 99, steps: 2"),
@@ -179,7 +179,7 @@ fn ranges_that_make_no_sense_say_why() {
     );
     assert_eq!(
         found("from: 0, to: 1, steps: 1"),
-        "one step has one value, and the range has 0 and 1"
+        "a range with 1 step must have equal ends, found 0 and 1"
     );
     assert!(found("from: 0, to: 1, steps: 0").contains("expected at least 1"));
     assert!(found("from: 0, to: 1, steps: 2, step: 2").contains("unknown field `step`"));
@@ -187,18 +187,19 @@ fn ranges_that_make_no_sense_say_why() {
 }
 
 #[test]
-fn lists_that_go_together_are_of_one_length() {
+fn zipped_lists_must_have_the_same_length() {
     assert_eq!(
         wrong("zip: {\"n\": [1, 2], \"x\": [1]}"),
         [(
             "[1]".to_owned(),
-            "`x` has 1 values and `n` has 2, expected as many".to_owned()
+            "`x` has 1 value but `n` has 2: the lists of `zip` must have the same length"
+                .to_owned()
         )]
     );
 }
 
 #[test]
-fn more_cells_than_allowed_are_refused_before_they_are_made() {
+fn too_many_cells_are_refused_before_they_are_created() {
     let many = "Range(from: 0, to: 1, steps: 9999)";
     let found = wrong(&format!(
         "over: {{\"x\": {many}, \"text\": [\"a\", \"b\"]}}"
@@ -210,7 +211,7 @@ fn more_cells_than_allowed_are_refused_before_they_are_made() {
 }
 
 #[test]
-fn mistakes_in_the_fields_are_those_of_a_recipe() {
+fn errors_in_the_fields_are_reported_as_in_a_recipe() {
     let source = "(sweep: 1, recipe: \"a.ron\", keep: [Facets, Area, DistanceTo(File(\"a\"))], overr: {}, set: [])";
     let reading = read_sweep(source);
     let messages: Vec<&str> = reading.diagnostics.iter().map(|d| &*d.message).collect();
@@ -225,7 +226,7 @@ fn mistakes_in_the_fields_are_those_of_a_recipe() {
     assert!(messages[3].contains("`set`"));
 
     let of = |source: &str| read_sweep(source).diagnostics.remove(0).message;
-    assert_eq!(of("(sweep: 2)"), "this sweep is of version 2, expected 1");
+    assert_eq!(of("(sweep: 2)"), "this sweep has version 2, expected 1");
     assert!(of("(sweep: 1, keep: [Faces])").contains("recipe"));
     assert!(of("(sweep: 1, recipe: \"a.ron\", keep: [])").contains("at least 1"));
     assert!(read_sweep("").has_errors() && read_sweep("[").has_errors());

@@ -1,4 +1,4 @@
-//! The values that a sweep gives to a parameter.
+//! Reads the values that a sweep has for a parameter.
 
 use std::path::Path;
 
@@ -11,23 +11,23 @@ use crate::schema;
 use crate::shape;
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
-/// Values that are not listed one by one.
+/// A description of values that are not listed one by one.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 enum Values {
-    /// Numbers at equal distances.
+    /// Evenly spaced numbers.
     Range {
-        /// The first.
+        /// The first number.
         from: f64,
-        /// The last.
+        /// The last number.
         to: f64,
-        /// How many numbers, the first and the last included.
+        /// The number of numbers, including the first and the last.
         #[schemars(range(min = 1))]
         steps: u32,
     },
 }
 
-/// The values of `[..]` or `Range(..)` for a parameter.
+/// Returns the values of `[..]` or `Range(..)` for a parameter.
 pub(super) fn settings(
     param: &Param,
     value: &Value,
@@ -38,7 +38,7 @@ pub(super) fn settings(
             let message = "expected a value, found none";
             return Err(vec![Diagnostic::error(value.span, message)]);
         }
-        return together(items.iter().map(|item| setting(param, item, folder)));
+        return collect(items.iter().map(|item| setting(param, item, folder)));
     }
     if !matches!(value.kind, ValueKind::Call(_)) {
         let message = format!(
@@ -51,8 +51,8 @@ pub(super) fn settings(
     range(param, [from, to], steps, value.span)
 }
 
-/// All of them, or everything that is wrong.
-fn together(
+/// Returns all settings, or all errors if there are any.
+fn collect(
     each: impl Iterator<Item = Result<Setting, Vec<Diagnostic>>>,
 ) -> Result<Vec<Setting>, Vec<Diagnostic>> {
     let (mut settings, mut wrong) = (Vec::new(), Vec::new());
@@ -82,7 +82,7 @@ fn range(
         _ => {
             let kind = param.type_name();
             let message = format!(
-                "expected a list of values `[..]`: the parameter is of type {kind}, and a range is for numbers"
+                "expected a list of values `[..]`: `Range` is for numbers, but the parameter has the type {kind}"
             );
             return Err(problem(message));
         }
@@ -92,16 +92,16 @@ fn range(
         return Err(problem(message));
     }
     if steps == 1 && from != to {
-        let message = format!("one step has one value, and the range has {from} and {to}");
+        let message = format!("a range with 1 step must have equal ends, found {from} and {to}");
         return Err(problem(message));
     }
     let last = f64::from(steps.max(2) - 1);
     let each = (0..steps).map(|i| {
-        // Both ends weighed, so that 0.1 to 0.5 has 0.3 in its middle, and no rounding of a sum.
+        // A weighted mean of both ends has less rounding error than a repeated sum: the middle of 0.1 to 0.5 is 0.3.
         let i = f64::from(i);
         let x = (from * (last - i) + to * i) / last;
         if whole && x.fract() != 0.0 {
-            let message = format!("expected whole numbers, and {x} is in this range");
+            let message = format!("expected whole numbers, but this range contains {x}");
             return Err(problem(message));
         }
         let text = if whole {
@@ -114,32 +114,35 @@ fn range(
             Err(error) => Err(problem(error.to_string())),
         }
     });
-    let settings = together(each);
-    // The first of them says it.
+    let settings = collect(each);
+    // All errors are about the same range, so the first one is enough.
     settings.map_err(|mut wrong| {
         wrong.truncate(1);
         wrong
     })
 }
 
-/// One value for a parameter.
+/// Returns one value for a parameter.
 pub(super) fn setting(
     param: &Param,
     value: &Value,
     folder: &Path,
 ) -> Result<Setting, Vec<Diagnostic>> {
     if value.has_errors() {
-        // What could not be read was reported.
+        // The parser has reported the error.
         return Err(Vec::new());
     }
-    let held = param
+    let checked = param
         .value_from(value, None)
         .map_err(|error| vec![Diagnostic::error(value.span, error.to_string())])?;
-    // As plain text: what stands in quotes is without them, and all else is as RON has it.
+    // As plain text: strings without their quotes, and all other values as RON.
     let text = match (param, value.as_str()) {
         (Param::Path { .. }, Some(path)) => folder.join(path).to_string_lossy().into_owned(),
         (_, Some(text)) => text.to_owned(),
-        (_, None) => held.to_string(),
+        (_, None) => checked.to_string(),
     };
-    Ok(Setting { text, value: held })
+    Ok(Setting {
+        text,
+        value: checked,
+    })
 }

@@ -1,4 +1,4 @@
-//! Checking: what is found before anything runs.
+//! Tests of checking a recipe without running it.
 
 use std::path::{Path, PathBuf};
 
@@ -7,7 +7,7 @@ use crate::Severity;
 use op::Range;
 
 #[track_caller]
-fn one_problem(text: &str, place: &str, message: &str, help: &str) {
+fn has_one_error(text: &str, place: &str, message: &str, help: &str) {
     let forecast = checked(text, u64::MAX);
     assert_eq!(
         shown(text, &forecast.diagnostics),
@@ -40,8 +40,8 @@ fn counts_are_forecast_after_each_step() {
 }
 
 #[test]
-fn objects_in_on_exist() {
-    one_problem(
+fn objects_in_on_must_exist() {
+    has_one_error(
         &steps("Sheet(columns: 2), (run: Lift(by: 1), on: [\"shet\"])"),
         "\"shet\"",
         "no object is named \"shet\"",
@@ -50,7 +50,7 @@ fn objects_in_on_exist() {
 }
 
 #[test]
-fn objects_in_expectations_exist_at_their_step() {
+fn objects_in_expectations_must_exist_at_their_step() {
     let text = r#"(recipe: 1, steps: [
             (id: "first", run: Sheet(columns: 2)), Sheet(columns: 2, name: "late"),
         ], expect: [
@@ -77,25 +77,25 @@ fn objects_in_expectations_exist_at_their_step() {
 }
 
 #[test]
-fn files_in_expectations_exist() {
-    one_problem(
+fn files_in_expectations_must_exist() {
+    has_one_error(
         r#"(recipe: 1, steps: [Sheet(columns: 1)], expect: [Same(as: File("no/such.obj"))])"#,
         "Same(as: File(\"no/such.obj\"))",
-        "there is no file no/such.obj",
+        "the file no/such.obj does not exist",
         "",
     );
 }
 
 #[test]
 fn a_problem_is_shown_at_its_parameter() {
-    one_problem(
+    has_one_error(
         &steps("Sheet(columns: 1), Lift(by: 2e6)"),
         "2e6",
         "that is too high",
         "",
     );
-    // A parameter that is not written has no place but the name of the step.
-    one_problem(
+    // A parameter that was omitted has no span, so the name of the step is shown.
+    has_one_error(
         &steps("Sheet(columns: 1), (id: \"again\", run: Sheet(columns: 1))"),
         "Sheet",
         "the scene already has an object named \"sheet\"",
@@ -113,7 +113,7 @@ fn a_warning_does_not_stop_a_recipe() {
 
 #[test]
 fn a_step_without_a_mesh_to_change_is_an_error() {
-    one_problem(
+    has_one_error(
         &steps("Lift(by: 1)"),
         "Lift",
         "Lift finds no mesh to change",
@@ -122,11 +122,11 @@ fn a_step_without_a_mesh_to_change_is_an_error() {
 }
 
 #[test]
-fn what_follows_from_a_broken_step_is_not_reported() {
+fn errors_that_follow_from_a_broken_step_are_not_reported() {
     let text = steps(
         "Sheet(columns: 1, name: \"a\"), Sheet(columns: 1, name: \"a\"), (run: Lift(by: 1), on: [\"b\"])",
     );
-    one_problem(
+    has_one_error(
         &text,
         "\"a\"",
         "the scene already has an object named \"a\"",
@@ -135,7 +135,7 @@ fn what_follows_from_a_broken_step_is_not_reported() {
 }
 
 #[test]
-fn a_step_that_must_be_refused_may_have_problems_and_changes_no_forecast() {
+fn a_step_that_must_be_refused_has_no_errors_and_changes_no_forecast() {
     let forecast = checked(
         &steps(
             "Sheet(columns: 1), (run: Sheet(columns: 9), refused: Missing), (run: Lift(by: 2e6), refused: Boundary)",
@@ -147,15 +147,15 @@ fn a_step_that_must_be_refused_may_have_problems_and_changes_no_forecast() {
 }
 
 #[test]
-fn meshes_over_the_budget_are_one_error_at_the_first_step_that_makes_them() {
+fn exceeding_the_budget_is_one_error_at_the_first_step_that_does() {
     let text = steps("Sheet(columns: 1), Sheet(columns: 100000, name: \"b\"), Lift(by: 1)");
     let forecast = checked(&text, 1 << 20);
     assert_eq!(
         shown(&text, &forecast.diagnostics),
         [(
             "Sheet",
-            "meshes take 13 MiB after this step, and the budget is 1.0 MiB",
-            "allow more with --budget, or do less"
+            "the meshes take 13 MiB after this step, more than the memory budget of 1.0 MiB",
+            "raise the budget with --budget"
         )]
     );
     let start = forecast.diagnostics[0].span.unwrap().start;
@@ -191,10 +191,10 @@ fn outputs_are_listed_with_their_placeholders_filled_in() {
         u64::MAX,
     );
     assert_eq!(forecast.outputs, [PathBuf::from("out/new/pig.txt")]);
-    one_problem(
+    has_one_error(
         &text.replace("input.stem", "inptu.stem"),
         "\"new/{inptu.stem}.txt\"",
-        "unknown placeholder {inptu.stem} in \"new/{inptu.stem}.txt\", known are: {input.stem}, {input.name}",
+        "unknown placeholder {inptu.stem} in \"new/{inptu.stem}.txt\"; known placeholders: {input.stem}, {input.name}",
         "",
     );
 }
@@ -203,7 +203,7 @@ fn outputs_are_listed_with_their_placeholders_filled_in() {
 fn outputs_stay_in_the_output_folder() {
     for path in ["../a.txt", "/a.txt", "a/../../b.txt"] {
         let text = steps(&format!("Sheet(columns: 1), Write(path: \"{path}\")"));
-        one_problem(
+        has_one_error(
             &text,
             &format!("\"{path}\""),
             &format!(
@@ -215,7 +215,7 @@ fn outputs_stay_in_the_output_folder() {
 }
 
 #[test]
-fn objects_that_a_step_leaves_alone_take_no_time() {
+fn unchanged_objects_take_no_time() {
     let steps: Vec<String> = (0..20_000)
         .map(|i| format!("Sheet(columns: 1, name: \"{i}\")"))
         .collect();
@@ -225,6 +225,6 @@ fn objects_that_a_step_leaves_alone_take_no_time() {
     let forecast = crate::check(&recipe, &op::Files::default(), u64::MAX);
     assert!(!forecast.has_errors());
     assert_eq!(forecast.steps[19_999].faces, Range::exactly(20_000));
-    // Minutes, if each step looks at all objects.
+    // This would take minutes if each step visited all objects.
     assert!(begin.elapsed().as_secs() < 20, "{:?}", begin.elapsed());
 }

@@ -1,17 +1,17 @@
-//! Steps that hold steps, parameter sets, and what may be lost.
+//! Tests of steps that contain steps, of presets, and of losses.
 
 use std::path::Path;
 
 use super::{Reading, checked, read, registry, run, shown, steps};
 use crate::{Source, Values};
 
-/// The labels of the steps.
+/// Returns the labels of the steps.
 fn labels(reading: &Reading) -> Vec<&str> {
     let steps = reading.recipe.steps.iter();
     steps.map(crate::RecipeStep::label).collect()
 }
 
-/// The canonical parameters of the steps.
+/// Returns the canonical parameters of the steps.
 fn canonical(reading: &Reading) -> Vec<String> {
     let steps = reading.recipe.steps.iter();
     steps
@@ -23,7 +23,7 @@ fn read_file(path: &Path, values: Values) -> Reading {
     crate::read(&Source::open(path).unwrap(), &registry(), values)
 }
 
-/// A folder with these files.
+/// Creates a folder with these files.
 fn folder(texts: &[(&str, &str)]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (name, text) in texts {
@@ -35,7 +35,7 @@ fn folder(texts: &[(&str, &str)]) -> tempfile::TempDir {
 }
 
 #[test]
-fn a_repetition_is_its_steps_so_many_times() {
+fn a_repetition_is_replaced_by_its_repeated_steps() {
     let reading = read(&steps(
         r#"Sheet(columns: 2), Repeat(times: 2, steps: [
             (id: "up", run: Lift(by: 1)),
@@ -51,7 +51,7 @@ fn a_repetition_is_its_steps_so_many_times() {
 }
 
 #[test]
-fn random_choices_differ_between_the_turns_of_a_repetition() {
+fn random_choices_differ_between_repetitions() {
     let one = "Lift(by: 1, vertices: Random(count: 1, seed: 7))";
     let highest = |times: u32| {
         let text = steps(&format!(
@@ -69,7 +69,7 @@ fn random_choices_differ_between_the_turns_of_a_repetition() {
 }
 
 #[test]
-fn what_is_expected_after_a_step_must_hold_after_each_turn() {
+fn expectations_after_a_step_must_hold_in_each_repetition() {
     let text = r#"(recipe: 1, steps: [
         Sheet(columns: 2),
         (id: "all", run: Repeat(times: 3, steps: [(id: "up", run: Lift(by: 1))])),
@@ -84,7 +84,7 @@ fn what_is_expected_after_a_step_must_hold_after_each_turn() {
 }
 
 #[test]
-fn a_choice_takes_one_of_its_branches_and_reads_both() {
+fn a_condition_takes_one_branch_and_reads_both() {
     let text = |by: &str| {
         format!(
             r#"(recipe: 1, params: {{
@@ -123,7 +123,7 @@ fn a_choice_takes_one_of_its_branches_and_reads_both() {
 }
 
 #[test]
-fn mistakes_in_steps_that_hold_steps_are_told_like_others() {
+fn errors_in_inner_steps_are_reported_like_others() {
     let text = r#"(recipe: 1, params: {"n": Int(default: 2)}, steps: [
         Repeat(times: -1, steps: []),
         Repeat(tims: 1, steps: [Lft(by: 1)]),
@@ -144,11 +144,11 @@ fn mistakes_in_steps_that_hold_steps_are_told_like_others() {
             ("Repeat", "`Repeat` needs `times`"),
             ("tims", "unknown field `tims` in `Repeat`"),
             ("Lft", "unknown operation `Lft`"),
-            ("\"n\"", "`n` is of the type Int, expected Bool"),
+            ("\"n\"", "`n` has the type Int, expected Bool"),
             ("\"m\"", "the recipe has no parameter `m`"),
             (
                 "\"two\"",
-                "`n` can never be this: expected a whole number, found the string \"two\""
+                "`n` cannot have this value: expected a whole number, found the string \"two\""
             ),
             ("[\"a\"]", "If does not take `on`"),
             ("Repat", "unknown operation `Repat`"),
@@ -161,7 +161,7 @@ fn mistakes_in_steps_that_hold_steps_are_told_like_others() {
 }
 
 #[test]
-fn repetitions_of_repetitions_end_at_a_limit() {
+fn nested_repetitions_are_limited() {
     let mut inner = "Lift(by: 1)".to_owned();
     for _ in 0..20 {
         inner = format!("Repeat(times: 100, steps: [{inner}])");
@@ -175,7 +175,7 @@ fn repetitions_of_repetitions_end_at_a_limit() {
         .collect();
     assert_eq!(
         messages,
-        ["the recipe has 1000001 steps or more, expected at most 100000"]
+        ["the recipe has at least 1000001 steps, expected at most 100000"]
     );
 }
 
@@ -185,7 +185,7 @@ const CLEAN: &str = r#"(recipe: 1,
     expect: [Faces(eq: 2), (after: "up", that: Manifold)])"#;
 
 #[test]
-fn a_recipe_is_called_with_values_of_its_own() {
+fn a_recipe_is_called_with_values_for_its_parameters() {
     let folder = folder(&[
         ("lib/clean.ron", CLEAN),
         (
@@ -226,7 +226,7 @@ fn a_recipe_is_called_with_values_of_its_own() {
 }
 
 #[test]
-fn mistakes_of_a_call_stand_where_they_were_made() {
+fn errors_of_a_call_are_reported_where_they_are() {
     let folder = folder(&[
         ("clean.ron", CLEAN),
         ("broken.ron", "(recipe: 1, steps: [Lift(by: \"x\")])"),
@@ -271,7 +271,7 @@ fn mistakes_of_a_call_stand_where_they_were_made() {
 }
 
 #[test]
-fn recipes_that_call_each_other_in_a_circle_are_shown_as_a_chain() {
+fn recipes_that_call_each_other_in_a_cycle_are_listed() {
     let call = |name: &str| format!("(recipe: 1, steps: [Call(recipe: \"{name}\")])");
     let folder = folder(&[
         ("a.ron", &call("lib/b.ron")),
@@ -297,7 +297,7 @@ fn recipes_that_call_each_other_in_a_circle_are_shown_as_a_chain() {
 }
 
 #[test]
-fn calls_that_multiply_end_at_a_limit() {
+fn multiplying_calls_are_limited() {
     let names: Vec<String> = (0..30).map(|i| format!("{i}.ron")).collect();
     let texts: Vec<String> = (1..31)
         .map(|next| {
@@ -321,7 +321,7 @@ const PRESETS: &str = r#"(recipe: 1,
     steps: [Sheet(columns: arg("n")), Lift(by: arg("by"))])"#;
 
 #[test]
-fn a_preset_goes_before_defaults_and_what_is_set_before_a_preset() {
+fn set_values_override_presets_and_presets_override_defaults() {
     let with = |preset, set: &[(String, String)]| {
         let values = Values {
             set,
@@ -343,7 +343,7 @@ fn a_preset_goes_before_defaults_and_what_is_set_before_a_preset() {
 }
 
 #[test]
-fn every_preset_is_held_against_the_parameters() {
+fn every_preset_is_checked_against_the_parameters() {
     let text = PRESETS.replace("{\"n\": 8}", "{\"n\": 10, \"m\": 1, \"by\": Area}");
     let reading = read(&text);
     assert_eq!(
@@ -369,21 +369,21 @@ fn every_preset_is_held_against_the_parameters() {
 }
 
 #[test]
-fn a_tag_that_nothing_can_have_is_found_before_anything_runs() {
+fn a_tag_that_no_element_can_have_is_an_error_before_the_run() {
     let text = steps("Sheet(columns: 2), Lift(by: 1, vertices: Or([Boundary, Tagged(\"rim\")]))");
     let found = checked(&text, u64::MAX).diagnostics;
     assert_eq!(
         shown(&text, &found),
         [(
             "Tagged(\"rim\")",
-            "nothing of \"sheet\" is tagged \"rim\"",
-            "no step before has made one"
+            "no element of \"sheet\" is tagged \"rim\"",
+            "no earlier step creates one"
         )]
     );
 }
 
 #[test]
-fn an_attribute_that_is_expected_and_cannot_be_there_is_found_before_anything_runs() {
+fn an_expected_attribute_that_cannot_exist_is_an_error_before_the_run() {
     let text = r#"(recipe: 1, steps: [Sheet(columns: 2)],
         expect: [HasAttribute(domain: Corner, name: "uv"), Not(HasAttribute(domain: Corner, name: "uv"))])"#;
     let found = checked(text, u64::MAX).diagnostics;

@@ -1,4 +1,4 @@
-//! Operations that the tests of recipes are made of.
+//! Operations for tests of recipes.
 
 use geometry::shapes;
 use mesh::{DVec3, Mesh};
@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Sheet {
-    /// How many squares.
+    /// The number of squares.
     #[schemars(range(min = 1, max = 1_000_000))]
     columns: u32,
     /// The name of the new object.
@@ -49,7 +49,7 @@ impl Operation for Sheet {
     }
 }
 
-/// A way to lift.
+/// How to lift.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) enum Way {
@@ -58,7 +58,7 @@ pub(crate) enum Way {
     #[serde(alias = "North")]
     #[schemars(extend("aliases" = ["North"]))]
     Up,
-    /// By so much more.
+    /// By an additional distance.
     #[serde(alias = "More")]
     #[schemars(extend("aliases" = ["More"]))]
     Further {
@@ -77,13 +77,13 @@ pub(crate) struct Lift {
     #[serde(alias = "height")]
     #[schemars(extend("aliases" = ["height"]))]
     by: f64,
-    /// Which way, by the words of today or those of before.
+    /// How, by current or old names.
     #[serde(default)]
     way: Way,
     /// Which vertices.
     #[serde(default)]
     vertices: VertexSelection,
-    /// For which reason to be refused after half of the work.
+    /// The reason for being refused halfway.
     #[serde(default)]
     fails: Option<Refusal>,
 }
@@ -107,7 +107,7 @@ impl MeshOperation for Lift {
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
         let chosen = self.vertices.resolve(mesh, cx)?;
-        assert!(self.by > -1e6, "nobody has thought of that");
+        assert!(self.by > -1e6, "the distance is too low");
         let by = match self.way {
             Way::Up => self.by,
             Way::Further { than } => self.by + than,
@@ -125,7 +125,7 @@ impl MeshOperation for Lift {
     }
 }
 
-/// Writes a text of the names of all objects.
+/// Writes the names of all objects to a text file.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Write {
@@ -166,7 +166,7 @@ pub(crate) fn registry() -> Registry {
         .with::<Write>()
 }
 
-/// A recipe of these steps.
+/// Returns a recipe with these steps.
 pub(crate) fn steps(steps: &str) -> String {
     format!("(recipe: 1, steps: [{steps}])")
 }

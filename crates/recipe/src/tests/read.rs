@@ -1,10 +1,10 @@
-//! Reading: every mistake with its place.
+//! Tests of reading: every error is reported with its span.
 
 use super::{read, read_with, registry, shown, steps};
 use crate::Severity;
 
 #[track_caller]
-fn one_problem(text: &str, place: &str, message: &str, help: &str) {
+fn has_one_error(text: &str, place: &str, message: &str, help: &str) {
     let reading = read(text);
     assert_eq!(
         shown(text, &reading.diagnostics),
@@ -15,7 +15,7 @@ fn one_problem(text: &str, place: &str, message: &str, help: &str) {
 }
 
 #[test]
-fn five_different_mistakes_are_five_errors_at_their_places() {
+fn five_mistakes_give_five_errors_at_their_spans() {
     let text = r#"(
         recipe: 1,
         steps: [
@@ -40,7 +40,7 @@ fn five_different_mistakes_are_five_errors_at_their_places() {
             (
                 "\"high\"",
                 "expected a number for `by`, found the string \"high\"",
-                "numbers stand without quotes"
+                "write numbers without quotes"
             ),
             (
                 "0",
@@ -56,7 +56,7 @@ fn five_different_mistakes_are_five_errors_at_their_places() {
             (
                 "Faces()",
                 "the expectation has no bound, so it can never fail",
-                "give it a bound, such as `eq`, `min` or `max`"
+                "add a bound, such as `eq`, `min` or `max`"
             ),
         ]
     );
@@ -65,7 +65,7 @@ fn five_different_mistakes_are_five_errors_at_their_places() {
 }
 
 #[test]
-fn a_recipe_without_mistakes_is_read_whole() {
+fn a_recipe_without_errors_is_read_completely() {
     let text = r#"(
         recipe: 1,
         about: "two sheets",
@@ -94,35 +94,35 @@ fn a_recipe_without_mistakes_is_read_whole() {
 }
 
 #[test]
-fn a_recipe_of_another_version_is_refused_and_nothing_else_is_said_of_it() {
-    one_problem(
+fn a_recipe_with_a_different_version_gives_one_error() {
+    has_one_error(
         "(recipe: 2, stages: {\"new\": Things})",
         "2",
-        "this recipe is of version 2, expected 1",
+        "this recipe has version 2, expected 1",
         "a newer meshwright can read it",
     );
-    one_problem(
+    has_one_error(
         "(recipe: 0, steps: [])",
         "0",
-        "this recipe is of version 0, expected 1",
+        "this recipe has version 0, expected 1",
         "write 1",
     );
 }
 
 #[test]
-fn a_recipe_says_which_version_of_the_program_it_needs() {
+fn a_recipe_can_need_a_version_of_the_program() {
     let needs = |version: &str| format!("(recipe: 1, needs: \"{version}\", steps: [])");
     for fine in ["0", "0.1", "0.1.0", "0.0.99"] {
         assert_eq!(read(&needs(fine)).diagnostics, [], "{fine}");
     }
     let here = env!("CARGO_PKG_VERSION");
-    one_problem(
+    has_one_error(
         &needs("99.1"),
         "\"99.1\"",
-        &format!("this recipe needs meshwright 99.1, and this is {here}"),
+        &format!("this recipe needs meshwright 99.1, but this is version {here}"),
         "",
     );
-    one_problem(
+    has_one_error(
         &needs("newest"),
         "\"newest\"",
         &format!("expected a version such as \"{here}\", found \"newest\""),
@@ -131,14 +131,14 @@ fn a_recipe_says_which_version_of_the_program_it_needs() {
 }
 
 #[test]
-fn fields_of_the_recipe_and_of_steps_are_known() {
-    one_problem(
+fn unknown_fields_of_recipes_and_steps_are_errors() {
+    has_one_error(
         "(recipe: 1, steps: [], expct: [])",
         "expct",
         "unknown field `expct`",
         "did you mean `expect`?",
     );
-    one_problem(
+    has_one_error(
         &steps("(run: Sheet(columns: 1), nots: \"x\")"),
         "nots",
         "unknown field `nots`",
@@ -149,15 +149,15 @@ fn fields_of_the_recipe_and_of_steps_are_known() {
 }
 
 #[test]
-fn a_step_is_an_operation() {
-    one_problem(&steps("7"), "7", "expected an operation, found 7", "");
+fn a_step_must_be_an_operation() {
+    has_one_error(&steps("7"), "7", "expected an operation, found 7", "");
     let reading = read(&steps("(id: \"a\")"));
     assert_eq!(reading.diagnostics[0].message, "the value needs `run`");
     assert_eq!(reading.recipe.steps.len(), 1);
 }
 
 #[test]
-fn a_parameter_that_is_not_declared_is_named() {
+fn an_undeclared_parameter_is_an_error() {
     let text = r#"(recipe: 1, params: {"columns": Int(default: 2)},
         steps: [Sheet(columns: arg("colums"))], expect: [Faces(eq: arg("x"))])"#;
     assert_eq!(
@@ -183,7 +183,7 @@ const WITH_PARAMETERS: &str = r#"(recipe: 1,
     expect: [Faces(eq: arg("n"))])"#;
 
 #[test]
-fn values_that_are_set_take_the_place_of_defaults() {
+fn set_values_replace_defaults() {
     let reading = read_with(WITH_PARAMETERS, &[("n", "7")]);
     assert_eq!(reading.diagnostics, []);
     let [n, input] = reading.recipe.parameters() else {
@@ -200,7 +200,7 @@ fn values_that_are_set_take_the_place_of_defaults() {
 }
 
 #[test]
-fn values_that_cannot_be_set_are_errors_without_a_place() {
+fn values_that_cannot_be_set_are_errors_without_a_span() {
     let set = [("n", "many"), ("n", "10"), ("inptu", "x")];
     let reading = read_with(WITH_PARAMETERS, &set);
     assert_eq!(
@@ -226,14 +226,14 @@ fn values_that_cannot_be_set_are_errors_without_a_place() {
 }
 
 #[test]
-fn a_value_that_does_not_fit_where_it_goes_says_which_parameter_brought_it() {
+fn an_error_in_a_substituted_value_names_the_parameter() {
     let text =
         r#"(recipe: 1, params: {"n": Text(default: "two")}, steps: [Sheet(columns: arg("n"))])"#;
-    one_problem(
+    has_one_error(
         text,
         "arg(\"n\")",
         "expected a whole number for `columns`, found the string \"two\" (from parameter `n`)",
-        "numbers stand without quotes",
+        "write numbers without quotes",
     );
 }
 
@@ -247,15 +247,15 @@ fn a_parameter_that_is_never_used_is_a_warning() {
         [(
             "\"n\"",
             "the parameter `n` is never used",
-            "a step takes its value with arg(\"n\")"
+            "use its value in a step with arg(\"n\")"
         )]
     );
 }
 
 #[test]
-fn a_default_that_its_own_parameter_forbids_is_the_only_error() {
+fn a_default_that_is_not_allowed_is_the_only_error() {
     let text = r#"(recipe: 1, params: {"n": Int(default: 10, max: 9)}, steps: [Sheet(columns: arg("n"))])"#;
-    one_problem(
+    has_one_error(
         text,
         "Int(default: 10, max: 9)",
         "the default of `n` is not allowed: 10 is above the maximum 9",
@@ -264,7 +264,7 @@ fn a_default_that_its_own_parameter_forbids_is_the_only_error() {
 }
 
 #[test]
-fn placeholders_are_the_parts_of_paths() {
+fn path_parameters_give_placeholders() {
     let owned = |pairs: [(&str, &str); 2]| pairs.map(|(a, b)| (a.to_owned(), b.to_owned()));
     assert_eq!(
         read(WITH_PARAMETERS).recipe.placeholders(),
@@ -279,7 +279,7 @@ fn placeholders_are_the_parts_of_paths() {
 }
 
 #[test]
-fn ids_are_there_once() {
+fn ids_must_be_unique() {
     let text = steps(
         r#"(id: "a", run: Sheet(columns: 1)), (id: "b", run: Lift(by: 1)), (id: "a", run: Lift(by: 1))"#,
     );
@@ -296,7 +296,7 @@ fn ids_are_there_once() {
 fn an_expectation_after_a_step_names_its_id() {
     let text = r#"(recipe: 1, steps: [(id: "up", run: Sheet(columns: 1))],
         expect: [(after: "upp", that: Closed)])"#;
-    one_problem(
+    has_one_error(
         text,
         "\"upp\"",
         "no step has the id \"upp\"",
@@ -314,17 +314,17 @@ fn a_step_that_could_not_be_read_keeps_its_id() {
 }
 
 #[test]
-fn on_is_for_operations_that_take_it() {
-    one_problem(
+fn on_is_only_for_operations_that_take_it() {
+    has_one_error(
         &steps("(run: Sheet(columns: 1), on: [\"a\"])"),
         "[\"a\"]",
         "Sheet does not take `on`",
-        "it names its objects in parameters of its own, or makes new ones",
+        "the operation names its objects in its parameters, or creates new ones",
     );
 }
 
 #[test]
-fn a_wrong_reason_of_refusal_is_an_error() {
+fn an_unknown_reason_of_refusal_is_an_error() {
     let text = steps("Sheet(columns: 1), (run: Lift(by: 1), refused: Bondary)");
     let reading = read(&text);
     assert_eq!(reading.diagnostics.len(), 1, "{:?}", reading.diagnostics);
@@ -332,7 +332,7 @@ fn a_wrong_reason_of_refusal_is_an_error() {
 }
 
 #[test]
-fn one_slip_hides_no_mistake_in_other_steps() {
+fn a_syntax_error_does_not_hide_errors_in_other_steps() {
     let text = "(recipe: 1, steps: [\n  Sheet(columns: 3,,),\n  Lfit(by: 1),\n  Lift(by: 1\n])";
     let reading = read(text);
     let unknown = reading
@@ -347,7 +347,7 @@ fn one_slip_hides_no_mistake_in_other_steps() {
 }
 
 #[test]
-fn hostile_recipes_are_a_few_errors() {
+fn hostile_recipes_give_few_errors() {
     let brackets = "(".repeat(10_000);
     let closed = format!("{brackets}{}", ")".repeat(10_000));
     let nested = steps(&format!(
@@ -369,7 +369,7 @@ fn hostile_recipes_are_a_few_errors() {
 }
 
 #[test]
-fn the_digest_of_a_recipe_is_that_of_what_it_does() {
+fn the_digest_depends_only_on_what_the_recipe_does() {
     let digest = |text: &str| read(text).recipe.digest();
     let plain = digest(&steps("Sheet(columns: 2)"));
     assert_eq!(
@@ -400,7 +400,7 @@ const SAMPLE: &str = r#"(
 )"#;
 
 #[test]
-fn the_schema_accepts_what_is_read_without_mistakes() {
+fn the_schema_accepts_valid_recipes() {
     let schema = crate::schema(&registry());
     let validator = jsonschema::validator_for(&schema).unwrap();
     let json = |text: &str| ron_tree::to_json(&ron_tree::parse(text).value);
@@ -429,7 +429,7 @@ fn the_schema_accepts_what_is_read_without_mistakes() {
 }
 
 #[test]
-fn the_kind_of_a_selection_may_be_left_out_where_it_is_certain() {
+fn the_kind_of_a_selection_can_be_omitted_if_only_one_fits() {
     let of = |selection: &str| {
         let text = format!(
             "(recipe: 1, params: {{\"least\": Float(default: 30)}}, steps: [Sheet(columns: 2)], \
@@ -456,13 +456,13 @@ fn the_kind_of_a_selection_may_be_left_out_where_it_is_certain() {
         assert_eq!(short, of(&format!("Edges({selection})")).0);
     }
     let (_, wrong) = of("Boundary");
-    let message = "this selects vertices or edges or faces: say which are meant";
+    let message = "this can select vertices or edges or faces: specify which";
     let help = "write `Vertices(Boundary)` or `Edges(Boundary)` or `Faces(Boundary)`";
     assert_eq!(wrong, [["Boundary", message, help]]);
 }
 
 #[test]
-fn problems_come_in_the_order_of_the_text() {
+fn errors_are_in_the_order_of_the_text() {
     let text = steps("Lfit(by: 1), Sheet(columns: 0), 7, Sheet(colums: 2)");
     let reading = read(&text);
     let places: Vec<_> = reading.diagnostics.iter().map(|d| d.span).collect();
@@ -472,7 +472,7 @@ fn problems_come_in_the_order_of_the_text() {
 }
 
 #[test]
-fn every_mistake_of_a_long_recipe_is_found() {
+fn every_error_of_a_long_recipe_is_found() {
     let n = 20_000;
     let step = |i| format!("(id: \"s{i}\", run: Lift(bye: 1)),\n");
     let expectation = |i| format!("(after: \"s{i}\", that: Closed),");

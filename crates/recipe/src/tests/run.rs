@@ -1,4 +1,4 @@
-//! Running: all or nothing.
+//! Tests of running recipes: a run writes either all outputs or none.
 
 use std::fs;
 use std::path::Path;
@@ -13,7 +13,7 @@ use tempfile::TempDir;
 use super::{files, objects, read, read_with, shown, steps};
 use crate::{Failure, Listener, Outcome, Reading, Settings, Silent, StepDone, run};
 
-/// Runs a recipe that is read without mistakes.
+/// Runs a recipe without errors.
 #[track_caller]
 fn ran(text: &str, output: &Path) -> Outcome {
     let reading = read(text);
@@ -32,7 +32,9 @@ fn run_reading(
     let settings = Settings {
         files: &files,
         budget: u64::MAX,
-        reader: &objects(|path, _| Err(format!("{} is not read here", path.display()))),
+        reader: &objects(|path, _| {
+            Err(format!("{} is not available in this test", path.display()))
+        }),
         keep_outputs,
         writes: !forecast.outputs.is_empty(),
         cache: None,
@@ -44,7 +46,7 @@ fn folder() -> TempDir {
     tempfile::tempdir().unwrap()
 }
 
-/// Everything in a folder, hidden files too.
+/// Returns the names of all entries of a folder, including hidden files.
 fn entries(folder: &Path) -> Vec<String> {
     let mut names: Vec<String> = fs::read_dir(folder)
         .unwrap()
@@ -82,7 +84,7 @@ fn steps_run_in_order_and_outputs_appear() {
 }
 
 #[test]
-fn outputs_can_be_thrown_away() {
+fn outputs_can_be_discarded() {
     let folder = folder();
     let out = folder.path().join("out");
     let reading = read(&steps("Sheet(columns: 1), Write(path: \"a.txt\")"));
@@ -92,7 +94,7 @@ fn outputs_can_be_thrown_away() {
 }
 
 #[test]
-fn a_step_that_is_refused_as_expected_leaves_the_scene_as_it_was() {
+fn an_expected_refusal_leaves_the_scene_unchanged() {
     let folder = folder();
     let plain = ran(&steps("Sheet(columns: 2)"), folder.path());
     let outcome = ran(
@@ -112,7 +114,7 @@ fn a_step_that_is_refused_as_expected_leaves_the_scene_as_it_was() {
 }
 
 #[test]
-fn a_step_that_is_not_refused_as_expected_fails_and_leaves_the_scene_as_it_was() {
+fn a_missing_refusal_fails_and_leaves_the_scene_unchanged() {
     let folder = folder();
     let plain = ran(&steps("Sheet(columns: 2)"), folder.path());
     for (lift, message) in [
@@ -154,7 +156,7 @@ fn a_failing_step_ends_the_run_and_nothing_is_written() {
 }
 
 #[test]
-fn expectations_that_do_not_hold_are_all_reported_and_nothing_is_written() {
+fn all_unmet_expectations_are_reported_and_nothing_is_written() {
     let folder = folder();
     let text = r#"(recipe: 1, steps: [
             (id: "sheet", run: Sheet(columns: 2)), Write(path: "a.txt"),
@@ -178,7 +180,7 @@ fn expectations_that_do_not_hold_are_all_reported_and_nothing_is_written() {
 }
 
 #[test]
-fn a_step_acts_on_the_objects_it_is_told_to() {
+fn a_step_acts_on_the_objects_in_on() {
     let folder = folder();
     let text = r#"(recipe: 1, steps: [
             Sheet(columns: 2), Sheet(columns: 2, name: "b"),
@@ -192,7 +194,7 @@ fn a_step_acts_on_the_objects_it_is_told_to() {
 }
 
 #[test]
-fn an_output_replaces_the_file_of_its_name_and_only_that() {
+fn an_output_replaces_only_the_file_with_its_name() {
     let folder = folder();
     fs::write(folder.path().join("a.txt"), "old").unwrap();
     fs::write(folder.path().join("b.txt"), "old").unwrap();
@@ -224,7 +226,7 @@ fn an_output_does_not_replace_a_folder() {
 }
 
 #[test]
-fn a_folder_that_cannot_be_made_fails_before_any_step() {
+fn an_output_folder_that_cannot_be_created_fails_before_any_step() {
     let folder = folder();
     let file = folder.path().join("file");
     fs::write(&file, "").unwrap();
@@ -250,7 +252,7 @@ fn placeholders_are_filled_in_when_writing() {
 }
 
 #[test]
-fn a_mesh_over_the_budget_is_not_made() {
+fn a_mesh_that_exceeds_the_budget_is_not_built() {
     let reading = read(&steps("Sheet(columns: 1000)"));
     let files = files(&reading, Path::new("out"));
     let settings = Settings {
@@ -267,7 +269,7 @@ fn a_mesh_over_the_budget_is_not_made() {
     assert!(outcome.scene.unwrap().objects().is_empty());
 }
 
-/// Cancels at a call, and remembers what it heard.
+/// A listener that cancels at a given call, and records the events.
 struct Cancel {
     at: u64,
     calls: AtomicU64,
@@ -292,7 +294,7 @@ impl Listener for Cancel {
 }
 
 #[test]
-fn a_run_can_be_cancelled_at_every_moment_and_nothing_is_written() {
+fn a_run_can_be_cancelled_at_any_call_and_nothing_is_written() {
     let text = steps("Sheet(columns: 2), Write(path: \"a.txt\"), Lift(by: 1)");
     let reading = read(&text);
     let cancelled = |at| {
@@ -316,7 +318,7 @@ fn a_run_can_be_cancelled_at_every_moment_and_nothing_is_written() {
     for at in 1..=calls {
         let (outcome, begun, done, heard, written) = cancelled(at);
         assert!(outcome.cancelled && !outcome.succeeded(), "{at}");
-        // Nobody goes on after the call that says so.
+        // No more calls follow the one that cancels.
         assert_eq!(heard, at);
         assert_eq!(begun, done + 1);
         assert_eq!(outcome.steps.len() as u64, done);
@@ -329,10 +331,10 @@ fn a_run_can_be_cancelled_at_every_moment_and_nothing_is_written() {
 
 #[cfg(unix)]
 #[test]
-fn a_link_does_not_lead_outputs_out_of_the_folder() {
+fn outputs_do_not_follow_links_out_of_the_folder() {
     let (folder, elsewhere) = (folder(), folder());
     let reading = read(&steps("Sheet(columns: 1), Write(path: \"link/new/a.txt\")"));
-    // The link appears after the check, as if somebody were quick.
+    // The link is created after the check of the recipe.
     let files = files(&reading, folder.path());
     let settings = Settings {
         files: &files,
@@ -362,7 +364,7 @@ fn a_step_that_panics_fails_the_run_and_nothing_is_written() {
     assert_eq!(entries(folder.path()), [""; 0]);
 }
 
-/// Remembers the message, the places, and the scene's digest of each failure.
+/// A listener that records the message, the places and the scene's digest of each failure.
 #[derive(Default)]
 struct Failures(Mutex<Vec<(String, Vec<ErrorLocation>, Digest)>>);
 
@@ -397,7 +399,7 @@ fn failures(text: &str) -> (Outcome, Vec<(String, Vec<ErrorLocation>, Digest)>) 
 }
 
 #[test]
-fn a_step_that_fails_tells_where_its_elements_were() {
+fn a_failing_step_reports_the_places_of_its_elements() {
     let text = steps("Sheet(columns: 2), Lift(by: 3, vertices: Vertices([4]), fails: Boundary)");
     let (outcome, heard) = failures(&text);
 
@@ -406,7 +408,7 @@ fn a_step_that_fails_tells_where_its_elements_were() {
     };
     assert_eq!(message, "v4 refuses");
     assert_eq!(*message, outcome.failures[0].message);
-    // The scene is that before the step; the vertex was lifted when it refused.
+    // The scene is the one before the step, but the vertex was already lifted when the step failed.
     let scene = outcome.scene.unwrap();
     assert_eq!(*digest, scene.digest());
     let mesh = scene.objects()[0].as_mesh().unwrap();
@@ -419,7 +421,7 @@ fn a_step_that_fails_tells_where_its_elements_were() {
 }
 
 #[test]
-fn expectations_that_do_not_hold_tell_which_elements_break_them_and_the_scene_of_their_step() {
+fn unmet_expectations_report_the_elements_and_the_scene_after_their_step() {
     let (outcome, heard) = failures(
         r#"(recipe: 1, steps: [(id: "sheet", run: Sheet(columns: 2)), Lift(by: 1)], expect: [
             (after: "sheet", that: Closed), (after: "sheet", that: Faces(eq: 99)),
@@ -436,6 +438,6 @@ fn expectations_that_do_not_hold_tell_which_elements_break_them_and_the_scene_of
     assert!(open.iter().map(|place| &place.name).eq(&names) && names.len() > 3);
     assert!(open.iter().all(|place| place.points.len() == 2));
     assert!(none.is_empty());
-    // The step after it has changed the scene.
+    // The following step has changed the scene.
     assert!(first == second && *first != scene.digest());
 }

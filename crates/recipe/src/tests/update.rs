@@ -1,4 +1,4 @@
-//! Recorded values are renewed, and nothing else.
+//! Tests of updating: recorded values are replaced, and nothing else.
 
 use proptest::prelude::*;
 
@@ -11,14 +11,14 @@ fn updated(text: &str) -> Update {
     update(&reading.recipe, &outcome)
 }
 
-/// A recipe of a sheet of two squares, lifted by 1, with these expectations.
+/// Returns a recipe that lifts a sheet of two squares by 1, with these expectations.
 fn sheet(expect: &str) -> String {
     let recipe = steps("Sheet(columns: 2), (id: \"lift\", run: Lift(by: 1))");
     let recipe = recipe.strip_suffix(')').unwrap();
     format!("{recipe}, expect: [{expect}])")
 }
 
-fn renewed(expect: &str) -> String {
+fn updated_expectations(expect: &str) -> String {
     let update = updated(&sheet(expect));
     assert!(update.left.is_empty(), "{:#?}", update.left);
     let text = update.text.strip_prefix(&sheet("")[..sheet("").len() - 2]);
@@ -26,7 +26,7 @@ fn renewed(expect: &str) -> String {
 }
 
 #[test]
-fn every_kind_of_recorded_value_is_renewed() {
+fn every_kind_of_recorded_value_is_updated() {
     for (was, is) in [
         ("Faces(eq: 12)", "Faces(eq: 2)"),
         (
@@ -48,14 +48,14 @@ fn every_kind_of_recorded_value_is_renewed() {
             "(after: \"lift\", that: [Edges(eq: 7)])",
         ),
     ] {
-        assert_eq!(renewed(was), is);
+        assert_eq!(updated_expectations(was), is);
     }
 }
 
 #[test]
-fn places_keep_the_numbers_that_are_right() {
+fn correct_coordinates_stay_as_written() {
     // The sheet reaches from -1 to 1 and from -0.5 to 0.5.
-    let text = renewed(
+    let text = updated_expectations(
         "Bounds(min: (-1, -0.50, 3), max: (1.0, 0.5, 1.0)), \
          Position(of: Vertices([0]), is: (-1, -0.50, 0.25))",
     );
@@ -67,16 +67,16 @@ fn places_keep_the_numbers_that_are_right() {
 }
 
 #[test]
-fn the_digest_is_renewed() {
+fn the_digest_is_updated() {
     let outcome = run(&read(&sheet("")));
     assert_eq!(
-        renewed("Digest(\"0\")"),
+        updated_expectations("Digest(\"0\")"),
         format!("Digest(\"{}\")", outcome.digest)
     );
 }
 
 #[test]
-fn what_somebody_wants_stays_and_is_told() {
+fn requirements_are_not_updated() {
     for expect in [
         "Faces(min: 3)",
         "Faces(max: 1)",
@@ -91,12 +91,12 @@ fn what_somebody_wants_stays_and_is_told() {
         let update = updated(&text);
         assert_eq!((&update.text, update.changes.len()), (&text, 0), "{expect}");
         let help = update.left[0].help.as_deref().unwrap_or_default();
-        assert!(help.contains("no recorded value"), "{expect}: {help}");
+        assert!(help.contains("not a recorded value"), "{expect}: {help}");
     }
 }
 
 #[test]
-fn every_turn_of_a_repetition_must_find_the_same() {
+fn all_repetitions_must_give_the_same_value() {
     let text = |expect: &str| {
         format!(
             "(recipe: 1, steps: [Sheet(columns: 2), Repeat(times: 3, steps: [(id: \"l\", run: Lift(by: 1))])],\n \
@@ -110,11 +110,14 @@ fn every_turn_of_a_repetition_must_find_the_same() {
     let update = updated(&moving);
     assert_eq!(update.text, moving);
     let help = update.left[0].help.as_deref().unwrap_or_default();
-    assert!(help.contains("turns of a repetition"), "{help}");
+    assert!(
+        help.contains("the repetitions give different values"),
+        "{help}"
+    );
 }
 
 #[test]
-fn a_value_from_a_parameter_is_told_and_not_rewritten() {
+fn a_value_from_a_parameter_is_not_updated() {
     let text = sheet("Faces(eq: arg(\"n\"))").replace(
         "recipe: 1,",
         "recipe: 1, params: { \"n\": Int(default: 3) },",
@@ -128,7 +131,7 @@ fn a_value_from_a_parameter_is_told_and_not_rewritten() {
 }
 
 #[test]
-fn changes_are_told_with_their_lines_and_the_rest_of_the_text_stays() {
+fn changes_have_their_lines_and_the_rest_of_the_text_stays() {
     let text = "\u{feff}(\r\n  recipe: 1, // Zeilen: äöü\r\n  steps: [Sheet(columns: 2)],\r\n  expect: [\r\n    Faces(eq: 5), // was 5\r\n    Edges(min: 99),\r\n  ],\r\n)\r\n";
     let text = text.trim_start_matches('\u{feff}');
     let update = updated(text);
@@ -144,9 +147,9 @@ fn changes_are_told_with_their_lines_and_the_rest_of_the_text_stays() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Break recorded numbers at random and update: the text is the one from before.
+    /// Updating a recipe with randomly changed recorded numbers restores the original text.
     #[test]
-    fn broken_numbers_come_back(
+    fn changed_numbers_are_restored(
         columns in 1_u32..40,
         by in -8_i32..8,
         chosen in prop::collection::vec((0_usize..7, any::<bool>(), 1_i64..50), 1..12),

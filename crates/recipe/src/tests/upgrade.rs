@@ -1,4 +1,4 @@
-//! Older names: read with a warning, and rewritten.
+//! Tests of old names: they are read with a warning, and replaced by `upgrade`.
 
 use super::{read, registry, shown, steps};
 use crate::upgrade::upgrade;
@@ -22,10 +22,10 @@ const NEW: &str = "(
 )";
 
 #[test]
-fn older_names_are_read_with_a_warning_that_says_what_to_do() {
+fn old_names_are_read_with_a_warning() {
     let reading = read(OLD);
     assert!(!reading.has_errors(), "{:#?}", reading.diagnostics);
-    let help = "meshwright upgrade writes the new name into the recipe";
+    let help = "run `meshwright upgrade` to replace old names in the recipe";
     assert_eq!(
         shown(OLD, &reading.diagnostics),
         [
@@ -41,22 +41,22 @@ fn older_names_are_read_with_a_warning_that_says_what_to_do() {
 }
 
 #[test]
-fn upgrading_rewrites_older_names_and_nothing_else() {
+fn upgrading_replaces_only_old_names() {
     let upgraded = upgrade(OLD, &registry()).unwrap();
     assert_eq!(upgraded.text, NEW);
-    let told: Vec<_> = upgraded
+    let renames: Vec<_> = upgraded
         .renames
         .iter()
         .map(|(line, r)| (*line, r.from.as_str(), r.to.as_str()))
         .collect();
-    assert_eq!(told[0], (5, "Raise", "Lift"));
-    assert_eq!(told.len(), 6);
+    assert_eq!(renames[0], (5, "Raise", "Lift"));
+    assert_eq!(renames.len(), 6);
     let again = upgrade(NEW, &registry()).unwrap();
     assert_eq!((again.text.as_str(), again.renames.len()), (NEW, 0));
 }
 
 #[test]
-fn an_older_spelling_is_the_same_recipe() {
+fn a_recipe_with_old_names_has_the_same_digest() {
     assert_eq!(read(OLD).recipe.digest(), read(NEW).recipe.digest());
     let labels = |text| -> Vec<String> {
         let recipe = read(text).recipe;
@@ -72,14 +72,14 @@ fn a_field_under_both_names_is_an_error() {
 }
 
 #[test]
-fn what_is_newer_or_no_recipe_is_refused_politely() {
+fn a_newer_recipe_or_a_text_without_version_is_refused() {
     let refused = |text| {
         let problems = upgrade(text, &registry()).unwrap_err();
         problems[0].message.clone()
     };
     assert_eq!(
         refused("(recipe: 2, steps: [Raise(by: 1)])"),
-        "this recipe is of version 2, expected 1"
+        "this recipe has version 2, expected 1"
     );
     assert_eq!(
         refused("(steps: [Raise(by: 1)])"),
@@ -93,13 +93,13 @@ fn what_is_newer_or_no_recipe_is_refused_politely() {
 }
 
 #[test]
-fn a_recipe_with_other_mistakes_is_upgraded_all_the_same() {
+fn a_recipe_with_other_errors_is_upgraded_too() {
     let upgraded = upgrade(&steps("Raise(hight: 1), Nothing(a: 1)"), &registry()).unwrap();
     assert_eq!(upgraded.text, steps("Lift(hight: 1), Nothing(a: 1)"));
 }
 
 #[test]
-fn steps_inside_of_steps_are_upgraded_too() {
+fn inner_steps_are_upgraded_too() {
     let text = steps(
         "Sheet(columns: 1), Repeat(times: 2, steps: [(id: \"a\", run: Raise(height: 1))]), \
          (run: If(param: \"p\", steps: [Raise(by: 1)], otherwise: [Elevate(by: 2)]))",
@@ -112,7 +112,7 @@ fn steps_inside_of_steps_are_upgraded_too() {
 }
 
 #[test]
-fn a_value_of_a_parameter_is_left_to_its_declaration() {
+fn values_of_parameters_are_not_upgraded() {
     let text =
         "(recipe: 1, params: { \"way\": Choice(default: \"North\", of: [\"North\", \"Up\"]) },
         steps: [Sheet(columns: 1), Lift(by: 1, way: arg(\"way\"))])";

@@ -1,4 +1,4 @@
-//! The deserialiser against `ron`: the same values, and the same texts refused.
+//! Compares the deserializer with that of `ron`: both must give the same values and refuse the same texts.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Lexer, from_str, parse};
 
-/// Every shape that a parameter can have.
+/// Every kind of type that a parameter can have.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 #[expect(clippy::option_option, reason = "`ron` reads it, and so must the tree")]
@@ -83,7 +83,7 @@ fn by_ron<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, String> {
     options.from_str(text).map_err(|error| error.to_string())
 }
 
-/// The bits of all numbers: `-0.0` is not `0.0`.
+/// Returns a text that tells all bits of all numbers, so that `-0.0` differs from `0.0`.
 fn bits(value: &impl Serialize) -> String {
     ron::to_string(value).expect("plain data")
 }
@@ -96,7 +96,7 @@ fn any_double() -> impl Strategy<Value = f64> {
     ]
 }
 
-/// `ron` writes a line feed as it is; recipes take `'\n'` only.
+/// Excludes the line feed: `ron` writes it unescaped, but recipes accept only `'\n'`.
 fn any_char() -> impl Strategy<Value = char> {
     any::<char>().prop_filter("a line feed", |&c| c != '\n')
 }
@@ -151,7 +151,7 @@ prop_compose! {
     }
 }
 
-/// Every way of writing that recipes have.
+/// A text that uses every way to write values in a recipe.
 const WRITTEN: &str = "Shapes(flag: true, small: (-1, +7), whole: (0x10, -1_000), unsigned: 18446744073709551615, \
     single: 1_0.5, double: 3, letter: 'x', text: r#\"a\"b\"#, option: Wraps(Wraps(Unit)), nested: Some(Some(1)), \
     list: [Tuple(0b1, (a: 2)), Struct(of: [Unit], at: Some(1e-3)), Option(None), Nothing(()), Inner(Inner(a: None))], \
@@ -176,9 +176,9 @@ proptest! {
         prop_assert_eq!(bits(&read), bits(&shapes));
     }
 
-    /// Texts that are nearly right: both read the same, or neither reads anything.
+    /// For nearly valid texts, both give the same value, or both refuse the text.
     #[test]
-    fn what_ron_refuses_is_refused(
+    fn texts_that_ron_refuses_are_refused(
         edits in prop::collection::vec((0_usize..4, any::<prop::sample::Index>(), any::<prop::sample::Index>()), 0..3),
     ) {
         let mut spare = tokens(WRITTEN);
@@ -200,7 +200,7 @@ proptest! {
         let parsed = parse(&text);
         if parsed.diagnostics.is_empty() {
             let read = Shapes::deserialize(&parsed.value);
-            // `ron` takes no white space in some places.
+            // Printed first, because `ron` does not accept whitespace in some places.
             match by_ron::<Shapes>(&parsed.value.to_string()) {
                 Ok(shapes) => prop_assert_eq!(bits(&read.unwrap()), bits(&shapes)),
                 Err(error) => prop_assert!(read.is_err(), "{}\n{}", text, error),
@@ -236,7 +236,7 @@ impl TryFrom<f64> for Positive {
 }
 
 #[test]
-fn what_a_type_refuses_itself_has_the_place_of_its_value() {
+fn an_error_of_a_custom_type_has_the_span_of_its_value() {
     for text in [r#"{"a": [1, 2], "b": [3, -1]}"#, r#"{"a": [-1, -2]}"#] {
         let read = from_str::<BTreeMap<String, Vec<Positive>>>(text);
         let error = read.unwrap_err();
@@ -246,7 +246,7 @@ fn what_a_type_refuses_itself_has_the_place_of_its_value() {
 }
 
 #[test]
-fn an_error_has_the_place_of_the_innermost_value() {
+fn an_error_has_the_span_of_the_innermost_value() {
     let place = |text: &'static str| {
         let error = from_str::<Choice>(text).unwrap_err();
         (error.span.unwrap().of(text), error.message)
@@ -255,7 +255,7 @@ fn an_error_has_the_place_of_the_innermost_value() {
         place("Struct(of: [Unit, List([1, 300])])"),
         (
             "300",
-            "expected a smaller whole number, found 300".to_owned()
+            "expected a whole number in the allowed range, found 300".to_owned()
         )
     );
     assert_eq!(

@@ -9,7 +9,7 @@
 //! each loop runs on the thread of its job at no extra cost. When no jobs are left to start, idle threads help with the
 //! loops of the last jobs. A thread never blocks until memory becomes free, because it could not help then: it returns
 //! to the pool, and the thread that next completes a job wakes it again. A thread that waits inside a job for a part of
-//! a loop never starts another job in the meantime. So no job has to wait for another one, and a job cannot deadlock on
+//! a loop never starts another job in the meantime. So no job has to wait for another job, and a job cannot deadlock on
 //! a lock that a suspended job on the same thread holds.
 
 use std::any::Any;

@@ -207,17 +207,17 @@ fn values_that_cannot_be_set_are_errors_without_a_span() {
         shown(WITH_PARAMETERS, &reading.diagnostics),
         [
             (
-                "nowhere",
+                "no span",
                 "the value set for `n` is not allowed: expected a whole number, found `many`",
                 ""
             ),
             (
-                "nowhere",
+                "no span",
                 "the value set for `n` is not allowed: 10 is above the maximum 9",
                 ""
             ),
             (
-                "nowhere",
+                "no span",
                 "the recipe has no parameter `inptu`",
                 "did you mean `input`?"
             ),

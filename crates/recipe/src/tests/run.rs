@@ -220,7 +220,7 @@ fn an_output_does_not_replace_a_folder() {
     );
     assert_eq!(
         shown(&text, &outcome.failures),
-        [("nowhere", &*message, "")]
+        [("no span", &*message, "")]
     );
     assert_eq!(entries(folder.path()), ["b.txt"]);
 }

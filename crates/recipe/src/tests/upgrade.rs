@@ -29,12 +29,12 @@ fn old_names_are_read_with_a_warning() {
     assert_eq!(
         shown(OLD, &reading.diagnostics),
         [
-            ("Raise", "`Raise` is called `Lift` now", help),
-            ("height", "`height` is called `by` now", help),
-            ("North", "`North` is called `Up` now", help),
-            ("Elevate", "`Elevate` is called `Lift` now", help),
-            ("More", "`More` is called `Further` now", help),
-            ("amount", "`amount` is called `than` now", help),
+            ("Raise", "`Raise` was renamed to `Lift`", help),
+            ("height", "`height` was renamed to `by`", help),
+            ("North", "`North` was renamed to `Up`", help),
+            ("Elevate", "`Elevate` was renamed to `Lift`", help),
+            ("More", "`More` was renamed to `Further`", help),
+            ("amount", "`amount` was renamed to `than`", help),
         ]
     );
     assert!(read(NEW).diagnostics.is_empty());

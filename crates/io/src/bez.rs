@@ -16,7 +16,7 @@ use scene::{Geometry, Scene};
 
 use crate::SingleFile;
 use crate::error::Unwritable;
-use crate::fault::Fault;
+use crate::fault::{Fault, counted};
 use crate::loss::Losses;
 use crate::text::{Cursor, TextPosition, check_encoding, number, parsed, push_number};
 
@@ -112,7 +112,8 @@ pub(crate) fn write_bez(scene: &Scene) -> Result<SingleFile, Unwritable> {
 pub(crate) fn write_bzc(scene: &Scene) -> Result<SingleFile, Unwritable> {
     let [object] = scene.objects() else {
         let n = scene.objects().len();
-        let message = format!("a .bzc file stores one curve, found {n} objects");
+        let objects = counted(n, "object");
+        let message = format!("a .bzc file stores one curve, found {objects}");
         return Err(Unwritable::scene(message));
     };
     let Geometry::Curve(curve) = &object.geometry else {
@@ -164,8 +165,8 @@ fn count(cursor: &mut Cursor, what: &str, numbers_each: usize) -> Result<usize, 
         .ok_or_else(|| expected(place, format!("the number of {what} (an integer)"), word))?;
     if !cursor.has_room(n, numbers_each) {
         return Err(place.error(format!(
-            "the file declares {n} {what} but is too short: only {} bytes follow",
-            cursor.remaining()
+            "the file declares {n} {what} but is too short: only {} follow",
+            counted(cursor.remaining(), "byte")
         )));
     }
     Ok(n)

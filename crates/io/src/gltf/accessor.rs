@@ -212,7 +212,7 @@ impl Reader<'_> {
         let allowed = usize::try_from(count).ok().filter(|_| count <= limit);
         allowed.ok_or_else(|| {
             let message = format!(
-                "the accessor declares {count} elements without a buffer view, but a file of this size can \\
+                "the accessor declares {count} elements without a buffer view, but a file of this size can \
                 have at most {limit}"
             );
             Fault::json(format!("{here}/count"), message)

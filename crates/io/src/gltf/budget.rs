@@ -57,7 +57,7 @@ impl Budget {
     pub(super) fn spend(&self, bytes: u64, pointer: &str) -> Result<(), Fault> {
         let left = self.left.get().checked_sub(bytes).ok_or_else(|| {
             let message = format!(
-                "the file refers to the same data so often that it needs more than {BUDGET_FACTOR} times its \\
+                "the file refers to the same data so often that it needs more than {BUDGET_FACTOR} times its \
                 size in memory"
             );
             Fault::json(pointer, message)
@@ -78,7 +78,7 @@ impl Budget {
         let length = usize::try_from(bytes).ok();
         let (Some(left), Some(length)) = (left, length) else {
             let message = format!(
-                "decoding this view adds {bytes} bytes, which makes the decoded views more than {BUDGET_FACTOR} times as \\
+                "decoding this view adds {bytes} bytes, which makes the decoded views more than {BUDGET_FACTOR} times as \
                 large as the file"
             );
             return Err(Fault::json(pointer, message));

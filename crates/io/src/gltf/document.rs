@@ -140,7 +140,7 @@ fn check_extensions(json: &Value, notes: &mut Notes) -> Result<(), Fault> {
         }
         let message = if name == DRACO {
             format!(
-                "the file uses the compression {name}, which is not supported: write the file without \\
+                "the file uses the compression {name}, which is not supported: write the file without \
                 compression, for example with `gltf-transform copy`"
             )
         } else {

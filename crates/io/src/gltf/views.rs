@@ -103,7 +103,7 @@ impl Reader<'_> {
         let needed = if count == 0 { Some(0) } else { needed };
         if needed.is_none_or(|needed| needed > bytes.len() as u64) {
             let message = format!(
-                "{count} elements of {size} bytes with stride {stride} from byte {offset} do not fit in the \\
+                "{count} elements of {size} bytes with stride {stride} from byte {offset} do not fit in the \
                 {} bytes of the view",
                 bytes.len()
             );

@@ -148,7 +148,7 @@ impl Parser<'_> {
             7 => Some(DVec4::from_array(rest)),
             _ => {
                 let message = format!(
-                    "expected a vertex with 3 coordinates, or with an additional weight (4 numbers), color (6) or color \\
+                    "expected a vertex with 3 coordinates, or with an additional weight (4 numbers), color (6) or color \
                     and alpha (7), found {n} numbers"
                 );
                 return Err(place.error(message));

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3, DVec4};
 use mesh::{COLOR, Domain, Rule, UV, VERTEX_NORMAL};
 
 use crate::Polygons;
-use crate::fault::Fault;
+use crate::fault::{Fault, counted};
 use crate::note::Notes;
 use crate::peek::PeekMesh;
 use crate::text::{Cursor, TextPosition, check_encoding, number, parsed};
@@ -114,8 +114,8 @@ fn check_room(cursor: &Cursor, n: usize, words: usize, what: &str) -> Result<(),
         return Ok(());
     }
     let message = format!(
-        "expected {n} {what}, but only {} bytes follow",
-        cursor.remaining()
+        "expected {n} {what}, but only {} follow",
+        counted(cursor.remaining(), "byte")
     );
     Err(cursor.place().error(message))
 }
@@ -251,7 +251,8 @@ fn faces(
         let start = polygons.corners.len();
         for k in 0..degree {
             let (place, word) = cursor.argument().ok_or_else(|| {
-                let message = format!("expected a face with {degree} corners, found {k}");
+                let corners = counted(degree, "corner");
+                let message = format!("expected a face with {corners}, found {k}");
                 cursor.place().error(message)
             })?;
             let Some(v) = parsed(word).filter(|&v: &usize| v < header.n_vertices) else {

@@ -8,7 +8,7 @@ use std::borrow::Cow;
 use super::header::{Element, Encoding, Header, Property};
 use super::table::Table;
 use super::types::Type;
-use crate::fault::{Fault, Location};
+use crate::fault::{Fault, Location, counted};
 use crate::note::Notes;
 use crate::text::{Cursor, TextPosition, is_not_finite, number, parsed};
 
@@ -144,16 +144,16 @@ fn transcoded(
         }
         let rows = element.rows;
         if !cursor.has_room(rows, element.properties.len()) {
-            let rest = cursor.remaining();
-            let message =
-                format!("expected {rows} lines of {element}, but only {rest} bytes follow");
+            let (lines, rest) = (counted(rows, "line"), counted(cursor.remaining(), "byte"));
+            let message = format!("expected {lines} of {element}, but only {rest} follow");
             return Err(cursor.place().error(message));
         }
         let wanted = wanted(element);
         for row in 0..rows {
             cursor.skip_empty_lines();
             if cursor.is_at_end() {
-                let message = format!("expected {rows} lines of {element}, found {row}");
+                let lines = counted(rows, "line");
+                let message = format!("expected {lines} of {element}, found {row}");
                 return Err(cursor.place().error(message));
             }
             if wanted {

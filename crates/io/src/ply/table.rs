@@ -2,7 +2,7 @@
 
 use super::header::{Element, Property};
 use super::types::{Type, number, read_all, whole};
-use crate::fault::Fault;
+use crate::fault::{Fault, counted};
 use crate::parallel;
 
 /// The rows of one element, and the positions of their values.
@@ -62,8 +62,10 @@ impl<'a> Table<'a> {
         let least = shortest.checked_mul(*rows);
         if least.is_none_or(|least| least > bytes.len()) {
             let message = format!(
-                "expected {rows} rows of {element} with at least {shortest} bytes each, found {} bytes",
-                bytes.len()
+                "expected {} of {element} with at least {} each, found {}",
+                counted(*rows, "row"),
+                counted(shortest, "byte"),
+                counted(bytes.len(), "byte")
             );
             return Err(Fault::byte(start, message));
         }
@@ -243,7 +245,8 @@ fn scanned(
     }
     if at > all.len() {
         let rows = element.rows;
-        let message = format!("expected {rows} rows of {element}, found the end of the file");
+        let rows = counted(rows, "row");
+        let message = format!("expected {rows} of {element}, found the end of the file");
         return Err(Fault::byte(start + all.len(), message));
     }
     let layout = Layout::Uneven {

@@ -1,4 +1,4 @@
-//! What must hold for any bytes as a file of any format: shared by the fuzzer and the replay of its corpus.
+//! Properties that must hold for any bytes read as any format. Shared by the fuzzer and the replay of its corpus.
 
 use std::path::Path;
 
@@ -9,25 +9,26 @@ use scene::Scene;
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
 
-/// Reading may take this many times the bytes of the file, ...
+/// Reading can use memory of this multiple of the size of the file, ...
 const TIMES: usize = 64;
 
-/// ... and this much for tables, threads and messages.
+/// ... plus this many bytes for tables, threads and messages.
 const SMALL: usize = 1 << 20;
 
-/// So often what is written may differ: an object that loses its last vertices is gone when it is read.
+/// The largest number of rounds in which the written bytes can differ. For example, an object that loses its last
+/// vertices is missing in the next round.
 const ROUNDS: usize = 4;
 
-/// What instances repeat may take this much even of a small file.
+/// The memory that repeated instances can use even in a small file.
 const INSTANCES: usize = 1 << 25;
 
-/// Reads `bytes` as a file with this extension, with bounded memory; writes what was read, and again what that
-/// reads as, until nothing is lost any more: then the bytes stay the same. An `.mtl` file is read as the
-/// library of an `.obj` file, what a `.dae` file holds is written as OBJ.
+/// Reads `bytes` as a file with this extension, in bounded memory. Then writes and reads the result until nothing
+/// more is lost, after which the bytes must stay the same. An `.mtl` file is read as the library of an `.obj` file,
+/// and the content of a `.dae` file is written as OBJ.
 ///
 /// # Panics
 ///
-/// If any of this does not hold.
+/// If any of these properties does not hold.
 pub(crate) fn check(extension: &str, bytes: &[u8]) {
     let folder = tempfile::tempdir_in(memory_folder()).expect("there is a folder for files");
     let (name, content) = match extension {
@@ -58,14 +59,14 @@ pub(crate) fn check(extension: &str, bytes: &[u8]) {
         "dae" => path.with_extension("obj"),
         _ => path,
     };
-    // What is read may be more than the format can hold, such as numbers beyond those of 32 bits.
-    let Some(mut last) = there_and_back(&path, loaded) else {
+    // The content can exceed what the format can store, such as the range of 32-bit numbers.
+    let Some(mut last) = round_trip(&path, loaded) else {
         return;
     };
     let mut lost_before = true;
     for _ in 0..ROUNDS {
         let Round { loaded, bytes, .. } = last;
-        let next = there_and_back(&path, loaded).expect("it was written before");
+        let next = round_trip(&path, loaded).expect("it was written before");
         if next.bytes == bytes {
             return;
         }
@@ -78,15 +79,15 @@ pub(crate) fn check(extension: &str, bytes: &[u8]) {
     }
 }
 
-/// What writing and reading gives.
+/// The result of writing and reading.
 struct Round {
     bytes: Vec<u8>,
     has_losses: bool,
     loaded: Loaded,
 }
 
-/// Writes what was read, and reads that; `None` if the format refuses to hold it.
-fn there_and_back(path: &Path, loaded: Loaded) -> Option<Round> {
+/// Writes the objects, and reads the file; `None` if the format refuses the objects.
+fn round_trip(path: &Path, loaded: Loaded) -> Option<Round> {
     let mut scene = Scene::new();
     for object in loaded.objects {
         scene.insert(object).expect("names differ");
@@ -101,7 +102,7 @@ fn there_and_back(path: &Path, loaded: Loaded) -> Option<Round> {
     })
 }
 
-/// Where files are fast, if there is such a place.
+/// A folder in memory, if the system has one.
 fn memory_folder() -> std::path::PathBuf {
     let memory = Path::new("/dev/shm");
     if memory.is_dir() {

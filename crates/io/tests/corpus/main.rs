@@ -1,5 +1,5 @@
-//! The files in `tests/fuzz/corpus/`, each a test of its own: read or refused in little time and memory, as the
-//! fuzzer asks of any bytes. What the fuzzer found is among them, under a name that says what it is.
+//! Each file in `tests/fuzz/corpus/` is a separate test: it must be read or refused in little time and memory, as
+//! the fuzzer checks for random bytes. The corpus includes the findings of the fuzzer, under descriptive names.
 
 mod files;
 
@@ -9,11 +9,11 @@ use std::time::{Duration, Instant};
 
 use libtest_mimic::{Arguments, Failed, Trial};
 
-/// A reader that takes this long on a small file hangs.
+/// The time after which reading a small file counts as a hang.
 const LONG: Duration = Duration::from_secs(10);
 
 fn main() {
-    // One at a time: the peak of the memory is that of the program.
+    // One at a time, because the measured memory peak is that of the whole process.
     let arguments = Arguments {
         test_threads: Some(1),
         ..Arguments::from_args()
@@ -29,7 +29,7 @@ fn main() {
         })
     });
     let trials = trials.collect();
-    // The first file pays for threads and tables that stay.
+    // Reading the first file also allocates threads and tables that stay.
     files::check("off", b"OFF 0 0 0");
     libtest_mimic::run(&arguments, trials).exit();
 }

@@ -1,4 +1,4 @@
-//! What every format has in common: names, folders, and files that are no files.
+//! Behavior that all formats share: names, folders, and invalid files.
 
 use std::fs;
 
@@ -63,7 +63,7 @@ fn a_failed_write_leaves_the_old_file() {
 }
 
 #[test]
-fn bezier_files_come_back_the_same() {
+fn bezier_files_survive_a_round_trip() {
     let folder = Folder::new();
     let line = bezier::Curve::new(vec![glam::DVec2::ZERO, glam::DVec2::new(0.1, -1e-12)]).unwrap();
     let curve = Object::new("c", Geometry::Curve(line));

@@ -1,4 +1,4 @@
-//! COLLADA files with nodes, libraries and other things around geometry.
+//! COLLADA files with nodes, libraries and other elements around the geometry.
 
 use geometry::shapes;
 use glam::{DVec2, DVec3};
@@ -73,7 +73,7 @@ fn transforms_apply_from_the_last_to_the_first() {
 }
 
 #[test]
-fn a_mirror_turns_faces_round_with_their_values() {
+fn a_mirror_reverses_faces_and_their_values() {
     let list = r##"<triangles><input semantic="VERTEX" source="#at-vertices" offset="0"/>
         <input semantic="TEXCOORD" source="#uvs" offset="1"/><input semantic="NORMAL" source="#normals" offset="2"/>
         <p>0 0 1  2 1 1  3 2 1</p></triangles>"##;
@@ -92,7 +92,7 @@ fn a_mirror_turns_faces_round_with_their_values() {
 }
 
 #[test]
-fn nodes_nest_repeat_and_get_names_of_their_own() {
+fn nodes_can_be_nested_and_repeated_and_get_unique_names() {
     let text = file(CUBE, "").replace(
         r#"<visual_scene id="scene">"#,
         r##"<visual_scene id="scene"><node name="group"><translate>10 0 0</translate>
@@ -154,7 +154,7 @@ fn skins_and_other_libraries_are_counted() {
 }
 
 #[test]
-fn coordinates_stay_and_the_unit_is_told() {
+fn coordinates_are_unchanged_and_the_unit_is_noted() {
     let text = file(CUBE, "")
         .replace(
             r#"<unit meter="1"/>"#,
@@ -210,7 +210,7 @@ fn triangles_of(loader: &mesh_loader::Mesh) -> Vec<[[f32; 3]; 3]> {
     loader.faces.iter().map(triangle).collect()
 }
 
-/// `mesh_loader` knows triangles and polygons, applies no placements and gives f32.
+/// `mesh_loader` reads triangles and polygons, does not apply transforms, and gives f32.
 #[test]
 fn another_reader_finds_the_same_triangles() {
     for (kind, content) in [

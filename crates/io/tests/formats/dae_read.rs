@@ -1,4 +1,4 @@
-//! COLLADA files made by hand, and what another reader makes of them.
+//! Handmade COLLADA files, compared with the expected result and with another reader.
 
 use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4};
@@ -8,7 +8,7 @@ use scene::{AlphaMode, Object, Texture};
 
 use crate::{Folder, assert_same, polygons, read};
 
-/// A file of one geometry with these lists of polygons, shown by a node with these transforms.
+/// A file with one geometry with these lists of polygons, and a node with these transforms.
 pub(crate) fn file(lists: &str, transforms: &str) -> String {
     format!(
         r##"<?xml version="1.0" encoding="utf-8"?>
@@ -96,7 +96,7 @@ pub(crate) fn notes(text: &str) -> Vec<String> {
         .collect()
 }
 
-/// The faces that a list of triangles or polygons gives.
+/// The faces of a list of triangles or polygons.
 pub(crate) fn faces(kind: &str, content: &str) -> Vec<Vec<usize>> {
     polygons(&mesh(&file(
         &format!("<{kind}>{VERTEX}{content}</{kind}>"),
@@ -105,7 +105,7 @@ pub(crate) fn faces(kind: &str, content: &str) -> Vec<Vec<usize>> {
 }
 
 #[test]
-fn a_cube_is_the_cube() {
+fn a_cube_is_read_exactly() {
     let object = only(&file(CUBE, ""));
     assert_eq!(object.name, "box");
     assert_same(object.as_mesh().unwrap(), &shapes::cube());
@@ -182,7 +182,7 @@ fn each_input_becomes_a_column_with_its_own_indices() {
         panic!("uv1 has two components");
     };
     assert_eq!(second[h[2].index()], b);
-    // The corners of each vertex agree: what is theirs becomes the vertices'.
+    // The corners of each vertex agree, so the values become vertex attributes.
     let normals = mesh.get(VERTEX_NORMAL).unwrap();
     assert_eq!(normals[mesh.origin(h[0]).index()], DVec3::Z);
     assert_eq!(normals[mesh.origin(h[2]).index()], DVec3::X);
@@ -194,7 +194,7 @@ fn each_input_becomes_a_column_with_its_own_indices() {
 }
 
 #[test]
-fn values_of_vertices_belong_to_all_their_corners() {
+fn vertex_values_apply_to_all_corners_of_the_vertex() {
     let text = file(CUBE, "").replace(
         r##"<input semantic="POSITION" source="#at"/>"##,
         r##"<input semantic="POSITION" source="#at"/><input semantic="NORMAL" source="#at"/>"##,
@@ -262,7 +262,7 @@ fn materials_are_bound_by_their_symbols() {
 }
 
 #[test]
-fn what_binds_nothing_is_white_with_a_note() {
+fn unbound_symbols_become_white_materials_with_a_note() {
     let list = r##"<triangles material="none"><input semantic="VERTEX" source="#at-vertices" offset="0"/>
         <p>0 2 3</p></triangles>"##;
     let text = file(list, "");
@@ -277,7 +277,7 @@ fn what_binds_nothing_is_white_with_a_note() {
 }
 
 #[test]
-fn opacity_has_four_spellings() {
+fn all_four_opacity_modes_are_read() {
     for (mode, alpha) in [
         ("A_ONE", 0.125),
         ("A_ZERO", 0.875),

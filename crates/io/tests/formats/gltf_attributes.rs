@@ -1,4 +1,4 @@
-//! Attributes of glTF files beyond the usual ones, and integers in place of floats.
+//! Custom attributes of glTF files, and integers instead of floats.
 
 use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4, Vec2Swizzles};
@@ -21,7 +21,7 @@ pub(crate) fn add_column<T: Value>(mesh: &mut Mesh, domain: Domain, name: &str, 
 }
 
 #[test]
-fn attributes_of_any_name_and_size_come_back_the_same() {
+fn custom_attributes_survive_a_round_trip() {
     for name in ["a.glb", "a.gltf"] {
         let folder = Folder::new();
         let path = folder.path(name);
@@ -60,13 +60,13 @@ fn attributes_of_any_name_and_size_come_back_the_same() {
         let report = write(&path, [Object::mesh("a", mesh.clone())]);
         assert_eq!(report.losses, []);
         assert_same(only(&path).as_mesh().unwrap(), &mesh);
-        // Another reader takes the file, too.
+        // Another reader also accepts the file.
         assert!(gltf::Gltf::open(&path).is_ok());
     }
 }
 
 #[test]
-fn what_no_attribute_can_hold_is_a_loss() {
+fn values_that_gltf_cannot_store_are_losses() {
     let folder = Folder::new();
     let path = folder.path("a.glb");
     let mut mesh = shapes::octahedron();
@@ -122,7 +122,7 @@ fn reserved_and_taken_names_keep_their_underscore() {
 }
 
 #[test]
-fn attributes_of_some_primitives_are_zero_elsewhere() {
+fn attributes_of_some_primitives_are_zero_in_the_others() {
     let mut json = square(&[0, 1, 2, 0, 2, 3], 4);
     json["accessors"].as_array_mut().unwrap().push(json!({
         "bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "byteOffset": 0
@@ -150,7 +150,7 @@ fn attributes_of_some_primitives_are_zero_elsewhere() {
 
 #[test]
 fn quantized_positions_normals_and_coordinates_are_read() {
-    // Positions as signed shorts, not normalized; normals as normalized bytes; coordinates as bytes.
+    // Positions as signed shorts, not normalized; normals as normalized bytes; texture coordinates as bytes.
     let mut bytes = Vec::new();
     for [x, y] in [[0_i16, 0], [300, 0], [300, 300], [0, -300]] {
         for value in [x, y, 7, 0] {
@@ -198,7 +198,7 @@ fn quantized_positions_normals_and_coordinates_are_read() {
 fn compressed_files_are_refused_with_advice() {
     for (name, words) in [
         ("KHR_draco_mesh_compression", "without compression"),
-        ("KHR_something", "\"KHR_something\", which is not known"),
+        ("KHR_something", "\"KHR_something\", which is not supported"),
     ] {
         let mut json = square(&[0, 1, 2], 4);
         json["extensionsRequired"] = json!([name]);
@@ -216,7 +216,7 @@ fn compressed_files_are_refused_with_advice() {
 
 #[test]
 fn colors_of_every_type_are_read() {
-    // In fifths.
+    // In multiples of 1/5.
     let colors = [[0_u8, 1, 5, 2], [5, 3, 0, 4]];
     for components in [3_usize, 4] {
         for (component, size) in [(5121, 1), (5123, 2), (5126, 4)] {
@@ -263,8 +263,8 @@ fn colors_of_every_type_are_read() {
 }
 
 #[test]
-fn sparse_arrays_need_no_array_below() {
-    // The square as zeros, three of which are somewhere else.
+fn sparse_accessors_do_not_need_a_buffer_view() {
+    // The square as zeros, three of which are replaced.
     let mut bytes = floats(&SQUARE[3..]);
     bytes.extend([1_u8, 2, 3, 0]);
     let accessors = json!([{

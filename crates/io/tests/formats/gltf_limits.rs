@@ -1,4 +1,4 @@
-//! Small glTF files that claim to be large: each is refused before it costs anything.
+//! Small glTF files that declare large content: they are refused quickly and without much memory.
 
 use std::time::{Duration, Instant};
 
@@ -20,13 +20,13 @@ fn a_tiny_file_of_four_billion_vertices_is_refused_at_once() {
 }
 
 #[test]
-fn a_file_that_refers_to_its_data_again_and_again_has_a_limit() {
+fn repeated_references_to_the_same_data_are_limited() {
     let mut json = square(&[0, 1, 2].repeat(20_000), 4);
     let primitive = json["meshes"][0]["primitives"][0].clone();
     json["meshes"][0]["primitives"] = vec![primitive; 5_000].into();
     let error = read_json(&json).unwrap_err();
     assert!(error.to_string().contains("so often"), "{error}");
-    // As many nodes that show the same mesh.
+    // The same number of nodes with the same mesh.
     let mut json = square(&[0, 1, 2].repeat(20_000), 4);
     json["nodes"] = vec![json!({ "mesh": 0 }); 5_000].into();
     json["scenes"][0]["nodes"] = (0..5_000).collect();
@@ -54,7 +54,7 @@ fn many_nodes_are_read() {
 }
 
 #[test]
-fn a_container_with_a_lying_length_is_refused() {
+fn a_container_with_a_wrong_length_is_refused() {
     let folder = Folder::new();
     for lengths in [[u32::MAX, 4], [28, u32::MAX], [28, 0x7fff_fff0], [4, 4]] {
         let mut bytes = b"glTF\x02\0\0\0".to_vec();
@@ -65,8 +65,8 @@ fn a_container_with_a_lying_length_is_refused() {
     }
 }
 
-/// An error, and that in little time.
-fn refused_soon(json: &Value) -> String {
+/// Returns the error of reading the document, and checks that it comes quickly.
+fn error_quickly(json: &Value) -> String {
     let start = Instant::now();
     let error = read_json(json).unwrap_err();
     assert!(
@@ -83,7 +83,7 @@ fn nodes_that_repeat_a_long_name_are_refused() {
     json["meshes"][0]["name"] = "a".repeat(1 << 20).into();
     json["nodes"] = vec![json!({ "mesh": 0 }); 2000].into();
     json["scenes"][0]["nodes"] = (0..2000).collect();
-    assert!(refused_soon(&json).contains("so often"));
+    assert!(error_quickly(&json).contains("so often"));
 }
 
 #[test]
@@ -93,12 +93,12 @@ fn nodes_that_repeat_a_long_material_are_refused() {
     json["meshes"][0]["primitives"][0]["material"] = 0.into();
     json["nodes"] = vec![json!({ "mesh": 0 }); 2000].into();
     json["scenes"][0]["nodes"] = (0..2000).collect();
-    assert!(refused_soon(&json).contains("so often"));
+    assert!(error_quickly(&json).contains("so often"));
 }
 
 #[test]
-fn attributes_that_each_primitive_has_alone_are_refused() {
-    // Each makes a column for the vertices of all.
+fn many_primitives_with_different_attributes_are_refused() {
+    // Each attribute needs a column for the vertices of all primitives.
     let mut json = square(&[0, 1, 2], 4);
     let primitive = |i: usize| {
         let mut primitive = json["meshes"][0]["primitives"][0].clone();
@@ -107,11 +107,11 @@ fn attributes_that_each_primitive_has_alone_are_refused() {
     };
     let primitives: Vec<Value> = (0..2000).map(primitive).collect();
     json["meshes"][0]["primitives"] = primitives.into();
-    assert!(refused_soon(&json).contains("so often"));
+    assert!(error_quickly(&json).contains("so often"));
 }
 
 #[test]
-fn a_sparse_part_that_is_used_again_and_again_is_refused() {
+fn repeated_use_of_a_sparse_accessor_is_limited() {
     let mut json = square(&vec![0; 200_000], 4);
     json["accessors"][0]["sparse"] = json!({
         "count": 30_000,
@@ -127,11 +127,11 @@ fn a_sparse_part_that_is_used_again_and_again_is_refused() {
     };
     let primitives: Vec<Value> = (0..1000).map(primitive).collect();
     json["meshes"][0]["primitives"] = primitives.into();
-    assert!(refused_soon(&json).contains("so often"));
+    assert!(error_quickly(&json).contains("so often"));
 }
 
 #[test]
-fn a_buffer_that_is_read_again_and_again_is_refused() {
+fn repeated_reading_of_a_buffer_file_is_limited() {
     let folder = Folder::new();
     folder.with("a.bin", vec![0; 1 << 20]);
     let mut json = square(&[0, 1, 2], 4);
@@ -143,16 +143,16 @@ fn a_buffer_that_is_read_again_and_again_is_refused() {
 }
 
 #[test]
-fn pieces_without_members_are_refused_if_they_are_many() {
+fn too_many_empty_objects_are_refused() {
     for key in ["nodes", "materials"] {
         let mut json = square(&[0, 1, 2], 4);
         json[key] = vec![json!({}); 300_000].into();
-        assert!(refused_soon(&json).contains("so often"), "{key}");
+        assert!(error_quickly(&json).contains("so often"), "{key}");
     }
 }
 
 #[test]
-fn many_nodes_that_show_a_mesh_of_many_parts_are_counted_soon() {
+fn many_nodes_with_a_mesh_of_many_primitives_are_counted_quickly() {
     let mut json = square(&[0, 1, 2], 4);
     let primitive = json["meshes"][0]["primitives"][0].clone();
     json["meshes"][0]["primitives"] = vec![primitive; 5000].into();

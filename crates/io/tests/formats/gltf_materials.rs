@@ -1,4 +1,4 @@
-//! Materials of glTF files: what is read, written and read again.
+//! Materials of glTF files: reading, writing and round trips.
 
 use geometry::shapes;
 use glam::DVec2;
@@ -10,7 +10,7 @@ use crate::gltf_attributes::add_column;
 use crate::gltf_read::{read_json, square};
 use crate::{Folder, only, read, write};
 
-/// A picture of one pixel.
+/// A PNG image of one pixel.
 pub(crate) const PNG: [u8; 70] = [
     0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52,
     0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x06, 0x00, 0x00, 0x00, 0x1f, 0x15, 0xc4,
@@ -26,7 +26,7 @@ fn picture() -> Image {
     }
 }
 
-/// Triangles with two sets of texture coordinates and this material on all faces.
+/// A triangle mesh with two sets of texture coordinates and this material on all faces.
 pub(crate) fn painted(name: &str, material: Material) -> Object {
     let mut mesh: Mesh = shapes::octahedron();
     let uvs = |k: usize| DVec2::new((k % 3) as f64 * 0.25, (k % 5) as f64 * 0.125);
@@ -40,7 +40,7 @@ pub(crate) fn painted(name: &str, material: Material) -> Object {
     }
 }
 
-/// A material with everything that can be said, all different.
+/// A material in which every property has a different value that is not the default.
 pub(crate) fn rich() -> Material {
     let texture = |u: f64| Texture {
         uv_set: 1,
@@ -84,7 +84,7 @@ fn json_of(path: &std::path::Path) -> Value {
 }
 
 #[test]
-fn all_of_a_material_comes_back_the_same() {
+fn a_material_with_all_properties_survives_a_round_trip() {
     for name in ["a.glb", "a.gltf"] {
         let folder = Folder::new();
         let path = folder.path(name);
@@ -95,7 +95,7 @@ fn all_of_a_material_comes_back_the_same() {
 }
 
 #[test]
-fn each_part_of_a_material_comes_back_alone() {
+fn each_material_property_survives_a_round_trip_separately() {
     let parts: [fn(&mut Material); 14] = [
         |m| m.base_color = [0.5, 0.5, 0.5, 0.5],
         |m| m.base_color_texture = Some(Texture::file("pictures/rote Bälle.png")),
@@ -123,7 +123,7 @@ fn each_part_of_a_material_comes_back_alone() {
 }
 
 #[test]
-fn unlit_materials_lose_the_strength_of_their_light() {
+fn unlit_materials_lose_their_emissive_strength() {
     let folder = Folder::new();
     let path = folder.path("a.glb");
     let material = Material {
@@ -141,7 +141,7 @@ fn unlit_materials_lose_the_strength_of_their_light() {
 }
 
 #[test]
-fn every_sampler_comes_back_the_same() {
+fn every_sampler_survives_a_round_trip() {
     let filters = [None, Some(Filter::Nearest), Some(Filter::Linear)];
     for wrap in [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp] {
         for magnify in filters {
@@ -172,7 +172,7 @@ fn every_sampler_comes_back_the_same() {
 }
 
 #[test]
-fn pictures_and_materials_are_written_once() {
+fn images_and_materials_are_written_once() {
     let folder = Folder::new();
     let path = folder.path("a.glb");
     let other = Material {
@@ -198,7 +198,7 @@ fn pictures_and_materials_are_written_once() {
     for (object, back) in objects.iter().zip(&loaded.objects) {
         assert_eq!(object.materials, back.materials);
     }
-    // The same bytes, shared by everything that was read.
+    // All textures share the same bytes after reading.
     let image = |i: usize| {
         &loaded.objects[i].materials[0]
             .normal_texture
@@ -216,7 +216,7 @@ fn pictures_and_materials_are_written_once() {
 }
 
 #[test]
-fn textures_without_texture_coordinates_are_lost_and_said() {
+fn textures_without_texture_coordinates_are_losses() {
     let folder = Folder::new();
     let path = folder.path("a.glb");
     let mut mesh = shapes::octahedron();
@@ -232,7 +232,7 @@ fn textures_without_texture_coordinates_are_lost_and_said() {
 }
 
 #[test]
-fn pictures_of_other_types_are_lost_and_said() {
+fn images_of_unsupported_types_are_losses() {
     let folder = Folder::new();
     let path = folder.path("a.glb");
     let mut material = Material::new("a");
@@ -246,7 +246,7 @@ fn pictures_of_other_types_are_lost_and_said() {
 }
 
 #[test]
-fn values_outside_of_the_format_are_the_nearest_inside_and_said() {
+fn values_outside_of_the_range_are_clamped_with_a_loss() {
     let folder = Folder::new();
     let path = folder.path("a.glb");
     let material = Material {
@@ -269,7 +269,7 @@ fn with_material(material: &Value) -> Value {
 }
 
 #[test]
-fn pictures_in_views_and_data_uris_are_read_with_their_type() {
+fn images_in_views_and_data_uris_are_read_with_their_media_type() {
     let mut json = with_material(&json!({
         "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } },
         "normalTexture": { "index": 1 },
@@ -311,7 +311,7 @@ fn pictures_in_views_and_data_uris_are_read_with_their_type() {
 }
 
 #[test]
-fn broken_materials_are_refused_at_the_pointer() {
+fn errors_in_materials_name_the_pointer() {
     let texture = json!({ "normalTexture": { "index": 0 } });
     for (change, to, pointer) in [
         (

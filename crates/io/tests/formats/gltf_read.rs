@@ -1,4 +1,4 @@
-//! glTF files made by hand: what the reader makes of them.
+//! Handmade glTF files, compared with the expected result.
 
 use glam::{DVec2, DVec3, DVec4};
 use mesh::{Mesh, UV, VERTEX_NORMAL};
@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use crate::{Folder, polygons, read};
 
-/// A document with one node, one mesh and one buffer of these bytes.
+/// A document with one node, one mesh and one buffer with these bytes.
 pub(crate) fn document(bytes: &[u8], accessors: &Value, primitives: &Value) -> Value {
     json!({
         "asset": { "version": "2.0" },
@@ -43,7 +43,7 @@ pub(crate) fn floats(values: &[f32]) -> Vec<u8> {
 /// Four corners of a square, counter-clockwise.
 pub(crate) const SQUARE: [f32; 12] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0];
 
-/// The square with indices behind it, drawn in a mode.
+/// The square with these indices after the positions, in a primitive mode.
 pub(crate) fn square(indices: &[u16], mode: u32) -> Value {
     let mut bytes = floats(&SQUARE);
     bytes.extend(indices.iter().flat_map(|i| i.to_le_bytes()));
@@ -69,8 +69,8 @@ fn mesh_of(json: &Value) -> Mesh {
     loaded.objects[0].as_mesh().unwrap().as_ref().clone()
 }
 
-/// Triangles with their lowest corner first.
-fn turned(mesh: &Mesh) -> Vec<Vec<usize>> {
+/// The triangles, rotated so that the lowest corner is first.
+fn rotated_triangles(mesh: &Mesh) -> Vec<Vec<usize>> {
     let mut faces = polygons(mesh);
     for face in &mut faces {
         let lowest = (0..face.len()).min_by_key(|&i| face[i]).unwrap();
@@ -80,23 +80,26 @@ fn turned(mesh: &Mesh) -> Vec<Vec<usize>> {
 }
 
 #[test]
-fn lists_strips_and_fans_are_triangles() {
+fn lists_strips_and_fans_become_triangles() {
     let two = [vec![0, 1, 2], vec![0, 2, 3]];
-    assert_eq!(turned(&mesh_of(&square(&[0, 1, 2, 0, 2, 3], 4))), two);
-    assert_eq!(turned(&mesh_of(&square(&[0, 1, 2, 3], 6))), two);
-    assert_eq!(turned(&mesh_of(&square(&[1, 2, 0, 3], 5))), two);
-    // A strip that jumps: triangles without area are left out.
+    assert_eq!(
+        rotated_triangles(&mesh_of(&square(&[0, 1, 2, 0, 2, 3], 4))),
+        two
+    );
+    assert_eq!(rotated_triangles(&mesh_of(&square(&[0, 1, 2, 3], 6))), two);
+    assert_eq!(rotated_triangles(&mesh_of(&square(&[1, 2, 0, 3], 5))), two);
+    // A strip with triangles without area, which are left out.
     let jumping = mesh_of(&square(&[0, 1, 2, 2, 2, 3, 0], 5));
     assert_eq!(jumping.n_faces(), 2);
     assert!(jumping.is_dense() && jumping.n_edges() == 5);
 }
 
 #[test]
-fn without_indices_vertices_are_taken_in_order() {
+fn without_indices_vertices_are_used_in_order() {
     let mut positions = SQUARE.to_vec();
     positions.extend_from_within(0..3);
     positions.extend_from_within(6..9);
-    // 0 1 2, 3 0 2 in the places of new vertices, welded to the old ones.
+    // 0 1 2, 3 0 2 as new vertices, which are merged with the existing ones.
     let bytes = floats(&positions);
     let accessors = json!([{ "bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3" }]);
     let mesh = mesh_of(&document(
@@ -112,7 +115,7 @@ fn without_indices_vertices_are_taken_in_order() {
 
 #[test]
 fn interleaved_normalized_and_sparse_arrays_are_read() {
-    // Position as 3 floats, color as 4 bytes, texture coordinate as 2 shorts: 20 bytes a vertex.
+    // Position as 3 floats, color as 4 bytes, texture coordinates as 2 shorts: 20 bytes for each vertex.
     let mut bytes = Vec::new();
     for (i, position) in SQUARE.chunks(3).enumerate() {
         bytes.extend(floats(position));
@@ -165,7 +168,7 @@ fn interleaved_normalized_and_sparse_arrays_are_read() {
         };
         assert_eq!(uvs[h.index()], DVec2::new(0.0, v));
     }
-    // Zeros without data: all vertices fall on one.
+    // Without data, all positions are zero, so all vertices are merged.
     json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = json!(3);
     let loaded = read_json(&json).unwrap();
     assert_eq!(loaded.objects[0].as_mesh().unwrap().n_faces(), 0);
@@ -173,7 +176,7 @@ fn interleaved_normalized_and_sparse_arrays_are_read() {
 }
 
 #[test]
-fn placements_of_nodes_are_applied_and_mirrors_turn_faces() {
+fn transforms_of_nodes_are_applied_and_mirrors_reverse_faces() {
     let mut json = square(&[0, 1, 2, 0, 2, 3], 4);
     json["nodes"] = json!([
         { "children": [1, 2, 3], "translation": [10, 0, 0], "name": "root" },
@@ -202,7 +205,7 @@ fn placements_of_nodes_are_applied_and_mirrors_turn_faces() {
 }
 
 #[test]
-fn normals_turn_with_the_node() {
+fn normals_are_transformed_with_the_node() {
     let mut bytes = floats(&SQUARE);
     bytes.extend(floats(&[0.0, 0.6, 0.8].repeat(4)));
     let mut json = document(
@@ -223,12 +226,12 @@ fn normals_turn_with_the_node() {
             .unwrap()
             .notes
             .iter()
-            .any(|note| note.what.contains("flat"))
+            .any(|note| note.what.contains("singular"))
     );
 }
 
 #[test]
-fn what_is_left_out_is_said() {
+fn content_left_out_is_noted() {
     let mut json = square(&[0, 1, 2, 0, 2, 3], 4);
     json["animations"] = json!([{ "not": "read" }]);
     json["cameras"] = json!([{}, {}]);
@@ -273,7 +276,7 @@ fn what_is_left_out_is_said() {
         "1 animations",
         "1 skins",
         "2 cameras",
-        "1 meshes with a skin",
+        "1 skinned meshes",
         "1 meshes left out",
         "1 morph targets",
         "1 primitives of points",
@@ -282,7 +285,7 @@ fn what_is_left_out_is_said() {
         "1 attributes TANGENT",
         "1 attributes JOINTS_0",
         "1 attributes WEIGHTS_0",
-        "1 textures left out",
+        "1 textures without a supported image left out",
     ];
     for words in expected {
         assert!(

@@ -1,5 +1,5 @@
-//! Scenes of every kind, written as glTF into `target/tmp/gltf`, where the validator of the format's makers
-//! finds them (`.ci/run`). Here they only have to be read again, by two readers.
+//! Writes scenes of all kinds as glTF into `target/tmp/gltf`, where the Khronos validator checks them (`.ci/run`).
+//! These tests only check that two readers can read them.
 
 use std::path::PathBuf;
 
@@ -14,7 +14,7 @@ use crate::gltf_materials::{PNG, painted, rich};
 use crate::gltf_written::sphere;
 use crate::{read, scene, tag};
 
-/// Writes a scene both ways, and reads it again.
+/// Writes a scene in both variants, and reads the files.
 fn written(name: &str, scene: &Scene) {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("gltf");
     std::fs::create_dir_all(&folder).unwrap();
@@ -74,7 +74,7 @@ fn shapes_are_valid() {
 
 #[test]
 fn sizes_around_16_bits_are_valid() {
-    // 65535 vertices need no longer indices than 16 bits, one more does.
+    // Up to 65535 vertices, 16-bit indices are sufficient.
     for (columns, rows) in [(254, 256), (255, 255), (279, 249)] {
         let mesh = shapes::grid(columns, rows);
         written(
@@ -191,7 +191,7 @@ fn materials_and_names_are_valid() {
         image: Image::File(path.into()),
         ..Texture::new(Image::File(path.into()))
     };
-    // Without its tangents the validator warns of every normal texture.
+    // The validator warns about normal textures without tangents.
     let rich = || Material {
         normal_texture: None,
         normal_scale: 1.0,

@@ -1,4 +1,4 @@
-//! Written glTF files, read by the `gltf` crate with its validation and by this one.
+//! Written glTF files, read by the `gltf` crate with its validation and by this crate.
 
 use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4};
@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use crate::{Folder, assert_same, only, read, scene, tag, write};
 
-/// A sphere of triangles with seams in its texture.
+/// A triangulated sphere with texture seams.
 pub(crate) fn sphere() -> Mesh {
     let mut mesh = shapes::icosahedron();
     for p in mesh.positions_mut() {
@@ -30,9 +30,9 @@ pub(crate) fn sphere() -> Mesh {
 
 type Corner = ([f32; 3], Option<[f32; 2]>);
 
-/// What the `gltf` crate finds in a file: for each object the corners of its triangles, as positions
+/// The content of a file according to the `gltf` crate: for each object the corners of its triangles, as positions
 /// and texture coordinates (v downwards).
-fn oracle(path: &std::path::Path) -> Vec<(String, Vec<Corner>)> {
+fn read_by_gltf_crate(path: &std::path::Path) -> Vec<(String, Vec<Corner>)> {
     let file = gltf::Gltf::open(path).unwrap();
     let mut objects = Vec::new();
     for node in file.scenes().next().unwrap().nodes() {
@@ -74,7 +74,7 @@ fn another_reader_finds_the_same_triangles() {
         ],
     );
 
-    let found = oracle(&path);
+    let found = read_by_gltf_crate(&path);
     assert_eq!(found.len(), 2);
     assert_eq!((found[1].0.as_str(), found[1].1.len()), ("box", 36));
     let corners = mesh.faces().flat_map(|f| mesh.face_half_edges(f));
@@ -92,7 +92,7 @@ fn another_reader_finds_the_same_triangles() {
 }
 
 #[test]
-fn triangles_with_seams_and_materials_come_back_the_same() {
+fn triangles_with_seams_and_materials_survive_a_round_trip() {
     for name in ["a.glb", "with blank é.gltf"] {
         let folder = Folder::new();
         let path = folder.path(name);
@@ -110,7 +110,7 @@ fn triangles_with_seams_and_materials_come_back_the_same() {
                 .map(|i| DVec4::new(0.5, 0.25, 1.0, (i % 2) as f64))
                 .collect(),
         );
-        // Faces come back by material: their order stays if they are so already.
+        // The writer orders faces by material, so the order is kept if it is already so.
         mesh.set(MATERIAL, (0..20).map(|i| i / 8 - 1).collect());
         let materials = vec![
             Material {
@@ -137,7 +137,7 @@ fn triangles_with_seams_and_materials_come_back_the_same() {
 }
 
 #[test]
-fn normals_on_vertices_stay_there() {
+fn vertex_normals_stay_on_vertices() {
     let folder = Folder::new();
     let path = folder.path("a.glb");
     let mut mesh = shapes::octahedron();
@@ -147,8 +147,8 @@ fn normals_on_vertices_stay_there() {
 }
 
 #[test]
-fn normals_of_32_bits_are_written_as_they_are() {
-    // Dividing this one by its length changes the last digit of z, again and again.
+fn normals_of_32_bits_are_written_unchanged() {
+    // Dividing this normal by its length would change the last digit of z each time.
     let normal = DVec3::new(
         -0.725_670_099_258_422_9,
         0.688_042_759_895_324_7,
@@ -167,7 +167,7 @@ fn normals_of_32_bits_are_written_as_they_are() {
 }
 
 #[test]
-fn what_gltf_cannot_hold_is_counted() {
+fn content_that_gltf_cannot_store_is_counted() {
     let folder = Folder::new();
     let path = folder.path("a.glb");
     let positions = vec![DVec3::ZERO, DVec3::X, DVec3::ONE, DVec3::Y, DVec3::Z];
@@ -200,11 +200,11 @@ fn what_gltf_cannot_hold_is_counted() {
         ("paint", 1),
     ];
     assert_eq!(lost, expected);
-    assert_eq!(oracle(&path)[0].1.len(), 6);
+    assert_eq!(read_by_gltf_crate(&path)[0].1.len(), 6);
 }
 
 #[test]
-fn empty_meshes_and_scenes_are_files_too() {
+fn empty_meshes_and_scenes_can_be_written() {
     let folder = Folder::new();
     let path = folder.path("a.glb");
     assert_eq!(
@@ -219,7 +219,7 @@ fn empty_meshes_and_scenes_are_files_too() {
 }
 
 #[test]
-fn positions_beyond_32_bits_are_refused() {
+fn positions_outside_of_the_32_bit_range_are_refused() {
     let mut mesh = shapes::square();
     mesh.positions_mut()[1].x = 1e300;
     let folder = Folder::new();
@@ -234,14 +234,14 @@ fn positions_beyond_32_bits_are_refused() {
     assert!(
         error
             .to_string()
-            .contains("object `far`: the position of v1"),
+            .contains("of v1 exceeds the range of the 32-bit numbers of glTF"),
         "{error}"
     );
     assert_eq!(folder.count(), 0);
 }
 
 #[test]
-fn generator_and_provenance_stand_in_the_asset() {
+fn generator_and_provenance_are_in_the_asset() {
     let folder = Folder::new();
     let path = folder.path("a.gltf");
     let options = WriteOptions {
@@ -266,11 +266,11 @@ fn generator_and_provenance_stand_in_the_asset() {
 }
 
 #[test]
-fn large_meshes_get_long_indices() {
+fn large_meshes_get_32_bit_indices() {
     let folder = Folder::new();
     let path = folder.path("a.glb");
     for n in [254, 255] {
-        // 255 x 256 vertices are 65280, 256 x 256 one too many for short indices.
+        // 255 x 256 vertices are 65280, which fits in 16-bit indices; 256 x 256 are too many.
         let mesh = shapes::grid(n, 255);
         write(&path, [Object::mesh("a", mesh.clone())]);
         let document = gltf::Gltf::open(&path).unwrap();
@@ -284,7 +284,7 @@ fn large_meshes_get_long_indices() {
             .indices();
         let short = indices.unwrap().data_type() == gltf::accessor::DataType::U16;
         assert_eq!(short, n == 254);
-        assert_eq!(oracle(&path)[0].1.len(), 6 * mesh.n_faces());
+        assert_eq!(read_by_gltf_crate(&path)[0].1.len(), 6 * mesh.n_faces());
     }
 }
 
@@ -314,7 +314,7 @@ fn peeking_reads_only_the_document() {
         assert_eq!(counts[1], ("box", 8, 12, false));
         assert_eq!((counts[0].2, counts[0].3), (20, true));
     }
-    // Not even the binary part has to be there.
+    // The binary part can even be missing.
     let whole = std::fs::read(folder.path("a.glb")).unwrap();
     let cut = folder.with("cut.glb", &whole[..whole.len() - 100]);
     assert!(mesh_io::peek(&store::Disk, &cut, &ReadOptions::default()).is_ok());
@@ -322,7 +322,7 @@ fn peeking_reads_only_the_document() {
 }
 
 #[test]
-fn patches_do_not_fit() {
+fn patches_are_refused() {
     let folder = Folder::new();
     let scene = scene([Object::new("p", Geometry::Patches(Vec::new()))]);
     for name in ["a.glb", "a.gltf"] {

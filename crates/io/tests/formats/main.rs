@@ -1,4 +1,4 @@
-//! Reading and writing whole files, against laws and against other readers.
+//! Reading and writing whole files, checked by general properties and by other readers.
 
 mod broken;
 mod dae_broken;
@@ -32,7 +32,7 @@ use mesh::{Column, Domain, Mesh, Rule, Values, VertexId};
 use mesh_io::{Loaded, Polygons, ReadError, ReadOptions, WriteOptions, WriteReport};
 use scene::{Object, Scene};
 
-/// A folder that is gone after the test.
+/// A folder that is removed after the test.
 struct Folder(tempfile::TempDir);
 
 impl Folder {
@@ -51,7 +51,7 @@ impl Folder {
         path
     }
 
-    /// How many files and folders are in it.
+    /// The number of files and folders in it.
     fn count(&self) -> usize {
         std::fs::read_dir(self.0.path()).unwrap().count()
     }
@@ -92,7 +92,7 @@ fn found(name: &str, content: impl AsRef<[u8]>) -> (Polygons, Vec<String>) {
     (all.remove(0).1, notes)
 }
 
-/// The one object of a file, read without notes.
+/// The only object of a file, which must be read without notes.
 fn only(path: &Path) -> Object {
     let Loaded {
         mut objects, notes, ..
@@ -108,8 +108,8 @@ fn polygons(mesh: &Mesh) -> Vec<Vec<usize>> {
     mesh.faces().map(polygon).collect()
 }
 
-/// A mesh is its polygons, positions and attributes; how its half-edges are numbered does not matter.
-/// Corner values are listed by face.
+/// Compares the polygons, positions and attributes of two meshes, with corner values listed by face. The numbering
+/// of half-edges is ignored.
 fn assert_same(a: &Mesh, b: &Mesh) {
     assert_eq!(a.positions(), b.positions());
     assert_eq!(polygons(a), polygons(b));

@@ -7,7 +7,7 @@ use crate::{Folder, read};
 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
-/// The mesh of a file, and its notes without the names of files.
+/// The mesh of a file, and its notes without file names.
 fn found(content: impl AsRef<[u8]>) -> (Mesh, Vec<String>) {
     let folder = Folder::new();
     let mut loaded = read(&folder.with("a.obj", content)).unwrap();
@@ -28,7 +28,7 @@ fn refused(content: impl AsRef<[u8]>) -> String {
 }
 
 #[test]
-fn text_in_two_bytes_is_refused_by_name() {
+fn utf_16_and_utf_32_are_refused_by_name() {
     let text = format!("{TRIANGLE}f 1 2 3\n");
     let wide = |bytes: fn(u16) -> [u8; 2]| text.encode_utf16().flat_map(bytes).collect::<Vec<u8>>();
     let expected = "a.obj:1:1: expected text in UTF-8 or ASCII, found UTF-16";
@@ -43,7 +43,7 @@ fn text_in_two_bytes_is_refused_by_name() {
 }
 
 #[test]
-fn normals_and_texture_coordinates_that_are_no_numbers_are_zero() {
+fn non_finite_normals_and_texture_coordinates_become_zero() {
     for nan in ["nan", "-1.#IND", "1.#QNAN00", "-nan(ind)", "1.#INF", "-inf"] {
         let text = format!("{TRIANGLE}vt {nan} 1\nvn 0 {nan} 1\nf 1/1/1 2/1/1 3/1/1\n");
         let (mesh, notes) = found(text);
@@ -70,7 +70,7 @@ fn decimal_commas_are_refused_with_a_hint() {
 }
 
 #[test]
-fn numbers_have_many_spellings() {
+fn numbers_are_read_in_many_forms() {
     let (mesh, notes) = found("v +1.0 1. .5\nv\t1e5 1E+05\t1d5 \nv -.5e-1 1D+00 00\nf 1 2 3");
     let expected = [[1.0, 1.0, 0.5], [1e5; 3], [-0.05, 1.0, 0.0]];
     assert_eq!(mesh.positions(), expected.map(DVec3::from_array));
@@ -78,7 +78,7 @@ fn numbers_have_many_spellings() {
 }
 
 #[test]
-fn colors_of_zbrush_belong_to_the_vertices() {
+fn colors_of_zbrush_become_vertex_colors() {
     let text = format!(
         "#Auto scale\n{TRIANGLE}v 1 1 1\n#MRGB ffff0000ff00ff00\r\n  #MRGB ff0000ff00ffffff\n# End\nf 1 2 3\n"
     );
@@ -103,7 +103,7 @@ fn colors_of_zbrush_belong_to_the_vertices() {
 }
 
 #[test]
-fn corners_may_end_with_slashes() {
+fn corners_can_end_with_slashes() {
     for corners in ["1/ 2/ 3/", "1// 2// 3//", "1/1/ 2/1/ 3/1/", "1 2 3\t "] {
         let (mesh, _) = found(format!("{TRIANGLE}vt 0 0 0\nf {corners}\n"));
         assert_eq!(mesh.n_faces(), 1, "{corners}");
@@ -111,7 +111,7 @@ fn corners_may_end_with_slashes() {
 }
 
 #[test]
-fn files_of_usual_programs_are_read() {
+fn files_of_common_programs_are_read() {
     let head = "# 3ds Max Wavefront OBJ Exporter v0.97b - (c)2007 guruware\r\n\r\n#\r\n# object Box001\r\n#\r\n\r\n";
     let body = "v  0.0000 0.0000 0.0000\r\nv  1.0000 0.0000 0.0000\r\nv  0.0000 1.0000 0.0000\r\n# 3 vertices\r\n\r\n\
                 vn 0.0000 0.0000 1.0000\r\nvt 0.0000 0.0000 0.0000\r\n\r\ng Box001\r\nusemtl wire_086086086\r\ns 1\r\n\
@@ -142,7 +142,7 @@ fn files_of_usual_programs_are_read() {
 }
 
 #[test]
-fn bytes_that_are_zero_are_told() {
+fn zero_bytes_are_reported() {
     let (mesh, notes) = found(format!("{TRIANGLE}f 1 2 3\n\0\0\0\0"));
     assert_eq!(mesh.n_faces(), 1);
     assert_eq!(notes.len(), 1);

@@ -10,7 +10,7 @@ use scene::{AlphaMode, Geometry, Material, Object, Texture};
 
 use crate::{Folder, assert_same, only, read, scene, tag, write};
 
-/// A mesh with everything that OBJ holds: polygons, an isolated vertex, seams, groups, materials.
+/// A mesh with everything that OBJ can store: polygons, an isolated vertex, seams, groups and materials.
 fn rich() -> Object {
     let mut positions = shapes::cube().positions().to_vec();
     positions.push(DVec3::new(0.1, -1e-9, 1e300));
@@ -97,7 +97,7 @@ fn assert_round_trip(object: &Object) {
     assert_same(back.as_mesh().unwrap(), object.as_mesh().unwrap());
     assert_eq!(back.materials, object.materials);
     assert_eq!(back.name, "it");
-    // What was read is written as the same bytes.
+    // Writing the objects that were read gives the same bytes.
     let again = folder.path("again/it.obj");
     std::fs::create_dir(folder.path("again")).unwrap();
     write(&again, [back]);
@@ -108,12 +108,12 @@ fn assert_round_trip(object: &Object) {
 }
 
 #[test]
-fn a_mesh_with_everything_comes_back_the_same() {
+fn a_mesh_with_everything_survives_a_round_trip() {
     assert_round_trip(&rich());
 }
 
 #[test]
-fn plain_shapes_come_back_the_same() {
+fn shapes_survive_a_round_trip() {
     for mesh in [
         shapes::cube(),
         shapes::grid(3, 2),
@@ -126,7 +126,7 @@ fn plain_shapes_come_back_the_same() {
 }
 
 #[test]
-fn normals_that_agree_are_those_of_vertices() {
+fn corner_normals_that_agree_become_vertex_normals() {
     let mut mesh = shapes::icosahedron();
     mesh.set(VERTEX_NORMAL, mesh.positions().to_vec());
     assert_round_trip(&Object::mesh("it", mesh));
@@ -176,7 +176,7 @@ fn several_objects_become_one_with_tags() {
 }
 
 #[test]
-fn lines_alone_are_polylines_and_come_back() {
+fn files_with_lines_only_are_polylines_and_survive_a_round_trip() {
     let folder = Folder::new();
     let path = folder.path("lines.obj");
     let lines = vec![
@@ -200,7 +200,7 @@ fn lines_alone_are_polylines_and_come_back() {
 }
 
 #[test]
-fn an_edge_of_three_faces_is_split_and_said() {
+fn an_edge_of_three_faces_is_split_with_a_note() {
     let folder = Folder::new();
     let text = "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nf 1 2 3\nf 2 1 4\nf 1 2 5\nf 1 1 2\n";
     let path = folder.with("fan.obj", text);
@@ -236,7 +236,7 @@ fn an_edge_of_three_faces_is_split_and_said() {
 }
 
 #[test]
-fn a_face_that_runs_the_other_way_is_reversed_and_said() {
+fn a_face_of_opposite_orientation_is_reversed_with_a_note() {
     let folder = Folder::new();
     let points = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\n";
     let uvs = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 2 0\nvt 2 1\n";
@@ -265,7 +265,7 @@ fn a_face_that_runs_the_other_way_is_reversed_and_said() {
 }
 
 #[test]
-fn missing_materials_are_notes_and_escaping_ones_errors() {
+fn missing_libraries_are_notes_and_libraries_outside_of_the_folder_are_errors() {
     let folder = Folder::new();
     let body = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n";
     let missing = folder.with("a.obj", format!("mtllib no.mtl\n{body}"));
@@ -294,7 +294,7 @@ fn missing_materials_are_notes_and_escaping_ones_errors() {
 }
 
 #[test]
-fn libraries_may_have_blanks_in_their_names_and_lie_below() {
+fn libraries_can_have_blanks_in_their_names_and_be_in_subfolders() {
     let folder = Folder::new();
     folder.with("m/my colors.mtl", "newmtl red\nKd 1 0 0\n");
     folder.with("b.mtl", "newmtl blue\nKd 0 0 1\n");
@@ -317,7 +317,7 @@ fn libraries_may_have_blanks_in_their_names_and_lie_below() {
 }
 
 #[test]
-fn what_does_not_fit_is_a_loss_or_an_error() {
+fn content_that_obj_cannot_store_is_a_loss_or_an_error() {
     let folder = Folder::new();
     let path = folder.path("a.obj");
     let mut mesh = shapes::square();
@@ -358,7 +358,7 @@ fn what_does_not_fit_is_a_loss_or_an_error() {
 }
 
 #[test]
-fn materials_of_one_name_and_two_looks_get_two_names() {
+fn different_materials_with_the_same_name_are_renamed() {
     let folder = Folder::new();
     let path = folder.path("a.obj");
     let object = |name: &str, red: f64| {

@@ -1,4 +1,4 @@
-//! OBJ files, against another reader.
+//! OBJ files, compared with another reader.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use scene::{Geometry, Object};
 
 use crate::{Folder, assert_same, only, polygons, read, write};
 
-/// A grid with bumps, its faces cut or not, with texture coordinates and normals by choice.
+/// A grid with bumps, optionally triangulated, with texture coordinates and with normals.
 fn grid_text(columns: usize, rows: usize, cut: bool, uvs: bool, normals: bool) -> String {
     use std::fmt::Write;
     let mut text = String::new();
@@ -45,7 +45,7 @@ fn grid_text(columns: usize, rows: usize, cut: bool, uvs: bool, normals: bool) -
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(40))]
 
-    /// tobj splits and renumbers, so corners are compared by their values.
+    /// tobj splits and renumbers vertices, so corners are compared by value.
     #[test]
     fn tobj_reads_the_same_triangles(
         columns in 1..6_usize, rows in 1..6_usize, cut: bool, uvs: bool, normals: bool,
@@ -91,7 +91,7 @@ proptest! {
     }
 
     #[test]
-    fn grids_come_back_with_the_same_polygons(
+    fn polygons_of_grids_survive_a_round_trip(
         columns in 1..6_usize, rows in 1..6_usize, cut: bool, uvs: bool, normals: bool,
     ) {
         let folder = Folder::new();

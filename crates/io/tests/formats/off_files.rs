@@ -1,4 +1,4 @@
-//! OFF files, against what they say and against laws.
+//! OFF files, compared with the expected result and checked by general properties.
 
 use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4};
@@ -56,7 +56,7 @@ fn with_faces(values: Values, name: &str) -> Mesh {
 }
 
 #[test]
-fn meshes_come_back_the_same() {
+fn meshes_survive_a_round_trip() {
     let points = Mesh::from_polygons(vec![DVec3::X, DVec3::Y], &[] as &[Vec<u32>])
         .unwrap()
         .0;
@@ -86,7 +86,7 @@ fn meshes_come_back_the_same() {
 }
 
 #[test]
-fn colors_come_back_the_same() {
+fn colors_survive_a_round_trip() {
     for color in [
         DVec4::new(1.0, 0.2, 7.0 / 255.0, 1.0),
         DVec4::new(1.0 / 255.0, 0.0, 1.0 / 255.0, 1.0 / 255.0),
@@ -108,7 +108,7 @@ fn colors_come_back_the_same() {
 }
 
 #[test]
-fn what_a_file_does_not_hold_is_a_loss() {
+fn content_that_off_cannot_store_is_a_loss() {
     let folder = Folder::new();
     let path = folder.path("a.off");
     let mut mesh = shapes::tetrahedron();
@@ -132,7 +132,7 @@ fn what_a_file_does_not_hold_is_a_loss() {
 }
 
 #[test]
-fn counts_stand_behind_the_word_or_on_the_next_line() {
+fn counts_are_after_the_keyword_or_on_the_next_line() {
     let rest = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
     let expected = plain(&format!("OFF\n3 1 3\n{rest}"));
     assert_eq!(expected.corners, [0, 1, 2]);
@@ -149,7 +149,7 @@ fn counts_stand_behind_the_word_or_on_the_next_line() {
 }
 
 #[test]
-fn letters_say_what_vertices_have() {
+fn the_keyword_declares_the_attributes_of_vertices() {
     let faces = "3 0 1 2\n";
     let vertex = |rest: &str| format!("0 0 0 {rest}\n1 0 0 {rest}\n0 1 0 {rest}\n{faces}");
     let all = plain(&format!(
@@ -191,7 +191,7 @@ fn letters_say_what_vertices_have() {
 }
 
 #[test]
-fn faces_may_have_colors() {
+fn faces_can_have_colors() {
     let vertices = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n";
     let text = format!(
         "OFF\n4 4 0\n{vertices}3 0 1 2\n3 0 1 3 255 0 0 # red\n3 1 2 3 0 255 0 51\n3 0 2 3 7\n"
@@ -228,7 +228,7 @@ fn faces_may_have_colors() {
 }
 
 #[test]
-fn what_is_left_out_is_counted() {
+fn content_left_out_is_counted() {
     let text = "OFF\n3 3 0\n0 0 0 255 0 0\n1 0 0\n0 1 0 1\n2 0 1 255 0 0\n3 0 1 2\n1 2\nand more\n\n# not this\nand more\n";
     assert_eq!(
         found(text).1,
@@ -262,7 +262,7 @@ fn a_peek_counts_what_reading_gives() {
 // ---- Broken files ------------------------------------------------------------------------------
 
 #[test]
-fn other_kinds_of_off_are_refused() {
+fn unsupported_variants_of_off_are_refused() {
     assert_error(
         "4OFF\n1 0 0\n",
         "1:1: expected an OFF file with three coordinates, found `4OFF`",
@@ -284,18 +284,18 @@ fn other_kinds_of_off_are_refused() {
 }
 
 #[test]
-fn counts_are_whole_and_fit_the_file() {
+fn counts_must_be_integers_and_match_the_file() {
     assert_error(
         "OFF\n-3 1 0\n",
-        "2:1: expected how many vertices there are, found `-3`",
+        "2:1: expected the number of vertices, found `-3`",
     );
     assert_error(
         "OFF\n3 many\n",
-        "2:3: expected how many faces there are, found `many`",
+        "2:3: expected the number of faces, found `many`",
     );
     assert_error(
         "OFF\n3\n1\n",
-        "2:2: expected how many faces there are, found nothing",
+        "2:2: expected the number of faces, found nothing",
     );
     assert_error(
         "OFF\n0 0 0 7\n",
@@ -303,7 +303,7 @@ fn counts_are_whole_and_fit_the_file() {
     );
     assert_error(
         "OFF\n4000000000 1 0\n0 0 0\n",
-        "3:1: expected 4000000000 vertices, found 6 bytes",
+        "3:1: expected 4000000000 vertices, but only 6 bytes follow",
     );
     assert_error(
         "OFF\n18446744073709551615 1 0\n",
@@ -311,12 +311,12 @@ fn counts_are_whole_and_fit_the_file() {
     );
     assert_error(
         "OFF\n1 4000000000 0\n0 0 0\n",
-        "4:1: expected 4000000000 faces, found 0 bytes",
+        "4:1: expected 4000000000 faces, but only 0 bytes follow",
     );
 }
 
 #[test]
-fn lines_have_the_words_that_the_header_promises() {
+fn lines_must_have_the_numbers_that_the_header_declares() {
     let off = |vertices: &str, face: &str| format!("OFF\n3 1 0\n{vertices}{face}");
     let good = "0 0 0\n1 0 0\n0 1 0\n";
     assert_error(
@@ -357,7 +357,7 @@ fn lines_have_the_words_that_the_header_promises() {
     );
     assert_error(
         off(good, "4000000000 0 1\n"),
-        "6:1: expected how many corners",
+        "6:1: expected the number of corners",
     );
     assert_error(
         off(good, "3 0 1 2 5 5\n"),
@@ -376,7 +376,7 @@ fn lines_have_the_words_that_the_header_promises() {
 
 proptest! {
     #[test]
-    fn any_text_is_read_or_refused(text in "(ST)?C?N?(OFF)?[ \n]?[0-3]? [0-3] [0-9 .\n#-]{0,60}") {
+    fn random_text_does_not_panic(text in "(ST)?C?N?(OFF)?[ \n]?[0-3]? [0-3] [0-9 .\n#-]{0,60}") {
         let folder = Folder::new();
         let path = folder.with("a.off", text);
         let _ = read(&path);
@@ -384,7 +384,7 @@ proptest! {
     }
 
     #[test]
-    fn any_bytes_are_read_or_refused(bytes in prop::collection::vec(any::<u8>(), 0..100)) {
+    fn random_bytes_do_not_panic(bytes in prop::collection::vec(any::<u8>(), 0..100)) {
         let folder = Folder::new();
         let mut text = b"OFF 2 1\n".to_vec();
         text.extend(bytes);

@@ -1,5 +1,4 @@
-//! Written PLY, STL and OFF files, read by slow and simple readers, and OBJ files of any dialect, read by
-//! another program.
+//! Written PLY, STL and OFF files, read by simple readers, and OBJ files of any dialect, read by another program.
 
 use geometry::shapes;
 use glam::DVec3;
@@ -27,7 +26,7 @@ fn written(mesh: &Mesh, extension: &str) -> Vec<u8> {
 }
 
 #[test]
-fn off_files_are_words_in_their_order() {
+fn off_files_have_the_expected_words_in_order() {
     for mesh in samples() {
         let text = String::from_utf8(written(&mesh, "off")).unwrap();
         let mut words = text.split_whitespace();
@@ -49,7 +48,7 @@ fn off_files_are_words_in_their_order() {
 }
 
 #[test]
-fn plain_ply_files_are_three_doubles_and_lists() {
+fn ply_files_without_attributes_are_doubles_and_lists() {
     for mesh in samples() {
         let bytes = written(&mesh, "ply");
         let head = format!(
@@ -105,7 +104,8 @@ fn another_reader_finds_the_same_facets_in_stl_files() {
     }
 }
 
-/// How a corner is written: as other numbers for the same vertex, with or without the others.
+/// How a corner is written: with repeated elements for the same vertex, and with or without texture coordinates and
+/// normals.
 #[derive(Clone, Copy, Debug)]
 struct Spelling {
     has_uv: bool,
@@ -121,7 +121,7 @@ fn spelling() -> impl Strategy<Value = Spelling> {
     })
 }
 
-/// How many positions, texture coordinates and normals there are.
+/// The numbers of positions, texture coordinates and normals.
 const COUNT: usize = 12;
 
 impl Spelling {
@@ -144,7 +144,7 @@ impl Spelling {
 }
 
 proptest! {
-    /// Where a corner has no texture coordinate or normal, tobj takes that of another.
+    /// tobj replaces a missing texture coordinate or normal of a corner with that of another corner.
     #[test]
     fn tobj_reads_the_same_corners_of_any_dialect(
         points in prop::collection::vec((-1e3..1e3_f64, -10..10_i32, any::<i16>()), COUNT),
@@ -191,7 +191,7 @@ proptest! {
                 prop_assert_eq!(&normals[c].to_array()[..], &theirs.normals[3 * n..3 * n + 3]);
             }
         }
-        // Other line ends and continued lines change nothing.
+        // Different line ends and continued lines do not change the result.
         for (from, to) in [("\n", "\r"), (" ", " \\\n")] {
             let other = text.replace("\r\n", "\n").replace(from, to);
             let other = folder.with("b.obj", other);

@@ -1,4 +1,4 @@
-//! PLY files that break the rules of the format are refused with the place.
+//! PLY files that break the rules of the format: errors have a position.
 
 use std::time::{Duration, Instant};
 
@@ -55,14 +55,14 @@ fn ints(values: &[i32]) -> Vec<u8> {
 }
 
 #[test]
-fn a_header_has_its_lines() {
+fn errors_in_the_header_name_the_line() {
     assert_error("", "1:1: expected `ply`, found nothing");
     assert_error("plx\n", "1:1: expected `ply`, found `plx`");
     assert_error(
         "ply\nformat ascii 1.0\nelement vertex 0\n",
         "4:1: expected `end_header`",
     );
-    assert_error("ply\nend_header\n", "2:1: expected a line `format`");
+    assert_error("ply\nend_header\n", "2:1: expected a `format` line");
     assert_error(
         "ply\nformat ascii 1.0\nend_header\n",
         "expected an element `vertex`",
@@ -77,14 +77,17 @@ fn a_header_has_its_lines() {
     );
     assert_error(
         "ply\nformat ascii 1.0\nformat ascii 1.0\n",
-        "3:1: expected one line",
+        "3:1: expected one `format` line",
     );
     assert_error("ply\nproperty float x\n", "2:1: expected an element before");
     assert_error(
         "ply\nelement vertex many\n",
         "2:16: expected the number of rows, found `many`",
     );
-    assert_error("ply\nelement vertex -1\n", "2:16: expected how many");
+    assert_error(
+        "ply\nelement vertex -1\n",
+        "2:16: expected the number of rows",
+    );
     assert_error(
         "ply\nelement vertex 1 2\n",
         "2:18: expected the end of the line, found `2`",
@@ -95,7 +98,7 @@ fn a_header_has_its_lines() {
     );
     assert_error(
         "ply\nelement v 1\nproperty list float int x\n",
-        "3:15: expected a whole-number",
+        "3:15: expected an integer type",
     );
     assert_error(
         "ply\nelement v 1\nproperty float\n",
@@ -120,7 +123,7 @@ fn names_are_unique() {
 }
 
 #[test]
-fn properties_have_the_shape_that_their_names_ask_for() {
+fn properties_with_standard_names_must_have_the_right_type() {
     let header = |vertex: &str, face: &str| {
         format!(
             "ply\nformat ascii 1.0\nelement vertex 1\n{vertex}element face 1\n{face}end_header\n"
@@ -140,11 +143,11 @@ fn properties_have_the_shape_that_their_names_ask_for() {
     );
     assert_error(
         header(VERTEX, "property int vertex_indices\n"),
-        "found a single value",
+        "found a scalar",
     );
     assert_error(
         header(VERTEX, "property int corners\n"),
-        "7:9: expected a list `vertex_indices`",
+        "7:9: expected a list property `vertex_indices`",
     );
     assert_error(
         header(VERTEX, "property list uchar float vertex_index\n"),
@@ -170,7 +173,7 @@ fn counts_that_the_file_cannot_hold_are_refused_at_once() {
 }
 
 #[test]
-fn vertices_of_faces_exist() {
+fn vertices_of_faces_must_exist() {
     assert_error(
         text(CORNERS, "3 0 1 3\n"),
         "13:7: expected a vertex index below 3, found 3",
@@ -186,7 +189,7 @@ fn vertices_of_faces_exist() {
 }
 
 #[test]
-fn counts_of_lists_are_possible() {
+fn counts_of_lists_must_be_valid() {
     let at = binary(&[]).len();
     assert_error(
         binary(&ints(&[-1, 0, 1, 2])),
@@ -226,12 +229,12 @@ fn files_that_end_too_early_are_refused() {
     );
     assert_error(
         text(CORNERS, ""),
-        "expected 1 lines of element `face`, found",
+        "expected 1 line of element `face`, but only",
     );
 }
 
 #[test]
-fn lines_have_the_words_that_the_header_promises() {
+fn lines_must_have_the_values_that_the_header_declares() {
     assert_error(
         text("0 0 0\n1 0\n0 1 0\n", "3 0 1 2\n"),
         "11:4: expected a value of `z`",
@@ -252,7 +255,7 @@ fn lines_have_the_words_that_the_header_promises() {
 }
 
 #[test]
-fn positions_are_finite() {
+fn positions_must_be_finite() {
     for word in ["nan", "inf", "-INF", "-nan(ind)", "1e999"] {
         let vertices = format!("0 0 0\n1 {word} 0\n0 1 0\n");
         assert_error(
@@ -270,7 +273,7 @@ fn positions_are_finite() {
 }
 
 #[test]
-fn returns_before_binary_values_are_no_values() {
+fn a_carriage_return_before_binary_values_is_part_of_the_line_end() {
     let unix = binary(&ints(&[3, 0, 1, 2]));
     let end = unix.windows(11).position(|w| w == b"end_header\n").unwrap() + 11;
     let header = String::from_utf8(unix[..end].to_vec())
@@ -285,7 +288,7 @@ fn returns_before_binary_values_are_no_values() {
 }
 
 #[test]
-fn bytes_behind_the_last_element_are_noted() {
+fn bytes_after_the_last_element_are_noted() {
     let folder = Folder::new();
     let loaded = read(&folder.with("a.ply", binary(&ints(&[3, 0, 1, 2, 7])))).unwrap();
     assert_eq!(loaded.notes.len(), 1);
@@ -313,7 +316,7 @@ fn valid() -> Vec<u8> {
 
 proptest! {
     #[test]
-    fn any_bytes_are_read_or_refused(body in prop::collection::vec(any::<u8>(), 0..200), lists in any::<bool>()) {
+    fn random_bytes_do_not_panic(body in prop::collection::vec(any::<u8>(), 0..200), lists in any::<bool>()) {
         let face = if lists { "property list char short vertex_indices\nproperty list int float texcoord\n" }
             else { "property list uint uchar vertex_indices\n" };
         let strips = if lists { "element face 3\n" } else { "element tristrips 2\n" };
@@ -325,7 +328,7 @@ proptest! {
     }
 
     #[test]
-    fn damaged_files_are_read_or_refused(
+    fn damaged_files_do_not_panic(
         changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..6),
         cut in any::<prop::sample::Index>(),
         keep in any::<bool>(),
@@ -347,8 +350,8 @@ proptest! {
 }
 
 #[test]
-fn comments_that_describe_a_list_again_and_again_take_no_time() {
-    // Each would be compared with all faces, and does not fit the last one.
+fn repeated_comments_for_a_list_do_not_take_long() {
+    // Each comment would be compared with all faces, and does not match the last face.
     let n = 50_000;
     let comment = "comment meshwright corner float copy values \"a\"\n".repeat(20_000);
     let head = format!(

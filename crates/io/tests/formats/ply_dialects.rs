@@ -22,7 +22,7 @@ fn a_file_of_meshlab_is_read() {
     assert!(
         loaded.notes[0]
             .to_string()
-            .contains("1 values of `quality`"),
+            .contains("1 non-finite values of `quality`"),
         "{}",
         loaded.notes[0]
     );
@@ -110,7 +110,7 @@ fn strips_become_triangles() {
 }
 
 #[test]
-fn old_macs_end_lines_with_a_return() {
+fn lines_can_end_in_a_carriage_return() {
     let text = "ply\rformat ascii 1.0\relement vertex 1\rproperty float x\rproperty float y\r\
         property float z\rend_header\r1 2 3";
     assert_eq!(
@@ -120,7 +120,7 @@ fn old_macs_end_lines_with_a_return() {
 }
 
 #[test]
-fn large_whole_numbers_become_floats() {
+fn large_integers_become_floats() {
     let text = |n: u64| {
         format!(
             "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n\

@@ -1,4 +1,4 @@
-//! PLY files, against laws.
+//! PLY files, checked by general properties.
 
 use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4};
@@ -23,7 +23,7 @@ fn put(mesh: &mut Mesh, domain: Domain, name: &str, rule: Rule, values: Values) 
     mesh.insert_column(domain, Column { name, rule, values });
 }
 
-/// For each corner of a face a value made of its half-edge's number, zero elsewhere.
+/// For each half-edge with a face, a value computed from its index; zero for the others.
 fn on_corners<T: Default + Clone>(mesh: &Mesh, value: impl Fn(f64) -> T) -> Vec<T> {
     let mut all = vec![T::default(); mesh.n_half_edges()];
     for h in mesh.faces().flat_map(|f| mesh.face_half_edges(f)) {
@@ -148,12 +148,12 @@ fn assert_round_trip(mesh: &Mesh) {
 }
 
 #[test]
-fn a_mesh_with_everything_comes_back_the_same() {
+fn a_mesh_with_everything_survives_a_round_trip() {
     assert_round_trip(&rich());
 }
 
 #[test]
-fn plain_shapes_come_back_the_same() {
+fn shapes_survive_a_round_trip() {
     let points = Mesh::from_polygons(vec![DVec3::X, DVec3::Y], &[] as &[Vec<u32>])
         .unwrap()
         .0;
@@ -170,7 +170,7 @@ fn plain_shapes_come_back_the_same() {
 }
 
 #[test]
-fn colors_are_bytes_floats_or_doubles_as_they_need() {
+fn colors_use_the_smallest_exact_type() {
     for (color, form) in [
         (
             DVec4::new(1.0, 0.2, 7.0 / 255.0, 1.0),
@@ -202,7 +202,7 @@ fn colors_are_bytes_floats_or_doubles_as_they_need() {
 }
 
 #[test]
-fn texture_coordinates_without_seams_belong_to_vertices() {
+fn texture_coordinates_without_seams_are_written_per_vertex() {
     let mut mesh = shapes::grid(3, 2);
     let mut uvs = vec![DVec2::ZERO; mesh.n_half_edges()];
     for h in mesh.faces().flat_map(|f| mesh.face_half_edges(f)) {
@@ -251,7 +251,7 @@ fn several_objects_become_one_with_tags() {
 }
 
 #[test]
-fn what_a_file_does_not_hold_is_a_loss() {
+fn content_that_ply_cannot_store_is_a_loss() {
     let folder = Folder::new();
     let mut mesh = shapes::cube();
     mesh.set(CREASE, vec![1.0; 12]);

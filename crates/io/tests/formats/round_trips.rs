@@ -1,5 +1,5 @@
-//! Laws of writing and reading: what comes back is what was there, but for what was told and what the
-//! table in the documentation of the crate says.
+//! Properties of writing and reading: a scene survives a round trip, except for reported losses and the changes in
+//! the table of the crate's documentation.
 
 mod flat;
 mod models;
@@ -14,36 +14,36 @@ use mesh_io::{Loaded, Loss, Note, NoteKind, WriteError, WriteOptions};
 use scene::Object;
 
 use crate::{Folder, read, scene};
-use flat::{Difference, Key, differences, key, says_nothing};
+use flat::{Difference, Key, differences, has_only_default_values, key};
 use models::{Feature, features};
 
-/// The formats that are written, in the order of the table. `gltf` and `glb` hold the same.
+/// The formats that can be written, in the order of the table. `gltf` and `glb` store the same content.
 const FORMATS: [&str; 7] = ["obj", "glb", "ply", "stl", "off", "bez", "bzc"];
 
-/// What the documentation of the crate shows.
+/// The table in the documentation of the crate.
 const TABLE: &str = include_str!("../../src/kept.md");
 
-/// What becomes of something in a file.
+/// What a format does with some content.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kept {
-    /// It comes back with the same bits.
+enum Outcome {
+    /// It is restored bit for bit.
     Exactly,
-    /// Its numbers come back with 32 bits.
+    /// Its numbers are rounded to 32 bits.
     Rounded,
-    /// It comes back in another form, and nothing tells.
+    /// It has a different form after reading, and this is not reported.
     Changed,
-    /// Some or all of it does not come back, and a loss says so.
-    Told,
-    /// Nothing is written.
+    /// Some or all of it is not restored, and a loss reports it.
+    Lost,
+    /// Writing fails.
     Refused,
 }
 
-impl Kept {
+impl Outcome {
     const ALL: [Self; 5] = [
         Self::Exactly,
         Self::Rounded,
         Self::Changed,
-        Self::Told,
+        Self::Lost,
         Self::Refused,
     ];
 
@@ -52,20 +52,20 @@ impl Kept {
             Self::Exactly => "kept",
             Self::Rounded => "32 bits",
             Self::Changed => "changed",
-            Self::Told => "lost",
+            Self::Lost => "lost",
             Self::Refused => "refused",
         }
     }
 }
 
-/// One way to a file and back.
-struct Trip {
+/// The result of a round trip through a file.
+struct RoundTrip {
     bytes: BTreeMap<String, Vec<u8>>,
     losses: Vec<Loss>,
     loaded: Loaded,
 }
 
-fn trip(objects: &[Object], extension: &str) -> Result<Trip, WriteError> {
+fn round_trip(objects: &[Object], extension: &str) -> Result<RoundTrip, WriteError> {
     let folder = Folder::new();
     let path = folder.path(&format!("it.{extension}"));
     let scene = scene(objects.iter().cloned());
@@ -73,15 +73,15 @@ fn trip(objects: &[Object], extension: &str) -> Result<Trip, WriteError> {
     let name = |path: &Path| path.file_name().unwrap().to_string_lossy().into_owned();
     let files = report.files.iter();
     let bytes = files.map(|path| (name(path), std::fs::read(path).unwrap()));
-    Ok(Trip {
+    Ok(RoundTrip {
         bytes: bytes.collect(),
         losses: report.losses,
-        loaded: read(&path).unwrap_or_else(|e| panic!("what was written is not read: {e}")),
+        loaded: read(&path).unwrap_or_else(|e| panic!("the written file cannot be read: {e}")),
     })
 }
 
-/// What the losses tell, in the words of differences.
-fn told(objects: &[Object], losses: &[Loss]) -> BTreeSet<Key> {
+/// The reported losses, as keys of differences.
+fn reported(objects: &[Object], losses: &[Loss]) -> BTreeSet<Key> {
     let materials = objects.iter().flat_map(|object| &object.materials);
     let materials: BTreeSet<&str> = materials.map(|material| material.name.as_str()).collect();
     let of = |loss: &Loss| match (loss.domain, loss.attribute.as_str()) {
@@ -90,7 +90,7 @@ fn told(objects: &[Object], losses: &[Loss]) -> BTreeSet<Key> {
         (domain, name) => key(domain, name),
     };
     let mut all: BTreeSet<Key> = losses.iter().map(of).collect();
-    // A mesh of isolated vertices is gone with them.
+    // A mesh that only has isolated vertices is lost with them.
     let is_bare = |object: &Object| object.as_mesh().is_some_and(|mesh| mesh.n_faces() == 0);
     if objects.iter().any(is_bare) && all.contains(&key(Domain::Vertex, "position")) {
         all.insert(key(None, "name"));
@@ -101,13 +101,13 @@ fn told(objects: &[Object], losses: &[Loss]) -> BTreeSet<Key> {
     all
 }
 
-/// Whether a format gives triangles that are put together again.
+/// Whether the format stores separate triangles, which the reader merges.
 fn is_soup(extension: &str) -> bool {
     matches!(extension, "stl" | "glb" | "gltf")
 }
 
-/// The lines of the table: for each name what becomes of it in each format.
-fn table() -> BTreeMap<String, Vec<Kept>> {
+/// The rows of the table: for each feature, what each format does with it.
+fn table() -> BTreeMap<String, Vec<Outcome>> {
     let cells = |line: &str| -> Vec<String> {
         let line = line.trim().trim_matches('|');
         line.split('|').map(|cell| cell.trim().to_owned()).collect()
@@ -123,157 +123,165 @@ fn table() -> BTreeMap<String, Vec<Kept>> {
         formats.join(" ").replace(".glb", ".gltf")
     );
     let kept = |word: &String| {
-        let known = Kept::ALL.into_iter().find(|kept| kept.word() == word);
-        known.unwrap_or_else(|| panic!("`{word}` is no word of the table"))
+        let known = Outcome::ALL.into_iter().find(|kept| kept.word() == word);
+        known.unwrap_or_else(|| panic!("unknown word `{word}` in the table"))
     };
     let of_line = |line: Vec<String>| (line[0].clone(), line[1..].iter().map(kept).collect());
     lines.skip(1).map(of_line).collect()
 }
 
-/// What may differ in a format although nothing tells.
-fn untold(extension: &str) -> &'static BTreeMap<Key, Difference> {
-    static UNTOLD: OnceLock<BTreeMap<&str, BTreeMap<Key, Difference>>> = OnceLock::new();
-    let untold = UNTOLD.get_or_init(|| {
+/// The differences that a format can cause without a report.
+fn unreported(extension: &str) -> &'static BTreeMap<Key, Difference> {
+    static UNREPORTED: OnceLock<BTreeMap<&str, BTreeMap<Key, Difference>>> = OnceLock::new();
+    let unreported = UNREPORTED.get_or_init(|| {
         let table = table();
-        let mut untold = FORMATS.map(|format| (format, BTreeMap::new()));
+        let mut unreported = FORMATS.map(|format| (format, BTreeMap::new()));
         for Feature { name, key, .. } in features() {
-            for ((_, all), kept) in untold.iter_mut().zip(table.get(name).into_iter().flatten()) {
+            for ((_, all), kept) in unreported
+                .iter_mut()
+                .zip(table.get(name).into_iter().flatten())
+            {
                 let difference = match kept {
-                    Kept::Rounded => Difference::Rounded,
-                    Kept::Changed => Difference::Other,
+                    Outcome::Rounded => Difference::Rounded,
+                    Outcome::Changed => Difference::Other,
                     _ => continue,
                 };
                 let known = all.entry(key.clone()).or_insert(difference);
                 *known = difference.max(*known);
             }
         }
-        untold.into()
+        unreported.into()
     });
-    &untold[if extension == "gltf" {
+    &unreported[if extension == "gltf" {
         "glb"
     } else {
         extension
     }]
 }
 
-fn measured(feature: &Feature, extension: &str) -> Kept {
+fn measured(feature: &Feature, extension: &str) -> Outcome {
     let Feature { name, key, objects } = feature;
     let here = format!("{name} in {extension}");
-    let Ok(Trip { losses, loaded, .. }) = trip(objects, extension) else {
-        return Kept::Refused;
+    let Ok(RoundTrip { losses, loaded, .. }) = round_trip(objects, extension) else {
+        return Outcome::Refused;
     };
     let all = differences(objects, &loaded.objects, is_soup(extension));
-    let told = told(objects, &losses);
+    let reported = reported(objects, &losses);
     let is_form = matches!(key.1.as_str(), "domain" | "rule");
     match all.get(key) {
-        None if is_form && !told.is_empty() => Kept::Told,
+        None if is_form && !reported.is_empty() => Outcome::Lost,
         None => {
-            assert!(!told.contains(key), "{here}: told, but there: {losses:?}");
-            Kept::Exactly
+            assert!(
+                !reported.contains(key),
+                "{here}: reported as lost, but restored: {losses:?}"
+            );
+            Outcome::Exactly
         }
-        Some(Difference::Rounded) => Kept::Rounded,
-        Some(Difference::Other) if told.contains(key) => Kept::Told,
-        Some(Difference::Other) => Kept::Changed,
+        Some(Difference::Rounded) => Outcome::Rounded,
+        Some(Difference::Other) if reported.contains(key) => Outcome::Lost,
+        Some(Difference::Other) => Outcome::Changed,
     }
 }
 
-/// What comes back is the same but for what was told and what the table says; a second way changes
-/// nothing more, and loses nothing, and writes the same bytes.
+/// Checks that the objects survive a round trip, except for reported losses and the changes in the table. A second
+/// round trip must not change or lose anything, and must write the same bytes.
 ///
 /// # Errors
 ///
-/// The first law that is broken.
+/// The first property that does not hold.
 fn check_laws(objects: &[Object], extension: &str) -> Result<(), String> {
-    let Ok(first) = trip(objects, extension) else {
+    let Ok(first) = round_trip(objects, extension) else {
         return Ok(());
     };
     let all = differences(objects, &first.loaded.objects, is_soup(extension));
-    let told = told(objects, &first.losses);
-    let untold = untold(extension);
+    let reported = reported(objects, &first.losses);
+    let unreported = unreported(extension);
     for (what, difference) in &all {
         let new_name = format!("`{}`", what.1);
         let is_new_name = first
             .losses
             .iter()
             .any(|loss| loss.reason.contains(&new_name));
-        // Values of corners may have moved to the vertices after they were told of.
+        // Corner values can become vertex values after their loss was reported.
         let as_corners = key(Domain::Corner, &what.1);
-        let is_told = told.contains(what)
-            || what.0 == Some(Domain::Vertex) && told.contains(&as_corners)
-            // Without those that no face has, the others have other numbers.
-            || *what == key(Domain::Face, "material") && told.contains(&key(None, "materials"));
-        // What the table says of one name holds for all that have no meaning.
+        let is_reported = reported.contains(what)
+            || what.0 == Some(Domain::Vertex) && reported.contains(&as_corners)
+            // If unused materials are lost, the remaining ones have different indices.
+            || *what == key(Domain::Face, "material") && reported.contains(&key(None, "materials"));
+        // The table's entry for one custom attribute applies to all custom attributes.
         let other = key(Domain::Vertex, "heat");
-        let like_others = *difference == Difference::Rounded
+        let is_custom = *difference == Difference::Rounded
             && matches!(what.0, Some(Domain::Vertex | Domain::Corner))
-            && untold.get(&other) == Some(difference);
-        let is_listed = untold.get(what).is_some_and(|d| d >= difference) || like_others;
-        let is_known = is_told || is_listed || is_new_name;
+            && unreported.get(&other) == Some(difference);
+        let is_listed = unreported.get(what).is_some_and(|d| d >= difference) || is_custom;
+        let is_known = is_reported || is_listed || is_new_name;
         ensure(is_known, || {
-            format!("{what:?} is another and nothing tells: {told:?}")
+            format!("{what:?} differs, but is not reported: {reported:?}")
         })?;
     }
     let is_whole = !all.contains_key(&key(None, "name"));
     let is_merged = all.contains_key(&key(Domain::Vertex, "merged"));
     if is_whole && !is_merged {
-        for what in told.iter().filter(|_| !has_empty_columns(objects)) {
+        for what in reported.iter().filter(|_| !has_empty_columns(objects)) {
             let losses = &first.losses;
             let is_lost =
-                all.contains_key(what) || what.1 == "merged" || says_nothing_of(objects, what);
+                all.contains_key(what) || what.1 == "merged" || has_only_defaults(objects, what);
             ensure(is_lost, || {
-                format!("told as lost, but there: {what:?} of {losses:?}")
+                format!("reported as lost, but restored: {what:?} of {losses:?}")
             })?;
         }
     }
-    // Triangles that are put together again are noted.
+    // Merged vertices are noted.
     let notes = &first.loaded.notes;
     let is_fine = |note: &Note| note.kind == NoteKind::Changed && extension == "stl";
     ensure(is_merged || notes.iter().all(is_fine), || {
         format!("notes: {notes:?}")
     })?;
 
-    let second = trip(&first.loaded.objects, extension).map_err(|e| e.to_string())?;
+    let second = round_trip(&first.loaded.objects, extension).map_err(|e| e.to_string())?;
     let losses = &second.losses;
     ensure(is_merged || losses.is_empty(), || {
-        format!("the second way loses {losses:?}")
+        format!("the second round trip loses {losses:?}")
     })?;
     ensure(second.loaded.objects == first.loaded.objects, || {
         format!(
-            "the second way changes {:?} to {:?}",
+            "the second round trip changes {:?} to {:?}",
             first.loaded, second.loaded
         )
     })?;
-    let third = trip(&second.loaded.objects, extension).map_err(|e| e.to_string())?;
+    let third = round_trip(&second.loaded.objects, extension).map_err(|e| e.to_string())?;
     ensure(third.bytes == second.bytes, || {
-        "the third file is another".to_owned()
+        "the third file differs from the second".to_owned()
     })?;
-    // What has another form the second time may be written in another way.
+    // Content that has a different form after the first round trip can be written differently the second time.
     let other_forms = ["name", "domain", "rule", "order of faces"].map(|what| key(None, what));
     let has_other_form = other_forms.iter().any(|what| all.contains_key(what));
     let is_another_form = has_other_form || is_merged || has_empty_columns(objects);
     ensure(is_another_form || second.bytes == first.bytes, || {
-        let text = |trip: &Trip| {
+        let text = |trip: &RoundTrip| {
             trip.bytes
                 .values()
                 .map(|bytes| String::from_utf8_lossy(bytes).into_owned())
                 .collect::<String>()
         };
         format!(
-            "the second file is another:\n{}\n{}",
+            "the second file differs from the first:\n{}\n{}",
             text(&first),
             text(&second)
         )
     })
 }
 
-/// Whether a column stands for nothing, such as no material at all.
-fn says_nothing_of(objects: &[Object], (domain, name): &Key) -> bool {
+/// Whether a column only has default values, such as no material on any face.
+fn has_only_defaults(objects: &[Object], (domain, name): &Key) -> bool {
     let meshes = objects.iter().filter_map(Object::as_mesh);
     let mut columns = meshes.flat_map(|mesh| mesh.attributes().iter());
-    columns.any(|(of, column)| Some(of) == *domain && column.name == *name && says_nothing(column))
+    columns.any(|(of, column)| {
+        Some(of) == *domain && column.name == *name && has_only_default_values(column)
+    })
 }
 
-/// Whether there are attributes of elements of which there are none.
+/// Whether there are attributes of a domain without elements.
 fn has_empty_columns(objects: &[Object]) -> bool {
     let meshes = objects.iter().filter_map(Object::as_mesh);
     meshes
@@ -297,7 +305,7 @@ fn assert_none(broken: &[String]) {
 }
 
 #[test]
-fn the_table_says_what_becomes_of_everything() {
+fn the_table_matches_the_measured_results() {
     let mut expected = table();
     let mut text = String::new();
     let mut wrong = Vec::new();
@@ -312,12 +320,12 @@ fn the_table_says_what_becomes_of_everything() {
     let left = expected.keys().collect::<Vec<_>>();
     assert!(
         wrong.is_empty() && left.is_empty(),
-        "other than in the table: {wrong:?}, not measured: {left:?}\n{text}"
+        "different from the table: {wrong:?}, not measured: {left:?}\n{text}"
     );
 }
 
 #[test]
-fn every_feature_comes_back_as_told() {
+fn every_feature_survives_as_documented() {
     let mut broken = Vec::new();
     for feature in features() {
         for extension in FORMATS.into_iter().chain(["gltf"]) {
@@ -330,7 +338,7 @@ fn every_feature_comes_back_as_told() {
 }
 
 #[test]
-fn a_real_model_comes_back_as_told() {
+fn a_real_model_survives_as_documented() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/assets/bunny.obj");
     let loaded = mesh_io::read(
         &store::Disk,
@@ -351,7 +359,7 @@ fn a_real_model_comes_back_as_told() {
 }
 
 #[test]
-fn every_kind_of_mesh_comes_back_as_told() {
+fn every_kind_of_mesh_survives_as_documented() {
     let mut broken = Vec::new();
     for (i, objects) in models::shapes_of_all_kinds().iter().enumerate() {
         for extension in FORMATS {

@@ -1,4 +1,4 @@
-//! STL files, against a slow and simple reader of this file and against laws.
+//! STL files, compared with a simple reader in this file and checked by general properties.
 
 use geometry::shapes;
 use glam::DVec3;
@@ -44,7 +44,7 @@ const UP: [f32; 3] = [0.0, 0.0, 1.0];
 const FLAT: [[f32; 3]; 4] = [UP, [0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 const NEXT: [[f32; 3]; 4] = [UP, [1.0, 0.0, -0.0], [1.0, 1.0, 0.0], [-0.0, 1.0, 0.0]];
 
-/// The corners of all triangles as the bytes say.
+/// The corners of all triangles, read directly from the bytes.
 fn naive(bytes: &[u8]) -> Vec<DVec3> {
     let mut corners = Vec::new();
     for facet in bytes[84..].chunks(50) {
@@ -77,7 +77,7 @@ fn written(mesh: Mesh) -> Vec<u8> {
 }
 
 #[test]
-fn length_decides_what_is_binary() {
+fn the_size_determines_whether_a_file_is_binary() {
     let (polygons, notes) = found(binary(&[FLAT, NEXT]));
     assert_eq!(
         notes,
@@ -88,7 +88,7 @@ fn length_decides_what_is_binary() {
 }
 
 #[test]
-fn triangles_come_back_the_same() {
+fn triangles_survive_a_round_trip() {
     for mesh in [
         shapes::icosahedron(),
         shapes::fans(&shapes::cube()),
@@ -114,7 +114,7 @@ fn triangles_come_back_the_same() {
 }
 
 #[test]
-fn text_and_binary_are_the_same() {
+fn text_and_binary_files_give_the_same_mesh() {
     let text = "solid a b\n  facet normal 0 0 1\n    outer loop\n      vertex 0 0 0\n      vertex 1 0 0\n\
         vertex 0 1 0\n endloop\n endfacet\nFACET NORMAL 0 0 1 OUTER LOOP\nVERTEX 1 0 -0 VERTEX 1 1 0\r\n\
         VERTEX -0 1 0 ENDLOOP ENDFACET\nendsolid a b\n\n";
@@ -192,7 +192,7 @@ fn attribute_bytes_are_left_out() {
 }
 
 #[test]
-fn bytes_behind_the_last_facet_are_noted() {
+fn bytes_after_the_last_facet_are_noted() {
     let mut bytes = binary(&[FLAT]);
     bytes[0] = b'S';
     bytes[83..84].copy_from_slice(&[0]);
@@ -204,13 +204,13 @@ fn bytes_behind_the_last_facet_are_noted() {
 }
 
 #[test]
-fn degenerate_facets_go_through() {
+fn degenerate_facets_are_kept() {
     let (polygons, _) = found(binary(&[[UP, [1.0; 3], [1.0; 3], [2.0; 3]]]));
     assert_eq!(polygons.corners, [0, 0, 1]);
 }
 
 #[test]
-fn what_a_file_does_not_hold_is_a_loss() {
+fn content_that_stl_cannot_store_is_a_loss() {
     let folder = Folder::new();
     let path = folder.path("a.stl");
     let mut mesh = shapes::cube();
@@ -251,7 +251,7 @@ fn what_a_file_does_not_hold_is_a_loss() {
 }
 
 #[test]
-fn written_normals_are_unit_and_agree() {
+fn written_normals_are_unit_vectors_and_match_the_corners() {
     let bytes = written(shapes::icosahedron());
     for facet in bytes[84..].chunks(50) {
         let number = |i: usize| f32::from_le_bytes(facet[4 * i..4 * i + 4].try_into().unwrap());
@@ -265,7 +265,7 @@ fn written_normals_are_unit_and_agree() {
 }
 
 #[test]
-fn positions_beyond_32_bits_are_refused() {
+fn positions_outside_of_the_32_bit_range_are_refused() {
     let mut mesh = shapes::tetrahedron();
     mesh.positions_mut()[1].y = 1e300;
     let folder = Folder::new();
@@ -280,7 +280,7 @@ fn positions_beyond_32_bits_are_refused() {
     assert!(
         error
             .to_string()
-            .contains("too large for the 32 bits of STL"),
+            .contains("exceeds the range of the 32-bit numbers of STL"),
         "{error}"
     );
 }
@@ -304,7 +304,7 @@ fn a_peek_counts_what_reading_gives() {
 // ---- Broken files ------------------------------------------------------------------------------
 
 #[test]
-fn words_come_in_their_order() {
+fn errors_in_texts_name_the_expected_word() {
     let facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n";
     assert_error(
         "solid a\nfaset",
@@ -341,7 +341,7 @@ fn words_come_in_their_order() {
 }
 
 #[test]
-fn normals_of_a_text_may_be_no_numbers() {
+fn normals_of_a_text_can_be_nan() {
     let text = "solid\nfacet normal nan -nan inf outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet endsolid";
     assert_eq!(found(text).1.len(), 1);
 }
@@ -366,7 +366,7 @@ fn counts_that_the_file_cannot_hold_are_refused_at_once() {
 }
 
 #[test]
-fn positions_are_finite() {
+fn positions_must_be_finite() {
     let mut bytes = binary(&[FLAT, NEXT]);
     bytes[84 + 50 + 16..84 + 50 + 20].copy_from_slice(&f32::INFINITY.to_le_bytes());
     assert_error(&bytes, " byte 150: expected a finite number, found inf");
@@ -401,14 +401,14 @@ fn whatever(bytes: &[u8]) {
 
 proptest! {
     #[test]
-    fn any_bytes_are_read_or_refused(start in "(solid )?", body in prop::collection::vec(any::<u8>(), 0..300)) {
+    fn random_bytes_do_not_panic(start in "(solid )?", body in prop::collection::vec(any::<u8>(), 0..300)) {
         let mut bytes = start.into_bytes();
         bytes.extend(body);
         whatever(&bytes);
     }
 
     #[test]
-    fn any_facets_are_read_or_refused(body in prop::collection::vec(any::<u8>(), 0..8).prop_map(|b| b.repeat(50))) {
+    fn random_facets_do_not_panic(body in prop::collection::vec(any::<u8>(), 0..8).prop_map(|b| b.repeat(50))) {
         let mut bytes = vec![0; 80];
         bytes.extend_from_slice(&u32::try_from(body.len() / 50).unwrap().to_le_bytes());
         bytes.extend(body);
@@ -416,7 +416,7 @@ proptest! {
     }
 
     #[test]
-    fn damaged_texts_are_read_or_refused(at in any::<prop::sample::Index>(), value in any::<u8>(), cut in any::<prop::sample::Index>()) {
+    fn damaged_texts_do_not_panic(at in any::<prop::sample::Index>(), value in any::<u8>(), cut in any::<prop::sample::Index>()) {
         let mut text = b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n".to_vec();
         let i = at.index(text.len());
         text[i] = value;

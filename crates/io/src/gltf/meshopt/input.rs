@@ -1,6 +1,6 @@
 //! Reading the bytes of a compressed stream.
 
-use crate::fault::Fault;
+use crate::fault::{Fault, counted};
 
 /// Reads a stream between its header and its tail.
 pub(super) struct Input<'a> {
@@ -29,7 +29,8 @@ impl<'a> Input<'a> {
     pub(super) fn take(&mut self, n: usize) -> Result<&'a [u8], Fault> {
         let rest = &self.bytes[self.at..];
         let taken = rest.get(..n).ok_or_else(|| {
-            let message = format!("expected {n} more bytes, found {}", rest.len());
+            let bytes = counted(n, "more byte");
+            let message = format!("expected {bytes}, found {}", rest.len());
             Fault::byte(self.at, message)
         })?;
         self.at += n;
@@ -62,7 +63,8 @@ impl<'a> Input<'a> {
     pub(super) fn end(&self) -> Result<(), Fault> {
         let left = self.bytes.len() - self.at;
         if left > 0 {
-            let message = format!("expected the end of the data, found {left} more bytes");
+            let bytes = counted(left, "more byte");
+            let message = format!("expected the end of the data, found {bytes}");
             return Err(Fault::byte(self.at, message));
         }
         Ok(())

@@ -3,12 +3,12 @@
 //     npm install --no-save gltfpack@1.3.0 meshoptimizer@1.3.0
 //     node make.mjs
 //
-// streams.json       arrays of every codec and filter, their streams, and what MeshoptDecoder makes of those
+// streams.json       arrays for every codec and filter, their streams, and the arrays that MeshoptDecoder decodes from them
 // torus_plain.glb    a torus, quantized by gltfpack and not compressed
 // torus_ext.glb      the same with EXT_meshopt_compression
 // torus_khr.glb      the same with KHR_meshopt_compression: version 1 of the attributes, filters
-// torus_floats.glb   the same with floats in it
-// torus_fallback.*   the same with the arrays a second time, for readers that cannot decompress
+// torus_floats.glb   the same with float attributes
+// torus_fallback.*   the same with an uncompressed copy of the arrays, for readers that cannot decompress
 import fs from "fs";
 import { execFileSync } from "child_process";
 import { MeshoptEncoder as encoder } from "meshoptimizer/encoder";
@@ -17,14 +17,14 @@ import { MeshoptDecoder as decoder } from "meshoptimizer/decoder";
 await encoder.ready;
 await decoder.ready;
 
-// A random number in 0..n, always the same ones.
+// A random number in 0..n, from a fixed sequence.
 let state = 1;
 function random(n) {
     state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
     return Math.floor((state / 2 ** 32) * n);
 }
 
-// One array of elements, and the streams of it: they all decode to the same.
+// An array of elements, and its streams, which must all decode to the same array.
 const arrays = [];
 const base64 = (bytes) => Buffer.from(bytes).toString("base64");
 function add(name, mode, filter, count, byteStride, streams) {
@@ -39,7 +39,7 @@ function add(name, mode, filter, count, byteStride, streams) {
     arrays.push({ name, mode, filter, count, byteStride, decoded: base64(decoded), streams });
 }
 
-// ---- Attributes: each channel of four bytes of another kind -------------------------------------
+// ---- Attributes: different content in each channel of four bytes --------------------------------
 
 function elements(count, stride) {
     const bytes = new Uint8Array(count * stride);
@@ -70,7 +70,7 @@ for (const [count, stride, ...levels] of [[1, 4, 3], [16, 4, 3], [17, 24, 0, 3],
     const streams = versions(elements(count, stride), count, stride, levels);
     add(`${count} elements of ${stride} bytes`, "ATTRIBUTES", "NONE", count, stride, streams);
 }
-// Blocks of these are shorter.
+// Larger elements have shorter blocks.
 const long = Uint8Array.from({ length: 33 * 256 }, (_, i) => (i & 255) + (i >> 8 < 20 ? 0 : 1));
 add("33 elements of 256 bytes", "ATTRIBUTES", "NONE", 33, 256, versions(long, 33, 256, [3]));
 add("zeros", "ATTRIBUTES", "NONE", 600, 4, versions(new Uint8Array(2400), 600, 4, [3]));
@@ -139,7 +139,7 @@ function torus(n, m) {
     const indices = [];
     for (let i = 0; i <= n; i++) {
         for (let j = 0; j <= m; j++) {
-            // The seams are closed exactly.
+            // The vertices at the seams are exactly equal.
             const [u, v] = [(i % n) / n, (j % m) / m].map((x) => 2 * Math.PI * x);
             const out = [Math.cos(u) * Math.cos(v), Math.sin(u) * Math.cos(v), Math.sin(v)];
             arrays.POSITION.push(2 * Math.cos(u) + 0.75 * out[0], 2 * Math.sin(u) + 0.75 * out[1], 0.75 * out[2]);

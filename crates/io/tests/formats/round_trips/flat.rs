@@ -1,4 +1,4 @@
-//! Scenes as plain lists of bits, and what differs between two of them.
+//! Scenes as lists of bits, and the differences between two scenes.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,16 +7,16 @@ use glam::DVec3;
 use mesh::{Column, Domain, HalfEdgeId, Mesh, Rule, Values, VertexId};
 use scene::{Geometry, Object};
 
-/// What differs: values of a domain with this name, or something else of an object. The words are those
-/// of losses.
+/// What differs: the values of a domain with this name, or another part of an object. Names are the same as in
+/// losses.
 pub(super) type Key = (Option<Domain>, String);
 
-/// How far two scenes differ in something.
+/// How much two scenes differ in something.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Difference {
-    /// The numbers are the same with 32 bits.
+    /// Numbers are equal in 32 bits.
     Rounded,
-    /// Something else.
+    /// Any other difference.
     Other,
 }
 
@@ -29,21 +29,21 @@ pub(super) fn key(domain: impl Into<Option<Domain>>, name: &str) -> Key {
 /// The bits of the numbers of a value.
 type Row = Vec<u64>;
 
-/// The type of values and what edits do with them.
+/// The type and the edit rule of values.
 type Kind = (&'static str, Rule);
 
-/// A mesh as lists. Values of corners follow the faces and their corners.
+/// A mesh as lists. Corner values are in the order of the faces and their corners.
 #[derive(Clone, Debug, PartialEq)]
 struct Flat {
     positions: Vec<Row>,
     faces: Vec<Vec<usize>>,
     columns: BTreeMap<Key, (Kind, Vec<Row>)>,
-    /// Edges as the lower and the higher vertex, with the place of their values.
+    /// Edges as the lower and the higher vertex, with the index of their values.
     edges: Vec<([usize; 2], usize)>,
 }
 
-/// What differs between a scene and what was read back from a file. Formats that hold triangles alone,
-/// `soup`, may give vertices and faces another order.
+/// The differences between a scene and the scene that was read back from a file. Formats that store separate
+/// triangles (`soup`) can reorder vertices and faces.
 pub(super) fn differences(before: &[Object], after: &[Object], soup: bool) -> Differences {
     let mut all = Differences::new();
     if before.len() != after.len() {
@@ -146,7 +146,8 @@ fn meshes(a: &Mesh, b: &Mesh, soup: bool, all: &mut Differences) {
     }
 }
 
-/// How numbers differ. With 32 bits they are near: of texture coordinates glTF has 1 - v.
+/// How numbers differ. In 32 bits they are only approximately equal, because glTF stores 1 - v of texture
+/// coordinates.
 fn rows_differ(a: &[Row], b: &[Row]) -> Option<Difference> {
     if a == b {
         return None;
@@ -216,13 +217,13 @@ impl Flat {
             columns: mesh
                 .attributes()
                 .iter()
-                .filter(|(_, column)| !says_nothing(column))
+                .filter(|(_, column)| !has_only_default_values(column))
                 .map(column)
                 .collect(),
         }
     }
 
-    /// The values of edges, with their ends, in the order of these.
+    /// Reorders the values of edges by their vertices.
     fn of_edges(&self, rows: &[Row]) -> Vec<Row> {
         let with_ends = self.edges.iter().map(|([a, b], place)| {
             let ends = [*a, *b].map(|v| v as u64);
@@ -234,7 +235,10 @@ impl Flat {
     }
 
     fn place(&self, v: usize) -> [u32; 3] {
-        #[expect(clippy::cast_possible_truncation, reason = "that is what is asked")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "positions are compared in 32 bits"
+        )]
         let narrow = |k: usize| (f64::from_bits(self.positions[v][k]) as f32 + 0.0).to_bits();
         [narrow(0), narrow(1), narrow(2)]
     }
@@ -275,7 +279,7 @@ impl Flat {
         dropped
     }
 
-    /// Sorts vertices by their positions, corners and faces by their vertices.
+    /// Sorts vertices by position, and corners and faces by their vertices.
     fn sort(&mut self) {
         let mut order: Vec<usize> = (0..self.positions.len()).collect();
         order.sort_by_key(|&v| self.place(v));
@@ -288,7 +292,7 @@ impl Flat {
                 Some(*end - face.len())
             })
             .collect();
-        // For each face its corners, turned so that the lowest vertex comes first.
+        // The corners of each face, rotated so that the lowest vertex comes first.
         let mut turned: Vec<(Vec<usize>, Vec<usize>, usize)> = Vec::new();
         for (f, face) in self.faces.iter().enumerate() {
             let n = face.len();
@@ -312,7 +316,7 @@ impl Flat {
         self.faces = turned.into_iter().map(|t| t.0).collect();
     }
 
-    /// Moves values of corners to the vertices if they agree around each, and no others are there.
+    /// Moves corner values to vertices if they agree around each vertex and there are no such vertex values.
     fn agree(&mut self, name: &str) -> bool {
         let (from, to) = (key(Domain::Corner, name), key(Domain::Vertex, name));
         let (kind, rows) = &self.columns[&from];
@@ -335,8 +339,8 @@ impl Flat {
     }
 }
 
-/// Whether there are no values, or those that stand for no material and no smoothing group.
-pub(super) fn says_nothing(column: &Column) -> bool {
+/// Whether a column is empty or only has default values of materials or smoothing groups.
+pub(super) fn has_only_default_values(column: &Column) -> bool {
     match (&column.values, column.name.as_str()) {
         (Values::Int(values), "material") => values.iter().all(|&m| m == -1),
         (Values::Int(values), "smoothing") => values.iter().all(|&group| group == 0),
@@ -364,7 +368,7 @@ fn row(values: &Values, i: usize) -> Row {
     }
 }
 
-/// Whether a rule fits values: unit vectors have three numbers.
+/// Whether a rule can apply to values. Unit vectors must have three numbers.
 pub(super) fn fits(rule: Rule, values: &Values) -> bool {
     rule != Rule::Normal || matches!(values, Values::Vec3(_))
 }

@@ -1,4 +1,4 @@
-//! Scenes for round trips: each with one feature that a format may or may not hold.
+//! Scenes for round trips. Each has one feature that a format can or cannot store.
 
 use std::sync::Arc;
 
@@ -13,19 +13,19 @@ use scene::{AlphaMode, Geometry, Image, Material, Object, Texture};
 
 use super::flat::{Key, key};
 
-/// A line of the table: what it is called, what of a scene differs where it is not held, and a scene.
+/// A row of the table: its name, what differs in a scene if the feature is not stored, and a scene.
 pub(super) struct Feature {
     pub(super) name: &'static str,
     pub(super) key: Key,
     pub(super) objects: Vec<Object>,
 }
 
-/// A closed mesh of triangles, whose positions fit 32 bits.
+/// A closed triangle mesh whose positions fit in 32 bits.
 fn base() -> Mesh {
     shapes::octahedron()
 }
 
-/// Numbers in no order that fit 32 bits.
+/// Unsorted numbers that fit in 32 bits.
 fn number(i: usize) -> f64 {
     [0.5, -0.25, 3.0, 0.0, 0.75][i * 7 % 5]
 }
@@ -56,7 +56,7 @@ fn with<T: Value>(
     one(mesh)
 }
 
-/// One object with the name that files give it.
+/// One object with the name of the file.
 pub(super) fn one(mesh: Mesh) -> Vec<Object> {
     vec![Object::mesh("it", mesh)]
 }
@@ -67,7 +67,7 @@ pub(super) fn mesh_of(positions: Vec<DVec3>, faces: &[Vec<u32>]) -> Mesh {
     mesh
 }
 
-/// The base mesh with these materials, one for each face in turn.
+/// The base mesh with these materials, assigned to the faces in turn.
 fn painted(materials: Vec<Material>) -> Vec<Object> {
     let mut mesh = base();
     let n = i32::try_from(materials.len()).unwrap();
@@ -97,14 +97,14 @@ fn two(a: &str, b: &str, x: f64) -> Vec<Object> {
     vec![Object::mesh(a, base()), Object::mesh(b, placed(x))]
 }
 
-/// An L of six corners, whose hollow corner no fan from the first corner cuts.
+/// An L-shaped polygon with six corners, which a fan from the first corner does not triangulate correctly.
 fn hollow() -> Mesh {
     let points = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)];
     let points = points.map(|(x, y)| DVec3::new(f64::from(x), f64::from(y), 0.0));
     mesh_of(points.to_vec(), &[vec![3, 4, 5, 0, 1, 2]])
 }
 
-/// Every line of the table, in its order.
+/// All rows of the table, in order.
 pub(super) fn features() -> Vec<Feature> {
     let mut all = geometry();
     all.extend(attributes());
@@ -493,7 +493,7 @@ fn other_geometry() -> Vec<Feature> {
     ]
 }
 
-/// Meshes of every kind, each with the name that files give it.
+/// Meshes of all kinds, each with the name of the file.
 pub(super) fn shapes_of_all_kinds() -> Vec<Vec<Object>> {
     let mut deleted = shapes::cube();
     let f = deleted.faces().next().unwrap();

@@ -1,4 +1,4 @@
-//! Random meshes with random values under odd names.
+//! Random meshes with random values and unusual names.
 
 use glam::{DVec2, DVec3, DVec4};
 use mesh::{Domain, MATERIAL, Mesh, Rule, Values, VertexId};
@@ -10,7 +10,7 @@ use super::check_laws;
 use super::flat::fits;
 use super::models::{column, one};
 
-/// Names that mean something somewhere, and names that are hard to write.
+/// Reserved names, and names that are hard to write.
 const NAMES: [&str; 22] = [
     "heat",
     "uv",
@@ -38,7 +38,7 @@ const NAMES: [&str; 22] = [
 
 const RULES: [Rule; 4] = [Rule::Interpolate, Rule::Normal, Rule::Copy, Rule::Drop];
 
-/// Any finite number: a random one, or one that is easily written wrong.
+/// Any finite number: a random number, or one that is easily written incorrectly.
 fn number() -> impl Strategy<Value = f64> {
     let any = any::<u64>().prop_map(f64::from_bits);
     let any = any.prop_filter("finite", |x| x.is_finite());
@@ -59,7 +59,7 @@ fn number() -> impl Strategy<Value = f64> {
     prop_oneof![any, prop::sample::select(known.to_vec())]
 }
 
-/// What a column has, before it is known how many elements there are.
+/// The content of a column, for any number of elements.
 #[derive(Clone, Debug)]
 struct Sketch {
     domain: Domain,
@@ -116,7 +116,7 @@ impl Sketch {
         }
     }
 
-    /// Adds the column. Values of corners are zero where there is no face: nothing is known of them.
+    /// Adds the column. Values of half-edges without a face are zero, because files do not store them.
     fn add(&self, mesh: &mut Mesh) {
         let mut values = self.values(mesh.domain_len(self.domain));
         if self.domain == Domain::Corner {
@@ -129,7 +129,7 @@ impl Sketch {
     }
 }
 
-/// Faces between some vertices, with corners that are all different.
+/// Faces between some vertices, with distinct corners.
 fn faces() -> impl Strategy<Value = Vec<Vec<u32>>> {
     let all: Vec<u32> = (0..9).collect();
     let face = (prop::sample::subsequence(all, 3..7)).prop_shuffle();
@@ -146,8 +146,8 @@ fn made(positions: Vec<DVec3>, faces: &[Vec<u32>], columns: &[Sketch]) -> Vec<Ob
     objects
 }
 
-/// Whether two edges join the same vertices, as splitting may leave them: a file cannot tell them apart, and
-/// reading it splits them again.
+/// Whether two edges join the same vertices, which can result from splitting. A file cannot distinguish these
+/// edges, and reading it splits them again.
 fn has_double_edges(objects: &[Object]) -> bool {
     let mesh = objects[0].as_mesh().unwrap();
     let mut ends: Vec<_> = mesh
@@ -161,7 +161,7 @@ fn has_double_edges(objects: &[Object]) -> bool {
     ends.windows(2).any(|pair| pair[0] == pair[1])
 }
 
-/// The same cases in every run; `PROPTEST_RNG_SEED=2 PROPTEST_CASES=1000` tries others.
+/// The same cases in every run. `PROPTEST_RNG_SEED=2 PROPTEST_CASES=1000` runs different ones.
 fn cases() -> ProptestConfig {
     let config = ProptestConfig::default();
     match config.rng_seed {
@@ -178,7 +178,7 @@ proptest! {
     #![proptest_config(cases())]
 
     #[test]
-    fn any_polygons_with_any_values_come_back_as_told(
+    fn random_polygons_with_random_values_survive_as_documented(
         numbers in prop::collection::vec(number(), 27),
         faces in faces(),
         columns in prop::collection::vec(sketch(), 0..4),
@@ -196,7 +196,7 @@ proptest! {
     }
 
     #[test]
-    fn any_triangles_of_32_bits_come_back_as_told(
+    fn random_triangles_of_32_bits_survive_as_documented(
         heights in prop::collection::vec(any::<i16>(), 16),
         keep in prop::collection::vec(any::<bool>(), 18),
         materials in prop::collection::vec(-1..2_i32, 18),

@@ -86,7 +86,10 @@ impl Store for Disk {
     }
 
     fn remove_folder(&self, folder: &Path) -> Result<(), StoreError> {
-        fs::remove_dir_all(folder).map_err(|error| StoreError::new("write", folder, error))
+        // Again if that fails: a folder that cannot be listed now may be listed a moment later.
+        remove_all(folder)
+            .or_else(|_| remove_all(folder))
+            .map_err(|error| StoreError::new("write", folder, error))
     }
 
     fn create(&self, path: &Path) -> Result<Box<dyn NewFile + '_>, StoreError> {
@@ -99,6 +102,24 @@ impl Store for Disk {
     fn rename(&self, from: &Path, to: &Path) -> Result<(), StoreError> {
         fs::rename(from, to).map_err(|error| StoreError::new("write", to, error))
     }
+}
+
+/// Removes a folder with everything in it. Each folder is listed and closed before the next one is opened, so that one
+/// file descriptor is enough. An empty folder is not opened at all.
+fn remove_all(folder: &Path) -> io::Result<()> {
+    if fs::remove_dir(folder).is_ok() {
+        return Ok(());
+    }
+    let entries: Vec<_> = fs::read_dir(folder)?.collect::<Result<_, _>>()?;
+    let paths: Vec<PathBuf> = entries.into_iter().map(|entry| entry.path()).collect();
+    for path in paths {
+        if fs::symlink_metadata(&path)?.is_dir() {
+            remove_all(&path)?;
+        } else {
+            fs::remove_file(&path)?;
+        }
+    }
+    fs::remove_dir(folder)
 }
 
 /// Replaces the content of a file. If the path is a link, it stays a link. The permissions of the file are kept.
@@ -217,7 +238,7 @@ const LARGE: usize = 1 << 20;
 #[cfg(unix)]
 fn read_at_once(file: &File, n: usize) -> io::Result<Vec<u8>> {
     use std::os::unix::fs::FileExt;
-    let mut bytes = bytemuck::zeroed_vec(n);
+    let mut bytes = bytemuck::try_zeroed_vec(n).map_err(|()| io::ErrorKind::OutOfMemory)?;
     bytes
         .par_chunks_mut(LARGE)
         .enumerate()

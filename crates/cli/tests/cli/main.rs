@@ -4,6 +4,7 @@ mod batch;
 mod cache;
 mod capsule;
 mod diff;
+mod faults;
 mod files;
 mod folder;
 mod interrupt;

@@ -12,6 +12,7 @@
 //! Exit codes: 0 success, 1 failure, 2 wrong usage.
 
 mod args;
+mod backtrace;
 mod cache;
 mod capsule;
 mod commands;
@@ -24,7 +25,9 @@ mod picture_errors;
 mod scenes;
 mod terminal_picture;
 
+use std::cell::Cell;
 use std::io::{self, Write};
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::process::ExitCode;
 
 use engine::Engine;
@@ -39,6 +42,7 @@ use output::{print_error, print_json};
     reason = "the caller has no further use for the registry"
 )]
 pub fn run(registry: Registry) -> ExitCode {
+    backtrace::print_by_hook();
     if std::env::args_os().len() == 1 {
         print_error(args::help::FIRST_STEPS);
         return ExitCode::from(2);
@@ -49,8 +53,8 @@ pub fn run(registry: Registry) -> ExitCode {
         return ExitCode::FAILURE;
     }
     let engine = Engine::new(&registry);
-    let mut code_of_errors = 1;
-    let result = match args.command {
+    let code_of_errors = Cell::new(1);
+    let run = || match args.command {
         Command::Run(args) => commands::run::run(&args, &engine),
         Command::Watch(args) => commands::watch::run(&args, &engine),
         Command::Check(args) => commands::check::run(&args, &engine),
@@ -65,7 +69,7 @@ pub fn run(registry: Registry) -> ExitCode {
         Command::Select(args) => commands::select::run(&args, &engine),
         Command::Diff(args) => {
             // As in Unix `diff`: 1 means that the files differ, so errors need another code.
-            code_of_errors = 2;
+            code_of_errors.set(2);
             commands::diff::run(&args, &engine)
         }
         Command::Upgrade(args) => commands::upgrade::run(&args, &registry),
@@ -78,6 +82,13 @@ pub fn run(registry: Registry) -> ExitCode {
         Command::Schema => print_json(&recipe::schema(&registry)).map(|()| true),
         Command::NewOp(args) => commands::new_op::run(&args),
     };
+    let result = catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|payload| {
+        // Arrays for which there is no memory are an error, panics are not.
+        match payload.downcast::<mesh::OutOfMemory>() {
+            Ok(missing) => Err(anyhow::Error::new(*missing)),
+            Err(payload) => resume_unwind(payload),
+        }
+    });
     match result.and_then(|succeeded| Ok(io::stdout().flush().map(|()| succeeded)?)) {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::FAILURE,
@@ -87,7 +98,7 @@ pub fn run(registry: Registry) -> ExitCode {
             ExitCode::from(if error.is::<WrongUsage>() {
                 2
             } else {
-                code_of_errors
+                code_of_errors.get()
             })
         }
     }

@@ -132,4 +132,4 @@ pub use journal::Change;
 pub use measure::angle_between;
 pub use traverse::Orbit;
 pub use validate::Defect;
-pub use zeroed::zeroed;
+pub use zeroed::{OutOfMemory, zeroed};

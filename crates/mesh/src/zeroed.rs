@@ -8,10 +8,27 @@ use bytemuck::Zeroable;
 /// Arrays of at least this many bytes request large pages. Smaller arrays would waste memory.
 const LARGE: usize = 8 << 20;
 
+/// The system has no memory for a large array. [`zeroed`] unwinds with this value, which is no panic of the program:
+/// callers that catch it report it as an error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the system has no memory for another {bytes} bytes")]
+pub struct OutOfMemory {
+    /// The size of the array.
+    pub bytes: usize,
+}
+
 /// Returns `n` zero values. The memory is not touched until it is written, so the threads that fill the
 /// array share the work of mapping its pages. Large arrays request large pages from the system.
+///
+/// # Panics
+///
+/// Unwinds with [`OutOfMemory`] if the system has no memory for the array.
 pub fn zeroed<T: Zeroable>(n: usize) -> Vec<T> {
-    let new = bytemuck::zeroed_vec(n);
+    let Ok(new) = bytemuck::try_zeroed_vec(n) else {
+        let bytes = n.saturating_mul(size_of::<T>());
+        // The panic hook is not called: it would print a backtrace, for which there may be no memory either.
+        std::panic::resume_unwind(Box::new(OutOfMemory { bytes }));
+    };
     if size_of_val(new.as_slice()) >= LARGE {
         ask_for_large_pages(&new);
     }
@@ -47,6 +64,14 @@ fn ask_for_large_pages<T>(_: &[T]) {}
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_array_that_is_too_large_unwinds_with_its_size() {
+        let n = usize::MAX / 32;
+        let caught = std::panic::catch_unwind(|| zeroed::<u64>(n).len());
+        let caught = *caught.unwrap_err().downcast::<OutOfMemory>().unwrap();
+        assert_eq!(caught, OutOfMemory { bytes: 8 * n });
+    }
 
     #[test]
     fn arrays_of_all_sizes_are_zero_and_can_be_written() {

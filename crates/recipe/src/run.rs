@@ -453,10 +453,17 @@ pub(crate) fn run_step(
     cx.budget = budget;
     // Safe to assert: after a panic the scene is replaced and the run ends.
     let apply = AssertUnwindSafe(|| operation.apply(scene, &mut cx));
-    let Ok(result) = catch_unwind(apply) else {
-        *scene = before.unwrap_or_default();
-        let message = format!("internal error in {} (please report it)", step.name);
-        return error(message, &[]);
+    let result = match catch_unwind(apply) {
+        Ok(result) => result,
+        Err(payload) => {
+            *scene = before.unwrap_or_default();
+            let name = &step.name;
+            let message = match payload.downcast_ref::<mesh::OutOfMemory>() {
+                Some(missing) => format!("{name}: {missing}"),
+                None => format!("internal error in {name} (please report it)"),
+            };
+            return error(message, &[]);
+        }
     };
     if (result.is_err() || step.refused.is_some())
         && let Some(before) = before

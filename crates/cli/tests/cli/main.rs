@@ -8,6 +8,7 @@ mod faults;
 mod files;
 mod folder;
 mod interrupt;
+mod memory;
 mod new;
 mod new_op;
 mod ops;

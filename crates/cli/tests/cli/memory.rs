@@ -1,0 +1,39 @@
+//! Little memory: every run ends, whatever the limit.
+#![cfg(target_os = "linux")]
+
+use crate::folder::Folder;
+
+#[test]
+fn every_run_ends_under_a_limit_of_memory() {
+    let (mut succeeded, mut refused) = (0, 0);
+    for backtrace in [0, 1] {
+        for mebibytes in [60, 150, 250, 400, 4000] {
+            let folder = Folder::with_recipe(
+                r#"(recipe: 1, steps: [Torus(name: "a", around: 8, across: 6), Triangulate,
+                    LoopSubdivide(levels: 7), Save(path: "a.stl")])"#,
+            );
+            let ended = folder.shell(&format!(
+                "ulimit -v $(({mebibytes} * 1024)); RUST_BACKTRACE={backtrace} \
+                 exec timeout -s KILL 100 \"$0\" run recipe.ron --no-cache --threads 2"
+            ));
+            let what = format!("{mebibytes} MiB, backtrace {backtrace}: {ended:#?}");
+            assert!(!ended.stderr.contains("internal error"), "{what}");
+            match ended.code {
+                Some(0) => succeeded += 1,
+                // 127: the program cannot be loaded. None and 134: an allocation outside of the large arrays.
+                Some(1 | 127 | 134) | None => {
+                    refused += 1;
+                    let sentence = ["memory", "Resource temporarily unavailable", "cannot"];
+                    assert!(sentence.iter().any(|s| ended.stderr.contains(s)), "{what}");
+                    assert_eq!(
+                        folder.entries("out").iter().find(|n| !n.starts_with('.')),
+                        None
+                    );
+                }
+                // 137: killed because it did not end.
+                _ => panic!("{what}"),
+            }
+        }
+    }
+    assert!(succeeded > 0 && refused > 0, "{succeeded} {refused}");
+}

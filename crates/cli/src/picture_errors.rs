@@ -7,7 +7,7 @@ use op::{ErrorLocation, Progress};
 use recipe::{ActualValue, Failure, Listener, StepDone};
 use render::{Image, difference};
 use scene::Scene;
-use view::draw_places;
+use view::draw_error_locations;
 use view::sheet::{Cell, SheetStyle, sheet};
 
 use crate::args::PictureErrorsArgs;
@@ -68,7 +68,9 @@ impl Pictures {
     pub(crate) fn draw(&self, scene: &Scene, places: &[ErrorLocation], caption: &str) {
         let (budget, progress) = (self.budget, &INTERRUPT);
         self.add(caption, || {
-            Ok(draw_places(scene, places, caption, budget, progress)?)
+            Ok(draw_error_locations(
+                scene, places, caption, budget, progress,
+            )?)
         });
     }
 

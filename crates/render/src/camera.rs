@@ -43,8 +43,8 @@ pub enum Camera {
         /// The axis that points upwards.
         #[serde(default)]
         up: Up,
-        /// The projection. An orthographic picture is as high as a perspective one of 30 degrees at the distance of
-        /// `to`.
+        /// The projection. With `Orthographic`, the picture is as high, in scene units, as a perspective picture of 30
+        /// degrees at the distance of `to`.
         #[serde(default)]
         projection: Projection,
     },
@@ -367,8 +367,8 @@ impl View {
         }
     }
 
-    /// Returns origin and direction of the ray through a point of the picture, in scene units. The direction has length 1
-    /// along the axis of the camera.
+    /// Returns origin and direction of the ray through a point of the picture, in scene units. The direction has length
+    /// 1 along the axis of the camera.
     pub(crate) fn ray(&self, at: DVec2) -> (DVec3, DVec3) {
         let [x, y, z] = self.axes;
         let d = (at - self.middle) / self.scale;

@@ -6,8 +6,7 @@ use std::sync::LazyLock;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
 
-/// A color: `"#rrggbb"` or `"#rgb"` in sRGB, with two more digits or one for alpha, or a name from the list
-/// [`NAMES`].
+/// A color: `"#rrggbb"` or `"#rgb"` in sRGB, `"#rrggbbaa"` or `"#rgba"` with alpha, or one of the [`NAMES`].
 #[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq, Serialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct Color(pub [u8; 4]);
@@ -100,7 +99,10 @@ impl JsonSchema for Color {
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         schemars::json_schema!({
             "type": "string",
-            "description": format!("A color: \"#rrggbb\" or \"#rgb\" in sRGB, or one of {}.", names()),
+            "description": format!(
+                "A color: \"#rrggbb\" or \"#rgb\" in sRGB, \"#rrggbbaa\" or \"#rgba\" with alpha, or one of {}.",
+                names()
+            ),
         })
     }
 }

@@ -143,8 +143,8 @@ impl<'b> Frames<'b> {
         bytes.truncate(info.buffer_size());
         let control = self.reader.info().frame_control.map(|c| {
             let [dispose, blend] = [c.dispose_op as u32, c.blend_op as u32];
-            let place = [c.x_offset, c.y_offset, c.width, c.height, dispose, blend];
-            (place, [c.delay_num, c.delay_den])
+            let layout = [c.x_offset, c.y_offset, c.width, c.height, dispose, blend];
+            (layout, [c.delay_num, c.delay_den])
         });
         Ok(Frame {
             width: info.width as usize,

@@ -50,7 +50,7 @@ pub struct Part<'a> {
     pub back: Option<[f32; 3]>,
 }
 
-/// How faces look.
+/// The appearance of faces.
 #[derive(Clone, Debug)]
 pub struct Surface {
     /// Linear red, green, blue and alpha, from 0 to 1. Alpha is the fraction of the samples that the surface covers.

@@ -38,9 +38,9 @@ pub enum PictureError {
     #[error("the image cannot be read: {0}")]
     Decode(String),
     /// One of two files that are compared is not an image that can be read.
-    #[error("image file {file}, counted from 0, cannot be read: {why}")]
+    #[error("image {} of 2 cannot be read: {why}", .file + 1)]
     Unreadable {
-        /// The index of the file, from 0.
+        /// The index of the file, 0 or 1.
         file: usize,
         /// Why the file cannot be read.
         why: String,

@@ -23,8 +23,8 @@ pub struct Image {
     pub width: u32,
     /// The height in pixels.
     pub height: u32,
-    /// The rows from top to bottom, each from left to right. A pixel is red, green and blue in sRGB, and straight alpha,
-    /// which is not multiplied into the colors.
+    /// The rows from top to bottom, each from left to right. A pixel is red, green and blue in sRGB, and straight
+    /// alpha, which is not multiplied into the colors.
     pub pixels: Vec<[u8; 4]>,
 }
 

@@ -179,7 +179,8 @@ mod tests {
         let (style, none) = (Style::default(), Overlays::default());
         let mut images = |_: &str| Some(wood.clone());
         let (_, missing) = build(&cube, &style, &none, &mut images).unwrap();
-        assert_eq!(missing, ["a: no texture coordinates for its textures"]);
+        let message = "\"a\" has textures but no texture coordinates for them";
+        assert_eq!(missing, [message]);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::collections::{BTreeSet, HashMap};
 
 use crate::Image;
 
-/// At most 256 colors for all pixels of some images.
+/// A palette of at most 256 colors for several images.
 ///
 /// If the images have at most 256 colors, the palette has exactly these. Otherwise the colors are quantized (Dekker,
 /// "Kohonen neural networks for optimal colour quantization", 1994), and only the most frequent color is exact.

@@ -37,8 +37,8 @@ const TOLERANCE: f32 = 1e-6;
 const MIN_WEIGHT: f32 = 1.0 / 1024.0;
 
 impl Alpha {
-    /// Returns the fraction of a pixel that the surface covers, from the alpha of the pixel. Level 0 is the image itself;
-    /// the alpha of its smaller copies is already the coverage.
+    /// Returns the fraction of a pixel that the surface covers, from the alpha of the pixel. Level 0 is the image
+    /// itself; the alpha of its smaller copies is already the coverage.
     fn coverage(self, level: usize, alpha: f32) -> f32 {
         match self {
             Self::Ignored => 1.0,
@@ -128,8 +128,8 @@ impl Texture {
     /// Returns the coverage of the surface, from 0 to 1, at texture coordinates with v upwards. `steps` are the
     /// differences of the texture coordinates to the next samples.
     ///
-    /// With [`Alpha::Cut`], alpha is compared with the cutoff before it is averaged over pixels. Fine structures such as
-    /// leaves so keep their density when they are seen from far away.
+    /// With [`Alpha::Cut`], alpha is compared with the cutoff before it is averaged over pixels. Therefore fine
+    /// structures such as leaves keep their density when they are seen from far away.
     pub(crate) fn coverage(&self, uv: DVec2, steps: [DVec2; 2]) -> f32 {
         let footprint = self.footprint(uv, steps);
         let [coverage] = footprint.interpolate(|level| {
@@ -164,8 +164,8 @@ impl Texture {
         }
     }
 
-    /// Interpolates the values of `texel` for the pixels of a level at the position of `footprint`. Outside of the image,
-    /// the sampler decides.
+    /// Interpolates the values of `texel` for the pixels of a level at the position of `footprint`. Outside of the
+    /// image, the sampler decides.
     fn at_level<const N: usize>(
         &self,
         level: usize,

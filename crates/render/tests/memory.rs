@@ -1,6 +1,6 @@
-//! How much memory pictures take: never more than they say before.
+//! Tests that rendering never needs more memory than `bytes_needed` returns.
 //!
-//! One test in a program of its own: what others allocate at the same time would be counted too.
+//! There is only one test in this binary, because allocations of tests that run at the same time would be counted too.
 
 use geometry::shapes;
 use mesh::DVec3;
@@ -15,7 +15,7 @@ use scene::{Object, Scene};
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
 
-/// The bytes that are allocated at once while `run` runs, beside those from before.
+/// Runs a function, and returns its result and its peak memory in bytes.
 fn peak<T>(run: impl FnOnce() -> T) -> (T, u64) {
     MEMORY.reset_peak_usage();
     let before = MEMORY.current_usage();
@@ -24,7 +24,7 @@ fn peak<T>(run: impl FnOnce() -> T) -> (T, u64) {
 }
 
 #[test]
-fn pictures_take_no_more_memory_than_they_say() {
+fn rendering_takes_at_most_the_estimated_memory() {
     let mut dense = Scene::new();
     let ball = shapes::fans(&shapes::uv_sphere(400, 200));
     dense.insert(Object::mesh("ball", ball)).unwrap();
@@ -70,20 +70,20 @@ fn pictures_take_no_more_memory_than_they_say() {
     too_large_pictures_are_refused_before_anything_is_allocated(&one);
 }
 
-/// Draws a drawing, and compares what it takes with what it says.
+/// Renders a drawing, and compares its peak memory with the estimate.
 fn check(name: &str, drawing: &Drawing, style: &Style, size: [u32; 2]) {
     let look = style.look();
     let needed = bytes_needed(drawing, size, &look);
     let view = View::new(&Camera::default(), &|each| drawing.each_point(each), size).unwrap();
-    let (drawn, taken) = peak(|| render(drawing, &view, size, &look, &NoProgress));
+    let (rendered, peak) = peak(|| render(drawing, &view, size, &look, &NoProgress));
     assert_eq!(
-        drawn.unwrap().image.pixels.len(),
+        rendered.unwrap().image.pixels.len(),
         (size[0] * size[1]) as usize
     );
-    assert!(taken <= needed, "{name}: takes {taken}, says {needed}");
+    assert!(peak <= needed, "{name}: {peak} bytes, estimated {needed}");
 }
 
-/// Lines from everywhere to a place far away: each is in the lists of many tiles.
+/// A drawing of long lines, each of which is in the lists of many tiles.
 fn long_lines() -> Drawing<'static> {
     let line = |i: i32| {
         let from = DVec3::new(f64::from(i % 200), f64::from(i / 200), 0.0);
@@ -107,9 +107,9 @@ fn too_large_pictures_are_refused_before_anything_is_allocated(scene: &Scene) {
     let size = [16_384; 2];
     let budget = 1 << 30;
     let draw = || picture(scene, &camera, &style, &none, size, budget, &mut |_| None);
-    let (refused, taken) = peak(draw);
+    let (refused, peak) = peak(draw);
     let Err(PictureError::Budget { needed, .. }) = refused else {
         panic!("{refused:?}");
     };
-    assert!(needed > budget && taken < 1 << 20, "{needed}, {taken}");
+    assert!(needed > budget && peak < 1 << 20, "{needed}, {peak}");
 }

@@ -1,22 +1,22 @@
-//! What to show of a scene, and how: for the operation `Picture`, the program and the editor.
+//! Composes pictures of scenes, for the operation `Picture`, the program and the editor.
 //!
 //! ```text
-//!   scene --numbers (ColorBy), selected elements (marked)--> Subject --cameras (Shot)--> images --sheet--> one image
+//!   scene + numbers (ColorBy) + selected elements (highlight) --> Subject --Shot--> images --sheet--> one image
 //! ```
 //!
-//! [`render`] draws one scene from one camera. A [`Shot`] draws several scenes from several cameras in one scale, with
-//! labels and a legend. [`draw_places`] shows what an error is about.
+//! [`render`] draws one scene from one camera. A [`Shot`] draws several scenes from several cameras at the same scale,
+//! with labels and a legend. [`draw_error_locations`] shows where errors are in a scene.
 
 #![forbid(unsafe_code)]
 
-mod marks;
+mod error_locations;
+mod highlight;
 mod numbers;
-mod places;
 pub mod sheet;
 mod shot;
-mod sight;
+mod viewpoint;
 
-pub use marks::{MARK, marked};
-pub use numbers::{ColorBy, Numbers, Quantity, no_attribute, there_are};
-pub use places::draw_places;
+pub use error_locations::draw_error_locations;
+pub use highlight::{HIGHLIGHT_COLOR, highlight};
+pub use numbers::{ColorBy, Numbers, Quantity, existing_attributes, missing_attribute};
 pub use shot::{Extent, Shot, Subject};

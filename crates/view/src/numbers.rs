@@ -1,4 +1,4 @@
-//! Numbers of meshes that are shown as colors.
+//! Numbers of mesh elements that are shown as colors.
 
 use std::path::Path;
 
@@ -10,20 +10,20 @@ use scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Numbers that are shown as colors of the surface, with a legend.
+/// Shows numbers as colors of the surface, with a legend.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct ColorBy {
-    /// Which numbers.
+    /// The numbers.
     pub of: Quantity,
-    /// How they become colors; unless told otherwise, as it suits them.
+    /// The color map. If omitted, `Classes` for valences, `Diverging` for curvatures, else `Viridis`.
     #[serde(default)]
     pub map: Option<ColorMap>,
-    /// The numbers of the first and the last color, as in `(0, 60)`; unless told otherwise those that are found,
-    /// without the outermost 2 % of curvatures.
+    /// The numbers of the first and the last color, as in `(0, 60)`. If omitted, the range is chosen from the numbers;
+    /// for curvatures, without the lowest and the highest 2 %.
     #[serde(default)]
     pub range: Option<[f64; 2]>,
-    /// Whether the colors are explained in a corner.
+    /// Whether a legend in a corner explains the colors.
     #[serde(default = "yes")]
     pub legend: bool,
 }
@@ -32,58 +32,60 @@ fn yes() -> bool {
     true
 }
 
-/// Numbers of a mesh.
+/// Numbers of mesh elements.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Quantity {
-    /// How many edges each vertex has.
+    /// The number of edges of each vertex.
     Valence,
-    /// The smallest angle of each face, in degrees: 60 in a regular triangle, 0 in a sliver.
+    /// The smallest angle of each face, in degrees: 60 in an equilateral triangle, 0 in a sliver.
     SmallestAngle,
     /// The area of each face, in scene units².
     Area,
-    /// The angle between the faces at each edge, in degrees: 0 where they are flat. Edges become lines.
+    /// The angle between the normals of the two faces at each edge, in degrees: 0 where the surface is flat. Shown as
+    /// colored lines.
     DihedralAngle,
-    /// The mean curvature at each vertex, in 1 / scene unit: positive where the surface bulges.
+    /// The mean curvature at each vertex, in 1 / scene unit: positive where the surface is convex.
     MeanCurvature,
     /// The Gaussian curvature at each vertex, in 1 / scene unit²: negative at saddles.
     GaussianCurvature,
-    /// An attribute: of vertices, else of faces, else of corners, else of edges.
+    /// An attribute. If several domains have an attribute of this name, the first of vertices, faces, corners and edges
+    /// is used.
     Attribute {
-        /// Its name.
+        /// The name of the attribute.
         name: String,
-        /// Which of its components, from 0; the length of a vector if this is left out.
+        /// The index of the component of a vector, from 0. If omitted, the length of the vector.
         #[serde(default)]
         #[schemars(range(max = 3))]
         component: Option<u32>,
     },
-    /// How far each vertex is from the nearest point of the meshes of a file, seen from the recipe's folder; in
-    /// scene units.
+    /// The distance of each vertex from the nearest point of the meshes of a file, in scene units. The path is relative
+    /// to the folder of the recipe.
     DistanceTo(String),
 }
 
 /// The numbers of a scene.
 pub struct Numbers {
-    /// Those of each mesh.
+    /// The numbers of each mesh.
     pub colorings: Vec<Coloring>,
-    pub(crate) shown: Shown,
+    pub(crate) scale: ColorScale,
 }
 
-/// What the colors of numbers mean.
+/// The meaning of the colors of numbers.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Shown {
+pub(crate) struct ColorScale {
     title: String,
     map: ColorMap,
     /// The numbers of the first and the last color.
     pub(crate) range: [f64; 2],
-    /// The numbers that there are, if each has a color of its own.
+    /// With [`ColorMap::Classes`], the different numbers of the scene.
     classes: Vec<f64>,
-    /// Whether the picture says it.
+    /// Whether pictures have a legend.
     legend: bool,
 }
 
 impl ColorBy {
-    /// Numbers alone, in colors that suit them.
+    /// Creates it with the default color map, range and legend.
     pub fn new(of: Quantity) -> Self {
         Self {
             of,
@@ -93,43 +95,46 @@ impl ColorBy {
         }
     }
 
-    /// The numbers of all meshes of a scene, all in one range. `others` are the meshes that [`Quantity::DistanceTo`]
-    /// measures to.
+    /// Computes the numbers of all meshes of a scene, with a common range. `targets` are the meshes to which
+    /// [`Quantity::DistanceTo`] measures distances.
     ///
     /// # Errors
     ///
     /// [`PictureError::Style`] if no mesh has these numbers.
-    pub fn numbers(&self, scene: &Scene, others: &[Mesh]) -> Result<Numbers, PictureError> {
-        let mut found = Vec::new();
+    pub fn numbers(&self, scene: &Scene, targets: &[Mesh]) -> Result<Numbers, PictureError> {
+        let mut numbers = Vec::new();
         for object in scene.objects() {
             if let Some(mesh) = object.as_mesh() {
-                let values = self.of.values(mesh, others);
-                found.extend(values.map(|(domain, values)| (&object.name, domain, values)));
+                let values = self.of.values(mesh, targets);
+                numbers.extend(values.map(|(domain, values)| (&object.name, domain, values)));
             }
         }
-        if found.is_empty() {
+        if numbers.is_empty() {
             let meshes = scene.objects().iter().filter_map(|o| o.as_mesh());
             let names = meshes.flat_map(|m| m.attributes().iter().map(|(_, c)| c.name.as_str()));
             let message = match &self.of {
                 Quantity::Attribute { name, .. } => {
-                    format!("{}: {}", no_attribute(name), there_are(names.collect()))
+                    let existing = existing_attributes(names.collect());
+                    format!("{}; {existing}", missing_attribute(name))
                 }
-                _ => "there is no mesh here whose numbers could be shown".to_owned(),
+                _ => "expected a mesh to color by numbers, found none in the scene".to_owned(),
             };
             return Err(PictureError::Style(message));
         }
         let map = self.map.unwrap_or_else(|| self.of.map());
-        let all = found.iter().flat_map(|(_, _, values)| values).copied();
+        let all = numbers.iter().flat_map(|(_, _, values)| values).copied();
         let range = self.range.unwrap_or_else(|| self.of.range(all.collect()));
-        let colorings = found.into_iter().map(|(object, domain, values)| Coloring {
-            object: object.clone(),
-            domain,
-            values,
-            map,
-            range,
-        });
+        let colorings = numbers
+            .into_iter()
+            .map(|(object, domain, values)| Coloring {
+                object: object.clone(),
+                domain,
+                values,
+                map,
+                range,
+            });
         let colorings: Vec<Coloring> = colorings.collect();
-        let mut shown = Shown {
+        let mut scale = ColorScale {
             title: self.of.title(),
             map,
             range,
@@ -138,35 +143,35 @@ impl ColorBy {
         };
         if map == ColorMap::Classes {
             let values = colorings.iter().flat_map(|coloring| &coloring.values);
-            shown
+            scale
                 .classes
                 .extend(values.filter(|x| x.is_finite()).map(|x| x.floor()));
-            shown.sort_classes();
+            scale.sort_classes();
         }
-        Ok(Numbers { colorings, shown })
+        Ok(Numbers { colorings, scale })
     }
 }
 
-/// What is wrong if no mesh has an attribute of this name.
-pub fn no_attribute(name: &str) -> String {
-    format!("no mesh has an attribute \"{name}\" here")
+/// Returns the error message for an attribute that no mesh has.
+pub fn missing_attribute(name: &str) -> String {
+    format!("no mesh has the attribute \"{name}\"")
 }
 
-/// Which attributes there are instead.
-pub fn there_are(mut names: Vec<&str>) -> String {
+/// Returns a help text with the names of the attributes of all meshes.
+pub fn existing_attributes(mut names: Vec<&str>) -> String {
     names.sort_unstable();
     names.dedup();
     if names.is_empty() {
-        return "there are none".to_owned();
+        return "the meshes have no attributes".to_owned();
     }
     let names: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
-    format!("there are {}", names.join(", "))
+    format!("the meshes have the attributes {}", names.join(", "))
 }
 
 impl Quantity {
-    /// One number for each element, by its place, not a number where there is none; `None` if the mesh does
-    /// not have this.
-    fn values(&self, mesh: &Mesh, others: &[Mesh]) -> Option<(Domain, Vec<f64>)> {
+    /// Returns the domain, and one number for each element by index, which is NaN if the element has no number. `None`
+    /// if the mesh does not have this quantity.
+    fn values(&self, mesh: &Mesh, targets: &[Mesh]) -> Option<(Domain, Vec<f64>)> {
         let each = |domain, value: &dyn Fn(usize) -> Option<f64>| {
             let all = 0..mesh.domain_len(domain);
             let values = all.map(|i| value(i).unwrap_or(f64::NAN));
@@ -185,7 +190,7 @@ impl Quantity {
             Self::SmallestAngle => faces(&|f| {
                 let angles = mesh.face_half_edges(f).map(|h| mesh.corner_angle(h));
                 angles
-                    .fold(f64::INFINITY, |least, a| if a < least { a } else { least })
+                    .fold(f64::INFINITY, |min, a| if a < min { a } else { min })
                     .to_degrees()
             }),
             Self::Area => faces(&|f| mesh.face_area(f)),
@@ -198,21 +203,21 @@ impl Quantity {
             Self::GaussianCurvature => (Domain::Vertex, geometry::gaussian_curvatures(mesh)),
             Self::Attribute { name, component } => attribute(mesh, name, *component)?,
             Self::DistanceTo(_) => {
-                let mut least = vec![f64::NAN; mesh.domain_len(Domain::Vertex)];
-                for other in others {
-                    let distances = distance::vertex_distances(mesh, other)?;
-                    for (least, d) in least.iter_mut().zip(distances) {
-                        if least.is_nan() || d < *least {
-                            *least = d;
+                let mut min_distances = vec![f64::NAN; mesh.domain_len(Domain::Vertex)];
+                for target in targets {
+                    let distances = distance::vertex_distances(mesh, target)?;
+                    for (min, d) in min_distances.iter_mut().zip(distances) {
+                        if min.is_nan() || d < *min {
+                            *min = d;
                         }
                     }
                 }
-                (Domain::Vertex, least)
+                (Domain::Vertex, min_distances)
             }
         })
     }
 
-    /// The colors that suit it.
+    /// Returns the default color map.
     fn map(&self) -> ColorMap {
         match self {
             Self::Valence => ColorMap::Classes,
@@ -221,7 +226,7 @@ impl Quantity {
         }
     }
 
-    /// The numbers of the first and the last color, for these values.
+    /// Returns the default numbers of the first and the last color, for these values.
     fn range(&self, mut values: Vec<f64>) -> [f64; 2] {
         values.retain(|x| x.is_finite());
         values.sort_unstable_by(f64::total_cmp);
@@ -232,12 +237,12 @@ impl Quantity {
             Self::SmallestAngle => [0.0, if high > 60.0 { 90.0 } else { 60.0 }],
             Self::DihedralAngle => [0.0, if high > 90.0 { 180.0 } else { 90.0 }],
             Self::DistanceTo(_) => [0.0, high],
-            // The middle of the colors is 0; a few corners must not leave the rest without color.
+            // Symmetric about 0, without outliers: at a few sharp corners, curvatures are very large.
             Self::MeanCurvature | Self::GaussianCurvature => {
-                let cut = values.len() / 50;
-                let (low, high) = (values[cut], values[values.len() - 1 - cut]);
-                let most = low.abs().max(high.abs());
-                [-most, most]
+                let n_outliers = values.len() / 50;
+                let (low, high) = (values[n_outliers], values[values.len() - 1 - n_outliers]);
+                let max = low.abs().max(high.abs());
+                [-max, max]
             }
             _ => [low, high],
         }
@@ -263,7 +268,7 @@ impl Quantity {
     }
 }
 
-/// The values of the first attribute of this name.
+/// Returns the values of the first attribute of this name, in the order vertices, faces, corners, edges.
 fn attribute(mesh: &Mesh, name: &str, component: Option<u32>) -> Option<(Domain, Vec<f64>)> {
     let domains = [Domain::Vertex, Domain::Face, Domain::Corner, Domain::Edge];
     let mut columns = domains.into_iter().filter_map(|domain| {
@@ -271,24 +276,26 @@ fn attribute(mesh: &Mesh, name: &str, component: Option<u32>) -> Option<(Domain,
         Some((domain, &column.values))
     });
     let (domain, values) = columns.next()?;
-    let of = |parts: &[f64]| match component {
-        Some(i) => parts.get(i as usize).copied().unwrap_or(f64::NAN),
-        None if parts.len() == 1 => parts[0],
-        None => parts.iter().map(|x| x * x).sum::<f64>().sqrt(),
+    let number = |components: &[f64]| match component {
+        Some(i) => components.get(i as usize).copied().unwrap_or(f64::NAN),
+        None if components.len() == 1 => components[0],
+        None => components.iter().map(|x| x * x).sum::<f64>().sqrt(),
     };
     let values = match values {
-        Values::Float(list) => list.iter().map(|&x| of(&[x])).collect(),
-        Values::Vec2(list) => list.iter().map(|v| of(&v.to_array())).collect(),
-        Values::Vec3(list) => list.iter().map(|v| of(&v.to_array())).collect(),
-        Values::Vec4(list) => list.iter().map(|v| of(&v.to_array())).collect(),
-        Values::Int(list) => list.iter().map(|&i| of(&[i.into()])).collect(),
-        Values::Tag(list) => list.iter().map(|&t| of(&[u8::from(t).into()])).collect(),
+        Values::Float(list) => list.iter().map(|&x| number(&[x])).collect(),
+        Values::Vec2(list) => list.iter().map(|v| number(&v.to_array())).collect(),
+        Values::Vec3(list) => list.iter().map(|v| number(&v.to_array())).collect(),
+        Values::Vec4(list) => list.iter().map(|v| number(&v.to_array())).collect(),
+        Values::Int(list) => list.iter().map(|&i| number(&[i.into()])).collect(),
+        Values::Tag(list) => (list.iter())
+            .map(|&t| number(&[u8::from(t).into()]))
+            .collect(),
     };
     Some((domain, values))
 }
 
-impl Shown {
-    /// Takes what is shown of another scene in, too.
+impl ColorScale {
+    /// Extends the range and the classes by those of another scene.
     pub(crate) fn join(&mut self, other: &Self) {
         let [low, high] = other.range;
         if low < self.range[0] {
@@ -306,7 +313,7 @@ impl Shown {
         self.classes.dedup();
     }
 
-    /// What the colors mean, if the picture says it.
+    /// Returns the legend, if pictures have one.
     pub(crate) fn legend(&self) -> Option<Legend> {
         let opaque = |[r, g, b]: [u8; 3]| [r, g, b, 255];
         let scale = if self.map == ColorMap::Classes {

@@ -1,4 +1,4 @@
-//! Images side by side, with captions.
+//! Sheets: images side by side, with captions.
 //!
 //! ```text
 //!   +-------+  +-------+  +-------+
@@ -9,10 +9,10 @@
 //!   ...
 //! ```
 //!
-//! Or as a table with [`Heads`]: of its columns above, of its rows to the left.
+//! With [`Headings`], a sheet is a table: column headings are at the top, row headings at the left.
 
 use glam::DVec2;
-use render::figure::label::{Label, draw_labels, filled, shortened, text_width};
+use render::figure::label::{Label, draw_labels, shortened, text_width, wrapped};
 use render::figure::{Anchor, Color, Font, Text};
 use render::{Image, PictureError, checked_size};
 
@@ -21,32 +21,32 @@ use render::{Image, PictureError, checked_size};
 pub struct Cell<'a> {
     /// The image.
     pub image: &'a Image,
-    /// What stands below it, line by line; nothing if empty.
+    /// The lines of text below the image. Can be empty.
     pub caption: &'a str,
 }
 
-/// What stands beside the rows and the columns of a sheet.
+/// The headings of the rows and the columns of a sheet.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Heads<'a> {
-    /// Above each column; none if empty.
+pub struct Headings<'a> {
+    /// The headings above the columns. If empty, there are none.
     pub columns: &'a [String],
-    /// To the left of each row; none if empty.
+    /// The headings to the left of the rows. If empty, there are none.
     pub rows: &'a [String],
 }
 
-/// How a sheet looks.
+/// The layout and the colors of a sheet.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub struct SheetStyle {
-    /// How many images stand in a row, at least 1.
+    /// The number of images in a row, at least 1.
     pub columns: usize,
-    /// Pixels between images, and around all of them.
+    /// The gap between images and around all of them, in pixels.
     pub gap: u32,
-    /// What is seen between the images, and through them.
+    /// The color between images and behind transparent images.
     pub background: Color,
-    /// The color of captions.
-    pub ink: Color,
-    /// The height of the letters of captions, in pixels.
-    pub letters: u32,
+    /// The color of captions and headings.
+    pub text_color: Color,
+    /// The font size of captions and headings, in pixels.
+    pub font_size: u32,
 }
 
 impl Default for SheetStyle {
@@ -55,44 +55,48 @@ impl Default for SheetStyle {
             columns: 4,
             gap: 12,
             background: [255; 4],
-            ink: [0x1f, 0x29, 0x37, 255],
-            letters: 14,
+            text_color: [0x1f, 0x29, 0x37, 255],
+            font_size: 14,
         }
     }
 }
 
-/// Where everything stands.
-struct Places {
+/// The positions and sizes of the parts of a sheet, in pixels.
+struct Layout {
+    /// The number of columns.
     columns: usize,
-    /// The height of the heads of columns, and the width of those of rows; 0 if there are none.
-    above: u64,
-    beside: u64,
-    /// The width of every column, and the height of each row, without captions.
+    /// The height of column headings; 0 if there are none.
+    heading_height: u64,
+    /// The width of row headings; 0 if there are none.
+    heading_width: u64,
+    /// The width of every column.
     width: u64,
+    /// The height of each row, without captions.
     rows: Vec<u64>,
     /// The height of captions; 0 if no image has one.
     caption: u64,
-    /// The size of all.
+    /// The size of the sheet.
     size: [u64; 2],
 }
 
-impl Places {
-    fn of(cells: &[Cell], heads: Heads, style: &SheetStyle) -> Self {
+impl Layout {
+    fn new(cells: &[Cell], headings: Headings, style: &SheetStyle) -> Self {
         let columns = style.columns.clamp(1, cells.len().max(1));
-        let (gap, letters) = (u64::from(style.gap), u64::from(style.letters));
+        let (gap, font_size) = (u64::from(style.gap), u64::from(style.font_size));
         let lines = |cell: &Cell| cell.caption.lines().count() as u64;
         let caption = match cells.iter().map(lines).max() {
             None | Some(0) => 0,
-            Some(lines) => (3 * lines + 1) * letters / 2,
+            Some(lines) => (3 * lines + 1) * font_size / 2,
         };
         let width = cells.iter().map(|c| u64::from(c.image.width)).max();
         let width = width.unwrap_or(0);
         let height = |row: &[Cell]| row.iter().map(|c| u64::from(c.image.height)).max();
         let rows = cells.chunks(columns).filter_map(height);
         let rows: Vec<u64> = rows.collect();
-        let above = u64::from(!heads.columns.is_empty()) * 2 * letters;
-        let widths = heads.rows.iter().map(|head| {
-            let text = Text::new(Font::Plain, &**head, f64::from(style.letters), style.ink);
+        let heading_height = u64::from(!headings.columns.is_empty()) * 2 * font_size;
+        let widths = headings.rows.iter().map(|heading| {
+            let size = f64::from(style.font_size);
+            let text = Text::new(Font::Plain, &**heading, size, style.text_color);
             text_width(&text).min(width as f64)
         });
         #[expect(
@@ -100,27 +104,27 @@ impl Places {
             clippy::cast_sign_loss,
             reason = "at most the width of an image"
         )]
-        let beside = match heads.rows {
+        let heading_width = match headings.rows {
             [] => 0,
             _ => gap + widths.fold(0.0, f64::max).ceil() as u64,
         };
-        let all: u64 = rows.iter().map(|height| height + caption + gap).sum();
+        let rows_height: u64 = rows.iter().map(|height| height + caption + gap).sum();
         Self {
             columns,
-            above,
-            beside,
+            heading_height,
+            heading_width,
             width,
             rows,
             caption,
             size: [
-                beside + columns as u64 * (width + gap) + gap,
-                above + all + gap,
+                heading_width + columns as u64 * (width + gap) + gap,
+                heading_height + rows_height + gap,
             ],
         }
     }
 }
 
-/// The width and the height of a sheet in pixels.
+/// Returns the width and the height of a sheet in pixels.
 ///
 /// # Errors
 ///
@@ -128,111 +132,115 @@ impl Places {
 /// and no gap.
 pub fn sheet_size(
     cells: &[Cell],
-    heads: Heads,
+    headings: Headings,
     style: &SheetStyle,
 ) -> Result<(u32, u32), PictureError> {
-    let size = Places::of(cells, heads, style).size;
+    let size = Layout::new(cells, headings, style).size;
     let [width, height] = size.map(|side| u32::try_from(side).unwrap_or(u32::MAX));
     checked_size(width, height)?;
     Ok((width, height))
 }
 
-/// Puts images into rows of columns, from left to right, each in the middle of its place, with its caption below:
-/// a line of it that is too long loses its middle. All columns are as wide as the widest image.
+/// Arranges images in rows from left to right, with captions below.
+///
+/// All columns are as wide as the widest image. Images are centered in their cells. In a line of a caption that is too
+/// long, "…" replaces the middle.
 ///
 /// # Errors
 ///
-/// [`PictureError::Size`] as [`sheet_size`]; [`PictureError::Budget`] if the sheet takes more than `budget` bytes.
-/// Both are found before memory is taken.
+/// [`PictureError::Size`] like [`sheet_size`]; [`PictureError::Budget`] if the sheet needs more than `budget` bytes.
+/// Both are checked before memory is allocated.
 pub fn sheet(cells: &[Cell], style: &SheetStyle, budget: u64) -> Result<Image, PictureError> {
-    sheet_with_heads(cells, Heads::default(), style, budget)
+    sheet_with_headings(cells, Headings::default(), style, budget)
 }
 
-/// The same with heads of rows and of columns, in the middle of what they stand beside: one that is too long loses
-/// its middle.
+/// Like [`sheet`], with headings of rows and columns. In a heading that is too long, "…" replaces the middle.
 ///
 /// # Errors
 ///
-/// As [`sheet`].
-pub fn sheet_with_heads(
+/// The errors of [`sheet`].
+pub fn sheet_with_headings(
     cells: &[Cell],
-    heads: Heads,
+    headings: Headings,
     style: &SheetStyle,
     budget: u64,
 ) -> Result<Image, PictureError> {
-    let (width, height) = sheet_size(cells, heads, style)?;
+    let (width, height) = sheet_size(cells, headings, style)?;
     let needed = u64::from(width) * u64::from(height) * 4;
     if needed > budget {
         return Err(PictureError::Budget { needed, budget });
     }
     let mut sheet = Image::filled(width, height, style.background)?;
-    let places = Places::of(cells, heads, style);
+    let layout = Layout::new(cells, headings, style);
     let gap = u64::from(style.gap);
-    let letters = f64::from(style.letters);
+    let font_size = f64::from(style.font_size);
     let mut labels = Vec::new();
-    // The middle of the place of column `i`.
+    // The middle of column `i`.
     let middle = |i: usize| {
-        let left = places.beside + gap + i as u64 * (places.width + gap);
-        left as f64 + places.width as f64 / 2.0
+        let left = layout.heading_width + gap + i as u64 * (layout.width + gap);
+        left as f64 + layout.width as f64 / 2.0
     };
-    let room = (places.width + gap / 2) as f64;
-    for (i, head) in heads.columns.iter().take(places.columns).enumerate() {
-        let place = DVec2::new(middle(i), gap as f64 + letters);
-        labels.extend(label(head, style, place, room));
+    let max_width = (layout.width + gap / 2) as f64;
+    for (i, heading) in (headings.columns.iter().take(layout.columns)).enumerate() {
+        let position = DVec2::new(middle(i), gap as f64 + font_size);
+        labels.extend(label(heading, style, position, max_width));
     }
-    let mut top = places.above + gap;
-    for (row, (cells, &high)) in cells.chunks(places.columns).zip(&places.rows).enumerate() {
-        if let Some(head) = heads.rows.get(row) {
-            let place = DVec2::new(places.beside as f64 / 2.0, top as f64 + high as f64 / 2.0);
-            let place = place + 0.5 * gap as f64 * DVec2::X;
-            labels.extend(label(head, style, place, places.beside as f64));
+    let mut top = layout.heading_height + gap;
+    for (row, (cells, &row_height)) in cells.chunks(layout.columns).zip(&layout.rows).enumerate() {
+        if let Some(heading) = headings.rows.get(row) {
+            let width = layout.heading_width as f64;
+            let position = DVec2::new(width / 2.0, top as f64 + row_height as f64 / 2.0);
+            let position = position + 0.5 * gap as f64 * DVec2::X;
+            labels.extend(label(heading, style, position, width));
         }
-        let mut left = places.beside + gap;
+        let mut left = layout.heading_width + gap;
         for (i, cell) in cells.iter().enumerate() {
-            let x = left + (places.width - u64::from(cell.image.width)) / 2;
-            let y = top + (high - u64::from(cell.image.height)) / 2;
+            let x = left + (layout.width - u64::from(cell.image.width)) / 2;
+            let y = top + (row_height - u64::from(cell.image.height)) / 2;
             sheet.place(cell.image, [x, y]);
             for (k, line) in cell.caption.lines().enumerate() {
-                let line_at = (top + high) as f64 + letters * (1.0 + 1.5 * k as f64);
-                labels.extend(label(line, style, DVec2::new(middle(i), line_at), room));
+                let line_y = (top + row_height) as f64 + font_size * (1.0 + 1.5 * k as f64);
+                let position = DVec2::new(middle(i), line_y);
+                labels.extend(label(line, style, position, max_width));
             }
-            left += places.width + gap;
+            left += layout.width + gap;
         }
-        top += high + places.caption + gap;
+        top += row_height + layout.caption + gap;
     }
     draw_labels(&mut sheet, &labels);
     Ok(sheet)
 }
 
-fn label(text: &str, style: &SheetStyle, place: DVec2, room: f64) -> Option<Label> {
-    let size = f64::from(style.letters);
-    let text = shortened(text, Font::Plain, size, room);
-    let text = Text::new(Font::Plain, text, size, style.ink).anchored(Anchor::Middle);
-    (!text.runs[0].text.is_empty()).then_some(Label { place, text })
+/// Returns a centered label of at most this width; `None` if it is empty.
+fn label(text: &str, style: &SheetStyle, position: DVec2, max_width: f64) -> Option<Label> {
+    let size = f64::from(style.font_size);
+    let text = shortened(text, Font::Plain, size, max_width);
+    let text = Text::new(Font::Plain, text, size, style.text_color).anchored(Anchor::Middle);
+    (!text.runs[0].text.is_empty()).then_some(Label { position, text })
 }
 
-/// An image of this size that is not there: nothing but why, in words, in its middle.
+/// Returns a placeholder for a missing image of this size: a centered text with the reason.
 ///
 /// # Errors
 ///
 /// [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`](render::LARGEST_SIDE).
 pub fn notice(
-    why: &str,
+    reason: &str,
     [width, height]: [u32; 2],
     style: &SheetStyle,
 ) -> Result<Image, PictureError> {
     let mut image = Image::filled(width, height, style.background)?;
-    let (size, room) = (f64::from(style.letters), f64::from(width) * 0.9);
-    let words: Vec<&str> = why.split_whitespace().collect();
-    let mut lines = filled(&words, " ", Font::Plain, size, room);
+    let (size, max_width) = (f64::from(style.font_size), f64::from(width) * 0.9);
+    let words: Vec<&str> = reason.split_whitespace().collect();
+    let mut lines = wrapped(&words, " ", Font::Plain, size, max_width);
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "at most as many as an image has pixels"
+        reason = "at most the height of an image"
     )]
-    let most = (f64::from(height) / (1.5 * size)).max(1.0) as usize;
-    if lines.len() > most {
-        lines.truncate(most);
+    let max_lines = (f64::from(height) / (1.5 * size)).max(1.0) as usize;
+    if lines.len() > max_lines {
+        lines.truncate(max_lines);
         if let Some(last) = lines.last_mut() {
             last.push('…');
         }
@@ -240,8 +248,8 @@ pub fn notice(
     let top = 0.5 * f64::from(height) - 0.75 * size * (lines.len().saturating_sub(1)) as f64;
     let labels: Vec<Label> = (lines.iter().enumerate())
         .filter_map(|(k, line)| {
-            let place = DVec2::new(0.5 * f64::from(width), top + 1.5 * size * k as f64);
-            label(line, style, place, f64::from(width))
+            let position = DVec2::new(0.5 * f64::from(width), top + 1.5 * size * k as f64);
+            label(line, style, position, f64::from(width))
         })
         .collect();
     draw_labels(&mut image, &labels);
@@ -260,7 +268,7 @@ mod tests {
         image.pixels[(y * image.width + x) as usize]
     }
 
-    /// With `MESHWRIGHT_UPDATE` set in the environment, the file is written anew.
+    /// If the environment variable `MESHWRIGHT_UPDATE` is set, the golden file is written instead.
     #[test]
     fn a_sheet_is_the_same_on_every_machine() {
         let image = |width, height| plain(width, height, [60, 120, 180, 128]);
@@ -273,7 +281,7 @@ mod tests {
             .collect();
         let style = SheetStyle {
             columns: 2,
-            letters: 11,
+            font_size: 11,
             ..SheetStyle::default()
         };
         let sheet = sheet(&cells, &style, 1 << 20).unwrap();
@@ -289,7 +297,7 @@ mod tests {
     const WHITE: Color = [255; 4];
 
     #[test]
-    fn every_image_stands_whole_in_its_place() {
+    fn images_are_centered_in_their_cells() {
         let (large, small) = (plain(20, 10, RED), plain(4, 6, [0, 0, 200, 255]));
         let cell = |image| Cell { image, caption: "" };
         let cells = [cell(&large), cell(&small), cell(&small)];
@@ -298,41 +306,41 @@ mod tests {
             gap: 3,
             ..SheetStyle::default()
         };
-        let made = sheet(&cells, &style, u64::MAX).unwrap();
+        let image = sheet(&cells, &style, u64::MAX).unwrap();
         assert_eq!(
-            (made.width, made.height),
+            (image.width, image.height),
             (3 + 20 + 3 + 20 + 3, 3 + 10 + 3 + 6 + 3)
         );
-        let count = |color| made.pixels.iter().filter(|&&p| p == color).count();
+        let count = |color| image.pixels.iter().filter(|&&p| p == color).count();
         assert_eq!(count(RED), 200);
         assert_eq!(count([0, 0, 200, 255]), 2 * 24);
-        assert_eq!(count(WHITE), made.pixels.len() - 248);
-        assert_eq!(at(&made, 3, 3), RED);
-        // In the middle of 20 x 10 pixels at (26, 3).
-        assert_eq!(at(&made, 26 + 8, 3 + 2), [0, 0, 200, 255]);
-        assert_eq!(at(&made, 26 + 7, 3 + 2), WHITE);
+        assert_eq!(count(WHITE), image.pixels.len() - 248);
+        assert_eq!(at(&image, 3, 3), RED);
+        // The second cell has 20 x 10 pixels, from (26, 3).
+        assert_eq!(at(&image, 26 + 8, 3 + 2), [0, 0, 200, 255]);
+        assert_eq!(at(&image, 26 + 7, 3 + 2), WHITE);
     }
 
     #[test]
-    fn the_background_is_seen_through_images() {
+    fn transparent_images_are_composited_over_the_background() {
         let glass = plain(2, 2, [0, 0, 0, 128]);
         let cells = [Cell {
             image: &glass,
             caption: "",
         }];
-        let made = |background| {
+        let pixel = |background| {
             let style = SheetStyle {
                 background,
                 ..SheetStyle::default()
             };
             at(&sheet(&cells, &style, u64::MAX).unwrap(), 12, 12)
         };
-        assert_eq!(made(WHITE), [127, 127, 127, 255]);
-        assert_eq!(made([0; 4]), [0, 0, 0, 128]);
+        assert_eq!(pixel(WHITE), [127, 127, 127, 255]);
+        assert_eq!(pixel([0; 4]), [0, 0, 0, 128]);
     }
 
     #[test]
-    fn captions_stand_below_and_stay_in_their_columns() {
+    fn captions_are_below_their_images_and_inside_their_columns() {
         let image = plain(90, 20, RED);
         for text in render::figure::testing::ODD_TEXTS
             .iter()
@@ -349,19 +357,19 @@ mod tests {
                     caption: text,
                 },
             ];
-            let made = sheet(&cells, &SheetStyle::default(), u64::MAX).unwrap();
-            let is_ink = |x, y| ![RED, WHITE].contains(&at(&made, x, y));
-            for y in 0..made.height {
-                assert!((0..105).all(|x| !is_ink(x, y)), "{text:?}");
+            let image = sheet(&cells, &SheetStyle::default(), u64::MAX).unwrap();
+            let is_text = |x, y| ![RED, WHITE].contains(&at(&image, x, y));
+            for y in 0..image.height {
+                assert!((0..105).all(|x| !is_text(x, y)), "{text:?}");
             }
-            // Accents in a pile may reach the image.
+            // Stacked accents can reach the image above.
             let is_plain = text.is_ascii();
-            assert!(!is_plain || (0..made.width).all(|x| (0..33).all(|y| !is_ink(x, y))));
+            assert!(!is_plain || (0..image.width).all(|x| (0..33).all(|y| !is_text(x, y))));
         }
     }
 
     #[test]
-    fn sheets_that_are_too_large_are_refused_before_memory_is_taken() {
+    fn too_large_sheets_are_refused_before_memory_is_allocated() {
         let image = plain(1, 1, RED);
         let cells = vec![
             Cell {
@@ -384,18 +392,18 @@ mod tests {
             refused,
             Err(PictureError::Budget { budget: 100, .. })
         ));
-        let head = ["x".repeat(100)];
-        let heads = Heads {
-            rows: &head,
-            columns: &head,
+        let heading = ["x".repeat(100)];
+        let headings = Headings {
+            rows: &heading,
+            columns: &heading,
         };
-        assert!(sheet_with_heads(&cells, heads, &style(1, 12), u64::MAX).is_err());
+        assert!(sheet_with_headings(&cells, headings, &style(1, 12), u64::MAX).is_err());
         assert!(sheet(&[], &style(2, 4), u64::MAX).is_ok());
         assert!(sheet(&[], &style(2, 0), u64::MAX).is_err());
     }
 
     #[test]
-    fn heads_stand_above_columns_and_beside_rows() {
+    fn headings_are_above_columns_and_to_the_left_of_rows() {
         let image = plain(60, 40, RED);
         let cells = [Cell {
             image: &image,
@@ -405,36 +413,36 @@ mod tests {
             columns: 2,
             ..SheetStyle::default()
         };
-        let heads = ["a = 1", "b = 2"].map(str::to_owned);
-        let bare = sheet(&cells, &style, u64::MAX).unwrap();
-        let heads = Heads {
-            columns: &heads,
-            rows: &heads,
+        let headings = ["a = 1", "b = 2"].map(str::to_owned);
+        let without = sheet(&cells, &style, u64::MAX).unwrap();
+        let headings = Headings {
+            columns: &headings,
+            rows: &headings,
         };
-        let made = sheet_with_heads(&cells, heads, &style, u64::MAX).unwrap();
-        let (dx, dy) = (made.width - bare.width, made.height - bare.height);
-        assert_eq!(dy, 2 * style.letters);
+        let with = sheet_with_headings(&cells, headings, &style, u64::MAX).unwrap();
+        let (dx, dy) = (with.width - without.width, with.height - without.height);
+        assert_eq!(dy, 2 * style.font_size);
         assert!((20..70).contains(&dx), "{dx}");
-        // The images are where they were, and ink is nowhere but beside them.
-        let is_ink = |x, y| ![RED, WHITE].contains(&at(&made, x, y));
-        for y in style.gap..bare.height {
-            for x in style.gap..bare.width {
-                assert_eq!(at(&made, x + dx, y + dy), at(&bare, x, y));
+        // The images are only moved, and text is only above and to the left of them.
+        let is_text = |x, y| ![RED, WHITE].contains(&at(&with, x, y));
+        for y in style.gap..without.height {
+            for x in style.gap..without.width {
+                assert_eq!(at(&with, x + dx, y + dy), at(&without, x, y));
             }
         }
-        let has_ink = |xs: std::ops::Range<u32>, ys: std::ops::Range<u32>| {
-            xs.clone().any(|x| ys.clone().any(|y| is_ink(x, y)))
+        let has_text = |xs: std::ops::Range<u32>, ys: std::ops::Range<u32>| {
+            xs.clone().any(|x| ys.clone().any(|y| is_text(x, y)))
         };
         let (second_column, second_row) = (dx + 12 + 60, dy + 12 + 40);
-        assert!(has_ink(dx..second_column, 0..dy + 12));
-        assert!(has_ink(second_column..made.width, 0..dy + 12));
-        assert!(has_ink(0..dx + 12, dy..second_row));
-        assert!(has_ink(0..dx + 12, second_row..made.height));
-        assert!(!has_ink(0..dx, 0..dy));
+        assert!(has_text(dx..second_column, 0..dy + 12));
+        assert!(has_text(second_column..with.width, 0..dy + 12));
+        assert!(has_text(0..dx + 12, dy..second_row));
+        assert!(has_text(0..dx + 12, second_row..with.height));
+        assert!(!has_text(0..dx, 0..dy));
     }
 
     #[test]
-    fn a_caption_of_several_lines_takes_their_height() {
+    fn each_line_of_a_caption_adds_to_the_height() {
         let image = plain(60, 20, RED);
         let height = |caption| {
             let cells = [Cell {
@@ -449,22 +457,21 @@ mod tests {
     }
 
     #[test]
-    fn a_notice_says_why_within_its_place() {
+    fn a_notice_has_wrapped_lines_inside_of_the_image() {
         let style = SheetStyle::default();
-        let made = notice("the mesh has a hole in it", [80, 60], &style).unwrap();
-        assert_eq!((made.width, made.height), (80, 60));
-        let ink = |y: u32| (0..80).filter(|&x| at(&made, x, y) != WHITE).count();
-        // In several lines.
-        let rows: Vec<bool> = (0..60).map(|y| ink(y) > 0).collect();
-        let starts = rows.windows(2).filter(|w| !w[0] && w[1]).count();
-        assert!(starts >= 2 && !rows[0] && !rows[59], "{rows:?}");
-        for why in render::figure::testing::ODD_TEXTS.iter().copied().chain([
+        let image = notice("the mesh has a hole in it", [80, 60], &style).unwrap();
+        assert_eq!((image.width, image.height), (80, 60));
+        let has_text = |y: u32| (0..80).any(|x| at(&image, x, y) != WHITE);
+        let rows: Vec<bool> = (0..60).map(has_text).collect();
+        let n_lines = rows.windows(2).filter(|w| !w[0] && w[1]).count();
+        assert!(n_lines >= 2 && !rows[0] && !rows[59], "{rows:?}");
+        for reason in render::figure::testing::ODD_TEXTS.iter().copied().chain([
             "",
             &"long ".repeat(10_000),
             &"x".repeat(100_000),
         ]) {
             for size in [[1, 1], [30, 10], [40, 200]] {
-                notice(why, size, &style).unwrap();
+                notice(reason, size, &style).unwrap();
             }
         }
         assert!(notice("a", [0, 1], &style).is_err());

@@ -1,4 +1,4 @@
-//! From scenes to images.
+//! Draws scenes from several cameras into images.
 
 use glam::DVec3;
 use progress::Progress;
@@ -9,49 +9,52 @@ use render::{
 };
 use scene::Scene;
 
-use crate::numbers::{Numbers, Shown};
+use crate::numbers::{ColorScale, Numbers};
 use crate::sheet::{Cell, SheetStyle, sheet};
 
-/// Ink of numbers beside elements, in sRGB.
-const INK: [u8; 4] = [0x1f, 0x29, 0x37, 255];
+/// The text color of labels of elements, in sRGB.
+const TEXT_COLOR: [u8; 4] = [0x1f, 0x29, 0x37, 255];
 
-/// The height of the numbers beside elements, in pixels.
-const LETTERS: f64 = 13.0;
+/// The font size of labels of elements, in pixels.
+const FONT_SIZE: f64 = 13.0;
 
-/// The steps in which the progress of an image is reported.
-const PARTS: u64 = 1000;
+/// The number of progress steps of a view.
+const STEPS: u64 = 1000;
 
-/// How scenes are drawn.
+/// The cameras, sizes and style with which scenes are drawn.
 #[derive(Clone, Debug)]
 pub struct Shot<'a> {
     /// The width and the height of each view in pixels.
     pub size: [u32; 2],
-    /// Where the scenes are seen from. The views stand side by side.
+    /// The cameras. Their views are placed side by side.
     pub cameras: &'a [Camera],
-    /// How many views stand in a row. If omitted, one for each scene, or all views of one scene but at most 4.
+    /// The number of views in a row. If `None`, the number of scenes; for a single scene, the number of views but at
+    /// most 4.
     pub columns: Option<u32>,
     /// Shading, lines and background.
     pub style: &'a Style,
-    /// The number of images in one turn of the camera around the scenes; 1 if nothing moves.
+    /// The number of images in one turn of the camera around the scenes; 1 without animation.
     pub frames: u32,
-    /// The bytes that the images and the work for them may take.
+    /// The memory budget for all images and for drawing them, in bytes.
     pub budget: u64,
 }
 
-/// A scene that is ready to be drawn.
+/// A scene that is prepared for drawing.
 pub struct Subject<'s> {
     drawing: Drawing<'s>,
-    shown: Option<Shown>,
+    scale: Option<ColorScale>,
     caption: &'s str,
 }
 
 impl<'s> Subject<'s> {
-    /// A scene with its overlays and numbers, and the `caption` below it unless that is empty. `images` gives the bytes
-    /// of an image that a material names by its path. Returns also which images are missing, and why.
+    /// Prepares a scene with its overlays and numbers. Returns also a message for each texture that cannot be drawn.
+    ///
+    /// `caption` is written below the view unless it is empty. `images` returns the bytes of an image file for its path
+    /// in a material.
     ///
     /// # Errors
     ///
-    /// Those of [`render::build()`].
+    /// The errors of [`render::build()`].
     pub fn new(
         scene: &'s Scene,
         caption: &'s str,
@@ -60,75 +63,78 @@ impl<'s> Subject<'s> {
         numbers: Option<Numbers>,
         images: &mut dyn FnMut(&str) -> Option<Vec<u8>>,
     ) -> Result<(Self, Vec<String>), PictureError> {
-        let shown = numbers.map(|numbers| {
+        let scale = numbers.map(|numbers| {
             overlays.colorings = numbers.colorings;
-            numbers.shown
+            numbers.scale
         });
         let (drawing, missing) = build(scene, style, &overlays, images)?;
         let subject = Self {
             drawing,
-            shown,
+            scale,
             caption,
         };
         Ok((subject, missing))
     }
 }
 
-/// What a scene takes up of a picture: pictures of several scenes [within](Shot::draw) what all of them take up
-/// [together](Self::join) show the same place in the same scale, and the same numbers in the same colors.
+/// The view and the color range that a scene needs.
+///
+/// With the [joined](Self::join) extents of several scenes, each scene can be [drawn](Shot::draw) separately: the
+/// pictures have the same view and scale, and the same numbers have the same colors.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Extent {
-    /// Points that decide where cameras are that fit.
+    /// The points that determine the views of cameras that fit.
     points: Vec<DVec3>,
-    /// What their colors mean, if numbers are shown.
-    shown: Option<Shown>,
+    /// The meaning of the colors, if numbers are shown as colors.
+    scale: Option<ColorScale>,
 }
 
 impl Extent {
-    /// Adds what another scene takes up.
+    /// Adds the extent of another scene.
     pub fn join(&mut self, other: Self) {
         self.points.extend(other.points);
-        match (&mut self.shown, other.shown) {
-            (Some(shown), Some(other)) => shown.join(&other),
-            (none, other) => *none = none.take().or(other),
+        match (&mut self.scale, other.scale) {
+            (Some(scale), Some(other)) => scale.join(&other),
+            (scale, other) => *scale = scale.take().or(other),
         }
     }
 
-    /// The numbers of the first and the last color, if numbers are shown.
+    /// Returns the numbers of the first and the last color, if numbers are shown as colors.
     pub fn range(&self) -> Option<[f64; 2]> {
-        self.shown.as_ref().map(|shown| shown.range)
+        self.scale.as_ref().map(|scale| scale.range)
     }
 
-    /// What the colors of numbers mean in all of them, if numbers are shown and explained.
+    /// Returns the common legend of all joined scenes, if numbers are shown as colors with a legend.
     pub fn legend(&self) -> Option<Legend> {
-        self.shown.as_ref().and_then(Shown::legend)
+        self.scale.as_ref().and_then(ColorScale::legend)
     }
 }
 
 impl Shot<'_> {
-    /// The pixels of all images of a scene together.
+    /// Returns the number of pixels of all images of one scene.
     pub fn n_pixels(&self) -> u64 {
         let [width, height] = self.size.map(u64::from);
         width * height * self.cameras.len() as u64 * u64::from(self.frames)
     }
 
-    /// What a scene takes up, to draw it beside others that are not in memory with it.
+    /// Returns the extent of a scene, so that several scenes can be drawn alike without being in memory together.
     ///
     /// # Errors
     ///
-    /// [`PictureError::Camera`] if a camera does not see anything.
+    /// [`PictureError::Camera`] if a camera is invalid.
     pub fn extent(&self, subject: Subject) -> Result<Extent, PictureError> {
         let mut points = Vec::new();
         for camera in self.cameras {
             let each = |each: &mut dyn FnMut(DVec3)| subject.drawing.each_point(each);
             points.extend(camera.extreme_points(&each, self.size)?);
         }
-        let shown = subject.shown;
-        Ok(Extent { points, shown })
+        let scale = subject.scale;
+        Ok(Extent { points, scale })
     }
 
-    /// Draws scenes side by side in one scale, each with its caption: the images of a turn, or one. Cameras that fit see
-    /// all of `within`, or if it is omitted, all of the scenes.
+    /// Draws scenes side by side at the same scale, each with its caption. Returns one image, or the images of a turn.
+    ///
+    /// Cameras that fit show all of `within`; if it is `None`, all of the scenes.
     ///
     /// # Errors
     ///
@@ -140,9 +146,10 @@ impl Shot<'_> {
         progress: &dyn Progress,
     ) -> Result<Vec<Image>, PictureError> {
         let look = self.style.look();
-        let drawn = |subject: &Subject| bytes_needed(&subject.drawing, self.size, &look);
-        let all = 4 * self.n_pixels() * subjects.len() as u64;
-        let needed = all.saturating_add(subjects.iter().map(drawn).max().unwrap_or(0));
+        let render_bytes = |subject: &Subject| bytes_needed(&subject.drawing, self.size, &look);
+        let image_bytes = 4 * self.n_pixels() * subjects.len() as u64;
+        let max_render_bytes = subjects.iter().map(render_bytes).max().unwrap_or(0);
+        let needed = image_bytes.saturating_add(max_render_bytes);
         if needed > self.budget {
             let budget = self.budget;
             return Err(PictureError::Budget { needed, budget });
@@ -165,8 +172,8 @@ impl Shot<'_> {
                 };
                 let view = View::new(&camera, &points, self.size)?;
                 for subject in subjects {
-                    let progress = OneOf {
-                        all: progress,
+                    let progress = ViewProgress {
+                        parent: progress,
                         done,
                         total,
                     };
@@ -179,6 +186,7 @@ impl Shot<'_> {
         Ok(frames)
     }
 
+    /// Draws one view, with labels and legend.
     fn view(
         &self,
         subject: &Subject,
@@ -190,18 +198,17 @@ impl Shot<'_> {
         let mut image = rendered.image;
         let labels: Vec<Label> = (drawing.labels.iter().zip(&rendered.labels))
             .filter_map(|(label, placed)| Some((label, placed.filter(|p| !p.is_hidden)?)))
-            .map(|(label, placed)| Label::new(placed.at, &*label.text, LETTERS, INK))
+            .map(|(label, placed)| Label::new(placed.at, &*label.text, FONT_SIZE, TEXT_COLOR))
             .collect();
         draw_labels(&mut image, &labels);
-        if let Some(legend) = subject.shown.as_ref().and_then(Shown::legend) {
-            // As large as letters are in a picture of usual size.
+        if let Some(legend) = subject.scale.as_ref().and_then(ColorScale::legend) {
             let scale = (f64::from(self.size[1]) / 720.0).clamp(0.5, 8.0);
             draw_legend(&mut image, &legend, scale);
         }
         Ok(image)
     }
 
-    /// Views in rows, on the background of the picture.
+    /// Places views in rows, on the background of the style.
     fn side_by_side(
         &self,
         mut views: Vec<(Image, &str)>,
@@ -213,13 +220,13 @@ impl Shot<'_> {
         let cells: Vec<Cell> = (views.iter())
             .map(|(image, caption)| Cell { image, caption })
             .collect();
-        let usual = if n_scenes > 1 {
+        let default = if n_scenes > 1 {
             n_scenes
         } else {
             views.len().min(4)
         };
         let style = SheetStyle {
-            columns: self.columns.map_or(usual, |n| n as usize),
+            columns: self.columns.map_or(default, |n| n as usize),
             gap: 0,
             background: self.style.background.srgb(),
             ..SheetStyle::default()
@@ -228,17 +235,19 @@ impl Shot<'_> {
     }
 }
 
-/// The progress of one image out of several.
-struct OneOf<'a> {
-    all: &'a dyn Progress,
+/// The progress of one of several views.
+struct ViewProgress<'a> {
+    parent: &'a dyn Progress,
+    /// The number of completed views.
     done: u64,
+    /// The number of all views.
     total: u64,
 }
 
-impl Progress for OneOf<'_> {
+impl Progress for ViewProgress<'_> {
     fn advance(&self, what: &str, done: u64, total: u64) -> bool {
-        let part = PARTS * done / total.max(1);
-        self.all
-            .advance(what, PARTS * self.done + part, PARTS * self.total)
+        let step = STEPS * done / total.max(1);
+        self.parent
+            .advance(what, STEPS * self.done + step, STEPS * self.total)
     }
 }

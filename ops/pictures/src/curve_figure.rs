@@ -3,7 +3,7 @@
 //! ```text
 //!      p1 --- o --- p2
 //!     /     / * \     \        the control polygon, each level in its color, the point *, the curve;
-//!    o ---- o   o ---- o       a picture for each parameter
+//!    o ---- o   o ---- o       a panel for each parameter
 //!   /                   \
 //! p0                     p3
 //! ```
@@ -21,38 +21,39 @@ use render::figure::construction::{
 use render::figure::{Svg, bytes_needed, pixel_size, pixels};
 use scene::{Geometry, Object};
 
-/// Draws Bezier curves with the construction of their points, into a file below the output folder.
+/// Draws Bezier curves, and de Casteljau's construction of their points, into an image file.
 ///
-/// For each curve and each `t` there is a picture: the control polygon, every level of de Casteljau's algorithm in
-/// its own color, the point, and the curve, with the same scale in both directions. The ending chooses the format:
-/// `.svg` or `.png`. The file appears when the whole recipe has succeeded; the scene stays as it is.
+/// The figure has a panel for each curve and each `t`. A panel shows the control polygon, every level of de Casteljau's
+/// algorithm in a different color, the point, and the curve, with the same scale in both axes. The extension of the
+/// file determines the format: `.svg` or `.png`. The file is written only if the whole recipe succeeds. The scene does
+/// not change.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CurveFigure {
-    /// The file, seen from the output folder. `{name.stem}` stands for the name, without its ending, of
-    /// the file that the parameter `name` of the recipe names.
+    /// The file. The path is relative to the output folder. `{name.stem}` is replaced by the name, without extension,
+    /// of the file in the recipe parameter `name`.
     pub path: String,
-    /// The parameters whose points are constructed, from 0 (start) to 1 (end). Without any, the curves and their
-    /// control polygons are drawn alone.
+    /// The parameters of the constructed points, from 0 (start) to 1 (end). If empty, only the curves and their control
+    /// polygons are drawn.
     #[serde(default = "half")]
     pub t: Vec<ClosedFraction>,
-    /// A curve that is drawn faintly behind, with arrows from its control points to those that moved: what a curve
-    /// was before.
+    /// The name of a curve that shows an earlier state of the other curves. It is drawn faintly behind them, with
+    /// arrows to the control points that moved.
     #[serde(default)]
     pub before: Option<String>,
-    /// How wide the figure is: pixels of an SVG, whose letters are 12 to 19 pixels high.
+    /// The width of the figure in SVG pixels. The font size is 12 to 19 pixels.
     #[serde(default = "width")]
     pub width: Count<80, 8192>,
-    /// How many pictures stand in a row; unless told otherwise those of one curve, at most 4.
+    /// The number of panels in a row. If omitted, the number of values of `t`, but at most 4.
     #[serde(default)]
     pub columns: Option<Count<1, 256>>,
-    /// How many pixels of a PNG stand for one of an SVG.
+    /// The number of PNG pixels per SVG pixel. Has no effect on `.svg` files.
     #[serde(default = "scale")]
     pub scale: Count<1, 8>,
-    /// Whether points have their names.
+    /// Whether points are labeled with their names.
     #[serde(default = "yes")]
     pub labels: bool,
-    /// Whether the colors are explained below.
+    /// Whether there is a legend below the panels.
     #[serde(default = "yes")]
     pub legend: bool,
 }
@@ -81,9 +82,10 @@ enum Format {
 }
 
 impl Format {
+    /// Returns the format for the extension of a path.
     fn of(path: &Path) -> Option<Self> {
-        let ending = path.extension()?.to_str()?.to_ascii_lowercase();
-        match ending.as_str() {
+        let extension = path.extension()?.to_str()?.to_ascii_lowercase();
+        match extension.as_str() {
             "svg" => Some(Self::Svg),
             "png" => Some(Self::Png),
             _ => None,
@@ -99,8 +101,8 @@ impl Operation for CurveFigure {
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
         let mut problems = plan.write(cx, &self.path, |path| {
-            let unknown = Problem::error(self.no_format()).at(["path"]);
-            let help = "endings that can be written: .svg, .png";
+            let unknown = Problem::error(self.unknown_format()).at(["path"]);
+            let help = "use the extension .svg or .png";
             Format::of(path).is_none().then(|| unknown.help(help))
         });
         problems.extend(self.plan_curves(plan, cx));
@@ -109,40 +111,40 @@ impl Operation for CurveFigure {
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
         cx.advance("draw", 0, 1)?;
-        let failed = |error: &dyn std::fmt::Display| OpError::File(error.to_string());
-        let path = cx.files().to_write(&self.path).map_err(|e| failed(&e))?;
+        let file_error = |error: &dyn std::fmt::Display| OpError::File(error.to_string());
+        let path = (cx.files().to_write(&self.path)).map_err(|e| file_error(&e))?;
         let figure = self.figure(scene, cx)?;
         let stamp = cx.files().provenance.as_deref();
         let bytes = match Format::of(&path) {
             Some(Format::Svg) => figure.finish(stamp).into_bytes(),
             Some(Format::Png) => self.png(&figure, stamp, cx.budget)?,
             None => {
-                return Err(OpError::Parameter(self.no_format()));
+                return Err(OpError::Parameter(self.unknown_format()));
             }
         };
         let store = &cx.files().store;
-        store.write(&path, &bytes).map_err(|e| failed(&e))?;
+        store.write(&path, &bytes).map_err(|e| file_error(&e))?;
         cx.advance("draw", 1, 1)?;
         Ok(Report::changed(0))
     }
 }
 
 impl CurveFigure {
-    fn no_format(&self) -> String {
-        format!("no format of figures is known for \"{}\"", self.path)
+    fn unknown_format(&self) -> String {
+        format!("unknown figure format of \"{}\"", self.path)
     }
 
-    /// What is wrong with the objects.
+    /// Returns the problems of the objects and of the number of panels and points.
     fn plan_curves(&self, plan: &Plan, cx: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();
         let before = self.before.as_deref();
         problems.extend(before.and_then(|name| plan.missing(name, ["before"])));
-        let most = if self.t.is_empty() {
+        let limit = if self.t.is_empty() {
             MAX_DRAWN
         } else {
             MAX_CONSTRUCTED
         };
-        let (mut n, mut points_of_all) = (0, 0_u64);
+        let (mut n_curves, mut n_points) = (0, 0_u64);
         for object in plan.objects() {
             let is_before = before == Some(&object.name);
             let is_chosen = match cx.on {
@@ -152,21 +154,21 @@ impl CurveFigure {
             if !is_chosen && !is_before {
                 continue;
             }
-            let most = if is_chosen { most } else { MAX_DRAWN };
+            let limit = if is_chosen { limit } else { MAX_DRAWN };
             match object.geometry {
-                PlannedGeometry::Curve(points) if points.min > most as u64 => {
+                PlannedGeometry::Curve(points) if points.min > limit as u64 => {
                     let (name, found) = (&object.name, points.min);
                     problems.push(Problem::error(format!(
-                        "expected curves of at most {most} control points, \"{name}\" has {found}"
+                        "expected curves of at most {limit} control points, \"{name}\" has {found}"
                     )));
                 }
                 PlannedGeometry::Curve(points) if is_chosen => {
-                    n += 1;
-                    let levels = points.min * (points.min + 1) / 2;
-                    points_of_all += levels * self.t.len() as u64;
+                    n_curves += 1;
+                    let points_per_panel = points.min * (points.min + 1) / 2;
+                    n_points += points_per_panel * self.t.len() as u64;
                 }
                 PlannedGeometry::Curve(_) => {}
-                // Without `on`, what is no curve is not drawn.
+                // Without `on`, all curves are drawn, and other objects are ignored.
                 _ if is_chosen && cx.on.is_none() => {}
                 _ => {
                     let message = not_a_curve(&object.name, object.geometry.kind());
@@ -174,22 +176,25 @@ impl CurveFigure {
                 }
             }
         }
-        if n == 0 && problems.is_empty() && !plan.incomplete {
-            let problem = Problem::error("CurveFigure finds no curve to draw");
+        if n_curves == 0 && problems.is_empty() && !plan.incomplete {
+            let problem = Problem::error("expected a curve to draw, found none in the scene");
             problems.push(problem.help("load a .bzc file in an earlier step"));
         }
-        if n * self.t.len().max(1) > MAX_PANELS {
-            let found = n * self.t.len().max(1);
-            let message = format!("expected at most {MAX_PANELS} pictures, found {found}");
+        let n_panels = n_curves * self.t.len().max(1);
+        if n_panels > MAX_PANELS {
+            let message = format!(
+                "expected at most {MAX_PANELS} panels, one for each curve and each `t`, found {n_panels}"
+            );
             problems.push(Problem::error(message).at(["t"]));
-        } else if points_of_all > MAX_POINTS as u64 {
-            let message = format!("expected at most {MAX_POINTS} points, found {points_of_all}");
+        } else if n_points > MAX_POINTS as u64 {
+            let message =
+                format!("expected at most {MAX_POINTS} points in all panels, found {n_points}");
             problems.push(Problem::error(message).at(["t"]));
         }
         problems
     }
 
-    /// The figure of the chosen curves.
+    /// Draws the figure of the chosen curves.
     fn figure(&self, scene: &Scene, cx: &Context) -> Result<Svg, OpError> {
         let chosen: Vec<&Object> = if let Some(on) = cx.on {
             let objects = on.iter().map(|name| named_object(scene, name));
@@ -236,19 +241,22 @@ impl CurveFigure {
 
     fn png(&self, figure: &Svg, stamp: Option<&str>, budget: u64) -> Result<Vec<u8>, OpError> {
         let scale = f64::from(self.scale.get());
-        let failed = |error: render::PictureError| OpError::Parameter(error.to_string());
-        let (width, height) = pixel_size(figure, scale).map_err(failed)?;
+        let parameter_error = |error: render::PictureError| OpError::Parameter(error.to_string());
+        let (width, height) = pixel_size(figure, scale).map_err(parameter_error)?;
         let needed = bytes_needed(width, height);
         if needed > budget {
-            let message = format!("the figure takes {needed} bytes, the budget is {budget}");
+            let message = format!(
+                "the figure needs {needed} bytes of memory, which exceeds the memory budget of {budget} bytes"
+            );
             return Err(OpError::Budget(message));
         }
-        let image = pixels(figure, scale, [255; 4]).map_err(failed)?;
+        let image = pixels(figure, scale, [255; 4]).map_err(parameter_error)?;
         let texts: Vec<(&str, &str)> = stamp.iter().map(|stamp| ("Software", *stamp)).collect();
-        image.to_png(&texts).map_err(failed)
+        image.to_png(&texts).map_err(parameter_error)
     }
 }
 
+/// Returns the curve of an object.
 fn curve(object: &Object) -> Result<&Curve<DVec2>, OpError> {
     match &object.geometry {
         Geometry::Curve(curve) => Ok(curve),
@@ -257,7 +265,7 @@ fn curve(object: &Object) -> Result<&Curve<DVec2>, OpError> {
 }
 
 fn not_a_curve(name: &str, kind: &str) -> String {
-    format!("CurveFigure draws curves, but \"{name}\" is {kind}")
+    format!("expected object \"{name}\" to be a curve, found {kind}")
 }
 
 #[cfg(test)]
@@ -288,7 +296,7 @@ mod tests {
         op::test::read(parameters).unwrap()
     }
 
-    /// Runs a step with a stamp, and gives back what it has written.
+    /// Runs a step with a stamp, and returns the bytes of its file.
     fn written(step: &CurveFigure, on: Option<&[String]>, budget: u64) -> Result<Vec<u8>, OpError> {
         let folder = tempfile::tempdir().unwrap();
         let files = Files {
@@ -306,7 +314,7 @@ mod tests {
     }
 
     #[test]
-    fn every_curve_has_a_picture_for_every_parameter() {
+    fn every_curve_has_a_panel_for_every_parameter() {
         let step = step(r#"(path: "a/b.svg", t: [0.25, 0.5, 1], labels: false, legend: false)"#);
         let text = String::from_utf8(written(&step, None, u64::MAX).unwrap()).unwrap();
         assert_eq!(text.matches("<g id=\"curve\">").count(), 6);
@@ -318,7 +326,7 @@ mod tests {
     }
 
     #[test]
-    fn a_png_is_so_many_times_as_large_and_carries_the_stamp() {
+    fn a_png_file_is_scaled_and_has_the_stamp() {
         let bytes = written(&step(r#"(path: "a.PNG", width: 200)"#), None, u64::MAX).unwrap();
         assert_eq!(bytes[..8], *b"\x89PNG\r\n\x1a\n");
         assert_eq!(bytes[16..20], 400_u32.to_be_bytes());
@@ -327,7 +335,7 @@ mod tests {
     }
 
     #[test]
-    fn a_curve_can_stand_behind_another_one() {
+    fn an_earlier_state_is_drawn_behind_the_curves() {
         let text = |parameters: &str| {
             let bytes = written(&step(parameters), None, u64::MAX).unwrap();
             String::from_utf8(bytes).unwrap()
@@ -338,17 +346,17 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_go_is_refused() {
+    fn invalid_parameters_are_refused() {
         let error = |parameters: &str, budget| {
             let refused = written(&step(parameters), None, budget);
             refused.unwrap_err().to_string()
         };
         for (parameters, reason) in [
-            (r#"(path: "a.gif")"#, "no format of figures"),
+            (r#"(path: "a.gif")"#, "unknown figure format"),
             (r#"(path: "../a.svg")"#, "output folder"),
             (
                 r#"(path: "a.svg", before: "lines")"#,
-                "\"lines\" is polylines",
+                "expected object \"lines\" to be a curve, found polylines",
             ),
             (
                 r#"(path: "a.svg", before: "none")"#,
@@ -361,11 +369,12 @@ mod tests {
         ] {
             assert!(error(parameters, u64::MAX).contains(reason), "{parameters}");
         }
-        assert!(error(r#"(path: "a.png")"#, 1000).contains("the budget is 1000"));
+        let message = error(r#"(path: "a.png")"#, 1000);
+        assert!(message.contains("memory budget of 1000 bytes"), "{message}");
     }
 
     #[test]
-    fn a_plan_tells_what_apply_would_refuse() {
+    fn the_plan_has_a_problem_for_each_invalid_step() {
         let files = Files {
             output: "out".into(),
             ..Files::default()

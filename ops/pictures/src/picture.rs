@@ -1,7 +1,7 @@
 //! Picture: draws the scene into an image file.
 //!
 //! ```text
-//!   selections, numbers --resolved--> view::Subject --view::Shot--> images --encode--> .png, .apng, .gif
+//!   scene, selections, numbers --> view::Subject --view::Shot--> images --encode--> .png, .apng, .gif
 //! ```
 
 mod colors;
@@ -20,81 +20,81 @@ use render::{Camera, Color, Image, LARGEST_SIDE, Overlays, PictureError, Style};
 use scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use view::{ColorBy, Extent, MARK, Shot, Subject, marked};
+use view::{ColorBy, Extent, HIGHLIGHT_COLOR, Shot, Subject, highlight};
 
-/// Draws the scene into an image file below the output folder.
+/// Draws the scene into an image file.
 ///
-/// The ending chooses the format: `.png`; for a turntable `.gif`, or `.apng` or `.png` for a PNG that moves. The
-/// file appears when the whole recipe has succeeded; the scene stays as it is. It needs no graphics processor,
+/// The extension of the file determines the format: `.png`; with `turntable`, `.gif`, or `.apng` or `.png` for an
+/// animated PNG. The file is written only if the whole recipe succeeds. The scene does not change. Drawing needs no GPU
 /// and gives the same bytes on every machine.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Picture {
-    /// The file, seen from the output folder. `{name.stem}` stands for the name, without its ending, of
-    /// the file that the parameter `name` of the recipe names.
+    /// The file. The path is relative to the output folder. `{name.stem}` is replaced by the name, without extension,
+    /// of the file in the recipe parameter `name`.
     pub path: String,
-    /// Width and height in pixels, of each view.
+    /// The width and the height of each view in pixels.
     #[serde(default = "size")]
     pub size: [Count<1, LARGEST_SIDE>; 2],
-    /// Where the scene is seen from.
+    /// The camera.
     #[serde(default)]
     pub camera: Camera,
-    /// Several cameras, in place of `camera`: their views stand side by side.
+    /// Several cameras, in place of `camera`. Their views are placed side by side.
     #[serde(default)]
     pub views: Vec<Camera>,
-    /// How many views stand in a row; unless told otherwise all, at most 4.
+    /// The number of views in a row. If omitted, the number of views, but at most 4.
     #[serde(default)]
     pub columns: Option<Count<1, 64>>,
-    /// How it looks: shading, lines, background.
+    /// The style: shading, lines, background.
     #[serde(default)]
     pub style: Style,
-    /// Elements that are marked in a strong color, as in `Sharp(above: 30)` or `Faces(Tagged("top"))`.
+    /// Elements to highlight in orange, as in `Edges(Sharp(above: 30))` or `Faces(Tagged("top"))`.
     #[serde(default)]
     pub highlight: Option<Elements>,
-    /// The width of highlighted edges and the diameter of highlighted vertices, in pixels. Unless told otherwise
-    /// 2.8 and 7.5 in pictures that are 240 high, 3.4 and 10 at 480, 4 and 13 at 960, 8 and 26 at 1920; vertices
-    /// are smaller where they are many. Hidden edges shine through, hidden vertices are rings.
+    /// The width of highlighted edges and the diameter of highlighted vertices, in pixels. If omitted, 2.8 and 7.5 in
+    /// pictures that are 240 pixels high, 3.4 and 10 at 480, 4 and 13 at 960, 8 and 26 at 1920; many vertices are
+    /// smaller. Hidden edges are faint, and hidden vertices are rings.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub highlight_width: Option<f64>,
-    /// More elements that are marked, each in a color of its own.
+    /// More elements to highlight, each in its color.
     #[serde(default)]
     pub marks: Vec<Mark>,
-    /// Numbers that are shown as colors of the surface.
+    /// Numbers to show as colors of the surface.
     #[serde(default)]
     pub color_by: Option<ColorBy>,
-    /// Makes it an animation in which the camera goes once around the scene.
+    /// Makes an animation in which the camera moves once around the scene.
     #[serde(default)]
     pub turntable: Option<Turntable>,
-    /// The folder in which images of materials are looked for, seen from the recipe's folder; without it
-    /// the recipe's folder. What is not there is left out, and told.
+    /// The folder of the images of materials, relative to the folder of the recipe. If omitted, the folder of the
+    /// recipe. Missing images are not drawn, and are reported.
     #[serde(default)]
     pub images: Option<String>,
 }
 
-/// Elements in a color.
+/// Elements to highlight in a color.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mark {
-    /// Which elements.
+    /// The elements.
     pub of: Elements,
-    /// Their color.
-    #[serde(default = "orange")]
+    /// The color.
+    #[serde(default = "highlight_color")]
     pub color: Color,
-    /// The width of edges and the diameter of vertices, in pixels; unless told otherwise as of highlighted ones.
+    /// The width of edges and the diameter of vertices, in pixels. If omitted, the defaults of `highlight_width`.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub width: Option<f64>,
 }
 
-/// One turn around the scene.
+/// An animation of one turn around the scene.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Turntable {
-    /// How many images.
+    /// The number of images.
     #[serde(default = "frames")]
     pub frames: Count<2, 720>,
-    /// How long a turn takes.
+    /// The duration of the turn.
     #[serde(default = "seconds")]
     pub seconds: Seconds,
 }
@@ -103,8 +103,8 @@ fn size() -> [Count<1, LARGEST_SIDE>; 2] {
     [1280, 960].map(Count::literal)
 }
 
-fn orange() -> Color {
-    MARK
+fn highlight_color() -> Color {
+    HIGHLIGHT_COLOR
 }
 
 fn frames() -> Count<2, 720> {
@@ -124,9 +124,10 @@ enum Format {
 }
 
 impl Format {
+    /// Returns the format for the extension of a path.
     fn of(path: &Path) -> Option<Self> {
-        let ending = path.extension()?.to_str()?.to_ascii_lowercase();
-        match ending.as_str() {
+        let extension = path.extension()?.to_str()?.to_ascii_lowercase();
+        match extension.as_str() {
             "png" => Some(Self::Png),
             "apng" => Some(Self::Apng),
             "gif" => Some(Self::Gif),
@@ -136,7 +137,7 @@ impl Format {
 }
 
 impl Picture {
-    /// A picture of this name, with defaults for everything else.
+    /// Creates a picture with this path, and defaults for all other parameters.
     pub fn new(path: impl Into<String>) -> Self {
         Self {
             path: path.into(),
@@ -154,18 +155,18 @@ impl Picture {
         }
     }
 
-    /// What is wrong with the parameters, whatever the scene is.
+    /// Returns the problems of the parameters that do not depend on the scene.
     fn problems(&self) -> Vec<Problem> {
         let mut problems = Vec::new();
         match Format::of(Path::new(&self.path)) {
             None => {
-                let message = format!("no format of pictures is known for \"{}\"", self.path);
-                let help = "endings that can be written: .png, .apng, .gif";
+                let message = format!("unknown picture format of \"{}\"", self.path);
+                let help = "use the extension .png, .apng or .gif";
                 problems.push(Problem::error(message).at(["path"]).help(help));
             }
             Some(Format::Apng | Format::Gif) if self.turntable.is_none() => {
-                let message = format!("\"{}\" is an animation, but nothing moves", self.path);
-                let help = "add `turntable: ()`, or write a .png";
+                let message = format!("the animation \"{}\" needs `turntable`", self.path);
+                let help = "add `turntable: ()`, or use the extension .png";
                 problems.push(Problem::error(message).at(["path"]).help(help));
             }
             Some(_) => {}
@@ -178,7 +179,7 @@ impl Picture {
         problems
     }
 
-    /// The cameras, whichever of the two parameters names them.
+    /// Returns the cameras of `views`, or `camera` if there are none.
     fn cameras(&self) -> &[Camera] {
         if self.views.is_empty() {
             std::slice::from_ref(&self.camera)
@@ -187,53 +188,56 @@ impl Picture {
         }
     }
 
-    /// Draws scenes side by side, in one scale, each with a caption unless that is empty: the images of a turntable,
-    /// else one. With an extent, cameras that fit see all of it, and numbers have the colors for all, without a legend,
-    /// as that is [the same](Extent::legend) for all. The notes say what is not shown as the scenes have it.
+    /// Draws scenes side by side at the same scale, each with its caption, which can be empty. Returns one image, or
+    /// the images of a turntable, and notes on parts that are not drawn.
+    ///
+    /// If `within` is given, cameras that fit show all of it, and colors of numbers have its range. There is no legend
+    /// then, because the scenes have a [common legend](Extent::legend).
     ///
     /// # Errors
     ///
-    /// [`OpError::Parameter`] and [`OpError::File`] for what is wrong with the parameters, [`OpError::Budget`] if
-    /// the images need more memory than `cx` allows; those of the selections; [`OpError::Cancelled`].
+    /// [`OpError::Parameter`] and [`OpError::File`] if a parameter is invalid, [`OpError::Budget`] if the images need
+    /// more memory than the budget of `cx`, the errors of the selections, and [`OpError::Cancelled`].
     pub fn draw(
         &self,
         scenes: &[(&Scene, &str)],
         within: Option<&Extent>,
         cx: &mut Context,
     ) -> Result<(Vec<Image>, Vec<String>), OpError> {
-        self.in_order()?;
+        self.check()?;
         let mut color_by = self.color_by.clone();
         if let (Some(color_by), Some(extent)) = (&mut color_by, within) {
             color_by.range = color_by.range.or(extent.range());
             color_by.legend = false;
         }
         cx.advance("draw", 0, 1)?;
-        let chosen: Vec<_> = (scenes.iter())
+        let target_scenes: Vec<_> = (scenes.iter())
             .map(|(scene, caption)| (target_scene(scene, cx), *caption))
             .collect();
         let (mut subjects, mut notes) = (Vec::new(), Vec::new());
-        for (scene, caption) in &chosen {
-            let (subject, more) = self.subject(scene, caption, color_by.as_ref(), true, cx)?;
+        for (scene, caption) in &target_scenes {
+            let (subject, scene_notes) =
+                self.subject(scene, caption, color_by.as_ref(), true, cx)?;
             subjects.push(subject);
-            notes.extend(more);
+            notes.extend(scene_notes);
         }
         notes.dedup();
         let shot = self.shot(cx.budget);
         let images = shot.draw(&subjects, within, cx.progress());
-        Ok((images.map_err(failed)?, notes))
+        Ok((images.map_err(op_error)?, notes))
     }
 
-    /// What a scene takes up of the picture, to draw it beside others that are not in memory with it: see [`Extent`].
+    /// Returns the [`Extent`] of a scene, so that several scenes can be drawn alike without being in memory together.
     ///
     /// # Errors
     ///
-    /// As [`draw`](Self::draw).
+    /// The errors of [`draw`](Self::draw).
     pub fn extent(&self, scene: &Scene, cx: &mut Context) -> Result<Extent, OpError> {
-        self.in_order()?;
+        self.check()?;
         let scene = target_scene(scene, cx);
-        // Images of materials change nothing of where things are.
+        // The images of materials do not change the extent.
         let (subject, _) = self.subject(&scene, "", self.color_by.as_ref(), false, cx)?;
-        self.shot(cx.budget).extent(subject).map_err(failed)
+        self.shot(cx.budget).extent(subject).map_err(op_error)
     }
 
     fn shot(&self, budget: u64) -> Shot<'_> {
@@ -247,7 +251,7 @@ impl Picture {
         }
     }
 
-    /// A scene with what is marked in it and its numbers, and notes on what is not shown.
+    /// Prepares a scene with its highlights and numbers. Returns also notes on parts that are not drawn.
     fn subject<'s>(
         &self,
         scene: &'s Scene,
@@ -258,13 +262,13 @@ impl Picture {
     ) -> Result<(Subject<'s>, Vec<String>), OpError> {
         let numbers = match color_by {
             Some(by) => {
-                let others = colors::others(by, cx)?;
-                Some(by.numbers(scene, &others).map_err(failed)?)
+                let targets = colors::distance_targets(by, cx)?;
+                Some(by.numbers(scene, &targets).map_err(op_error)?)
             }
             None => None,
         };
         let mut overlays = Overlays::default();
-        let first = (self.highlight.iter()).map(|of| (of, MARK, self.highlight_width));
+        let first = (self.highlight.iter()).map(|of| (of, HIGHLIGHT_COLOR, self.highlight_width));
         let marks = self.marks.iter().map(|m| (&m.of, m.color, m.width));
         for (of, color, width) in first.chain(marks) {
             for (object, mesh) in scene
@@ -281,44 +285,46 @@ impl Picture {
                     Selected::Faces(list) => render::Elements::Faces(list),
                 };
                 let size = self.size.map(Count::get);
-                let marked = marked(&object.name, elements, color, width, size);
-                overlays.highlights.push(marked);
+                let highlight = highlight(&object.name, elements, color, width, size);
+                overlays.highlights.push(highlight);
             }
         }
-        let mut notes: Vec<String> = self.unmarked(scene).into_iter().collect();
+        let mut notes: Vec<String> = self.no_mesh_note(scene).into_iter().collect();
         let folder = self.images.as_deref();
         let read = |path: &str| read_image(cx.files(), folder, path);
         let mut images = |path: &str| if has_images { read(path) } else { None };
         let subject = Subject::new(scene, caption, &self.style, overlays, numbers, &mut images);
-        let (subject, missing) = subject.map_err(failed)?;
-        let note = |why| format!("an image of a material is not shown: {why}");
+        let (subject, missing) = subject.map_err(op_error)?;
+        let note = |reason| format!("a texture is not drawn: {reason}");
         notes.extend(missing.into_iter().map(note));
         Ok((subject, notes))
     }
 
-    /// What is said where nothing can be marked.
-    fn unmarked(&self, scene: &Scene) -> Option<String> {
+    /// Returns a note if there are highlights, but no mesh with elements to highlight.
+    fn no_mesh_note(&self, scene: &Scene) -> Option<String> {
         let has_marks = self.highlight.is_some() || !self.marks.is_empty();
         let has_mesh = scene.objects().iter().any(|o| o.as_mesh().is_some());
         (has_marks && !has_mesh && !scene.objects().is_empty()).then(|| {
-            "nothing is marked: elements of meshes can be, and there is no mesh here; `style: (points: 8)` \
-             shows the points of polylines, and `style: (control_nets: ())` control points"
+            "nothing is highlighted: only elements of meshes can be highlighted, and the scene has no mesh; use \
+             `style: (points: 8)` to show the points of polylines, or `style: (control_nets: ())` to show \
+             control points"
                 .to_owned()
         })
     }
 
-    fn in_order(&self) -> Result<(), OpError> {
+    /// Returns the first problem of the parameters as an error.
+    fn check(&self) -> Result<(), OpError> {
         match self.problems().into_iter().next() {
             Some(problem) => Err(OpError::Parameter(problem.message)),
             None => Ok(()),
         }
     }
 
-    /// The images that were drawn as a file of the format that the path names. `stamp` says where it comes from.
+    /// Encodes images as a file in the format of the path. `stamp` is the provenance that is stored in the file.
     ///
     /// # Errors
     ///
-    /// [`PictureError::Encode`] if there is no image, or the images are too large for the format;
+    /// [`PictureError::Encode`] if the number of images is wrong or they are too large for the format;
     /// [`PictureError::Cancelled`].
     pub fn encode(
         &self,
@@ -330,14 +336,17 @@ impl Picture {
         let Some(turn) = self.turntable else {
             return match images {
                 [image] => image.to_png_with_progress(&texts, progress),
-                _ => Err(PictureError::Encode("there is no image".to_owned())),
+                _ => {
+                    let message = format!("expected 1 image, found {}", images.len());
+                    Err(PictureError::Encode(message))
+                }
             };
         };
         let delay = 1000.0 * turn.seconds.get() / f64::from(turn.frames.get());
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
-            reason = "it is held to what 16 bits can say"
+            reason = "clamped to the range of u16"
         )]
         let delay = delay.round().clamp(1.0, f64::from(u16::MAX)) as u16;
         let timing = Timing { delay, plays: 0 };
@@ -363,21 +372,27 @@ impl Operation for Picture {
         }
         let bytes = 4 * self.shot(cx.budget).n_pixels();
         if bytes > cx.budget {
-            let message = format!("the images take {bytes} bytes, over the budget");
+            let message = format!(
+                "the images take {bytes} bytes, which exceeds the memory budget of {} bytes",
+                cx.budget
+            );
             problems.push(Problem::error(message).at(["size"]));
         }
         problems
     }
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
-        let of_file = |error: &dyn Display| OpError::File(error.to_string());
-        let path = cx.files().to_write(&self.path).map_err(|e| of_file(&e))?;
+        let file_error = |error: &dyn Display| OpError::File(error.to_string());
+        let path = cx
+            .files()
+            .to_write(&self.path)
+            .map_err(|e| file_error(&e))?;
         let (images, notes) = self.draw(&[(scene, "")], None, cx)?;
         let stamp = cx.files().provenance.clone();
         let bytes = self.encode(&images, stamp.as_deref(), cx.progress());
-        let bytes = bytes.map_err(failed)?;
+        let bytes = bytes.map_err(op_error)?;
         let store = &cx.files().store;
-        store.write(&path, &bytes).map_err(|e| of_file(&e))?;
+        store.write(&path, &bytes).map_err(|e| file_error(&e))?;
         Ok(Report {
             notes,
             ..Report::default()
@@ -385,7 +400,7 @@ impl Operation for Picture {
     }
 }
 
-/// The bytes of an image that a material names, if it is a file in the folder or in a folder in it.
+/// Reads the image file of a material. `None` if the file does not exist, or is not inside of the folder.
 fn read_image(files: &Files, folder: Option<&str>, path: &str) -> Option<Vec<u8>> {
     let is_inside = |c: Component| matches!(c, Component::Normal(_) | Component::CurDir);
     if path.contains("://") || !Path::new(path).components().all(is_inside) {
@@ -404,7 +419,7 @@ fn read_image(files: &Files, folder: Option<&str>, path: &str) -> Option<Vec<u8>
     }
 }
 
-fn failed(error: PictureError) -> OpError {
+fn op_error(error: PictureError) -> OpError {
     match error {
         PictureError::Cancelled => OpError::Cancelled,
         PictureError::Budget { .. } => OpError::Budget(error.to_string()),

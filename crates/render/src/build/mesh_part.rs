@@ -35,8 +35,9 @@ impl<'s> Builder<'s, '_> {
         let (colors, materials, material_of_face) = self.colors(object, mesh, color, coloring);
         let uvs = uvs(mesh, &materials);
         if uvs.is_empty() && materials.iter().any(|s| s.texture.is_some()) {
-            let why = format!("{}: no texture coordinates for its textures", object.name);
-            self.missing.push(why);
+            let name = &object.name;
+            let message = format!("\"{name}\" has textures but no texture coordinates for them");
+            self.missing.push(message);
         }
         let is_per_corner = |channel: &Channel| matches!(channel, Channel::Corner(_));
         let needs_corners = !uvs.is_empty() || is_per_corner(&colors) || is_per_corner(&normals);

@@ -20,8 +20,8 @@ pub(super) fn of_faces(mesh: &Mesh, size: f64) -> Vec<[f32; 3]> {
     })
 }
 
-/// Returns the sum of the area vectors of the faces around each vertex, by index. Gouraud, "Continuous Shading of Curved
-/// Surfaces", 1971, with weights by area.
+/// Returns the sum of the area vectors of the faces around each vertex, by index. Gouraud, "Continuous Shading of
+/// Curved Surfaces", 1971, with weights by area.
 fn of_vertices(mesh: &Mesh, areas: &[[f32; 3]]) -> Vec<[f32; 3]> {
     map_indices(mesh.positions().len(), |i| {
         let v = VertexId::new(i);
@@ -73,7 +73,8 @@ fn sharp_edges(mesh: &Mesh, areas: &[[f32; 3]], sharp: f64) -> Vec<bool> {
     })
 }
 
-/// Returns the sum of the area vectors of the faces around the origin of `h` that no sharp edge separates from its face.
+/// Returns the sum of the area vectors of the faces around the origin of `h` that no sharp edge separates from its
+/// face.
 fn of_corner(mesh: &Mesh, h: HalfEdgeId, areas: &[[f32; 3]], is_sharp: &[bool]) -> [f32; 3] {
     let Some(face) = mesh.face(h) else {
         return [0.0; 3];

@@ -1,8 +1,8 @@
-//! The outlines of lines of text, in the fonts of this crate and no others.
+//! Converts lines of text to outlines, in the embedded fonts only.
 //!
-//! A character that its font does not have comes from the first of the others that has it, except in formulas, and is left
-//! out if none has it. Letters are kerned, and accents are put onto their letters. There is no right-to-left text: the
-//! fonts have no letters of that kind.
+//! If a font does not have a character, the first embedded font with this character is used, except in formulas. If no
+//! font has it, the character is drawn as the missing glyph of its font. Letters are kerned, and accents are placed on
+//! their letters. Right-to-left text is not supported, as the fonts have no right-to-left letters.
 
 use std::sync::LazyLock;
 
@@ -13,11 +13,10 @@ use ttf_parser::gpos::{self, AnchorMatrix, PairAdjustment, PositioningSubtable};
 use ttf_parser::opentype_layout::Class;
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
-use super::svg::{Anchor, Font, Text, number, shown};
+use super::svg::{Anchor, Font, Text, number, printable};
 use crate::color::narrow;
 
-/// The embedded fonts in the order in which a missing character is looked for. `fonts/README.md` says where they come
-/// from.
+/// The embedded fonts, in the order in which missing characters are searched. `fonts/README.md` gives their sources.
 static FACES: LazyLock<[Typeface; 4]> = LazyLock::new(|| {
     [
         &include_bytes!("../../fonts/Inter-Regular.ttf")[..],
@@ -28,16 +27,16 @@ static FACES: LazyLock<[Typeface; 4]> = LazyLock::new(|| {
     .map(|bytes| Typeface::new(Face::parse(bytes, 0).expect("the fonts are embedded")))
 });
 
-/// A line of text as it is drawn.
+/// The outlines of a line of text.
 pub(super) struct Line {
-    /// The outlines of the letters, in one path for each part of the text that has any.
+    /// The outlines of the letters: one path for each run that has outlines.
     pub(super) paths: Vec<Path>,
-    /// How far it goes from left to right, blanks included.
+    /// The width, including spaces.
     pub(super) width: f32,
 }
 
-/// The line with its [`Anchor`] at `place`.
-pub(super) fn line(place: DVec2, text: &Text) -> Line {
+/// Returns the outlines of a text with its [`Anchor`] at `position`.
+pub(super) fn line(position: DVec2, text: &Text) -> Line {
     let clusters = clusters(text);
     let mut advance = 0.0;
     let (mut left, mut right) = (f32::INFINITY, f32::NEG_INFINITY);
@@ -60,14 +59,14 @@ pub(super) fn line(place: DVec2, text: &Text) -> Line {
             Anchor::Start => 0.0,
             Anchor::Middle => -width / 2.0,
         };
-    let origin = Transform::from_translate(narrow(place.x), narrow(place.y));
+    let origin = Transform::from_translate(narrow(position.x), narrow(position.y));
     let mut paths = Vec::new();
     for run in clusters.chunk_by(|a, b| a.run == b.run) {
         let mut builder = PathBuilder::new();
         for cluster in run {
             let [right, down] = cluster.shift;
-            let place = origin.pre_translate(x + right, down);
-            cluster.outline(place, &mut builder);
+            let transform = origin.pre_translate(x + right, down);
+            cluster.outline(transform, &mut builder);
             x += cluster.advance();
         }
         paths.extend(builder.finish());
@@ -75,18 +74,18 @@ pub(super) fn line(place: DVec2, text: &Text) -> Line {
     Line { paths, width }
 }
 
-/// A letter and the accents on it.
+/// A letter with its accents.
 struct Cluster {
-    /// The part of the text that it belongs to.
+    /// The index of its run.
     run: usize,
     face: &'static Typeface,
-    /// The size of the letters.
+    /// The font size.
     size: f32,
-    /// How far it and all that follow are moved to the right and down.
+    /// The sum of the shifts of all runs so far, to the right and down.
     shift: [f32; 2],
-    /// The way to the next cluster, in units of the font.
+    /// The distance to the next cluster, in font units.
     units: i32,
-    /// The glyphs, and how far each is from the origin, in units of the font.
+    /// The glyphs, and the offset of each from the origin, in font units.
     glyphs: Vec<(GlyphId, [i32; 2])>,
 }
 
@@ -99,58 +98,59 @@ impl Cluster {
         self.units as f32 * self.scale()
     }
 
-    /// Adds the outlines of the letter whose origin is moved to `place`.
-    fn outline(&self, place: Transform, builder: &mut PathBuilder) {
+    /// Adds the outlines of the glyphs, with the origin moved by `transform`.
+    fn outline(&self, transform: Transform, builder: &mut PathBuilder) {
         for &(glyph, [x, y]) in &self.glyphs {
             let mut outline = Outline::default();
             self.face.face.outline_glyph(glyph, &mut outline);
-            // Fonts have y upwards.
-            let place = place
+            // In fonts, y points upwards.
+            let transform = transform
                 .pre_scale(self.scale(), self.scale())
                 .pre_translate(x as f32, -y as f32)
                 .pre_scale(1.0, -1.0);
-            if let Some(path) = outline.0.finish().and_then(|path| path.transform(place)) {
+            let path = outline.0.finish();
+            if let Some(path) = path.and_then(|path| path.transform(transform)) {
                 builder.push_path(&path);
             }
         }
     }
 }
 
-/// The letters of a text from left to right.
+/// Returns the letters of a text from left to right.
 fn clusters(text: &Text) -> Vec<Cluster> {
     let characters: Vec<(usize, char)> = text
         .runs
         .iter()
         .enumerate()
-        .flat_map(|(i, run)| run.text.chars().map(move |c| (i, shown(c))))
+        .flat_map(|(i, run)| run.text.chars().map(move |c| (i, printable(c))))
         .collect();
     let mut clusters: Vec<Cluster> = Vec::with_capacity(characters.len());
     let mut shift = [0.0; 2];
-    let (mut begun, mut raised) = (0, 0.0);
-    for (i, &(number_of_run, c)) in characters.iter().enumerate() {
-        let run = &text.runs[number_of_run];
-        if begun <= number_of_run {
-            begun = number_of_run + 1;
+    let (mut n_started_runs, mut raised) = (0, 0.0);
+    for (i, &(run_index, c)) in characters.iter().enumerate() {
+        let run = &text.runs[run_index];
+        if n_started_runs <= run_index {
+            n_started_runs = run_index + 1;
             shift[0] += narrow(number(run.skip * text.size));
             shift[1] += narrow(number((raised - run.raise) * text.size));
             raised = run.raise;
         }
-        let (face, glyph) = Typeface::of(run.font, c);
+        let (face, glyph) = Typeface::find(run.font, c);
         if face.is_mark(glyph)
             && let Some(letter) = clusters.last_mut()
             && std::ptr::eq(letter.face, face)
         {
-            letter.glyphs.push((glyph, face.mark_place(letter, glyph)));
+            letter.glyphs.push((glyph, face.mark_offset(letter, glyph)));
             continue;
         }
-        // Accents do not part a letter from the next one.
+        // Accents between two letters do not prevent their kerning.
         let next = characters[i + 1..]
             .iter()
             .map(|(_, c)| face.glyph(*c))
             .find(|&glyph| !face.is_mark(glyph));
         let is_ignored = glyph == GlyphId(0) && is_invisible(c);
         clusters.push(Cluster {
-            run: number_of_run,
+            run: run_index,
             face,
             size: narrow(number(run.size * text.size)),
             shift,
@@ -165,16 +165,17 @@ fn clusters(text: &Text) -> Vec<Cluster> {
     clusters
 }
 
-/// Whether a character that no font has takes no room: one that joins, parts or directs others.
+/// Whether a character has no width if no font has it: characters that join or separate other characters, or set their
+/// direction or variant.
 fn is_invisible(c: char) -> bool {
     matches!(c, '\u{ad}' | '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{206f}'
         | '\u{fe00}'..='\u{fe0f}' | '\u{feff}')
 }
 
-/// A font and where its letters stand beside each other.
+/// A font with its positioning tables.
 struct Typeface {
     face: Face<'static>,
-    /// The tables that say so, each a list whose first entry for a letter holds.
+    /// The subtables of each lookup of the `GPOS` table. The first subtable that applies to a glyph is used.
     positions: Vec<Vec<PositioningSubtable<'static>>>,
 }
 
@@ -186,21 +187,21 @@ impl Typeface {
         Self { face, positions }
     }
 
-    /// The font that has a character in text of this font, and its glyph there; glyph 0 if none has it.
-    fn of(font: Font, c: char) -> (&'static Self, GlyphId) {
-        let (own, others) = match font {
+    /// Returns the embedded font to use for a character in text of this font, and the glyph; glyph 0 if no font has it.
+    fn find(font: Font, c: char) -> (&'static Self, GlyphId) {
+        let (first, fallbacks) = match font {
             Font::Plain => (0, &FACES[..]),
             Font::Title => (1, &FACES[..]),
-            // Another font would not fit beside the other parts of a formula.
+            // Formulas do not mix fonts.
             Font::Letter => (2, &[][..]),
             Font::Digit => (3, &[][..]),
         };
-        let own = &FACES[own];
-        std::iter::once(own)
-            .chain(others)
+        let first = &FACES[first];
+        std::iter::once(first)
+            .chain(fallbacks)
             .map(|face| (face, face.glyph(c)))
             .find(|(_, glyph)| *glyph != GlyphId(0))
-            .unwrap_or((own, GlyphId(0)))
+            .unwrap_or((first, GlyphId(0)))
     }
 
     fn glyph(&self, c: char) -> GlyphId {
@@ -216,9 +217,9 @@ impl Typeface {
         self.face.glyph_hor_advance(glyph).unwrap_or(0).into()
     }
 
-    /// How far two letters beside each other are moved apart.
+    /// Returns the additional distance between two adjacent glyphs, which is usually negative.
     fn kerning(&self, first: GlyphId, second: GlyphId) -> i32 {
-        let of = |table: &PositioningSubtable| {
+        let adjustment = |table: &PositioningSubtable| {
             let PositioningSubtable::Pair(pairs) = table else {
                 return None;
             };
@@ -233,44 +234,50 @@ impl Typeface {
         };
         self.positions
             .iter()
-            .filter_map(|tables| tables.iter().find_map(of))
+            .filter_map(|tables| tables.iter().find_map(adjustment))
             .sum()
     }
 
-    /// Where an accent stands on a letter with others: on the last of them, if the font says where, or on the letter.
-    fn mark_place(&self, letter: &Cluster, mark: GlyphId) -> [i32; 2] {
+    /// Returns the offset of an accent on a letter that can have other accents: on the last of them if the font defines
+    /// this, else on the letter.
+    fn mark_offset(&self, letter: &Cluster, mark: GlyphId) -> [i32; 2] {
         let (base, _) = letter.glyphs[0];
         let (last, [x, y]) = letter.glyphs[letter.glyphs.len() - 1];
         let on_letter = |table: &PositioningSubtable| match table {
             PositioningSubtable::MarkToBase(t) => {
                 let anchor = t.marks.get(t.mark_coverage.get(mark)?)?;
-                on(anchor, t.anchors, t.base_coverage.get(base)?)
+                anchor_offset(anchor, t.anchors, t.base_coverage.get(base)?)
             }
             _ => None,
         };
         let on_mark = |table: &PositioningSubtable| match table {
             PositioningSubtable::MarkToMark(t) => {
                 let anchor = t.marks.get(t.mark1_coverage.get(mark)?)?;
-                let [dx, dy] = on(anchor, t.mark2_matrix, t.mark2_coverage.get(last)?)?;
+                let base = t.mark2_coverage.get(last)?;
+                let [dx, dy] = anchor_offset(anchor, t.mark2_matrix, base)?;
                 Some([x + dx, y + dy])
             }
             _ => None,
         };
         let tables = || self.positions.iter().flatten();
-        let place = tables().find_map(on_mark);
-        place
+        tables()
+            .find_map(on_mark)
             .or_else(|| tables().find_map(on_letter))
             .unwrap_or([letter.units, 0])
     }
 }
 
-/// How far a mark with this anchor is from the base of this number that it stands on, if the font says where.
-fn on((class, anchor): (Class, gpos::Anchor), places: AnchorMatrix, base: u16) -> Option<[i32; 2]> {
-    let place = places.get(base, class)?;
-    Some([place.x - anchor.x, place.y - anchor.y].map(i32::from))
+/// Returns the offset of a mark with this anchor from the base glyph with this index, if the font defines it.
+fn anchor_offset(
+    (class, anchor): (Class, gpos::Anchor),
+    base_anchors: AnchorMatrix,
+    base: u16,
+) -> Option<[i32; 2]> {
+    let base_anchor = base_anchors.get(base, class)?;
+    Some([base_anchor.x - anchor.x, base_anchor.y - anchor.y].map(i32::from))
 }
 
-/// The outline of a glyph in units of its font.
+/// The outline of a glyph in font units.
 #[derive(Default)]
 struct Outline(PathBuilder);
 
@@ -305,42 +312,42 @@ mod tests {
     }
 
     #[test]
-    fn letters_are_kerned_across_parts_of_a_text() {
+    fn letters_are_kerned_across_runs() {
         let [a, v, both] = ["A", "V", "AV"].map(|text| width(Font::Plain, text));
         assert!(both < a + v - 1.0);
         let runs = ["A", "V"].map(|text| crate::figure::Run::new(Font::Plain, text));
-        let parted = Text::of(runs.to_vec(), 100.0, [0, 0, 0, 255]);
-        assert_eq!(line(DVec2::ZERO, &parted).width, both);
+        let two_runs = Text::of(runs.to_vec(), 100.0, [0, 0, 0, 255]);
+        assert_eq!(line(DVec2::ZERO, &two_runs).width, both);
     }
 
     #[test]
-    fn accents_stand_on_their_letters_and_take_no_room() {
+    fn accents_are_on_their_letters_and_have_no_width() {
         let bounds = |text: &str| {
             let text = Text::new(Font::Plain, text, 100.0, [0, 0, 0, 255]);
             line(DVec2::ZERO, &text).paths[0].bounds()
         };
         let (e, one, two) = ("e", "e\u{301}", "e\u{301}\u{302}");
         assert_eq!(width(Font::Plain, two), width(Font::Plain, e));
-        // The font has the letter with its accent too.
-        let [composed, parts] = ["\u{e9}", one].map(bounds);
+        // The font also has the letter with its accent as one glyph.
+        let [composed, combined] = ["\u{e9}", one].map(bounds);
         assert!(
-            (composed.top() - parts.top()).abs() < 1.0,
-            "{composed:?} {parts:?}"
+            (composed.top() - combined.top()).abs() < 1.0,
+            "{composed:?} {combined:?}"
         );
         assert!(
-            (composed.right() - parts.right()).abs() < 1.0,
-            "{composed:?} {parts:?}"
+            (composed.right() - combined.right()).abs() < 1.0,
+            "{composed:?} {combined:?}"
         );
-        assert!(bounds(two).top() < parts.top() - 5.0);
+        assert!(bounds(two).top() < combined.top() - 5.0);
     }
 
     #[test]
     fn a_character_comes_from_the_first_font_that_has_it() {
-        // A fraktur letter is in one font of formulas only, and formulas keep to their font.
+        // Only one of the formula fonts has this fraktur letter, and formulas use no other font.
         let fraktur = '\u{211c}';
-        let (face, glyph) = Typeface::of(Font::Title, fraktur);
+        let (face, glyph) = Typeface::find(Font::Title, fraktur);
         assert!(std::ptr::eq(face, &raw const FACES[3]) && glyph != GlyphId(0));
-        assert_eq!(Typeface::of(Font::Letter, fraktur).1, GlyphId(0));
+        assert_eq!(Typeface::find(Font::Letter, fraktur).1, GlyphId(0));
         assert_eq!(width(Font::Plain, "\u{200b}\u{feff}"), 0.0);
     }
 }

@@ -1,11 +1,11 @@
-//! Drawings in the plane: figures, captions, legends.
+//! Drawings in the plane: figures, labels and legends.
 //!
-//! One drawing code for two outputs. A figure is an SVG document ([`Svg`]), and its pixels are those of the
-//! document ([`pixels`]). The same documents, drawn over an image, are its labels and legends.
+//! A figure is an SVG document ([`Svg`]), which is written as text or rendered to [`pixels`]. Labels and legends are
+//! such documents too; they are drawn over an image.
 //!
 //! - [`construction`](mod@construction): de Casteljau's construction of a point of a Bezier curve.
-//! - [`legend`](mod@legend): what the colors of a picture stand for.
-//! - [`label`](mod@label): texts at places of an image.
+//! - [`legend`](mod@legend): the legend that explains the colors of a picture.
+//! - [`label`](mod@label): texts at points of an image.
 
 pub mod construction;
 pub mod label;

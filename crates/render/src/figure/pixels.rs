@@ -1,8 +1,8 @@
-//! The pixels of a document, and drawing over images.
+//! Renders documents to pixels, or draws them over images.
 //!
-//! `tiny-skia` draws the shapes and the outlines of the letters, by themselves and not by way of the text of the
-//! document. Documents keep to what it draws without rounding that depends on the processor: plain colors over what is
-//! there, which it adds in whole numbers.
+//! `tiny-skia` draws the shapes and the outlines of letters directly, without parsing the text of the document.
+//! Documents use only features that it draws without processor-dependent rounding: plain colors, which it blends in
+//! integers.
 
 use glam::DVec2;
 use tiny_skia::{
@@ -17,11 +17,11 @@ use crate::color::{narrow, whole_u32};
 use crate::image::checked_size;
 use crate::{Image, PictureError};
 
-/// The pixels of a document, each unit of it `scale` pixels long, over `background`.
+/// Renders a document over `background`, with `scale` pixels per unit of the document.
 ///
 /// # Errors
 ///
-/// [`PictureError::Size`] if a side is not from 1 to [`LARGEST_SIDE`](crate::LARGEST_SIDE) pixels.
+/// [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`](crate::LARGEST_SIDE) pixels.
 pub fn pixels(svg: &Svg, scale: f64, background: [u8; 4]) -> Result<Image, PictureError> {
     let (width, height) = pixel_size(svg, scale)?;
     let mut image = Image::filled(width, height, background)?;
@@ -29,31 +29,31 @@ pub fn pixels(svg: &Svg, scale: f64, background: [u8; 4]) -> Result<Image, Pictu
     Ok(image)
 }
 
-/// The width and the height of a document in whole pixels, each unit of it `scale` pixels long.
+/// Returns the width and the height of a document in whole pixels, with `scale` pixels per unit of the document.
 ///
 /// # Errors
 ///
-/// [`PictureError::Size`] if a side is not from 1 to [`LARGEST_SIDE`](crate::LARGEST_SIDE) pixels.
+/// [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`](crate::LARGEST_SIDE) pixels.
 pub fn pixel_size(svg: &Svg, scale: f64) -> Result<(u32, u32), PictureError> {
-    // A number that is none, or below zero, becomes 0 and is refused.
+    // NaN and negative numbers become 0 and are refused.
     let [width, height] = [svg.width, svg.height].map(|x| whole_u32((x * scale).round()));
     checked_size(width, height)?;
     Ok((width, height))
 }
 
-/// The bytes that [`pixels`] takes at most: four for each pixel of the result and of the layer that is drawn.
+/// Returns the maximum number of bytes that [`pixels`] needs: four for each pixel of the result and of the layer.
 pub fn bytes_needed(width: u32, height: u32) -> u64 {
     u64::from(width) * u64::from(height) * 8
 }
 
-/// Draws a document over an image, its top left corner on that of the image. What lies outside of the image is
-/// cut off. Takes memory for the part that is drawn on.
+/// Draws a document over an image, with both top left corners aligned. Parts outside of the image are cut off. Needs
+/// memory in proportion to the bounding box of the document inside of the image.
 pub fn draw(image: &mut Image, svg: &Svg, scale: f64) {
-    let drawn: Vec<Drawn> = svg.elements.iter().flat_map(Drawn::of).collect();
-    let Some(area) = drawn.iter().filter_map(Drawn::area).reduce(joined) else {
+    let paths: Vec<PaintedPath> = svg.elements.iter().flat_map(PaintedPath::of).collect();
+    let Some(area) = paths.iter().filter_map(PaintedPath::area).reduce(union) else {
         return;
     };
-    // The box of strokes is not always tight around dashes and caps: one pixel more.
+    // The areas do not always include caps and dashes of strokes, so one pixel is added.
     let span = |low: f32, high: f32, side: u32| {
         let low = (f64::from(low) * scale).floor() - 1.0;
         let high = (f64::from(high) * scale).ceil() + 1.0;
@@ -63,13 +63,13 @@ pub fn draw(image: &mut Image, svg: &Svg, scale: f64) {
     let (left, width) = span(area.left(), area.right(), image.width);
     let (top, height) = span(area.top(), area.bottom(), image.height);
     let Some(mut layer) = Pixmap::new(width, height) else {
-        // Nothing of it is inside.
+        // The area is outside of the image.
         return;
     };
     let scale = narrow(scale);
-    let place = Transform::from_row(scale, 0.0, 0.0, scale, -(left as f32), -(top as f32));
-    for drawn in &drawn {
-        drawn.draw(&mut layer, place);
+    let transform = Transform::from_row(scale, 0.0, 0.0, scale, -(left as f32), -(top as f32));
+    for path in &paths {
+        path.draw(&mut layer, transform);
     }
     let rows = layer.pixels().chunks_exact(width as usize);
     let below = image.pixels.chunks_exact_mut(image.width as usize);
@@ -84,40 +84,40 @@ pub fn draw(image: &mut Image, svg: &Svg, scale: f64) {
 }
 
 /// A path with its colors.
-struct Drawn {
+struct PaintedPath {
     path: Path,
     fill: Option<Color>,
     stroke: Option<(Color, Stroke)>,
 }
 
-impl Drawn {
-    /// What is drawn of an element, from below to above.
+impl PaintedPath {
+    /// Converts an element to paths, from back to front.
     fn of(element: &Element) -> Vec<Self> {
         match element {
             Element::Shape(shape, paint) => {
                 let dashes = paint.dashes.iter().copied().map(narrow).collect();
                 let dash = StrokeDash::new(dashes, 0.0);
-                let stroke = paint.stroke.map(|pen| stroked(pen, LineCap::Round, dash));
-                let drawn = |path| Self {
+                let stroke = paint.stroke.map(|pen| stroke(pen, LineCap::Round, dash));
+                let painted = |path| Self {
                     path,
                     fill: paint.fill,
                     stroke,
                 };
-                outline(shape).map(drawn).into_iter().collect()
+                outline(shape).map(painted).into_iter().collect()
             }
-            Element::Text(place, text) => {
-                let paths = letters::line(*place, text).paths;
+            Element::Text(position, text) => {
+                let paths = letters::line(*position, text).paths;
                 let halo = text.halo.map(|(color, width)| {
-                    stroked((color, number(width * 2.0)), LineCap::Butt, None)
+                    stroke((color, number(width * 2.0)), LineCap::Butt, None)
                 });
                 let layers = [(None, halo), (Some(text.color), None)];
                 let layers = layers.into_iter().flat_map(|(fill, stroke)| {
-                    let drawn = move |path: &Path| Self {
+                    let painted = move |path: &Path| Self {
                         path: path.clone(),
                         fill,
                         stroke: stroke.clone(),
                     };
-                    paths.iter().map(drawn)
+                    paths.iter().map(painted)
                 });
                 layers
                     .filter(|d| d.fill.is_some() || d.stroke.is_some())
@@ -127,7 +127,7 @@ impl Drawn {
         }
     }
 
-    /// What encloses it, without the caps of lines.
+    /// Returns the bounding box, without the caps of lines.
     fn area(&self) -> Option<Rect> {
         let area = self.path.compute_tight_bounds()?;
         match &self.stroke {
@@ -136,40 +136,38 @@ impl Drawn {
         }
     }
 
-    fn draw(&self, layer: &mut Pixmap, place: Transform) {
+    fn draw(&self, layer: &mut Pixmap, transform: Transform) {
         let paint = |[r, g, b, a]: Color| {
             let mut paint = Paint::default();
             paint.set_color_rgba8(r, g, b, a);
             paint
         };
         let bounds = self.path.bounds();
-        // Lines along an axis have no inside.
+        // A path along an axis has no area.
         if let Some(color) = self.fill
             && bounds.width() > 0.0
             && bounds.height() > 0.0
         {
-            layer.fill_path(&self.path, &paint(color), FillRule::Winding, place, None);
+            let rule = FillRule::Winding;
+            layer.fill_path(&self.path, &paint(color), rule, transform, None);
         }
         if let Some((color, stroke)) = &self.stroke
             && stroke.width > 0.0
         {
-            layer.stroke_path(&self.path, &paint(*color), stroke, place, None);
+            layer.stroke_path(&self.path, &paint(*color), stroke, transform, None);
         }
     }
 }
 
-fn joined(a: Rect, b: Rect) -> Rect {
+/// Returns the smallest rectangle that contains both rectangles.
+fn union(a: Rect, b: Rect) -> Rect {
     let [left, top] = [a.left().min(b.left()), a.top().min(b.top())];
     let [right, bottom] = [a.right().max(b.right()), a.bottom().max(b.bottom())];
     Rect::from_ltrb(left, top, right, bottom).unwrap_or(a)
 }
 
-/// How a line of this color and width is drawn.
-fn stroked(
-    (color, width): (Color, f64),
-    cap: LineCap,
-    dash: Option<StrokeDash>,
-) -> (Color, Stroke) {
+/// Returns a color, and the stroke of a line of this width.
+fn stroke((color, width): (Color, f64), cap: LineCap, dash: Option<StrokeDash>) -> (Color, Stroke) {
     let stroke = Stroke {
         width: narrow(width),
         line_cap: cap,
@@ -180,7 +178,7 @@ fn stroked(
     (color, stroke)
 }
 
-/// The outline of a shape; none if it has no size.
+/// Returns the outline of a shape; `None` if it is empty.
 fn outline(shape: &Shape) -> Option<Path> {
     let mut path = PathBuilder::new();
     match shape {
@@ -196,8 +194,8 @@ fn outline(shape: &Shape) -> Option<Path> {
                 return None;
             }
             let [x, y, r] = [center.x, center.y, *radius].map(narrow);
-            // A quarter of a circle is as good as a cubic curve whose tangents have this share of the radius:
-            // 4 / 3 * tan(pi / 8).
+            // A cubic curve approximates a quarter of a circle if its inner control points are
+            // 4 / 3 * tan(pi / 8) times the radius from its ends.
             let k = r * 0.552_284_8;
             path.move_to(x + r, y);
             path.cubic_to(x + r, y + k, x + k, y + r, x, y + r);
@@ -245,7 +243,7 @@ mod tests {
     const WHITE: [u8; 4] = [255; 4];
 
     #[test]
-    fn a_rectangle_fills_its_pixels_and_no_others() {
+    fn a_rectangle_fills_exactly_its_pixels() {
         let mut svg = Svg::new(6.0, 4.0);
         let red = [200, 10, 20, 255];
         svg.rectangle(
@@ -263,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn a_disc_has_its_area_in_gray_values() {
+    fn the_sum_of_the_alphas_of_a_disc_is_its_area() {
         let mut svg = Svg::new(100.0, 100.0);
         svg.circle(DVec2::new(50.3, 49.8), 40.0, &Paint::fill(BLACK));
         let image = pixels(&svg, 1.0, [0, 0, 0, 0]).unwrap();
@@ -273,34 +271,34 @@ mod tests {
     }
 
     #[test]
-    fn every_text_is_drawn_without_harm() {
+    fn unusual_texts_are_drawn() {
         for text in crate::figure::testing::ODD_TEXTS {
             let mut svg = Svg::new(200.0, 30.0);
             let line = Text::new(Font::Plain, *text, 16.0, BLACK).with_halo(WHITE, 2.0);
             svg.text(DVec2::new(4.0, 20.0), &line);
             let image = pixels(&svg, 1.0, [0; 4]).unwrap();
             let is_drawn = image.pixels.iter().any(|p| p[3] > 0);
-            let is_known = text.chars().any(|c| c.is_ascii_graphic());
-            assert!(is_drawn || !is_known, "{text:?}");
+            let has_letters = text.chars().any(|c| c.is_ascii_graphic());
+            assert!(is_drawn || !has_letters, "{text:?}");
         }
     }
 
     #[test]
-    fn every_font_has_its_own_letters() {
-        let drawn = |font| {
+    fn fonts_have_different_letters() {
+        let draw = |font| {
             let mut svg = Svg::new(40.0, 30.0);
             svg.text(DVec2::new(4.0, 24.0), &Text::new(font, "b2", 24.0, BLACK));
             pixels(&svg, 1.0, WHITE).unwrap()
         };
-        let fonts = [Font::Plain, Font::Title, Font::Letter, Font::Digit].map(drawn);
+        let images = [Font::Plain, Font::Title, Font::Letter, Font::Digit].map(draw);
         for i in 0..4 {
-            assert!(fonts[..i].iter().all(|other| *other != fonts[i]));
+            assert!(images[..i].iter().all(|image| *image != images[i]));
         }
     }
 
     #[test]
-    fn a_letter_of_a_formula_keeps_its_font_beside_other_parts() {
-        let drawn = |runs| {
+    fn a_letter_of_a_formula_is_drawn_alike_beside_other_runs() {
+        let draw = |runs| {
             let mut svg = Svg::new(40.0, 30.0);
             svg.text(DVec2::new(4.0, 24.0), &Text::of(runs, 24.0, BLACK));
             let image = pixels(&svg, 1.0, WHITE).unwrap();
@@ -309,15 +307,15 @@ mod tests {
                 .collect::<Vec<_>>()
         };
         let letter = Run::new(Font::Letter, "c");
-        let alone = drawn(vec![letter.clone()]);
+        let alone = draw(vec![letter.clone()]);
         assert_eq!(
-            drawn(vec![letter, Run::new(Font::Digit, "(")])[18..],
+            draw(vec![letter, Run::new(Font::Digit, "(")])[18..],
             alone[18..]
         );
     }
 
     #[test]
-    fn what_is_drawn_outside_is_cut_off() {
+    fn shapes_outside_of_the_image_are_cut_off() {
         let mut svg = Svg::new(10.0, 10.0);
         for x in [-50.0, 300.0] {
             svg.circle(DVec2::new(x, 5.0), 3.0, &Paint::fill(BLACK));
@@ -333,7 +331,7 @@ mod tests {
     }
 
     #[test]
-    fn sizes_that_no_image_has_are_refused() {
+    fn invalid_sizes_are_refused() {
         for (side, scale) in [(0.0, 1.0), (10.0, 1e9), (f64::NAN, 1.0), (-3.0, 1.0)] {
             let refused = pixels(&Svg::new(side, 10.0), scale, WHITE);
             assert!(matches!(refused, Err(PictureError::Size { .. })));

@@ -1,26 +1,26 @@
-//! Writes SVG: shapes, texts and groups, in pixels from the top left corner.
+//! Writes SVG documents: shapes, texts and groups, in pixels from the top left corner.
 //!
-//! Only what every program shows alike is used, and what becomes the same pixels on every processor: no
-//! gradients, no arcs, no filters, no style sheets. Coordinates have three decimals.
+//! Documents use only features that all programs show alike and that give the same pixels on every processor: no
+//! gradients, no arcs, no filters and no style sheets. Coordinates have three decimals.
 
 use glam::DVec2;
 
 /// A color: red, green and blue (sRGB) and alpha, from 0 to 255.
 pub type Color = [u8; 4];
 
-/// How a shape is filled and outlined.
+/// The fill and the outline of a shape.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Paint {
-    /// The color inside; none if nothing is filled.
+    /// The color of the inside. If `None`, the shape is not filled.
     pub fill: Option<Color>,
-    /// The color and the width, in pixels, of the outline.
+    /// The color and the width, in pixels, of the outline. If `None`, the shape has no outline.
     pub stroke: Option<(Color, f64)>,
-    /// The lengths of dashes and gaps in pixels; a solid outline if empty.
+    /// The lengths of dashes and gaps in pixels. If empty, the outline is solid.
     pub dashes: &'static [f64],
 }
 
 impl Paint {
-    /// Filled with this color.
+    /// Fills with this color, without an outline.
     pub const fn fill(color: Color) -> Self {
         Self {
             fill: Some(color),
@@ -29,7 +29,7 @@ impl Paint {
         }
     }
 
-    /// Outlined in this color, `width` pixels wide.
+    /// Outlines in this color, `width` pixels wide, without a fill.
     pub const fn stroke(color: Color, width: f64) -> Self {
         Self {
             fill: None,
@@ -38,14 +38,14 @@ impl Paint {
         }
     }
 
-    /// The same, with an outline in dashes.
+    /// Makes the outline dashed.
     #[must_use]
     pub const fn with_dashes(mut self, dashes: &'static [f64]) -> Self {
         self.dashes = dashes;
         self
     }
 
-    /// The same, outlined.
+    /// Adds an outline.
     #[must_use]
     pub const fn with_stroke(mut self, color: Color, width: f64) -> Self {
         self.stroke = Some((color, width));
@@ -53,13 +53,13 @@ impl Paint {
     }
 }
 
-/// Which of the embedded fonts a text is set in.
+/// The embedded font of a text.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum Font {
     /// Plain text.
     #[default]
     Plain,
-    /// Titles: the plain font, heavier.
+    /// Titles: the plain font in semibold.
     Title,
     /// Letters of formulas, in italics.
     Letter,
@@ -68,7 +68,7 @@ pub enum Font {
 }
 
 impl Font {
-    /// The attributes that choose it, with what other machines have in its place.
+    /// Returns the SVG attributes of the font, with fallbacks for machines that do not have it.
     fn attributes(self) -> &'static str {
         match self {
             Self::Plain => "font-family=\"Inter, Helvetica, Arial, sans-serif\"",
@@ -83,24 +83,23 @@ impl Font {
     }
 }
 
-/// A part of a text.
+/// A part of a text with one font and size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
-    /// What is written.
+    /// The characters.
     pub text: String,
     /// The font.
     pub font: Font,
-    /// How large the letters are, as a share of those of the whole text.
+    /// The font size, as a fraction of the size of the text.
     pub size: f64,
-    /// How far the letters are raised above the line, as a share of the size of the whole text.
+    /// The distance above the baseline, as a fraction of the size of the text.
     pub raise: f64,
-    /// How far behind the part before it begins, as a share of the size of the whole text; below zero, back
-    /// over it.
+    /// The gap after the previous run, as a fraction of the size of the text. Negative values overlap the previous run.
     pub skip: f64,
 }
 
 impl Run {
-    /// A part on the line, as large as the whole text.
+    /// Creates a run on the baseline with the size of the text.
     pub fn new(font: Font, text: impl Into<String>) -> Self {
         Self {
             text: text.into(),
@@ -111,7 +110,7 @@ impl Run {
         }
     }
 
-    /// A subscript of digits.
+    /// Creates a subscript of digits.
     pub fn subscript(text: impl Into<String>) -> Self {
         Self {
             size: 0.7,
@@ -121,51 +120,51 @@ impl Run {
         }
     }
 
-    /// A superscript of digits above a subscript of `below` digits.
-    pub fn superscript(text: impl Into<String>, below: usize) -> Self {
-        // A digit of the font is half as wide as high.
+    /// Creates a superscript of digits above a subscript of `n_subscript` digits, which is the previous run.
+    pub fn superscript(text: impl Into<String>, n_subscript: usize) -> Self {
+        // The width of a digit is half the font size, here 0.7 / 2.
         Self {
             size: 0.7,
             raise: 0.42,
-            skip: -0.35 * below as f64,
+            skip: -0.35 * n_subscript as f64,
             ..Self::new(Font::Digit, text)
         }
     }
 }
 
-/// Which point of a text stands at its place.
+/// The point of a text that is at its position.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum Anchor {
-    /// The beginning.
+    /// The start of the baseline.
     #[default]
     Start,
-    /// The middle.
+    /// The middle of the baseline.
     Middle,
 }
 
 /// A line of text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
-    /// Its parts from left to right.
+    /// The runs from left to right.
     pub runs: Vec<Run>,
-    /// The height of the letters in pixels, from their highest to their lowest point.
+    /// The font size in pixels.
     pub size: f64,
     /// The color.
     pub color: Color,
-    /// The color and the width, in pixels, of an outline behind the letters, which keeps them apart from
-    /// what they stand on.
+    /// The color and the width, in pixels, of an outline behind the letters, which makes them readable on any
+    /// background.
     pub halo: Option<(Color, f64)>,
-    /// Which point of it stands at its place.
+    /// The point of the text that is at its position.
     pub anchor: Anchor,
 }
 
 impl Text {
-    /// A line in one font, which begins at its place.
+    /// Creates a line in one font, which starts at its position.
     pub fn new(font: Font, text: impl Into<String>, size: f64, color: Color) -> Self {
         Self::of(vec![Run::new(font, text)], size, color)
     }
 
-    /// A line of several parts, which begins at its place.
+    /// Creates a line of several runs, which starts at its position.
     pub fn of(runs: Vec<Run>, size: f64, color: Color) -> Self {
         Self {
             runs,
@@ -176,14 +175,14 @@ impl Text {
         }
     }
 
-    /// The same text with this point of it at its place.
+    /// Sets the anchor.
     #[must_use]
     pub fn anchored(mut self, anchor: Anchor) -> Self {
         self.anchor = anchor;
         self
     }
 
-    /// The same text with an outline behind the letters.
+    /// Adds an outline behind the letters.
     #[must_use]
     pub fn with_halo(mut self, color: Color, width: f64) -> Self {
         self.halo = Some((color, width));
@@ -191,16 +190,17 @@ impl Text {
     }
 }
 
-/// A command of an SVG path with its points: `M` begins a part, `L`, `Q` and `C` add a line and Bezier curves of degree 2
-/// and 3, and `Z` joins the end of the part to its beginning.
+/// A command of an SVG path with its points: `M` starts a subpath, `L` adds a line, `Q` and `C` add Bezier curves of
+/// degree 2 and 3, and `Z` closes the subpath.
 pub type Command = (char, Vec<DVec2>);
 
-/// What a document is made of. All numbers are rounded as they are written.
+/// An element of a document. All numbers are already rounded to the written decimals.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Element {
     Shape(Shape, Paint),
+    /// A text at a position.
     Text(DVec2, Text),
-    /// Begins a group with this id.
+    /// Starts a group with this id.
     Open(String),
     Close,
 }
@@ -213,18 +213,18 @@ pub(super) enum Shape {
     Path(Vec<Command>),
 }
 
-/// An SVG document: what is drawn later lies above.
+/// An SVG document. Later elements are drawn on top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Svg {
-    /// Pixels from left to right.
+    /// The width in pixels.
     pub width: f64,
-    /// Pixels from top to bottom.
+    /// The height in pixels.
     pub height: f64,
     pub(super) elements: Vec<Element>,
 }
 
 impl Svg {
-    /// An empty document of this size in pixels.
+    /// Creates an empty document of this size in pixels.
     pub fn new(width: f64, height: f64) -> Self {
         Self {
             width,
@@ -233,38 +233,38 @@ impl Svg {
         }
     }
 
-    /// An axis-aligned rectangle with the corner `corner` at its top left.
+    /// Adds an axis-aligned rectangle with its top left corner at `corner`.
     pub fn rectangle(&mut self, corner: DVec2, size: DVec2, paint: &Paint) {
         let [corner, size] = [corner, size].map(rounded);
         self.shape(Shape::Rectangle { corner, size }, paint);
     }
 
-    /// A circle.
+    /// Adds a circle.
     pub fn circle(&mut self, center: DVec2, radius: f64, paint: &Paint) {
         let (center, radius) = (rounded(center), number(radius));
         self.shape(Shape::Circle { center, radius }, paint);
     }
 
-    /// Straight lines from point to point; nothing for less than two.
+    /// Adds straight lines between consecutive points; nothing for less than two points.
     pub fn polyline(&mut self, points: &[DVec2], paint: &Paint) {
         if points.len() >= 2 {
             self.shape(Shape::Polyline(all_rounded(points)), paint);
         }
     }
 
-    /// A path.
+    /// Adds a path.
     pub fn path(&mut self, path: &[Command], paint: &Paint) {
         let round = |(letter, points): &Command| (*letter, all_rounded(points));
         self.shape(Shape::Path(path.iter().map(round).collect()), paint);
     }
 
-    /// A line of text at `place`, its base line at the height of `place`.
-    pub fn text(&mut self, place: DVec2, text: &Text) {
-        let element = Element::Text(rounded(place), text.clone());
+    /// Adds a line of text with its anchor at `position`.
+    pub fn text(&mut self, position: DVec2, text: &Text) {
+        let element = Element::Text(rounded(position), text.clone());
         self.elements.push(element);
     }
 
-    /// A group with an id: what `draw` draws.
+    /// Adds a group with this id, which contains the elements that `draw` adds.
     pub fn group(&mut self, id: &str, draw: impl FnOnce(&mut Self)) {
         self.elements.push(Element::Open(id.to_owned()));
         draw(self);
@@ -277,7 +277,7 @@ impl Svg {
         self.elements.push(Element::Shape(shape, paint));
     }
 
-    /// The document as a text. `provenance` says where it comes from, as its metadata.
+    /// Returns the document as text. `provenance` is written as its metadata.
     pub fn finish(&self, provenance: Option<&str>) -> String {
         let [w, h] = [self.width, self.height].map(number);
         let mut xml = format!(
@@ -294,18 +294,18 @@ impl Svg {
                     let (shape, paint) = (shape.attributes(), paint.attributes());
                     line(depth, &format!("<{shape}{paint}/>"));
                 }
-                Element::Text(place, text) => {
-                    // Outline and letters are two elements: `paint-order` is not known everywhere.
+                Element::Text(position, text) => {
+                    // Outline and letters are separate elements, because not all programs support `paint-order`.
                     if let Some((color, width)) = text.halo {
                         let stroke = format!(
                             "fill=\"none\"{} stroke-width=\"{}\" stroke-linejoin=\"round\"",
                             paint_attribute("stroke", color),
                             number(width * 2.0)
                         );
-                        line(depth, &letters(*place, text, &stroke));
+                        line(depth, &text_element(*position, text, &stroke));
                     }
                     let fill = paint_attribute("fill", text.color);
-                    line(depth, &letters(*place, text, fill.trim_start()));
+                    line(depth, &text_element(*position, text, fill.trim_start()));
                 }
                 Element::Open(id) => {
                     let id = escaped(id).replace('"', "&quot;");
@@ -323,7 +323,7 @@ impl Svg {
 }
 
 impl Shape {
-    /// The name and the attributes of its element.
+    /// Returns the name and the attributes of the element.
     fn attributes(&self) -> String {
         match self {
             Self::Rectangle { corner, size } => format!(
@@ -334,24 +334,27 @@ impl Shape {
                 center: DVec2 { x, y },
                 radius,
             } => format!("circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\""),
-            Self::Polyline(points) => format!("polyline points=\"{}\"", written(points, ",")),
+            Self::Polyline(points) => {
+                format!("polyline points=\"{}\"", coordinates(points, ","))
+            }
             Self::Path(path) => {
-                let commands = path.iter();
-                let commands = commands.map(|(letter, p)| format!("{letter}{}", written(p, " ")));
+                let commands = path
+                    .iter()
+                    .map(|(letter, p)| format!("{letter}{}", coordinates(p, " ")));
                 format!("path d=\"{}\"", commands.collect::<String>())
             }
         }
     }
 }
 
-/// Points with blanks between them.
-fn written(points: &[DVec2], between: &str) -> String {
-    let points = points.iter().map(|p| format!("{}{between}{}", p.x, p.y));
+/// Formats points, separated by spaces, with `separator` between x and y.
+fn coordinates(points: &[DVec2], separator: &str) -> String {
+    let points = points.iter().map(|p| format!("{}{separator}{}", p.x, p.y));
     points.collect::<Vec<_>>().join(" ")
 }
 
-/// The element of a text with these attributes.
-fn letters(place: DVec2, text: &Text, attributes: &str) -> String {
+/// Returns the element of a text with these attributes.
+fn text_element(position: DVec2, text: &Text, attributes: &str) -> String {
     let anchor = match text.anchor {
         Anchor::Start => "",
         Anchor::Middle => " text-anchor=\"middle\"",
@@ -359,22 +362,22 @@ fn letters(place: DVec2, text: &Text, attributes: &str) -> String {
     let mut runs = String::new();
     let mut raised = 0.0;
     for run in &text.runs {
-        let mut more = String::new();
+        let mut layout = String::new();
         if run.size != 1.0 {
-            more += &format!(" font-size=\"{}\"", number(run.size * text.size));
+            layout += &format!(" font-size=\"{}\"", number(run.size * text.size));
         }
         if run.skip != 0.0 {
-            more += &format!(" dx=\"{}\"", number(run.skip * text.size));
+            layout += &format!(" dx=\"{}\"", number(run.skip * text.size));
         }
         if run.raise != raised {
-            more += &format!(" dy=\"{}\"", number((raised - run.raise) * text.size));
+            layout += &format!(" dy=\"{}\"", number((raised - run.raise) * text.size));
             raised = run.raise;
         }
         let (font, text) = (run.font.attributes(), escaped(&run.text));
-        runs += &format!("<tspan {font}{more}>{text}</tspan>");
+        runs += &format!("<tspan {font}{layout}>{text}</tspan>");
     }
-    let [x, y, size] = [place.x, place.y, number(text.size)];
-    // Blanks at the ends and between parts count.
+    let [x, y, size] = [position.x, position.y, number(text.size)];
+    // `xml:space` keeps spaces at the ends and between runs.
     format!(
         "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\"{anchor} {attributes} xml:space=\"preserve\">{runs}</text>"
     )
@@ -400,7 +403,7 @@ impl Paint {
     }
 }
 
-/// ` name="#rrggbb"`, and the opacity unless the color is opaque.
+/// Returns ` name="#rrggbb"`, and the opacity unless the color is opaque.
 fn paint_attribute(name: &str, [r, g, b, a]: Color) -> String {
     let color = format!(" {name}=\"#{r:02x}{g:02x}{b:02x}\"");
     if a == u8::MAX {
@@ -409,14 +412,14 @@ fn paint_attribute(name: &str, [r, g, b, a]: Color) -> String {
     color + &format!(" {name}-opacity=\"{}\"", number(f64::from(a) / 255.0))
 }
 
-/// A number with at most three decimals. What is no number, or too large for a picture, is cut off.
+/// Rounds a number to three decimals and clamps it to the range from -1e6 to 1e6. NaN becomes 0.
 pub(crate) fn number(value: f64) -> f64 {
-    const LARGEST: f64 = 1e6;
+    const LIMIT: f64 = 1e6;
     if value.is_nan() {
         return 0.0;
     }
-    // Plus zero: no "-0".
-    (value.clamp(-LARGEST, LARGEST) * 1000.0).round() / 1000.0 + 0.0
+    // Adding zero turns -0 into 0.
+    (value.clamp(-LIMIT, LIMIT) * 1000.0).round() / 1000.0 + 0.0
 }
 
 fn rounded(p: DVec2) -> DVec2 {
@@ -427,16 +430,15 @@ fn all_rounded(points: &[DVec2]) -> Vec<DVec2> {
     points.iter().copied().map(rounded).collect()
 }
 
-/// The text as XML between tags: what has a meaning there is written in another way, and the rest is [shown].
+/// Escapes a text for XML, with each character made [printable].
 pub(crate) fn escaped(text: &str) -> String {
-    let text: String = text.chars().map(shown).collect();
+    let text: String = text.chars().map(printable).collect();
     let text = text.replace('&', "&amp;").replace('<', "&lt;");
     text.replace('>', "&gt;")
 }
 
-/// The character that stands for one in a document: a line end or a tab becomes a blank, and what XML does not allow
-/// becomes U+FFFD.
-pub(super) fn shown(c: char) -> char {
+/// Replaces a line end or a tab by a space, and a character that XML does not allow by U+FFFD.
+pub(super) fn printable(c: char) -> char {
     match c {
         '\t' | '\n' | '\r' => ' ',
         '\0'..='\x1f' | '\x7f'..='\u{9f}' | '\u{fffe}' | '\u{ffff}' => '\u{fffd}',
@@ -451,7 +453,7 @@ mod tests {
     const BLACK: Color = [0, 0, 0, 255];
 
     #[test]
-    fn every_text_is_well_formed_and_comes_back() {
+    fn unusual_texts_are_well_formed_and_can_be_parsed() {
         for text in crate::figure::testing::ODD_TEXTS {
             let mut svg = Svg::new(100.0, 50.0);
             let line = Text::new(Font::Plain, *text, 12.0, BLACK).with_halo([255; 4], 2.0);
@@ -478,7 +480,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_short_and_never_broken() {
+    fn numbers_have_three_decimals_and_are_finite() {
         for (value, text) in [
             (0.0, "0"),
             (-0.0001, "0"),
@@ -493,7 +495,7 @@ mod tests {
     }
 
     #[test]
-    fn shapes_are_written_as_svg_has_them() {
+    fn shapes_are_written_as_svg_elements() {
         let mut svg = Svg::new(10.0, 20.5);
         let [a, b] = [DVec2::ZERO, DVec2::new(1.0, 2.25)];
         svg.polyline(&[a], &Paint::fill(BLACK));

@@ -1,6 +1,6 @@
-//! What tests of texts share, in other crates too.
+//! Test data, also for other crates.
 
-/// Texts that break programs, for tests: every one must be written and drawn without harm.
+/// Texts that often cause errors in programs. Every one must be written and drawn correctly.
 pub const ODD_TEXTS: &[&str] = &[
     "",
     " ",

@@ -1,8 +1,8 @@
 //! Sorts triangles and lines into the tiles of the picture that they touch.
 //!
-//! Triangles and lines are divided into chunks. One task sorts a chunk into tiles, with a counting sort. A tile reads its
-//! lists chunk by chunk. The size of the lists is bounded: items that touch many tiles are kept in one list that all
-//! tiles read.
+//! Triangles and lines are divided into chunks. One task sorts a chunk into tiles, with a counting sort. A tile reads
+//! its lists chunk by chunk. The size of the lists is bounded: items that touch many tiles are kept in one list that
+//! all tiles read.
 
 use std::ops::Range;
 
@@ -16,8 +16,8 @@ use crate::drawing::Drawing;
 use crate::work::Work;
 use crate::{PictureError, View};
 
-/// The maximum number of chunks, without the incomplete last chunk of each part. It is limited because each chunk stores
-/// a number for every tile.
+/// The maximum number of chunks, without the incomplete last chunk of each part. It is limited because each chunk
+/// stores a number for every tile.
 const MAX_CHUNKS: usize = 32;
 /// The minimum number of items in a chunk, unless the chunk ends with its part.
 const MIN_CHUNK: usize = 1 << 15;
@@ -47,8 +47,8 @@ fn n_tiles([left, top, right, bottom]: TileRect) -> usize {
     (right - left) as usize * (bottom - top) as usize
 }
 
-/// Returns the maximum number of tiles that an item can touch to be listed in each of them, so that the lists stay within
-/// their bounds.
+/// Returns the limit on the number of tiles of listed items: an item that touches more tiles is not listed in each of
+/// them, so that the lists stay within their bounds.
 fn max_listed_tiles(items: &[(u32, TileRect)]) -> usize {
     let mut entries = [0; MAX_LISTED_TILES + 1];
     for &(_, rect) in items {

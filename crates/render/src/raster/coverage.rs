@@ -105,8 +105,8 @@ fn n_covered(coverage: f32) -> usize {
     whole(f64::from(coverage.clamp(0.0, 1.0) * SAMPLES as f32 + 0.5))
 }
 
-/// Returns the position of a sample in the order in which samples are covered. Every seventh sample follows, so that the
-/// first few are spread over the pixel.
+/// Returns the position of a sample in the order in which samples are covered. The order goes in steps of 7 samples, so
+/// that the first few are spread over the pixel.
 fn rank(sample: usize, rotation: usize) -> usize {
     // 7 is its own inverse, modulo 16.
     (sample + SAMPLES - rotation % SAMPLES) * 7 % SAMPLES

@@ -1,8 +1,8 @@
 //! Draws lines over triangles: with constant width, round ends, and hidden where a triangle is in front of them.
 //!
-//! The depth test of a sample compares line and surface at the nearest point on the axis of the line. For this, the plane
-//! of the triangle that is visible at the sample is extended to that point. A thick line on a slanted surface is thus
-//! visible in its full width, although half of it is behind the surface.
+//! The depth test of a sample compares line and surface at the nearest point on the axis of the line. For this, the
+//! plane of the triangle that is visible at the sample is extended to that point. A thick line on a slanted surface is
+//! thus visible in its full width, although half of it is behind the surface.
 //!
 //! A hidden point is drawn as a ring, because a faint disc would look like a stain on the surface in front of it.
 

@@ -160,8 +160,9 @@ impl Occlusion {
     }
 }
 
-/// Triangles with all edges shorter than this number of texels are drawn as their corners. All points of such a triangle
-/// are within half a texel of the nearest corner, so the corners cover all texels whose middles the triangle covers.
+/// Triangles with all edges shorter than this number of texels are drawn as their corners. All points of such a
+/// triangle are within half a texel of the nearest corner, so the corners cover all texels whose middles the triangle
+/// covers.
 const SMALL_EDGE: f64 = 0.85;
 
 /// Returns the triangles of a part that are drawn into maps, and whether its points are drawn too, for the triangles

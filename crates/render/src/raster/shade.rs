@@ -92,8 +92,8 @@ impl TriangleData {
         }
     }
 
-    /// Returns the barycentric coordinates of the point where a ray meets the plane of the triangle; `None` if the ray is
-    /// parallel to the plane.
+    /// Returns the barycentric coordinates of the point where a ray meets the plane of the triangle; `None` if the ray
+    /// is parallel to the plane.
     pub(super) fn barycentric(&self, origin: DVec3, direction: DVec3) -> Option<[f64; 3]> {
         let a = self.corners[0] - origin;
         let p = direction * (self.normal.dot(a) / self.normal.dot(direction)) - a;
@@ -363,8 +363,8 @@ pub(super) fn surface_index(part: &Part, triangle: usize) -> usize {
     material.map_or(0, |&m| m as usize)
 }
 
-/// Returns the unit vector in the direction of the cross product, or zero. Scales the vectors so that the product neither
-/// overflows nor underflows.
+/// Returns the unit vector in the direction of the cross product, or zero. Scales the vectors so that the product
+/// neither overflows nor underflows.
 fn unit_cross(u: DVec3, v: DVec3) -> DVec3 {
     let scaled = |w: DVec3| {
         let size = w.abs().max_element();

@@ -91,8 +91,8 @@ fn samples_are_in_different_rows_and_columns() {
 
 #[test]
 fn triangles_that_fill_a_square_cover_every_sample_once() {
-    // A grid with moved points that is larger than the tile. The numbers of cells give triangles for both the 32-bit and
-    // the 64-bit arithmetic.
+    // A grid with moved points that is larger than the tile. The numbers of cells give triangles for both the 32-bit
+    // and the 64-bit arithmetic.
     for (seed, cells) in [(1, 40), (2, 7), (3, 2)] {
         let mut seed = seed;
         let tile_size = GRID * i32::try_from(TILE).unwrap();
@@ -528,8 +528,8 @@ fn triangles_are_clipped_behind_the_camera() {
 
 #[test]
 fn the_openness_at_the_bottom_of_a_cup_is_that_of_its_opening() {
-    // An open cylinder of radius 1 with a bottom. From the middle of the bottom, an opening of radius r at the distance h
-    // fills r² / (r² + h²) of the cosine-weighted hemisphere.
+    // An open cylinder of radius 1 with a bottom. From the middle of the bottom, an opening of radius r at the distance
+    // h fills r² / (r² + h²) of the cosine-weighted hemisphere.
     let n_sides = 64;
     for height in [0.5, 1.0, 2.0] {
         let mut points = vec![DVec3::ZERO];

@@ -205,7 +205,8 @@ impl Number for i32 {
     }
 }
 
-/// An edge function: a x + b y + c is not negative inside. Coordinates are relative to the first corner of the triangle.
+/// An edge function: a x + b y + c is not negative inside. Coordinates are relative to the first corner of the
+/// triangle.
 #[derive(Clone, Copy)]
 struct Edge {
     a: i64,
@@ -266,8 +267,8 @@ impl Setup {
         let [x0, x1] = axis(0, tile.left, tile.right)?;
         let [y0, y1] = axis(1, tile.top, tile.bottom)?;
         // Twice the signed area of the triangle of an edge from s to t and the point (x, y): (t - s) x ((x, y) - s). As
-        // y points downwards, a positive area means clockwise. A sample exactly on an edge belongs to the triangle below
-        // or to the right of the edge.
+        // y points downwards, a positive area means clockwise. A sample exactly on an edge belongs to the triangle
+        // below or to the right of the edge.
         let edge = |s: [i64; 2], t: [i64; 2]| {
             let (a, b) = (s[1] - t[1], t[0] - s[0]);
             let c = -(a * s[0] + b * s[1]);

@@ -1,6 +1,6 @@
-//! Very many triangles, very large pictures, very large and very small coordinates.
+//! Tests with many triangles, very large pictures, and very large and small coordinates.
 //!
-//! `cargo test -p meshwright-render --test pictures -- --ignored` runs what takes long or much memory.
+//! `cargo test -p meshwright-render --test pictures -- --ignored` runs the tests that need much time or memory.
 
 use geometry::shapes;
 use mesh::{DVec3, Mesh};
@@ -23,17 +23,17 @@ fn scene(mesh: Mesh) -> Scene {
     scene
 }
 
-fn drawn(mesh: Mesh, camera: &Camera, style: &Style, size: [u32; 2]) -> Image {
+fn draw(mesh: Mesh, camera: &Camera, style: &Style, size: [u32; 2]) -> Image {
     let (scene, none) = (scene(mesh), Overlays::default());
-    let (drawn, missing) =
+    let (picture, missing) =
         picture(&scene, camera, style, &none, size, 4 << 30, &mut |_| None).unwrap();
     assert_eq!(missing, [""; 0]);
-    drawn.image
+    picture.image
 }
 
-/// From the front, without perspective: `height` units are seen.
+/// An orthographic camera in front of the scene, whose picture is `height` units high.
 fn front(height: f64) -> Camera {
-    // What `LookAt` shows without perspective, as its documentation says.
+    // At this distance, an orthographic `LookAt` is `height` units high, as its documentation says.
     let distance = 0.5 * height / libm::tan(15.0_f64.to_radians());
     Camera::LookAt {
         from: [0.0, 0.0, distance],
@@ -43,7 +43,7 @@ fn front(height: f64) -> Camera {
     }
 }
 
-fn on_nothing(shading: Shading) -> Style {
+fn transparent(shading: Shading) -> Style {
     Style {
         shading,
         background: Background::Transparent,
@@ -51,19 +51,20 @@ fn on_nothing(shading: Shading) -> Style {
     }
 }
 
+/// Returns the covered area in pixels.
 fn covered(image: &Image) -> f64 {
     let alphas = image.pixels.iter().map(|p| f64::from(p[3]));
     alphas.sum::<f64>() / 255.0
 }
 
-/// A sphere of about `2 n²` triangles covers its disc, and is nowhere darker than its shade allows: it has no cracks.
-fn a_dense_sphere(n: u32, size: [u32; 2]) {
+/// Checks that a sphere of about `2 n²` triangles covers its disc without cracks.
+fn check_dense_sphere(n: u32, size: [u32; 2]) {
     let mut ball = shapes::fans(&shapes::uv_sphere(2 * n, n / 2));
     for p in ball.positions_mut() {
         *p = p.normalize();
     }
     assert!(10 * ball.n_faces() > 19 * n as usize * n as usize);
-    let image = drawn(ball, &front(2.5), &on_nothing(Shading::Smooth), size);
+    let image = draw(ball, &front(2.5), &transparent(Shading::Smooth), size);
     let radius = f64::from(size[1]) / 2.5;
     let expected = std::f64::consts::PI * radius * radius;
     let found = covered(&image);
@@ -79,23 +80,23 @@ fn a_dense_sphere(n: u32, size: [u32; 2]) {
 
 #[test]
 fn half_a_million_triangles_have_no_cracks() {
-    a_dense_sphere(500, [640, 480]);
+    check_dense_sphere(500, [640, 480]);
 }
 
 #[test]
 #[ignore = "takes ten seconds and 2 GB"]
 fn ten_million_triangles_have_no_cracks() {
-    a_dense_sphere(2240, [1280, 960]);
+    check_dense_sphere(2240, [1280, 960]);
 }
 
-/// A square that covers the left half of the picture.
-fn half_a_picture(size: [u32; 2]) {
+/// Checks that a square covers exactly the left half of a picture.
+fn check_half_picture(size: [u32; 2]) {
     let mut square = shapes::square();
-    let wide = f64::from(size[0]) / f64::from(size[1]);
+    let aspect = f64::from(size[0]) / f64::from(size[1]);
     for p in square.positions_mut() {
-        *p = DVec3::new((p.x - 1.0) * wide, p.y * 4.0 - 2.0, 0.0);
+        *p = DVec3::new((p.x - 1.0) * aspect, p.y * 4.0 - 2.0, 0.0);
     }
-    let image = drawn(square, &front(1.0), &on_nothing(Shading::Plain), size);
+    let image = draw(square, &front(1.0), &transparent(Shading::Plain), size);
     let (width, half) = (size[0] as usize, size[0] as usize / 2);
     for row in image.pixels.chunks(width) {
         assert!(row[..half].iter().all(|p| p[3] == 255));
@@ -105,17 +106,17 @@ fn half_a_picture(size: [u32; 2]) {
 
 #[test]
 fn the_widest_and_the_highest_pictures_are_drawn_to_their_borders() {
-    half_a_picture([16_384, 64]);
-    half_a_picture([64, 16_384]);
+    check_half_picture([16_384, 64]);
+    check_half_picture([64, 16_384]);
 }
 
 #[test]
 #[ignore = "takes a minute and 2 GB"]
 fn the_largest_picture_is_drawn_to_its_borders() {
-    half_a_picture([16_384, 16_384]);
+    check_half_picture([16_384, 16_384]);
 }
 
-/// How far apart the colors of pixels are on average.
+/// Returns the mean difference of the channels of two images.
 fn difference(a: &Image, b: &Image) -> f64 {
     let (a, b) = (a.pixels.as_flattened(), b.pixels.as_flattened());
     let each = a.iter().zip(b).map(|(a, b)| f64::from(a.abs_diff(*b)));
@@ -123,7 +124,7 @@ fn difference(a: &Image, b: &Image) -> f64 {
 }
 
 #[test]
-fn the_size_of_a_scene_does_not_show_in_its_picture() {
+fn scaling_a_scene_does_not_change_its_picture() {
     for shading in SHADINGS {
         for projection in [Projection::Orthographic, Projection::default()] {
             let camera = Camera::Fit {
@@ -140,37 +141,37 @@ fn the_size_of_a_scene_does_not_show_in_its_picture() {
                 }),
                 normals: Some(0.2),
                 points: Some(4.0),
-                ..on_nothing(shading)
+                ..transparent(shading)
             };
-            let of = |scale: f64| {
+            let draw_scaled = |scale: f64| {
                 let mut torus = shapes::torus(24, 12, 1.0, 0.4);
                 for p in torus.positions_mut() {
                     *p *= scale;
                 }
-                drawn(torus, &camera, &style, [96, 64])
+                draw(torus, &camera, &style, [96, 64])
             };
-            let usual = of(1.0);
-            assert!(covered(&usual) > 1000.0);
+            let unscaled = draw_scaled(1.0);
+            assert!(covered(&unscaled) > 1000.0);
             for scale in [1e-30, 1e-3, 1e3, 1e30] {
-                let mean = difference(&of(scale), &usual);
+                let mean = difference(&draw_scaled(scale), &unscaled);
                 assert!(mean < 0.2, "{shading:?}, {scale:e}: {mean}");
             }
-            // Depth is a number of 32 bits. Beyond its range there is a picture, whatever it shows.
+            // Depth is an `f32`. Beyond its range, rendering must not fail, but the picture is not checked.
             for scale in [1e-300, 1e-70, 1e70, 1e300] {
-                assert_eq!(of(scale).pixels.len(), usual.pixels.len());
+                assert_eq!(draw_scaled(scale).pixels.len(), unscaled.pixels.len());
             }
         }
     }
 }
 
 #[test]
-fn degenerate_meshes_have_pictures_in_every_style() {
+fn degenerate_meshes_are_drawn_in_every_style() {
     let p = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
     let triangles = [
-        ("one place", [p(1., 2., 3.); 3]),
+        ("one point", [p(1., 2., 3.); 3]),
         ("a line", [p(0., 0., 0.), p(1., 1., 1.), p(3., 3., 3.)]),
         (
-            "seen from its edge",
+            "seen edge-on",
             [p(0., 0., 0.), p(0., 1., 0.), p(0., 0., 1.)],
         ),
         (
@@ -186,7 +187,7 @@ fn degenerate_meshes_have_pictures_in_every_style() {
             ],
         ),
         (
-            "the least numbers",
+            "the smallest numbers",
             [p(5e-324, 0., 0.), p(0., 5e-324, 0.), p(0., 0., 5e-324)],
         ),
         (
@@ -218,10 +219,10 @@ fn degenerate_meshes_have_pictures_in_every_style() {
                         points: Some(3.0),
                         ..Style::default()
                     };
-                    let image = drawn(mesh, &camera, &style, size);
-                    // A number that is none would be black, and transparent.
-                    let is_sound = |p: &[u8; 4]| p[3] == 255;
-                    assert!(image.pixels.iter().all(is_sound), "{name}, {shading:?}");
+                    let image = draw(mesh, &camera, &style, size);
+                    // NaN would become black and transparent.
+                    let is_opaque = |p: &[u8; 4]| p[3] == 255;
+                    assert!(image.pixels.iter().all(is_opaque), "{name}, {shading:?}");
                 }
             }
         }

@@ -1,7 +1,8 @@
-//! Small figures and legends, pixel by pixel: texts and lines are the same on every machine.
+//! Compares small figures and legends with golden files, pixel by pixel, to check that they are the same on every
+//! machine.
 //!
-//! With `MESHWRIGHT_UPDATE` set in the environment, the files in `tests/goldens` are written anew; look at
-//! them before they go in.
+//! If the environment variable `MESHWRIGHT_UPDATE` is set, the files in `tests/goldens` are written instead. Look at
+//! them before you commit them.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -16,7 +17,7 @@ use render::figure::pixels;
 const WHITE: [u8; 4] = [255; 4];
 const BLACK: [u8; 4] = [0, 0, 0, 255];
 
-/// Compares an image, which is opaque, with its file.
+/// Compares an opaque image with its golden file.
 #[track_caller]
 fn golden(name: &str, image: &Image) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -27,7 +28,8 @@ fn golden(name: &str, image: &Image) {
         std::fs::create_dir_all(path.parent().unwrap()).unwrap();
         std::fs::write(&path, image.to_png(&[]).unwrap()).unwrap();
     }
-    let bytes = std::fs::read(&path).expect("there is a file: set MESHWRIGHT_UPDATE to write it");
+    let bytes =
+        std::fs::read(&path).expect("missing golden file: set MESHWRIGHT_UPDATE to write it");
     let mut reader = png::Decoder::new(Cursor::new(bytes)).read_info().unwrap();
     let mut expected = vec![0; reader.output_buffer_size().unwrap()];
     let info = reader.next_frame(&mut expected).unwrap();

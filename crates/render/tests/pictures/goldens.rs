@@ -1,7 +1,7 @@
-//! Small pictures, pixel by pixel.
+//! Compares small pictures with golden files, pixel by pixel.
 //!
-//! With `MESHWRIGHT_UPDATE` set in the environment, the files in `tests/goldens` are written anew; look at
-//! them before they go in.
+//! If the environment variable `MESHWRIGHT_UPDATE` is set, the files in `tests/goldens` are written instead. Look at
+//! them before you commit them.
 
 use std::path::PathBuf;
 
@@ -15,7 +15,7 @@ use scene::{Geometry, Material, Object, Scene, Texture};
 
 const SIZE: [u32; 2] = [64, 64];
 
-/// Memory for a picture.
+/// The memory budget of a picture, in bytes.
 const BUDGET: u64 = 1 << 30;
 
 fn scene(objects: impl IntoIterator<Item = Object>) -> Scene {
@@ -49,7 +49,7 @@ fn lines(width: f64, color: Color, hidden: f64) -> Option<Lines> {
     })
 }
 
-/// A file of four pixels: red, green, blue and white.
+/// Encodes an image of four pixels: red, green, blue and white.
 fn checker() -> Vec<u8> {
     let image = Image {
         width: 2,
@@ -64,11 +64,11 @@ fn checker() -> Vec<u8> {
     image.to_png(&[]).unwrap()
 }
 
-/// Draws a picture and compares it with its file.
+/// Draws a picture and compares it with its golden file.
 #[track_caller]
 fn golden(name: &str, scene: &Scene, camera: &Camera, style: &Style, overlays: &Overlays) {
     let mut images = |path: &str| (path == "checker.png").then(checker);
-    let (drawn, missing) =
+    let (rendered, missing) =
         picture(scene, camera, style, overlays, SIZE, BUDGET, &mut images).unwrap();
     assert!(missing.is_empty(), "{missing:?}");
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
@@ -77,7 +77,7 @@ fn golden(name: &str, scene: &Scene, camera: &Camera, style: &Style, overlays: &
         .with_extension("png");
     if std::env::var_os("MESHWRIGHT_UPDATE").is_some() {
         std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-        std::fs::write(&path, drawn.image.to_png(&[]).unwrap()).unwrap();
+        std::fs::write(&path, rendered.image.to_png(&[]).unwrap()).unwrap();
     }
     let file = std::fs::File::open(&path).unwrap();
     let mut decoder = png::Decoder::new(std::io::BufReader::new(file));
@@ -85,14 +85,14 @@ fn golden(name: &str, scene: &Scene, camera: &Camera, style: &Style, overlays: &
     let mut reader = decoder.read_info().unwrap();
     let mut expected = vec![0; reader.output_buffer_size().unwrap()];
     reader.next_frame(&mut expected).unwrap();
-    let found = drawn.image.pixels.as_flattened();
-    assert_eq!(expected.len(), found.len(), "another size");
+    let found = rendered.image.pixels.as_flattened();
+    assert_eq!(expected.len(), found.len(), "the sizes differ");
     let differing = expected
         .chunks(4)
         .zip(found.chunks(4))
         .filter(|(a, b)| a != b);
     let n = differing.count();
-    assert!(n == 0, "{n} pixels of {} are not as before", path.display());
+    assert!(n == 0, "{n} pixels differ from {}", path.display());
 }
 
 #[test]
@@ -143,7 +143,7 @@ fn an_open_cylinder_shows_its_back_and_its_boundary() {
 }
 
 #[test]
-fn a_torus_of_clay_on_nothing() {
+fn a_torus_of_clay_with_a_transparent_background() {
     let style = Style {
         shading: Shading::Matcap,
         background: Background::Transparent,
@@ -160,7 +160,7 @@ fn a_torus_of_clay_on_nothing() {
 }
 
 #[test]
-fn numbers_become_colors() {
+fn numbers_are_shown_as_colors() {
     let torus = shapes::torus(32, 16, 1.0, 0.4);
     let values = torus.positions().iter().map(|p| p.z).collect();
     let overlays = Overlays {
@@ -265,14 +265,14 @@ fn patches_curves_and_polylines() {
 }
 
 #[test]
-fn textures_materials_and_colors_of_vertices() {
-    let textured = |name: &str, mut mesh: Mesh, aside: f64| {
+fn textures_materials_and_vertex_colors() {
+    let textured = |name: &str, mut mesh: Mesh, offset: f64| {
         for p in mesh.positions_mut() {
-            p.x += aside;
+            p.x += offset;
         }
         let uvs = mesh.half_edges().map(|h| {
             let p = mesh.position(mesh.origin(h));
-            mesh::DVec2::new(p.x - aside, p.y)
+            mesh::DVec2::new(p.x - offset, p.y)
         });
         let uvs = uvs.collect();
         mesh.set(mesh::UV, uvs);
@@ -317,7 +317,7 @@ fn textures_materials_and_colors_of_vertices() {
 
 #[test]
 fn a_concave_face_is_one_surface() {
-    // An L with a corner turned inwards, drawn over its bounds: what is not the L stays white.
+    // An L-shaped polygon: the rest of its bounding box stays white.
     let points = [[0, 0], [3, 0], [3, 1], [1, 1], [1, 3], [0, 3]];
     let points = points.map(|[x, y]| DVec3::new(f64::from(x), f64::from(y), 0.0));
     let (mesh, _) = Mesh::from_polygons(points.to_vec(), &[[0, 1, 2, 3, 4, 5]]).unwrap();

@@ -1,4 +1,4 @@
-//! Pictures and figures from outside.
+//! Tests of pictures and figures through the public interface.
 
 mod extremes;
 mod figures;

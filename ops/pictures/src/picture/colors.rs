@@ -1,17 +1,18 @@
-//! What colors by quantity need before they are drawn.
+//! Checks and inputs of the parameter `color_by`.
 
 use mesh::Mesh;
 use mesh_io::ReadOptions;
 use op::{Context, OpError, Plan, PlanContext, PlannedGeometry, Problem};
-use view::{ColorBy, Quantity, no_attribute, there_are};
+use view::{ColorBy, Quantity, existing_attributes, missing_attribute};
 
-/// What is wrong with them, and what they read.
+/// Returns the problems of the parameter, and adds the file that it reads to the plan.
 pub(crate) fn plan(by: &ColorBy, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
     let mut problems = Vec::new();
     if let Some([low, high]) = by.range
         && !(low.is_finite() && high.is_finite() && low < high)
     {
-        let message = format!("expected a range from less to more, found {low} to {high}");
+        let message =
+            format!("expected a range of finite, ascending numbers, found {low} to {high}");
         problems.push(Problem::error(message).at(["color_by", "range"]));
     }
     match &by.of {
@@ -24,18 +25,18 @@ pub(crate) fn plan(by: &ColorBy, plan: &mut Plan, cx: &PlanContext) -> Vec<Probl
             plan.inputs.push(full);
         }
         Quantity::Attribute { name, .. } if !plan.incomplete => {
-            let mut known = Vec::new();
+            let mut names = Vec::new();
             for object in plan.objects() {
                 if let PlannedGeometry::Mesh(mesh) = &object.geometry {
                     if mesh.has_unlisted_attributes {
                         return problems;
                     }
-                    known.extend(mesh.attributes.iter().map(|a| a.name.as_str()));
+                    names.extend(mesh.attributes.iter().map(|a| a.name.as_str()));
                 }
             }
-            if !known.contains(&name.as_str()) {
-                let error = Problem::error(no_attribute(name)).at(["color_by", "of"]);
-                problems.push(error.help(there_are(known)));
+            if !names.contains(&name.as_str()) {
+                let error = Problem::error(missing_attribute(name)).at(["color_by", "of"]);
+                problems.push(error.help(existing_attributes(names)));
             }
         }
         _ => {}
@@ -43,8 +44,8 @@ pub(crate) fn plan(by: &ColorBy, plan: &mut Plan, cx: &PlanContext) -> Vec<Probl
     problems
 }
 
-/// The meshes that they measure to.
-pub(crate) fn others(by: &ColorBy, cx: &Context) -> Result<Vec<Mesh>, OpError> {
+/// Reads the meshes to which [`Quantity::DistanceTo`] measures distances.
+pub(crate) fn distance_targets(by: &ColorBy, cx: &Context) -> Result<Vec<Mesh>, OpError> {
     let Quantity::DistanceTo(path) = &by.of else {
         return Ok(Vec::new());
     };
@@ -59,7 +60,7 @@ pub(crate) fn others(by: &ColorBy, cx: &Context) -> Result<Vec<Mesh>, OpError> {
         .filter(|mesh| mesh.n_faces() > 0)
         .collect();
     if meshes.is_empty() {
-        let message = format!("there is no mesh with faces in {path}");
+        let message = format!("expected a mesh with faces in {path}, found none");
         return Err(OpError::File(message));
     }
     Ok(meshes)

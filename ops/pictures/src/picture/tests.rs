@@ -1,4 +1,4 @@
-//! The operation from its text to the bytes of its file.
+//! Tests of the operation, from its text to the bytes of its file.
 
 use geometry::shapes;
 use op::{Context, Files, NoProgress, OpError, Operation, Plan, PlanContext, PlannedGeometry};
@@ -20,7 +20,7 @@ fn scene() -> Scene {
     scene
 }
 
-/// The bytes that a step writes.
+/// Runs a step and returns the bytes of its file.
 fn written(fields: &str, on: Option<&[String]>) -> Result<Vec<u8>, OpError> {
     let folder = tempfile::tempdir().unwrap();
     let files = Files {
@@ -40,7 +40,7 @@ fn written(fields: &str, on: Option<&[String]>) -> Result<Vec<u8>, OpError> {
     Ok(std::fs::read(folder.path().join(&picture.path)).unwrap())
 }
 
-/// Width, height and pixels of a PNG, without alpha.
+/// Decodes the width, height and pixels of a PNG file without alpha.
 fn decoded(bytes: &[u8]) -> (u32, u32, Vec<[u8; 3]>) {
     let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
         .read_info()
@@ -52,7 +52,7 @@ fn decoded(bytes: &[u8]) -> (u32, u32, Vec<[u8; 3]>) {
 }
 
 #[test]
-fn a_picture_is_as_large_as_it_says_and_carries_the_stamp() {
+fn a_picture_has_the_requested_size_and_the_stamp() {
     let bytes = written("path: \"a/b.png\"", None).unwrap();
     let (width, height, pixels) = decoded(&bytes);
     assert_eq!((width, height), (32, 24));
@@ -66,7 +66,7 @@ fn only_the_chosen_objects_are_drawn() {
     let drawn = |on: &[String]| decoded(&written("path: \"a.png\"", Some(on)).unwrap()).2;
     let [cube, torus] = ["cube", "torus"].map(|name| drawn(&[name.to_owned()]));
     assert_ne!(cube, torus);
-    // The middle of the torus is a hole when it is seen from above.
+    // The axis of the torus points towards the camera, and the background is visible through its hole.
     let bytes = written(
         "path: \"a.png\", camera: Fit(from: Front)",
         Some(&["torus".to_owned()]),
@@ -75,7 +75,7 @@ fn only_the_chosen_objects_are_drawn() {
 }
 
 #[test]
-fn views_stand_side_by_side() {
+fn views_are_placed_side_by_side() {
     let views = "path: \"a.png\", views: [Fit(from: Front), Fit(from: Top), Fit(from: Left)]";
     let (width, height, _) = decoded(&written(views, None).unwrap());
     assert_eq!((width, height), (96, 24));
@@ -84,9 +84,9 @@ fn views_stand_side_by_side() {
 }
 
 #[test]
-fn what_is_marked_is_seen() {
+fn highlights_and_colors_change_the_picture() {
     let plain = written("path: \"a.png\"", None).unwrap();
-    for marked in [
+    for parameter in [
         "highlight: Edges(Sharp(above: 30))",
         "highlight: Faces(All)",
         "marks: [(of: Vertices(All), color: \"blue\", width: 3)]",
@@ -95,13 +95,13 @@ fn what_is_marked_is_seen() {
         "color_by: (of: SmallestAngle, map: Gray, range: (0, 90))",
         "color_by: (of: DihedralAngle)",
     ] {
-        let bytes = written(&format!("path: \"a.png\", {marked}"), None).unwrap();
-        assert_ne!(decoded(&bytes).2, decoded(&plain).2, "{marked}");
+        let bytes = written(&format!("path: \"a.png\", {parameter}"), None).unwrap();
+        assert_ne!(decoded(&bytes).2, decoded(&plain).2, "{parameter}");
     }
 }
 
 #[test]
-fn a_turntable_has_its_frames() {
+fn a_turntable_has_the_requested_number_of_frames() {
     let bytes = written("path: \"a.apng\", turntable: (frames: 5, seconds: 1)", None).unwrap();
     let reader = png::Decoder::new(std::io::Cursor::new(bytes))
         .read_info()
@@ -112,8 +112,7 @@ fn a_turntable_has_its_frames() {
 }
 
 #[test]
-fn the_color_of_a_distance_is_that_of_the_place() {
-    // The cube against itself: no vertex is away from it, whatever it looks like.
+fn the_distances_of_a_mesh_to_itself_are_zero() {
     let folder = tempfile::tempdir().unwrap();
     let files = Files {
         output: folder.path().into(),
@@ -133,13 +132,13 @@ fn the_color_of_a_distance_is_that_of_the_place() {
     let picture = picture("path: \"a.png\", color_by: (of: DistanceTo(\"cube.obj\"))");
     let numbers = picture.color_by.as_ref().unwrap();
     let cx = Context::new(&NoProgress, &files);
-    let others = super::colors::others(numbers, &cx).unwrap();
-    let found = numbers.numbers(&scene, &others).unwrap();
+    let targets = super::colors::distance_targets(numbers, &cx).unwrap();
+    let found = numbers.numbers(&scene, &targets).unwrap();
     assert_eq!(found.colorings[0].values, [0.0; 8]);
 }
 
 #[test]
-fn wrong_parameters_are_problems_before_anything_runs() {
+fn invalid_parameters_are_problems_of_the_plan() {
     let files = Files {
         output: "out".into(),
         ..Files::default()
@@ -158,13 +157,10 @@ fn wrong_parameters_are_problems_before_anything_runs() {
     };
     assert_eq!(problems("path: \"a.png\""), [""; 0]);
     for (fields, message) in [
-        (
-            "path: \"a.jpg\"",
-            "no format of pictures is known for \"a.jpg\"",
-        ),
+        ("path: \"a.jpg\"", "unknown picture format of \"a.jpg\""),
         (
             "path: \"a.gif\"",
-            "\"a.gif\" is an animation, but nothing moves",
+            "the animation \"a.gif\" needs `turntable`",
         ),
         (
             "path: \"../a.png\"",
@@ -180,15 +176,15 @@ fn wrong_parameters_are_problems_before_anything_runs() {
         ),
         (
             "path: \"a.png\", color_by: (of: Attribute(name: \"heat\"))",
-            "no mesh has an attribute \"heat\" here",
+            "no mesh has the attribute \"heat\"",
         ),
         (
             "path: \"a.png\", color_by: (of: Valence, range: (2, 1))",
-            "expected a range from less to more, found 2 to 1",
+            "expected a range of finite, ascending numbers, found 2 to 1",
         ),
         (
             "path: \"a.png\", turntable: (frames: 720)",
-            "the images take 2211840 bytes, over the budget",
+            "the images take 2211840 bytes, which exceeds the memory budget of 1048576 bytes",
         ),
     ] {
         let found = problems(fields);
@@ -199,7 +195,7 @@ fn wrong_parameters_are_problems_before_anything_runs() {
 }
 
 #[test]
-fn a_scene_without_anything_is_an_empty_picture() {
+fn an_empty_scene_gives_an_empty_picture() {
     let files = Files::default();
     let mut cx = Context::new(&NoProgress, &files);
     let (images, notes) = picture("path: \"a.png\"")
@@ -209,7 +205,7 @@ fn a_scene_without_anything_is_an_empty_picture() {
 }
 
 #[test]
-fn a_mark_on_what_is_no_mesh_is_told_to_mark_nothing() {
+fn highlights_in_a_scene_without_meshes_give_a_note() {
     let line = scene::Geometry::Polylines(vec![vec![glam::DVec3::ZERO, glam::DVec3::ONE]]);
     let mut scene = Scene::new();
     scene.insert(Object::new("line", line)).unwrap();
@@ -219,17 +215,17 @@ fn a_mark_on_what_is_no_mesh_is_told_to_mark_nothing() {
         let (_, notes) = picture(fields).draw(&[(scene, "")], None, &mut cx).unwrap();
         notes
     };
-    for marked in ["highlight: Vertices(All)", "marks: [(of: Edges(All))]"] {
-        let found = notes(&format!("path: \"a.png\", {marked}"), &scene);
-        assert!(found[0].starts_with("nothing is marked"), "{found:?}");
+    for parameter in ["highlight: Vertices(All)", "marks: [(of: Edges(All))]"] {
+        let found = notes(&format!("path: \"a.png\", {parameter}"), &scene);
+        assert!(found[0].starts_with("nothing is highlighted"), "{found:?}");
     }
     assert_eq!(notes("path: \"a.png\"", &scene), [""; 0]);
     scene.insert(Object::mesh("cube", shapes::cube())).unwrap();
-    let marked = "path: \"a.png\", highlight: Vertices(All)";
-    assert_eq!(notes(marked, &scene), [""; 0]);
+    let highlighted = "path: \"a.png\", highlight: Vertices(All)";
+    assert_eq!(notes(highlighted, &scene), [""; 0]);
 }
 
-/// Stops when a loop of this name is halfway.
+/// Cancels when the stage of this name is half done.
 struct Halfway(&'static str);
 
 impl op::Progress for Halfway {
@@ -249,8 +245,8 @@ fn a_picture_that_is_cancelled_halfway_writes_nothing() {
         for fields in ["path: \"a.png\"", "path: \"a.gif\", turntable: (frames: 3)"] {
             let halfway = Halfway(what);
             let mut cx = Context::new(&halfway, &files);
-            let stopped = picture(fields).apply(&mut scene(), &mut cx);
-            assert!(matches!(stopped, Err(OpError::Cancelled)), "{what}");
+            let result = picture(fields).apply(&mut scene(), &mut cx);
+            assert!(matches!(result, Err(OpError::Cancelled)), "{what}");
             let written = std::fs::read_dir(folder.path()).unwrap().count();
             assert_eq!(written, 0, "{what}");
         }
@@ -258,7 +254,7 @@ fn a_picture_that_is_cancelled_halfway_writes_nothing() {
 }
 
 #[test]
-fn scenes_within_an_extent_are_drawn_as_side_by_side() {
+fn scenes_drawn_separately_within_an_extent_look_as_if_drawn_together() {
     let files = Files::default();
     let cx = || Context::new(&NoProgress, &files);
     let [cube, torus] = ["cube", "torus"].map(|name| {
@@ -281,7 +277,7 @@ fn scenes_within_an_extent_are_drawn_as_side_by_side() {
             .draw(&[(&cube, "")], Some(&extent), &mut cx())
             .unwrap()
             .0;
-        // Seen from as far away as the torus, which is larger: not as alone, unless the camera does not fit.
+        // If the camera fits, the cube is drawn smaller within the extent of the torus than alone.
         let alone = picture.draw(&[(&cube, "")], None, &mut cx()).unwrap().0;
         assert_eq!(one != alone, !fields.contains("LookAt"), "{fields}");
         if picture.views.is_empty() && picture.color_by.is_none() {
@@ -290,16 +286,16 @@ fn scenes_within_an_extent_are_drawn_as_side_by_side() {
             let left: Vec<[u8; 4]> = (0..24)
                 .flat_map(|y| both.pixels[y * 64..y * 64 + 32].to_vec())
                 .collect();
-            // The few points of the extent give the last digits of the view, not its pixels.
-            let differ = left.iter().zip(&one[0].pixels);
-            let most = differ.flat_map(|(a, b)| (0..3).map(|i| a[i].abs_diff(b[i])));
-            assert!(most.max() <= Some(2), "{fields}");
+            // The extent has only the extreme points, so that the view can differ in its last digits.
+            let pairs = left.iter().zip(&one[0].pixels);
+            let differences = pairs.flat_map(|(a, b)| (0..3).map(|i| a[i].abs_diff(b[i])));
+            assert!(differences.max() <= Some(2), "{fields}");
         }
     }
 }
 
 #[test]
-fn an_extent_has_the_numbers_of_all() {
+fn a_joined_extent_has_the_color_range_of_all_scenes() {
     let files = Files::default();
     let mut cx = Context::new(&NoProgress, &files);
     let picture = picture("path: \"a.png\", color_by: (of: Area)");

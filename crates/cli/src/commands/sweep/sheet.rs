@@ -15,13 +15,13 @@ use anyhow::ensure;
 use op::{Context, Files};
 use ops_pictures::Picture;
 use recipe::{Axis, Metric};
-use render::figure::label::filled;
+use render::figure::label::wrapped;
 use render::figure::legend::{Legend, draw_legend, legend_figure};
 use render::figure::{Color, Font};
 use render::{Image, PictureError};
 use scene::Scene;
 use view::Extent;
-use view::sheet::{Cell, Heads, SheetStyle, notice, sheet_size, sheet_with_heads};
+use view::sheet::{Cell, Headings, SheetStyle, notice, sheet_size, sheet_with_headings};
 
 use super::cell::{CellResult, CellScene, Cells};
 use super::{Plan, short};
@@ -177,7 +177,7 @@ impl<'a> Sheet<'a> {
         let (mut errors, mut notes, mut images) = (Vec::new(), BTreeSet::new(), Vec::new());
         let mut stopped = false;
         let style = SheetStyle {
-            ink: RED,
+            text_color: RED,
             ..self.style()
         };
         let limits = self.args.many.limits();
@@ -212,7 +212,7 @@ impl<'a> Sheet<'a> {
             .map(|(image, caption)| Cell { image, caption })
             .collect();
         let budget = self.args.many.budget;
-        let mut image = sheet_with_heads(&cells, self.layout.heads(), &self.style(), budget)?;
+        let mut image = sheet_with_headings(&cells, self.layout.heads(), &self.style(), budget)?;
         if let Some(legend) = extent.legend() {
             image = with_legend(&image, &legend, self.style().background)?;
         }
@@ -320,19 +320,19 @@ impl Layout {
         Self { columns, heads }
     }
 
-    fn heads(&self) -> Heads<'_> {
+    fn heads(&self) -> Headings<'_> {
         let [rows, columns] = &self.heads;
-        Heads { columns, rows }
+        Headings { columns, rows }
     }
 
     /// Returns the text below a cell: its parameter values, unless they are labels of rows and columns, and its values
     /// of `keep` that fit. Times are left out, since they differ between runs.
     fn caption(&self, plan: &Plan, cell: usize, result: &CellResult, width: u32) -> String {
         let style = SheetStyle::default();
-        let (size, room) = (f64::from(style.letters), f64::from(width + style.gap / 2));
+        let (size, room) = (f64::from(style.font_size), f64::from(width + style.gap / 2));
         let fill = |parts: &[String], max_lines: usize| {
             let parts: Vec<&str> = parts.iter().map(String::as_str).collect();
-            let mut lines = filled(&parts, ", ", Font::Plain, size, room);
+            let mut lines = wrapped(&parts, ", ", Font::Plain, size, room);
             lines.truncate(max_lines);
             lines
         };

@@ -1,86 +1,86 @@
-//! How the points of a curve come into a panel.
+//! Maps the points of a curve into a panel.
 
 use bezier::Curve;
 use glam::DVec2;
 
 use super::Panel;
 
-/// The map from the plane of a curve to the pixels of a figure: the same scale in both directions, the second axis
-/// up.
+/// The map from the plane of a curve to the pixels of a figure. It has the same scale in both axes, and y points
+/// upwards in the plane of the curve.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
-    /// The middle of the box of all points.
+    /// The center of the bounding box of all points.
     center: DVec2,
-    /// Half of its longer side, in units of the curve.
+    /// Half the longer side of the bounding box, in units of the curve.
     half: f64,
-    /// The pixels of `half`.
+    /// The length of `half` in pixels.
     pixels: f64,
-    /// The pixels of the box from top to bottom, or more where it is flat.
+    /// The height of the drawing in pixels.
     height: f64,
-    /// Where the middle stands in the figure.
-    place: DVec2,
+    /// The position of the center in the figure.
+    position: DVec2,
 }
 
-/// The height of the highest drawing, as a share of its width.
-const TALLEST: f64 = 0.85;
+/// The maximum height of a drawing, as a fraction of its width.
+const MAX_HEIGHT: f64 = 0.85;
 
-/// The height of the flattest drawing, as a share of its width.
-const FLATTEST: f64 = 0.2;
+/// The minimum height of a drawing, as a fraction of its width.
+const MIN_HEIGHT: f64 = 0.2;
 
 impl Frame {
-    /// The frame of a panel whose drawing is `inner` pixels wide.
-    pub(super) fn of(panel: &Panel, inner: f64) -> Self {
+    /// Creates the frame of a panel whose drawing is `inner` pixels wide.
+    pub(super) fn new(panel: &Panel, inner: f64) -> Self {
         let before = panel.before.map_or(&[][..], Curve::points);
         let points = panel.curve.points().iter().chain(before);
-        let nothing = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-        let (low, high) = points.fold(nothing, |(low, high), &p| (low.min(p), high.max(p)));
-        // Halves first: the sum and the difference of large numbers may be none.
+        let empty = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        let (low, high) = points.fold(empty, |(low, high), &p| (low.min(p), high.max(p)));
+        // Halved first: the sum and the difference of large numbers can overflow.
         let center = low / 2.0 + high / 2.0;
         let half_box = high / 2.0 - low / 2.0;
         let half = half_box.max_element();
         let is_point = half <= 0.0;
-        let shares = if is_point {
+        let proportions = if is_point {
             DVec2::ZERO
         } else {
             half_box / half
         };
-        let pixels = (inner / 2.0 / shares.x).min(inner * TALLEST / 2.0 / shares.y);
+        let pixels = (inner / 2.0 / proportions.x).min(inner * MAX_HEIGHT / 2.0 / proportions.y);
         let pixels = if pixels.is_finite() { pixels } else { 0.0 };
         Self {
             center,
             half,
             pixels,
-            height: (2.0 * pixels * shares.y).max(inner * FLATTEST),
-            place: DVec2::ZERO,
+            height: (2.0 * pixels * proportions.y).max(inner * MIN_HEIGHT),
+            position: DVec2::ZERO,
         }
     }
 
-    /// Pixels from top to bottom.
+    /// Returns the height of the drawing in pixels.
     pub(super) fn height(&self) -> f64 {
         self.height
     }
 
-    /// The same in the middle of a part of the figure.
+    /// Returns the frame in the middle of an area of the figure, given by two opposite corners.
     pub(super) fn placed(&self, [corner, end]: [DVec2; 2]) -> Self {
         Self {
-            place: (corner + end) / 2.0,
+            position: (corner + end) / 2.0,
             ..*self
         }
     }
 
-    /// The place of a point in the figure.
+    /// Maps a point to the figure.
     pub(super) fn map(&self, p: DVec2) -> DVec2 {
         if self.half == 0.0 {
-            return self.place;
+            return self.position;
         }
         let q = (p - self.center) / self.half * self.pixels;
-        self.place + DVec2::new(q.x, -q.y)
+        self.position + DVec2::new(q.x, -q.y)
     }
 
-    /// The curve in the figure: the map is affine, so that it is the curve of the mapped control points.
+    /// Maps a curve to the figure, by its control points: the map is affine, and Bezier curves are affinely invariant.
     pub(super) fn curve(&self, curve: &Curve<DVec2>) -> Curve<DVec2> {
         let points = curve.points().iter().map(|&p| self.map(p)).collect();
-        Curve::new(points).expect("as many points as before, and places in a figure are finite")
+        Curve::new(points).expect("the number of points is the same, and mapped points are finite")
     }
 }
 
@@ -97,11 +97,11 @@ mod tests {
             t: None,
             title: None,
         };
-        (Frame::of(&panel, 400.0), points)
+        (Frame::new(&panel, 400.0), points)
     }
 
     #[test]
-    fn every_point_is_inside_however_large_or_small_the_curve_is() {
+    fn curves_of_any_size_are_inside_the_panel() {
         let largest = f64::MAX;
         for points in [
             &[[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]][..],
@@ -115,7 +115,7 @@ mod tests {
         ] {
             let (frame, points) = frame(points);
             let limit = DVec2::new(200.0, frame.height() / 2.0) + DVec2::splat(1e-6);
-            assert!(frame.height() <= 400.0 * TALLEST + 1e-9);
+            assert!(frame.height() <= 400.0 * MAX_HEIGHT + 1e-9);
             for p in points {
                 assert!(frame.map(p).abs().cmple(limit).all(), "{p}");
             }
@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn both_directions_have_the_same_scale_and_up_is_up() {
+    fn both_axes_have_the_same_scale_and_y_points_upwards() {
         let (frame, _) = frame(&[[10.0, 10.0], [14.0, 12.0]]);
         let [a, b, c] = [[10.0, 10.0], [12.0, 10.0], [10.0, 12.0]].map(|p| frame.map(p.into()));
         assert!((a.distance(b) - a.distance(c)).abs() < 1e-9);

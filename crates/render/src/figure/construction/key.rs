@@ -1,4 +1,4 @@
-//! The legend below a construction.
+//! The legend below a figure.
 
 use glam::DVec2;
 
@@ -8,36 +8,36 @@ use crate::figure::svg::{Font, Paint, Svg, Text};
 
 /// An entry of the legend.
 pub(super) struct Entry {
-    /// How its line is drawn; `None` for a dot.
-    mark: Option<Paint>,
+    /// The symbol: a line with this paint; `None` for a dot.
+    symbol: Option<Paint>,
     text: Text,
-    /// The place of its mark from the left.
+    /// The distance of the symbol from the left of the figure, in pixels.
     left: f64,
 }
 
-/// The length of a mark, in pixels, with the gap behind it.
-const MARK: f64 = 31.0;
+/// The width of a symbol and the gap after it, in pixels.
+const SYMBOL: f64 = 31.0;
 
-/// Between two entries, in pixels.
+/// The gap between two entries, in pixels.
 const GAP: f64 = 19.0;
 
-/// The height of a line, in pixels.
+/// The height of a line of entries, in pixels.
 const LINE: f64 = 24.0;
 
-/// The entries in lines, each line centered in `width` pixels.
+/// Returns the entries in lines, with each line centered in `width` pixels.
 pub(super) fn entries(panels: &[Panel], width: f64) -> Vec<Vec<Entry>> {
-    // Each with its end, from the left.
+    // Each line with its width.
     let mut lines: Vec<(Vec<Entry>, f64)> = Vec::new();
-    for (mark, text) in explained(panels) {
-        let long = MARK + text_width(&text);
-        let fits = |(_, end): &&mut (_, f64)| *end + GAP + long <= width - 16.0;
+    for (symbol, text) in symbols(panels) {
+        let entry_width = SYMBOL + text_width(&text);
+        let fits = |(_, end): &&mut (_, f64)| *end + GAP + entry_width <= width - 16.0;
         if let Some((line, end)) = lines.last_mut().filter(fits) {
             let left = *end + GAP;
-            line.push(Entry { mark, text, left });
-            *end = left + long;
+            line.push(Entry { symbol, text, left });
+            *end = left + entry_width;
         } else {
             let left = 0.0;
-            lines.push((vec![Entry { mark, text, left }], long));
+            lines.push((vec![Entry { symbol, text, left }], entry_width));
         }
     }
     for (line, end) in &mut lines {
@@ -48,8 +48,8 @@ pub(super) fn entries(panels: &[Panel], width: f64) -> Vec<Vec<Entry>> {
     lines.into_iter().map(|(line, _)| line).collect()
 }
 
-/// What the panels have.
-fn explained(panels: &[Panel]) -> Vec<(Option<Paint>, Text)> {
+/// Returns the symbols that the panels contain, with their explanations.
+fn symbols(panels: &[Panel]) -> Vec<(Option<Paint>, Text)> {
     let plain = |text: &str| Text::new(Font::Plain, text, 13.0, TEXT);
     let line = |color, width| Some(Paint::stroke(color, width));
     let mut entries = vec![
@@ -62,7 +62,7 @@ fn explained(panels: &[Panel]) -> Vec<(Option<Paint>, Text)> {
     }
     let constructed = || panels.iter().filter(|p| p.t.is_some());
     let levels = constructed().map(|p| p.curve.degree()).max().unwrap_or(0);
-    // With more levels, colors stand for several ones.
+    // With more levels, several levels have the same color.
     if levels <= LEVELS.len() + 1 {
         for r in 1..levels {
             entries.push((line(level_color(r), 1.8), plain(&format!("level {r}"))));
@@ -74,7 +74,7 @@ fn explained(panels: &[Panel]) -> Vec<(Option<Paint>, Text)> {
     entries
 }
 
-/// Pixels from top to bottom.
+/// Returns the height of the legend in pixels.
 pub(super) fn height(lines: &[Vec<Entry>]) -> f64 {
     if lines.is_empty() {
         0.0
@@ -83,7 +83,7 @@ pub(super) fn height(lines: &[Vec<Entry>]) -> f64 {
     }
 }
 
-/// Draws the lines from `top` down.
+/// Draws the legend with its top edge at `top`.
 pub(super) fn draw(svg: &mut Svg, lines: &[Vec<Entry>], top: f64) {
     if lines.is_empty() {
         return;
@@ -93,12 +93,12 @@ pub(super) fn draw(svg: &mut Svg, lines: &[Vec<Entry>], top: f64) {
             let y = top + (i as f64 + 0.4) * LINE;
             for entry in line {
                 let from = DVec2::new(entry.left, y);
-                let to = from + DVec2::X * (MARK - 8.0);
-                match &entry.mark {
+                let to = from + DVec2::X * (SYMBOL - 8.0);
+                match &entry.symbol {
                     Some(paint) => svg.polyline(&[from, to], paint),
                     None => svg.circle(to - DVec2::X * 6.0, 5.5, &Paint::fill(POINT)),
                 }
-                svg.text(from + DVec2::new(MARK, 4.5), &entry.text);
+                svg.text(from + DVec2::new(SYMBOL, 4.5), &entry.text);
             }
         }
     });

@@ -10,15 +10,15 @@
 //! b0                              b3
 //! ```
 //!
-//! Every level cuts the legs of the one before in the ratio t : 1 - t (de Casteljau, "Outillages méthodes
-//! calcul", 1959; Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, §4.2, whose names `b_i^r` the points
-//! have).
+//! Every level divides the legs of the previous level in the ratio t : 1 - t (de Casteljau, "Outillages méthodes
+//! calcul", 1959). The points have the names `b_i^r` of Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, §4.2.
 
 mod frame;
 mod key;
+mod label_placement;
 mod names;
 mod panel;
-mod placing;
+
 mod trace;
 
 use std::fmt::Debug;
@@ -30,44 +30,45 @@ use self::frame::Frame;
 use super::svg::{Color, Font, Paint, Run, Svg};
 use crate::PictureError;
 
-/// The most control points of a curve that is drawn.
+/// The maximum number of control points of a curve that is drawn.
 pub const MAX_DRAWN: usize = 256;
 
-/// The most control points of a curve whose levels are drawn.
+/// The maximum number of control points of a curve whose levels are drawn.
 pub const MAX_CONSTRUCTED: usize = 64;
 
-/// The most panels of a figure.
+/// The maximum number of panels of a figure.
 pub const MAX_PANELS: usize = 256;
 
-/// The most points of all panels of a figure: n (n + 1) / 2 for the levels of a curve of n control points.
+/// The maximum number of points of all panels of a figure. The levels of a curve of n control points have n (n + 1) /
+/// 2.
 pub const MAX_POINTS: usize = 1 << 16;
 
-/// The widest figure, in pixels.
+/// The maximum width of a figure, in pixels.
 pub const MAX_WIDTH: f64 = 8192.0;
 
-/// One picture of a figure: a curve, and the construction of one of its points.
+/// One panel of a figure: a curve, and the construction of one of its points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel<'a> {
     /// The curve.
     pub curve: &'a Curve<DVec2>,
-    /// What the curve was before, drawn faintly behind it, with arrows to the control points that moved.
+    /// An earlier state of the curve, drawn faintly behind it, with arrows to the control points that moved.
     pub before: Option<&'a Curve<DVec2>>,
-    /// The parameter of the point, from 0 to 1; without one, only the curve and its control polygon are drawn.
+    /// The parameter of the point, from 0 to 1. If `None`, only the curve and its control polygon are drawn.
     pub t: Option<f64>,
-    /// What stands above, before the parameter.
+    /// The title above the panel, which is followed by the parameter.
     pub title: Option<&'a str>,
 }
 
-/// How a figure looks.
+/// The layout of a figure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layout {
-    /// Pixels from left to right.
+    /// The width in pixels.
     pub width: f64,
-    /// How many panels stand in a row, at least 1.
+    /// The number of panels in a row, at least 1.
     pub columns: usize,
-    /// Whether points have their names.
+    /// Whether points are labeled with their names.
     pub labels: bool,
-    /// Whether the colors are explained below.
+    /// Whether there is a legend below the panels.
     pub legend: bool,
 }
 
@@ -89,8 +90,8 @@ const FAINT: Color = [0xa3, 0xaa, 0xb5, 255];
 const TEXT: Color = [0x1f, 0x29, 0x37, 255];
 const WHITE: Color = [255; 4];
 
-/// The colors of the levels between the control polygon and the point, told apart by everyone (after Okabe and
-/// Ito, "Color universal design", 2008); the sixth level has the first one again.
+/// The colors of the levels between the control polygon and the point. Color-blind people can distinguish them (after
+/// Okabe and Ito, "Color universal design", 2008). From the sixth level on, the colors repeat.
 const LEVELS: [Color; 5] = [
     [0x00, 0x72, 0xb2, 255],
     [0x00, 0x9e, 0x73, 255],
@@ -99,12 +100,12 @@ const LEVELS: [Color; 5] = [
     [0x3f, 0xa7, 0xe0, 255],
 ];
 
-/// The color of level `r`, from 1.
+/// Returns the color of level `r`, from 1.
 fn level_color(r: usize) -> Color {
     LEVELS[(r - 1) % LEVELS.len()]
 }
 
-/// The color of level `r` of `n` levels, from the control polygon, which is 0, to the point.
+/// Returns the color of level `r` of `n` levels. Level 0 is the control polygon, and level n - 1 the point.
 pub(crate) fn color_of_level(r: usize, n: usize) -> Color {
     match r {
         0 => POLYGON,
@@ -113,7 +114,7 @@ pub(crate) fn color_of_level(r: usize, n: usize) -> Color {
     }
 }
 
-/// c(t), the name of the point.
+/// Returns the name of the point, c(t).
 fn point_name() -> Vec<Run> {
     vec![
         Run::new(Font::Letter, "c"),
@@ -123,57 +124,64 @@ fn point_name() -> Vec<Run> {
     ]
 }
 
-/// How large things in a panel are, as a share of those in a panel as wide as a page.
+/// Returns the scale of line widths and letters in a panel of this width. It is 1 for panels of at least 440 pixels.
 fn zoom(panel_width: f64) -> f64 {
     (panel_width / 440.0).clamp(0.62, 1.0)
 }
 
-/// From the drawing to the edges of its panel, in pixels of a wide panel.
+/// The distance from the drawing to the edges of its panel, in pixels at zoom 1.
 const MARGIN: f64 = 32.0;
 
-/// The height of a title, in pixels of a wide panel.
+/// The height of a title, in pixels at zoom 1.
 const TITLE: f64 = 30.0;
 
-/// The width of the narrowest drawing in a panel, in pixels.
-const NARROWEST: f64 = 32.0;
+/// The minimum width of the drawing in a panel, in pixels.
+const MIN_DRAWING_WIDTH: f64 = 32.0;
 
-/// A figure of these panels, in rows from left to right.
+/// Draws a figure of these panels, in rows from left to right.
 ///
-/// Each curve is as large as its panel allows, with the same scale in both directions, so that nothing of it and
-/// of its construction is cut off. A curve whose control points are all in one place is drawn as this point.
+/// Each curve and its construction fill their panel, with the same scale in both axes. If all control points of a curve
+/// are equal, it is drawn as a point.
 ///
 /// # Errors
 ///
-/// [`PictureError::Style`] if there is no panel or there are more than [`MAX_PANELS`], if a curve has more than
-/// [`MAX_DRAWN`] control points or [`MAX_CONSTRUCTED`] where its levels are drawn, if there are more than
-/// [`MAX_POINTS`] points in all, if a parameter is not from 0 to 1, or if the layout leaves no room or is wider than
-/// [`MAX_WIDTH`].
+/// [`PictureError::Style`] if
+///
+/// - there are no panels, or more than [`MAX_PANELS`],
+/// - a curve has more than [`MAX_DRAWN`] control points, or more than [`MAX_CONSTRUCTED`] if its levels are drawn,
+/// - there are more than [`MAX_POINTS`] points in all,
+/// - a parameter is not from 0 to 1, or
+/// - the width of the layout is too small for its columns, or more than [`MAX_WIDTH`].
 pub fn construction(panels: &[Panel], layout: &Layout) -> Result<Svg, PictureError> {
     check(panels)?;
     let columns = layout.columns.clamp(1, panels.len());
     let panel_width = layout.width / columns as f64;
     let zoom = zoom(panel_width);
     let inner = panel_width - 2.0 * MARGIN * zoom;
-    if inner.is_nan() || inner < NARROWEST || layout.width > MAX_WIDTH {
-        let least = (NARROWEST + 2.0 * MARGIN * 0.62) * columns as f64;
+    if inner.is_nan() || inner < MIN_DRAWING_WIDTH || layout.width > MAX_WIDTH {
+        let min_width = (MIN_DRAWING_WIDTH + 2.0 * MARGIN * 0.62) * columns as f64;
+        let columns = match columns {
+            1 => "1 column".to_owned(),
+            n => format!("{n} columns"),
+        };
         let message = format!(
-            "expected a figure of {} to {MAX_WIDTH} pixels for {columns} columns, found {}",
-            least.ceil(),
+            "expected a figure with {columns} to be {} to {MAX_WIDTH} pixels wide, found {}",
+            min_width.ceil(),
             layout.width
         );
         return Err(PictureError::Style(message));
     }
     let rows: Vec<Row> = panels
         .chunks(columns)
-        .map(|panels| Row::of(panels, inner, zoom))
+        .map(|panels| Row::new(panels, inner, zoom))
         .collect();
     let key = if layout.legend {
         key::entries(panels, layout.width)
     } else {
         Vec::new()
     };
-    let drawings: f64 = rows.iter().map(|row| row.height).sum();
-    let height = drawings + key::height(&key);
+    let rows_height: f64 = rows.iter().map(|row| row.height).sum();
+    let height = rows_height + key::height(&key);
     let mut svg = Svg::new(layout.width.round(), height.round());
     let size = DVec2::new(svg.width, svg.height);
     svg.rectangle(DVec2::ZERO, size, &Paint::fill(WHITE));
@@ -192,23 +200,24 @@ pub fn construction(panels: &[Panel], layout: &Layout) -> Result<Svg, PictureErr
         }
         top += row.height;
     }
-    key::draw(&mut svg, &key, drawings);
+    key::draw(&mut svg, &key, rows_height);
     Ok(svg)
 }
 
-/// Panels that stand side by side.
+/// Panels side by side.
 struct Row<'p, 'c> {
     panels: &'p [Panel<'c>],
     frames: Vec<Frame>,
     /// The height of the titles.
     title: f64,
-    /// The height of all.
+    /// The height of the row.
     height: f64,
 }
 
 impl<'p, 'c> Row<'p, 'c> {
-    fn of(panels: &'p [Panel<'c>], inner: f64, zoom: f64) -> Self {
-        let frames: Vec<Frame> = panels.iter().map(|p| Frame::of(p, inner)).collect();
+    /// Creates a row of panels whose drawings are `inner` pixels wide.
+    fn new(panels: &'p [Panel<'c>], inner: f64, zoom: f64) -> Self {
+        let frames: Vec<Frame> = panels.iter().map(|p| Frame::new(p, inner)).collect();
         let has_title = panels.iter().any(|p| p.title.is_some() || p.t.is_some());
         let title = if has_title { TITLE * zoom } else { 0.0 };
         let highest = frames.iter().map(Frame::height).fold(0.0, f64::max);
@@ -221,33 +230,34 @@ impl<'p, 'c> Row<'p, 'c> {
     }
 }
 
+/// Checks the numbers of panels and points, and the parameters.
 fn check(panels: &[Panel]) -> Result<(), PictureError> {
-    let expect = |holds: bool, expected: &str, found: &dyn Debug| {
+    let expect = |is_valid: bool, expected: &str, found: &dyn Debug| {
         let message = || PictureError::Style(format!("expected {expected}, found {found:?}"));
-        holds.then_some(()).ok_or_else(message)
+        is_valid.then_some(()).ok_or_else(message)
     };
     let n = panels.len();
-    let expected = format!("1 to {MAX_PANELS} pictures of curves");
+    let expected = format!("1 to {MAX_PANELS} panels");
     expect((1..=MAX_PANELS).contains(&n), &expected, &n)?;
     let mut n_points = 0;
     for panel in panels {
         let n = panel.curve.points().len();
-        let (most, points) = match panel.t {
+        let (limit, points) = match panel.t {
             Some(_) => (MAX_CONSTRUCTED, n * (n + 1) / 2),
             None => (MAX_DRAWN, n),
         };
         n_points += points;
         let n_before = panel.before.map_or(0, |c| c.points().len());
-        for (n, most) in [(n, most), (n_before, MAX_DRAWN)] {
-            let expected = format!("a curve of at most {most} control points");
-            expect(n <= most, &expected, &n)?;
+        for (n, limit) in [(n, limit), (n_before, MAX_DRAWN)] {
+            let expected = format!("a curve of at most {limit} control points");
+            expect(n <= limit, &expected, &n)?;
         }
         let t = panel.t.unwrap_or(0.0);
         expect((0.0..=1.0).contains(&t), "a parameter from 0 to 1", &t)?;
     }
     expect(
         n_points <= MAX_POINTS,
-        &format!("at most {MAX_POINTS} points"),
+        &format!("at most {MAX_POINTS} points in all panels"),
         &n_points,
     )
 }

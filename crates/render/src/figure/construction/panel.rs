@@ -1,4 +1,4 @@
-//! Draws one picture of a construction.
+//! Draws one panel of a figure.
 
 use bezier::Curve;
 use glam::DVec2;
@@ -9,16 +9,16 @@ use super::{CURVE, FAINT, POINT, POLYGON, Panel, TEXT, WHITE, level_color, names
 use crate::figure::label::shortened;
 use crate::figure::svg::{Anchor, Font, Paint, Run, Svg, Text};
 
-/// The radius of control points, in pixels of a wide panel.
+/// The radius of control points, in pixels at zoom 1.
 pub(super) const RADIUS: f64 = 4.2;
 
-/// The width of lines, in pixels of a wide panel.
+/// The width of lines, in pixels at zoom 1.
 const LINE: f64 = 1.8;
 
-/// The width of the curve, in pixels of a wide panel.
-const BOLD: f64 = 3.2;
+/// The width of the curve, in pixels at zoom 1.
+const CURVE_WIDTH: f64 = 3.2;
 
-/// Draws a panel into `area`; `frame` maps into it, and things are `zoom` times as large as in a wide panel.
+/// Draws a panel into `area`. `frame` maps the curve into the area, and `zoom` scales lines and letters.
 pub(super) fn draw(
     svg: &mut Svg,
     panel: &Panel,
@@ -33,7 +33,7 @@ pub(super) fn draw(
     if let Some(before) = &before {
         draw_before(svg, before, &curve, zoom);
     }
-    // A dense construction has finer lines.
+    // A construction of many points has thinner lines.
     let fine = zoom.sqrt() * if points.len() > 16 { 0.5 } else { 1.0 };
     let levels = panel.t.map(|t| curve.levels(t)).unwrap_or_default();
     let n = curve.degree();
@@ -47,7 +47,8 @@ pub(super) fn draw(
         }
     });
     svg.group("curve", |svg| {
-        svg.path(&trace(&curve), &Paint::stroke(CURVE, BOLD * zoom.sqrt()));
+        let paint = Paint::stroke(CURVE, CURVE_WIDTH * zoom.sqrt());
+        svg.path(&trace(&curve), &paint);
     });
     svg.group("points", |svg| {
         let paint = Paint::fill(WHITE).with_stroke(POLYGON, LINE * fine);
@@ -72,7 +73,7 @@ pub(super) fn draw(
     }
 }
 
-/// A curve as it was: dashed and faint, with arrows to where its control points went.
+/// Draws the earlier state of a curve, dashed and faint, with arrows to the new positions of its control points.
 fn draw_before(svg: &mut Svg, before: &Curve<DVec2>, now: &Curve<DVec2>, zoom: f64) {
     svg.group("before", |svg| {
         let dashed = |width, dashes| Paint::stroke(FAINT, width).with_dashes(dashes);
@@ -83,13 +84,13 @@ fn draw_before(svg: &mut Svg, before: &Curve<DVec2>, now: &Curve<DVec2>, zoom: f
             svg.circle(p, RADIUS * 0.8 * zoom.sqrt(), &paint);
         }
         for [from, to] in arrows(before, now) {
-            let way = (to - from).normalize() * 8.0;
-            draw_arrow(svg, from + way, to - way);
+            let gap = (to - from).normalize() * 8.0;
+            draw_arrow(svg, from + gap, to - gap);
         }
     });
 }
 
-/// From where a control point was to where it is, if that is far enough for an arrow.
+/// Returns the old and the new position of each control point that moved far enough for an arrow.
 fn arrows(before: &Curve<DVec2>, now: &Curve<DVec2>) -> Vec<[DVec2; 2]> {
     if before.degree() != now.degree() {
         return Vec::new();
@@ -102,9 +103,9 @@ fn arrows(before: &Curve<DVec2>, now: &Curve<DVec2>) -> Vec<[DVec2; 2]> {
 }
 
 fn draw_arrow(svg: &mut Svg, from: DVec2, to: DVec2) {
-    let way = (to - from).normalize_or_zero();
-    let side = way.perp() * 4.0;
-    let neck = to - way * 9.0;
+    let direction = (to - from).normalize_or_zero();
+    let side = direction.perp() * 4.0;
+    let neck = to - direction * 9.0;
     svg.polyline(&[from, neck], &Paint::stroke(POLYGON, 1.3));
     let corners = [('M', to), ('L', neck + side), ('L', neck - side)];
     let mut head: Vec<_> = corners.map(|(letter, p)| (letter, vec![p])).into();
@@ -112,14 +113,15 @@ fn draw_arrow(svg: &mut Svg, from: DVec2, to: DVec2) {
     svg.path(&head, &Paint::fill(POLYGON));
 }
 
-/// Writes the title and the parameter of a panel, around `middle`.
+/// Writes the title and the parameter of a panel, centered at `middle`.
 pub(super) fn draw_title(svg: &mut Svg, panel: &Panel, middle: DVec2, width: f64, zoom: f64) {
-    let size = names::LETTERS * zoom;
+    let size = names::FONT_SIZE * zoom;
     let mut runs = Vec::new();
     if let Some(title) = panel.title {
         let gap = if panel.t.is_some() { "   " } else { "" };
-        let parameter = if panel.t.is_some() { size * 5.0 } else { 0.0 };
-        let title = shortened(title, Font::Title, size * 0.85, width - parameter - 8.0);
+        let parameter_width = if panel.t.is_some() { size * 5.0 } else { 0.0 };
+        let title_width = width - parameter_width - 8.0;
+        let title = shortened(title, Font::Title, size * 0.85, title_width);
         runs.push(Run {
             size: 0.85,
             ..Run::new(Font::Title, format!("{title}{gap}"))
@@ -127,18 +129,18 @@ pub(super) fn draw_title(svg: &mut Svg, panel: &Panel, middle: DVec2, width: f64
     }
     if let Some(t) = panel.t {
         runs.push(Run::new(Font::Letter, "t"));
-        runs.push(Run::new(Font::Digit, format!(" = {}", shown(t))));
+        runs.push(Run::new(Font::Digit, format!(" = {}", format_parameter(t))));
     }
     if !runs.is_empty() {
         svg.text(middle, &Text::of(runs, size, TEXT).anchored(Anchor::Middle));
     }
 }
 
-/// A parameter with at most four decimals; what is rounded does not become an end that it is not.
-fn shown(t: f64) -> String {
+/// Formats a parameter with at most four decimals. A parameter that would be rounded to 0 or 1 is written exactly.
+fn format_parameter(t: f64) -> String {
     let rounded = (t * 1e4).round() / 1e4;
-    let is_other_end = rounded != t && (rounded == 0.0 || rounded == 1.0);
-    if is_other_end {
+    let becomes_end = rounded != t && (rounded == 0.0 || rounded == 1.0);
+    if becomes_end {
         format!("{t:e}")
     } else {
         rounded.to_string()
@@ -150,7 +152,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parameters_are_short_and_true() {
+    fn parameters_are_rounded_but_not_to_the_ends() {
         for (t, text) in [
             (0.0, "0"),
             (0.5, "0.5"),
@@ -158,8 +160,8 @@ mod tests {
             (1e-9, "1e-9"),
             (1.0, "1"),
         ] {
-            assert_eq!(shown(t), text);
+            assert_eq!(format_parameter(t), text);
         }
-        assert_ne!(shown(1.0 - 1e-12), "1");
+        assert_ne!(format_parameter(1.0 - 1e-12), "1");
     }
 }

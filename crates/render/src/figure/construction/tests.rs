@@ -1,3 +1,5 @@
+//! Tests of figures.
+
 use super::*;
 use crate::figure::{pixel_size, pixels};
 use roxmltree::Document;
@@ -19,7 +21,7 @@ fn cubic() -> Curve<DVec2> {
     curve(&[[0.0, 0.0], [1.0, 3.0], [4.0, 4.0], [6.0, 0.0]])
 }
 
-/// The middles of the circles of a figure.
+/// Returns the centers of the circles of a figure.
 fn circles(xml: &str) -> Vec<DVec2> {
     let document = Document::parse(xml).unwrap();
     let number = |node: &roxmltree::Node, name: &str| node.attribute(name)?.parse::<f64>().ok();
@@ -30,7 +32,8 @@ fn circles(xml: &str) -> Vec<DVec2> {
         .collect()
 }
 
-/// The sum of the control points, each times its Bernstein polynomial: nothing of de Casteljau is in it.
+/// Computes a point of a curve as the sum of the control points times Bernstein polynomials, without de Casteljau's
+/// algorithm.
 fn bernstein(points: &[DVec2], t: f64) -> DVec2 {
     let n = points.len() - 1;
     let power = |x: f64, k: usize| (0..k).fold(1.0, |product, _| product * x);
@@ -42,7 +45,7 @@ fn bernstein(points: &[DVec2], t: f64) -> DVec2 {
 }
 
 #[test]
-fn every_point_of_every_level_stands_where_the_curve_has_it() {
+fn every_point_of_every_level_is_drawn_at_its_position() {
     let layout = Layout {
         legend: false,
         labels: false,
@@ -67,7 +70,7 @@ fn every_point_of_every_level_stands_where_the_curve_has_it() {
             let drawn = circles(&xml);
             let levels = curve.levels(t);
             assert_eq!(drawn.len(), levels.iter().map(Vec::len).sum::<usize>());
-            // The map is found from two control points that differ in both coordinates.
+            // The map is computed from two control points that differ in both coordinates.
             let points = curve.points();
             let other = (1..points.len())
                 .find(|&i| (points[i] - points[0]).min_element() != 0.0)
@@ -86,7 +89,7 @@ fn every_point_of_every_level_stands_where_the_curve_has_it() {
 }
 
 #[test]
-fn a_figure_is_well_formed_and_says_where_it_comes_from() {
+fn a_figure_is_well_formed_and_has_its_provenance() {
     let curve = cubic();
     for title in crate::figure::testing::ODD_TEXTS {
         let panel = Panel {
@@ -105,16 +108,16 @@ fn a_figure_is_well_formed_and_says_where_it_comes_from() {
 
 #[test]
 fn degenerate_curves_are_drawn_inside_the_figure() {
-    let most = f64::MAX;
+    let max = f64::MAX;
     let line: Vec<[f64; 2]> = (0..64).map(|i| [f64::from(i), 0.0]).collect();
     for points in [
         &[[3.0, 4.0]][..],
         &[[3.0, 4.0], [3.0, 4.0]],
         &[[3.0, 4.0]; 7],
         &[
-            [most, most],
-            [-most, -most],
-            [most, -most],
+            [max, max],
+            [-max, -max],
+            [max, -max],
             [0.0, 0.0],
             [1.0, 1.0],
         ],
@@ -153,52 +156,52 @@ fn degenerate_curves_are_drawn_inside_the_figure() {
 }
 
 #[test]
-fn what_cannot_be_drawn_is_refused_with_a_reason() {
-    let most = curve(&[[0.0, 1.0]; MAX_CONSTRUCTED]);
-    let (curve, many) = (cubic(), curve(&[[0.0, 1.0]; MAX_CONSTRUCTED + 1]));
+fn invalid_panels_and_layouts_are_refused_with_a_reason() {
+    let largest = curve(&[[0.0, 1.0]; MAX_CONSTRUCTED]);
+    let (curve, too_large) = (cubic(), curve(&[[0.0, 1.0]; MAX_CONSTRUCTED + 1]));
     let default = Layout::default();
-    let wide = |width, columns| Layout {
+    let layout = |width, columns| Layout {
         width,
         columns,
         ..default
     };
     let good = panel(&curve, 0.5);
     for (panels, layout, reason) in [
-        (vec![], default, "expected 1 to 256 pictures"),
+        (vec![], default, "expected 1 to 256 panels"),
         (vec![good.clone(); MAX_PANELS + 1], default, "found 257"),
         (vec![panel(&curve, 1.5)], default, "from 0 to 1, found 1.5"),
         (vec![panel(&curve, f64::NAN)], default, "found NaN"),
         (
-            vec![panel(&many, 0.5)],
+            vec![panel(&too_large, 0.5)],
             default,
             "at most 64 control points, found 65",
         ),
         (
-            vec![panel(&most, 0.5); 32],
+            vec![panel(&largest, 0.5); 32],
             default,
-            "at most 65536 points, found 66560",
+            "at most 65536 points in all panels, found 66560",
         ),
         (
             vec![good.clone()],
-            wide(60.0, 1),
-            "expected a figure of 72 to 8192 pixels",
+            layout(60.0, 1),
+            "expected a figure with 1 column to be 72 to 8192 pixels wide",
         ),
-        (vec![good.clone()], wide(f64::NAN, 1), "found NaN"),
-        (vec![good.clone()], wide(1e9, 1), "found 1000000000"),
-        (vec![good.clone(); 9], wide(300.0, 9), "for 9 columns"),
+        (vec![good.clone()], layout(f64::NAN, 1), "found NaN"),
+        (vec![good.clone()], layout(1e9, 1), "found 1000000000"),
+        (vec![good.clone(); 9], layout(300.0, 9), "with 9 columns"),
     ] {
         let error = construction(&panels, &layout).unwrap_err().to_string();
         assert!(error.contains(reason), "{error}");
     }
-    construction(&[panel(&many, None)], &default).unwrap();
-    construction(&vec![good; 3], &wide(640.0, 0)).unwrap();
+    construction(&[panel(&too_large, None)], &default).unwrap();
+    construction(&vec![good; 3], &layout(640.0, 0)).unwrap();
 }
 
 #[test]
-fn panels_stand_in_rows_of_columns() {
+fn panels_are_arranged_in_rows_and_columns() {
     let curve = cubic();
     let panels = vec![panel(&curve, 0.5); 5];
-    let high = |columns| {
+    let size = |columns| {
         let layout = Layout {
             columns,
             legend: false,
@@ -206,14 +209,14 @@ fn panels_stand_in_rows_of_columns() {
         };
         pixel_size(&construction(&panels, &layout).unwrap(), 1.0).unwrap()
     };
-    let (width, five) = high(5);
+    let (width, height) = size(5);
     assert_eq!(width, 640);
-    assert!(five < high(2).1 && high(2).1 < high(1).1);
-    assert_eq!(high(5), high(99));
+    assert!(height < size(2).1 && size(2).1 < size(1).1);
+    assert_eq!(size(5), size(99));
 }
 
 #[test]
-fn names_are_there_if_they_are_wanted() {
+fn points_have_names_if_the_layout_has_labels() {
     let curve = cubic();
     let texts = |labels| {
         let layout = Layout {
@@ -226,6 +229,7 @@ fn names_are_there_if_they_are_wanted() {
             .finish(None);
         xml.matches("<text").count()
     };
-    // The title, and letters with a halo: 4 control points, 3 + 2 points between, c(t).
+    // The title has one text element. Each of 4 control points, 3 + 2 points of levels and c(t) has a name, which has
+    // two text elements because of its halo.
     assert_eq!((texts(false), texts(true)), (1, 1 + 2 * 10));
 }

@@ -35,7 +35,7 @@ use op::prelude::*;
 pub struct CollapseEdges {
     /// The edges to collapse.
     pub edges: EdgeSelection,
-    /// The position of the remaining vertex on the edge, from 0 to 1. Defaults to 0.5.
+    /// The position of the remaining vertex on the edge, from 0 to 1.
     ///
     /// If `edges` is `Between(v, w)`, 0 is at v and 1 is at w. Otherwise 0 is at the end with the lower number.
     #[serde(default = "half")]

@@ -21,7 +21,7 @@ use op::prelude::*;
 pub struct SplitEdges {
     /// The edges to split.
     pub edges: EdgeSelection,
-    /// The position of the new vertex on the edge. From 0 to 1, exclusive. Defaults to 0.5.
+    /// The position of the new vertex on the edge. From 0 to 1, exclusive.
     ///
     /// If `edges` is `Between(v, w)`, 0 is at v and 1 is at w. Otherwise 0 is at the end with the lower number.
     #[serde(default = "half")]

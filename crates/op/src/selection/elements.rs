@@ -15,11 +15,11 @@ use crate::{Context, OpError};
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-shorthand" = true))]
 pub enum Elements {
-    /// Vertices.
+    /// A selection of vertices.
     Vertices(VertexSelection),
-    /// Edges.
+    /// A selection of edges.
     Edges(EdgeSelection),
-    /// Faces.
+    /// A selection of faces.
     Faces(FaceSelection),
 }
 

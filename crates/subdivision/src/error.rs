@@ -19,7 +19,7 @@ pub enum SubdivisionError {
         /// The number of corners of the face.
         degree: usize,
     },
-    /// A coordinate is so large that the sums of the masks could leave the range of numbers.
+    /// A coordinate is so large that the weighted sums of the masks could overflow.
     #[error(
         "{} needs coordinates up to {:e} in magnitude, but {vertex} has a larger one",
         .scheme.name(), crate::MAX_COORDINATE
@@ -27,7 +27,7 @@ pub enum SubdivisionError {
     TooFar {
         /// The scheme.
         scheme: Scheme,
-        /// The first vertex with such a coordinate, in the compacted mesh.
+        /// The first vertex with a coordinate above the maximum, in the compacted mesh.
         vertex: VertexId,
     },
     /// The scheme can only subdivide a whole mesh.

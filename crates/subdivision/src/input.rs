@@ -8,8 +8,8 @@ use crate::error::SubdivisionError;
 use crate::parallel::any;
 use crate::rules::Scheme;
 
-/// The largest magnitude of a coordinate that is subdivided. Masks add the coordinates of fewer than 2^32 vertices, each
-/// several times: the sums of such coordinates stay below the largest number.
+/// The largest absolute value of a coordinate that can be subdivided. Masks sum the coordinates of fewer than
+/// 2^32 vertices, each several times, so that these sums stay finite.
 pub const MAX_COORDINATE: f64 = 1e290;
 
 /// Returns the mesh without dead elements; borrows it if it has none.

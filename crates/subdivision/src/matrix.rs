@@ -49,7 +49,7 @@ impl SparseMatrix {
     ///
     /// # Panics
     ///
-    /// Panics if there are fewer values than columns are used.
+    /// Can panic if `values` has fewer entries than the matrix has columns.
     pub fn apply<T>(&self, values: &[T]) -> Vec<T>
     where
         T: mesh::Value + std::ops::Add<Output = T> + std::ops::Mul<f64, Output = T>,

@@ -36,7 +36,8 @@ use crate::size::Size;
 ///
 /// [`SubdivisionError::NotTriangle`] if the scheme needs triangles and a face has more corners,
 /// [`SubdivisionError::TooLarge`] if the result would have more elements than ids can number,
-/// [`SubdivisionError::Cancelled`] if the progress listener asks to stop.
+/// [`SubdivisionError::TooFar`] if a coordinate is too large, [`SubdivisionError::Cancelled`] if the progress
+/// listener asks to stop.
 pub fn subdivide(
     mesh: &Mesh,
     rules: Rules,

@@ -45,6 +45,7 @@ fn is_symmetric(scene: &Scene, eq: Option<u64>, max: Option<u64>) -> bool {
             on: None,
             files: &files,
             reader: &FileReader,
+            progress: &op::NoProgress,
         })
         .is_ok()
 }

@@ -357,9 +357,19 @@ impl Runner<'_> {
                 on: placed.on.as_deref(),
                 files: &self.files[placed.scope],
                 reader: self.settings.reader,
+                progress: listener,
             };
             self.checked += 1;
-            match placed.that.check(subject) {
+            let result = placed.that.check(subject);
+            if !listener.advance(
+                "check",
+                self.checked as u64,
+                recipe.expectations.len() as u64,
+            ) {
+                self.cancelled = true;
+                return Err(Stopped);
+            }
+            match result {
                 Ok(()) => {
                     let session = self.session.as_mut().filter(|_| !is_about_files);
                     if let Some(session) = session {

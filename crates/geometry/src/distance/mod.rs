@@ -23,11 +23,14 @@ mod triangle;
 
 use mesh::{DVec3, Domain, Element, FaceId, Mesh, VertexId, blocks};
 
-use crate::{area, bounds};
+use progress::{Cancelled, NoProgress, Progress};
 use rayon::prelude::*;
 
+use crate::triangulate::Cutter;
+use crate::{area, bounds};
+
 use piece::{Farthest, Piece, Sample, refine};
-use surface::{Hit, Surface, Triangle, fan};
+use surface::{Hit, Surface, Triangle, triangulate};
 
 /// The distances between two surfaces, both ways. Lengths are in scene units.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,19 +70,44 @@ pub struct SurfacePoint {
 /// The default tolerance, as a fraction of the diagonal of the bounding box of both surfaces.
 pub const TOLERANCE: f64 = 1e-5;
 
+/// What progress reports say.
+const WHAT: &str = "measure the distance";
+
+/// Asks whether to go on. Called at least every few milliseconds.
+type Ask<'a> = dyn Fn() -> Result<(), Cancelled> + Sync + 'a;
+
 impl Distance {
     /// Measures the distance between two surfaces. `tolerance` is the largest allowed error of the Hausdorff
     /// distance, in scene units. If `None`, it is [`TOLERANCE`] times the [`diagonal`]. A very small tolerance
     /// may not be reached; [`at_most`](Self::at_most) is a valid bound in any case. Returns `None` if one of
     /// the meshes has no faces.
     pub fn between(a: &Mesh, b: &Mesh, tolerance: Option<f64>) -> Option<Self> {
+        let found = Self::between_with(a, b, tolerance, &NoProgress);
+        found.expect("nobody cancels")
+    }
+
+    /// The same as [`between`](Self::between), but reports progress.
+    ///
+    /// # Errors
+    ///
+    /// [`Cancelled`] if the listener asks to stop.
+    pub fn between_with(
+        a: &Mesh,
+        b: &Mesh,
+        tolerance: Option<f64>,
+        progress: &dyn Progress,
+    ) -> Result<Option<Self>, Cancelled> {
+        progress.report(WHAT, 0, 2)?;
         let (from_a, from_b) = rayon::join(|| Surface::new(a), || Surface::new(b));
-        let (surface_a, surface_b) = (from_a?, from_b?);
+        let (Some(surface_a), Some(surface_b)) = (from_a, from_b) else {
+            return Ok(None);
+        };
         let tolerance = tolerance.unwrap_or_else(|| TOLERANCE * diagonal(a, b));
-        Some(Self {
-            forth: OneSided::measure(a, &surface_b, tolerance),
-            back: OneSided::measure(b, &surface_a, tolerance),
-        })
+        let ask = |done| move || progress.report(WHAT, done, 2);
+        Ok(Some(Self {
+            forth: OneSided::measure(a, &surface_b, tolerance, &ask(0))?,
+            back: OneSided::measure(b, &surface_a, tolerance, &ask(1))?,
+        }))
     }
 
     /// Whether the largest distance from the first surface to the second is at least as large as the other way.
@@ -149,8 +177,8 @@ struct Block {
 }
 
 impl OneSided {
-    fn measure(from: &Mesh, to: &Surface, tolerance: f64) -> Self {
-        let hits = vertex_hits(from, to);
+    fn measure(from: &Mesh, to: &Surface, tolerance: f64, ask: &Ask) -> Result<Self, Cancelled> {
+        let hits = vertex_hits(from, to, ask)?;
         let slots = from.domain_len(Domain::Face);
         let mut farthest = farthest_vertex(from, &hits).expect("a mesh with faces has vertices");
         // The largest area that one sample represents.
@@ -159,16 +187,22 @@ impl OneSided {
         let blocks: Vec<Block> = (0..slots.div_ceil(BLOCK))
             .into_par_iter()
             .map(|b| {
-                let mut block = Block::default();
+                let (mut block, mut triangles) = (Block::default(), Vec::new());
+                let mut cutter = Cutter::default();
                 let faces = (b * BLOCK..slots.min((b + 1) * BLOCK)).map(FaceId::new);
                 for f in faces.filter(|&f| from.has_face(f)) {
-                    for triangle in fan(from, f) {
-                        block.add(&triangle, &hits, to, area_per_sample, threshold);
+                    triangles.clear();
+                    triangulate(from, f, &mut cutter, &mut triangles);
+                    for (i, triangle) in triangles.iter().enumerate() {
+                        if i % 64 == 0 {
+                            ask()?;
+                        }
+                        block.add(triangle, &hits, to, area_per_sample, threshold, ask)?;
                     }
                 }
-                block
+                Ok(block)
             })
-            .collect();
+            .collect::<Result<_, Cancelled>>()?;
         let (mut area, mut weighted) = (0.0, 0.0);
         let mut ceiling = hits
             .iter()
@@ -187,15 +221,15 @@ impl OneSided {
         } else {
             mean_of(&hits)
         };
-        let (farthest, at_most) = refine(pieces, farthest, ceiling, to, tolerance);
+        let (farthest, at_most) = refine(pieces, farthest, ceiling, to, tolerance, ask)?;
         let (from, to) = farthest.points(to);
-        Self {
+        Ok(Self {
             largest: farthest.lower_bound(),
             at_most,
             mean,
             from,
             to,
-        }
+        })
     }
 }
 
@@ -207,7 +241,8 @@ impl Block {
         to: &Surface,
         area_per_sample: f64,
         threshold: f64,
-    ) {
+        ask: &Ask,
+    ) -> Result<(), Cancelled> {
         let corners = [0, 1, 2].map(|k| Sample {
             at: triangle.at[k],
             hit: hits[triangle.vertices[k].index()].expect("corners are vertices of the mesh"),
@@ -222,7 +257,7 @@ impl Block {
         self.area += area;
         let rows = (area / area_per_sample).sqrt().ceil();
         let distance = if rows > 1.0 {
-            self.mean_over(&piece, triangle, rows, to)
+            self.mean_over(&piece, triangle, rows, to, ask)?
         } else {
             // This quadrature is exact if the distance is a quadratic function of the position.
             let sum: f64 = corners.iter().map(|s| s.hit.distance).sum();
@@ -235,11 +270,19 @@ impl Block {
         } else {
             self.ceiling = self.ceiling.max(piece.upper);
         }
+        Ok(())
     }
 
     /// Divides a triangle into `rows` rows of smaller triangles and returns the mean of the distances at their
     /// centers.
-    fn mean_over(&mut self, piece: &Piece, triangle: &Triangle, rows: f64, to: &Surface) -> f64 {
+    fn mean_over(
+        &mut self,
+        piece: &Piece,
+        triangle: &Triangle,
+        rows: f64,
+        to: &Surface,
+        ask: &Ask,
+    ) -> Result<f64, Cancelled> {
         let [a, b, c] = triangle.at;
         #[expect(
             clippy::cast_possible_truncation,
@@ -250,6 +293,7 @@ impl Block {
         let third = 1.0 / 3.0;
         let (mut sum, mut count, mut hint) = (0.0, 0.0, 0);
         for i in 0..n {
+            ask()?;
             for j in 0..n - i {
                 // The part with the same orientation as the triangle and, if it is inside, the inverted part.
                 let n_parts = if i + j + 2 <= n { 2 } else { 1 };
@@ -264,7 +308,7 @@ impl Block {
                 }
             }
         }
-        sum / count
+        Ok(sum / count)
     }
 
     fn record(&mut self, sample: Farthest) {
@@ -273,14 +317,17 @@ impl Block {
 }
 
 /// Returns the nearest point of `to` for each vertex, by vertex index. Isolated vertices are included.
-fn vertex_hits(from: &Mesh, to: &Surface) -> Vec<Option<Hit>> {
+fn vertex_hits(from: &Mesh, to: &Surface, ask: &Ask) -> Result<Vec<Option<Hit>>, Cancelled> {
     let mut hits = vec![None; from.domain_len(Domain::Vertex)];
     hits.par_chunks_mut(BLOCK)
         .enumerate()
-        .for_each(|(b, block)| {
+        .try_for_each(|(b, block)| {
             // The previous hit is a good first guess if consecutive vertices are near each other.
             let mut hint = 0;
             for (i, slot) in block.iter_mut().enumerate() {
+                if i % 128 == 0 {
+                    ask()?;
+                }
                 let v = VertexId::new(b * BLOCK + i);
                 if from.has_vertex(v) {
                     let hit = to.nearest(from.position(v), hint);
@@ -288,14 +335,15 @@ fn vertex_hits(from: &Mesh, to: &Surface) -> Vec<Option<Hit>> {
                     *slot = Some(hit);
                 }
             }
-        });
-    hits
+            Ok(())
+        })?;
+    Ok(hits)
 }
 
 /// Returns the distance from each vertex of `from` to the surface of `to`, by vertex index. NaN for dead
 /// vertices. Returns `None` if `to` has no faces.
 pub fn vertex_distances(from: &Mesh, to: &Mesh) -> Option<Vec<f64>> {
-    let hits = vertex_hits(from, &Surface::new(to)?);
+    let hits = vertex_hits(from, &Surface::new(to)?, &|| Ok(())).expect("nobody cancels");
     let distance = |hit: Option<Hit>| hit.map_or(f64::NAN, |hit| hit.distance);
     Some(hits.into_iter().map(distance).collect())
 }

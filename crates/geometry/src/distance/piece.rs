@@ -1,11 +1,12 @@
 //! Pieces of triangles, with upper bounds of their distance to the other surface.
 
 use mesh::{DVec3, Element, FaceId};
+use progress::Cancelled;
 use rayon::prelude::*;
 
-use super::SurfacePoint;
 use super::surface::{Hit, Surface};
 use super::triangle::between_segments;
+use super::{Ask, SurfacePoint};
 
 /// A point of the measured surface and the nearest point of the other surface.
 #[derive(Clone, Copy)]
@@ -31,7 +32,7 @@ pub(super) struct Farthest {
 }
 
 /// The number of pieces cut by one task.
-const BLOCK: usize = 256;
+const BLOCK: usize = 64;
 
 /// The maximum number of pieces in a round. If there are more, those with the largest bounds are kept.
 const MAX_PIECES: usize = 1 << 18;
@@ -190,8 +191,17 @@ pub(super) fn refine(
     mut ceiling: f64,
     to: &Surface,
     tolerance: f64,
-) -> (Farthest, f64) {
+    ask: &Ask,
+) -> Result<(Farthest, f64), Cancelled> {
     let mut visits_left = MAX_VISITS;
+    // The pieces of a round are limited by the visits that are left, and by what earlier searches took.
+    let visits = pieces.iter().map(|p| u64::from(p.corners[0].hit.visits));
+    // A piece that is cut takes about five searches.
+    let per_piece = 5 * (visits.sum::<u64>() / (pieces.len() as u64).max(1)).max(1);
+    let affordable = |visits: u64, per_piece: u64| {
+        usize::try_from(visits / per_piece).map_or(MAX_PIECES, |n| n.clamp(1, MAX_PIECES))
+    };
+    let mut max_pieces = affordable(MAX_VISITS, per_piece);
     loop {
         let threshold = farthest.lower_bound() + tolerance;
         pieces.retain(|piece| {
@@ -201,25 +211,31 @@ pub(super) fn refine(
             }
             stays
         });
-        if pieces.len() > MAX_PIECES {
+        if pieces.len() > max_pieces {
             pieces.sort_by(|a, b| b.upper.total_cmp(&a.upper));
-            ceiling = ceiling.max(pieces[MAX_PIECES].upper);
-            pieces.truncate(MAX_PIECES);
+            ceiling = ceiling.max(pieces[max_pieces].upper);
+            pieces.truncate(max_pieces);
         }
         if pieces.is_empty() || visits_left == 0 {
             let waiting = pieces.iter().fold(ceiling, |c, piece| c.max(piece.upper));
-            return (farthest, waiting.max(farthest.lower_bound()));
+            return Ok((farthest, waiting.max(farthest.lower_bound())));
         }
         let cut: Vec<_> = pieces
             .par_chunks(BLOCK)
-            .map(|pieces| cut_all(pieces, farthest, threshold, to))
-            .collect();
+            .map(|pieces| {
+                ask()?;
+                Ok(cut_all(pieces, farthest, threshold, to))
+            })
+            .collect::<Result<_, Cancelled>>()?;
+        let (n_cut, left_before) = (pieces.len() as u64, visits_left);
         pieces = Vec::with_capacity(2 * pieces.len());
         for (halves, candidate, visits) in cut {
             pieces.extend(halves);
             farthest = farthest.or(Some(candidate));
             visits_left = visits_left.saturating_sub(visits);
         }
+        let per_piece = (left_before - visits_left).div_ceil(n_cut).max(1);
+        max_pieces = affordable(visits_left, per_piece);
     }
 }
 

@@ -6,6 +6,7 @@ use std::collections::BinaryHeap;
 use mesh::{DVec3, FaceId, Mesh, VertexId};
 
 use super::triangle::nearest_on_triangle;
+use crate::triangulate::Cutter;
 
 /// The triangles of a mesh in a tree. Each face is triangulated as a fan at its first corner.
 pub(super) struct Surface {
@@ -68,13 +69,40 @@ pub(super) fn fan(mesh: &Mesh, face: FaceId) -> impl Iterator<Item = Triangle> {
     })
 }
 
+/// Appends the triangles of a face. A face of more than four corners is triangulated inside its sides: the triangles
+/// of a fan would lie over each other, so that a point would be near to all of them.
+pub(super) fn triangulate(
+    mesh: &Mesh,
+    face: FaceId,
+    cutter: &mut Cutter,
+    triangles: &mut Vec<Triangle>,
+) {
+    if mesh.face_vertices(face).nth(4).is_none() {
+        triangles.extend(fan(mesh, face));
+        return;
+    }
+    let corners: Vec<VertexId> = mesh.face_vertices(face).collect();
+    triangles.extend(cutter.cut(mesh, face).triangles().iter().map(|triangle| {
+        let vertices = triangle.map(|i| corners[i as usize]);
+        Triangle {
+            at: vertices.map(|v| mesh.position(v)),
+            vertices,
+            face,
+        }
+    }));
+}
+
 impl Surface {
     /// Builds the surface of a mesh; `None` if the mesh has no faces.
     pub(super) fn new(mesh: &Mesh) -> Option<Self> {
         let mut surface = Self {
             nodes: Vec::new(),
-            triangles: mesh.faces().flat_map(|f| fan(mesh, f)).collect(),
+            triangles: Vec::new(),
         };
+        let mut cutter = Cutter::default();
+        for f in mesh.faces() {
+            triangulate(mesh, f, &mut cutter, &mut surface.triangles);
+        }
         if surface.triangles.is_empty() {
             return None;
         }

@@ -2,6 +2,7 @@
 
 use crate::{bounds, shapes};
 
+use super::surface::fan;
 use super::*;
 
 fn of(positions: &[DVec3], polygons: &[&[u32]]) -> Mesh {
@@ -266,4 +267,63 @@ fn vertex_distances_are_those_of_each_vertex() {
     let is_right = |v: VertexId| (distances[v.index()] - expected(v)).abs() < 1e-12;
     assert!(moved.vertices().all(is_right), "{distances:?}");
     assert_eq!(vertex_distances(&cube, &Mesh::default()), None);
+}
+
+/// A star of one face, whose corners lie on two circles in turn.
+fn star(n: u32) -> Mesh {
+    let corner = |i: u32| {
+        let radius = 1.0 + 0.5 * f64::from(i % 2);
+        let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(i) / f64::from(n));
+        radius * DVec3::new(cos, sin, 0.0)
+    };
+    let corners: Vec<u32> = (0..n).collect();
+    of(&(0..n).map(corner).collect::<Vec<_>>(), &[&corners])
+}
+
+#[test]
+fn a_face_with_reflex_corners_is_measured_inside_its_sides() {
+    // The letter U. A fan from its first corner would cover the gap.
+    let corners = [
+        (0, 0),
+        (3, 0),
+        (3, 3),
+        (2, 3),
+        (2, 1),
+        (1, 1),
+        (1, 3),
+        (0, 3),
+    ];
+    let at = |(x, y): (i32, i32)| DVec3::new(x.into(), y.into(), 0.0);
+    let letter = of(&corners.map(at), &[&[0, 1, 2, 3, 4, 5, 6, 7]]);
+    let gap = moved(shapes::square(), |p| 1e-6 * p + DVec3::new(1.5, 2.0, 0.0));
+    let found = between(&gap, &letter, 1e-9);
+    assert!((found.forth.largest - 0.5).abs() < 1e-5, "{found:?}");
+}
+
+#[test]
+fn the_nearest_point_of_one_large_face_takes_few_visits() {
+    let mesh = star(4000);
+    let surface = Surface::new(&mesh).unwrap();
+    let hits = vertex_hits(&mesh, &surface, &|| Ok(())).unwrap();
+    let visits: u32 = hits.iter().flatten().map(|hit| hit.visits).sum();
+    assert!(visits < 50 * 4000, "{visits}");
+}
+
+#[test]
+fn a_measurement_can_be_cancelled_at_any_report() {
+    /// Allows so many reports.
+    struct Stop(std::sync::atomic::AtomicU64);
+    impl Progress for Stop {
+        fn advance(&self, _: &str, _: u64, _: u64) -> bool {
+            let left = &self.0;
+            let order = std::sync::atomic::Ordering::Relaxed;
+            left.fetch_update(order, order, |n| n.checked_sub(1))
+                .is_ok()
+        }
+    }
+    let (a, b) = (star(100), star(120));
+    for allowed in [0, 1, 2, 5, 10, 20] {
+        let stop = Stop(allowed.into());
+        assert_eq!(Distance::between_with(&a, &b, None, &stop), Err(Cancelled));
+    }
 }

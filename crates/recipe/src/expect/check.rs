@@ -1,7 +1,7 @@
 //! Checks an expectation against a scene.
 
 use mesh::{Domain, Mesh};
-use op::{Elements, Files};
+use op::{Elements, Progress};
 use scene::Object;
 
 use super::places::double_edges;
@@ -109,7 +109,7 @@ impl Expectation {
             Self::Count { of, eq, min, max } => {
                 let mut found = 0;
                 for (object, mesh) in subject.meshes()? {
-                    found += count(of, object, mesh, subject.files)?;
+                    found += count(of, object, mesh, subject)?;
                 }
                 let what = format_args!("selected {}", of.kind().word());
                 check_count(what, found, [*eq, *min, *max])
@@ -152,7 +152,7 @@ impl Expectation {
             }
             Self::DistanceTo { other, below } => {
                 let (_, mesh) = subject.one_mesh()?;
-                distance_below(mesh, subject.other_mesh(other)?.as_ref(), *below)
+                distance_below(mesh, subject.other_mesh(other)?.as_ref(), *below, subject.progress)
             }
             Self::SymmetricUnder {
                 group,
@@ -179,21 +179,27 @@ impl Expectation {
     }
 }
 
-fn count(of: &Elements, object: &Object, mesh: &Mesh, files: &Files) -> Result<u64, Violation> {
+fn count(of: &Elements, object: &Object, mesh: &Mesh, subject: Subject) -> Result<u64, Violation> {
     let n = match of {
-        Elements::Vertices(s) => selected(s, object, mesh, files)?.len(),
-        Elements::Edges(s) => selected(s, object, mesh, files)?.len(),
-        Elements::Faces(s) => selected(s, object, mesh, files)?.len(),
+        Elements::Vertices(s) => selected(s, object, mesh, subject)?.len(),
+        Elements::Edges(s) => selected(s, object, mesh, subject)?.len(),
+        Elements::Faces(s) => selected(s, object, mesh, subject)?.len(),
     };
     Ok(n as u64)
 }
 
 /// Checks that the Hausdorff distance is proven to be below a limit. The tolerance of the measurement shrinks with
 /// the limit, so that a small limit can be decided too.
-fn distance_below(mesh: &Mesh, other: &Mesh, below: f64) -> Result<(), Violation> {
+fn distance_below(
+    mesh: &Mesh,
+    other: &Mesh,
+    below: f64,
+    progress: &dyn Progress,
+) -> Result<(), Violation> {
     let size = diagonal(mesh, other);
     let tolerance = (TOLERANCE * size).min(1e-3 * below).max(1e-12 * size);
-    let Some(found) = Distance::between(mesh, other, Some(tolerance)) else {
+    let found = Distance::between_with(mesh, other, Some(tolerance), progress);
+    let Some(found) = found.map_err(|cancelled| cancelled.to_string())? else {
         let message =
             format!("expected a distance below {below}, but one of the two meshes has no faces");
         return Err(Violation::unmet(message));

@@ -94,7 +94,12 @@ impl CheckedMesh<'_> {
             },
             Expectation::DistanceTo { other, .. } => {
                 let other = self.subject.other_mesh(other).ok();
-                let found = other.and_then(|other| Distance::between(mesh, &other, None));
+                let found = other.and_then(|other| {
+                    let progress = self.subject.progress;
+                    Distance::between_with(mesh, &other, None, progress)
+                        .ok()
+                        .flatten()
+                });
                 found.map_or_else(Vec::new, |found| self.farthest(&found))
             }
             Expectation::SymmetricUnder {
@@ -112,7 +117,7 @@ impl CheckedMesh<'_> {
     }
 
     fn selected<S: Select>(&self, of: &S) -> Vec<S::Id> {
-        let found = selected(of, self.object, self.mesh, self.subject.files);
+        let found = selected(of, self.object, self.mesh, self.subject);
         found.unwrap_or_default()
     }
 

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use mesh::{DVec3, EdgeId, FaceId, Mesh};
 use op::{
-    Context, EdgeSelection, FaceSelection, Files, NoProgress, OpError, Select, Vector,
+    Context, EdgeSelection, FaceSelection, Files, OpError, Progress, Select, Vector,
     VertexSelection,
 };
 use scene::{Geometry, Object, Scene};
@@ -129,6 +129,8 @@ pub struct Subject<'a> {
     pub files: &'a Files,
     /// Reads the files that the expectation refers to.
     pub reader: &'a dyn Reader,
+    /// Is told how far a check is, and can cancel it. The check then fails.
+    pub progress: &'a dyn Progress,
 }
 
 impl<'a> Subject<'a> {
@@ -250,7 +252,7 @@ impl<'a> Subject<'a> {
     ) -> Result<(), Violation> {
         let mut is_empty = true;
         for (object, mesh) in self.meshes()? {
-            for id in selected(of, object, mesh, self.files)? {
+            for id in selected(of, object, mesh, *self)? {
                 is_empty = false;
                 check(mesh, id)?;
             }
@@ -304,7 +306,7 @@ impl<'a> Subject<'a> {
         bounds: [Option<f64>; 3],
     ) -> Result<(), Violation> {
         let (object, mesh) = self.one_mesh()?;
-        let chosen = selected(of, object, mesh, self.files)?;
+        let chosen = selected(of, object, mesh, *self)?;
         let mut areas: Vec<f64> = mesh.faces().map(|f| mesh.face_area(f)).collect();
         areas.sort_by(f64::total_cmp);
         if chosen.is_empty() {
@@ -322,7 +324,7 @@ impl<'a> Subject<'a> {
         tolerance: f64,
     ) -> Result<(), Violation> {
         let (object, mesh) = self.one_mesh()?;
-        let chosen = selected(of, object, mesh, self.files)?;
+        let chosen = selected(of, object, mesh, *self)?;
         let [v] = chosen[..] else {
             let message = format!("expected exactly 1 selected vertex, found {}", chosen.len());
             return Err(message.into());
@@ -377,9 +379,9 @@ pub(super) fn selected<S: Select>(
     selection: &S,
     object: &Object,
     mesh: &Mesh,
-    files: &Files,
+    subject: Subject,
 ) -> Result<Vec<S::Id>, Violation> {
-    let mut cx = Context::new(&NoProgress, files);
+    let mut cx = Context::new(subject.progress, subject.files);
     cx.materials = object.materials.iter().map(|m| m.name.clone()).collect();
     selection.resolve(mesh, &cx).map_err(|error| match error {
         OpError::Refused { message, .. } => Violation::unmet(message),

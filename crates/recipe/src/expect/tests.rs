@@ -65,6 +65,7 @@ fn check_on(scene: &Scene, on: Option<&[String]>, text: &str) -> Result<(), Stri
         on,
         files: &files,
         reader: &reader,
+        progress: &op::NoProgress,
     };
     expectation(text)
         .check(subject)

@@ -79,6 +79,7 @@ impl Metric {
             on: None,
             files,
             reader,
+            progress: &op::NoProgress,
         };
         let whole = |n: usize| Measured::Whole(i64::try_from(n).unwrap_or(i64::MAX));
         Ok(match self {

@@ -19,6 +19,7 @@ fn places(scene: &Scene, text: &str) -> Vec<ErrorLocation> {
         on: None,
         files: &files,
         reader: &reader,
+        progress: &op::NoProgress,
     })
 }
 

@@ -34,6 +34,7 @@ pub(crate) struct CacheCommandArgs {
     pub(crate) action: CacheAction,
     #[command(flatten)]
     pub(crate) folder: CacheFolder,
+    /// Output format
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
 }

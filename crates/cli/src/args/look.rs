@@ -29,7 +29,8 @@ pub(crate) struct SelectArgs {
     /// Use the scene after the recipe's step or call with this id
     #[arg(long, value_name = "ID", conflicts_with = "before")]
     pub(crate) after: Option<String>,
-    /// Use the scene before the recipe's step or call with this id, and draw the random choices of that step
+    /// Use the scene before the recipe's step or call with this id; random selections choose the same elements as in
+    /// that step
     #[arg(long, value_name = "ID")]
     pub(crate) before: Option<String>,
     #[command(flatten)]
@@ -48,6 +49,7 @@ pub(crate) struct SelectArgs {
     pub(crate) picture: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) read: ReadArgs,
+    /// Output format
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
 }
@@ -58,7 +60,7 @@ pub(crate) struct DiffArgs {
     pub(crate) first: PathBuf,
     /// The second mesh file or recipe (*.ron)
     pub(crate) second: PathBuf,
-    /// Largest allowed difference of positions and attribute values, in the units of each
+    /// Largest allowed difference of positions and attribute values
     #[arg(long, value_name = "X", default_value_t = 0.0, value_parser = not_negative)]
     pub(crate) tolerance: f64,
     /// Compare two recorded runs, as printed by `meshwright run --format json`
@@ -66,6 +68,7 @@ pub(crate) struct DiffArgs {
     pub(crate) runs: bool,
     #[command(flatten)]
     pub(crate) read: ReadArgs,
+    /// Output format
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
 }

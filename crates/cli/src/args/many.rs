@@ -56,6 +56,7 @@ pub(crate) struct TestArgs {
     pub(crate) junit: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) many: ManyArgs,
+    /// Output format
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
     /// Replace recorded values in the recipes (eq, is, Bounds, Digest) and reference files of `Output` with the
@@ -152,7 +153,7 @@ impl fmt::Display for Shard {
       recipe: \"cow.ron\",
       over: { \"levels\": [0, 1, 2], \"ratio\": Range(from: 0.1, to: 0.5, steps: 5) },
       set: { \"smooth\": true },
-      keep: [Faces, Area, MinAngle, DistanceTo(File(\"cow.obj\")), Seconds],
+      keep: [Faces, Area, MinAngle, DistanceTo(other: File(\"cow.obj\")), Seconds],
   )
 
 The recipe runs once for each combination of the values in `over`; the last parameter changes fastest.
@@ -179,6 +180,7 @@ pub(crate) struct SweepArgs {
     pub(crate) many: ManyArgs,
     #[command(flatten)]
     pub(crate) cache: CacheArgs,
+    /// Output format
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
     /// Draw the scenes of all cells on one image (.png); the values of `keep` are shown where they fit

@@ -124,6 +124,7 @@ pub(crate) struct InfoArgs {
     pub(crate) picture_errors: PictureErrorsArgs,
     #[command(flatten)]
     pub(crate) read: ReadArgs,
+    /// Output format
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
 }
@@ -134,7 +135,7 @@ pub(crate) struct ConvertArgs {
     pub(crate) input: PathBuf,
     #[command(flatten)]
     pub(crate) read: ReadArgs,
-    /// The file to write; its ending determines the format
+    /// The file to write; its extension determines the format
     pub(crate) output: PathBuf,
 }
 

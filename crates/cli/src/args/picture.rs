@@ -22,7 +22,7 @@ pub(crate) struct DrawArgs {
     /// Use a camera without perspective
     #[arg(long)]
     pub(crate) orthographic: bool,
-    /// Draw the z axis upwards instead of the y axis
+    /// Point the z axis upwards instead of the y axis
     #[arg(long)]
     pub(crate) z_up: bool,
     /// Shading: Flat, Smooth, Phong, Matcap or Plain

@@ -8,7 +8,7 @@ use serde::de::{DeserializeOwned, IntoDeserializer};
 /// Options of the commands that read a mesh file.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct ReadArgs {
-    /// Fail if a part of the file would be left out
+    /// Fail if the reader would leave out a part of the file
     #[arg(long)]
     strict: bool,
     /// Handling of non-manifold edges and vertices: Split or Refuse

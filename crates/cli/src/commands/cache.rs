@@ -27,9 +27,10 @@ pub(crate) fn run(args: &CacheCommandArgs) -> anyhow::Result<bool> {
         return Ok(true);
     }
     let [steps, blobs] = [size.steps, size.blobs].map(group_digits);
+    let s = if size.steps == 1 { "" } else { "s" };
     let bytes = mebibytes(size.bytes);
     print(&format!(
-        "folder  {shown}\n{word}  {bytes}: {steps} steps, {blobs} arrays and files\n"
+        "folder  {shown}\n{word}  {bytes}: {steps} step{s}, {blobs} arrays and files\n"
     ))?;
     Ok(true)
 }

@@ -74,7 +74,7 @@ fn a_selection_valid_for_several_kinds_needs_a_kind() {
 }
 
 #[test]
-fn a_wrong_selection_is_shown_with_its_place_and_advice() {
+fn an_invalid_selection_is_shown_with_its_place_and_help() {
     let folder = cube();
     folder
         .run_all(&["select", "cube.obj", "Shrp(above: 30)"])
@@ -107,7 +107,7 @@ fn a_wrong_selection_is_shown_with_its_place_and_advice() {
 }
 
 #[test]
-fn a_recipe_is_asked_where_it_stops_and_writes_nothing() {
+fn a_recipe_runs_up_to_the_given_step_and_writes_no_files() {
     let folder = Folder::with_recipe(RECIPE);
     let count = |more: &[&str]| {
         let mut arguments = vec!["select", "recipe.ron", "All", "--of", "faces", "--count"];
@@ -137,7 +137,7 @@ fn a_recipe_is_asked_where_it_stops_and_writes_nothing() {
 }
 
 #[test]
-fn a_call_is_known_by_its_id_or_the_name_of_its_recipe() {
+fn a_call_is_named_by_its_id_or_its_recipe() {
     let part = RECIPE.replace("Save(path: \"cube.obj\"),", "");
     let folder = Folder::new().with("recipe.ron", &part).with(
         "twice.ron",

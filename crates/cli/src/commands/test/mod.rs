@@ -80,22 +80,22 @@ pub(crate) fn run(args: &TestArgs, engine: &Engine) -> anyhow::Result<bool> {
     let count = |state: State| results.iter().filter(|r| r.state == state).count();
     let (failed, not_run) = (count(State::Failed), count(State::NotRun));
     let (passed, called) = (count(State::Passed), count(State::Called));
-    let unexpecting = count(State::NoExpectations);
+    let without_expectations = count(State::NoExpectations);
     if args.format == Format::Json {
         let rows = tests.iter().zip(&results);
         print_json(&json!({
             "succeeded": failed == 0 && not_run == 0 && passed > 0,
             "passed": passed,
             "failed": failed,
-            "no_expectations": unexpecting,
+            "no_expectations": without_expectations,
             "called_by_others": called,
             "not_run": not_run,
             "recipes": rows.map(|(test, result)| test.json(result)).collect::<Vec<_>>(),
         }))?;
     } else {
         let mut summary = format!("{passed} passed, {failed} failed");
-        if unexpecting > 0 {
-            summary += &format!(", {unexpecting} without expectations");
+        if without_expectations > 0 {
+            summary += &format!(", {without_expectations} without expectations");
         }
         if called > 0 {
             summary += &format!(", {called} called by other recipes");
@@ -131,7 +131,7 @@ fn tests<'a>(
         .map(|source| place(&source.path))
         .collect();
     for test in &mut tests {
-        test.is_part = !test.found.is_named && called.contains(&place(&test.found.path));
+        test.is_called = !test.found.is_named && called.contains(&place(&test.found.path));
     }
     if let Some(filter) = &args.filter {
         tests.retain(|test| test.found.path.to_string_lossy().contains(filter));
@@ -178,7 +178,7 @@ struct Test<'a> {
     /// The loaded recipe, or an error if it cannot be read.
     loaded: Result<Loaded, String>,
     /// Whether other tested recipes call this recipe, and so test it.
-    is_part: bool,
+    is_called: bool,
 }
 
 impl<'a> Test<'a> {
@@ -187,14 +187,14 @@ impl<'a> Test<'a> {
         Self {
             found,
             loaded: loaded.and_then(|loaded| loaded.map_err(|error| format!("{error:#}"))),
-            is_part: false,
+            is_called: false,
         }
     }
 
     /// Returns the recipe if it can and should be run.
     fn to_run(&self) -> Option<&Loaded> {
         let loaded = self.loaded.as_ref().ok()?;
-        let runs = !loaded.has_errors() && !self.is_part && expects(loaded);
+        let runs = !loaded.has_errors() && !self.is_called && expects(loaded);
         runs.then_some(loaded)
     }
 
@@ -209,8 +209,8 @@ impl<'a> Test<'a> {
             Err(message) => return TestResult::failed(&[], Some(message.clone())),
         };
         // A recipe that others call may need their objects, so errors of checking it alone are ignored.
-        if loaded.is_read && (self.is_part || !expects(loaded)) {
-            let state = if self.is_part {
+        if loaded.is_read && (self.is_called || !expects(loaded)) {
+            let state = if self.is_called {
                 State::Called
             } else {
                 State::NoExpectations

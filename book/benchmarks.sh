@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Measures everything in crates/benches with one thread and with two, and writes book/src/benchmark_tables.md.
-# Takes about half an hour on a machine that has nothing else to do.
+# Runs all benchmarks in crates/benches with one and two threads, and writes book/src/benchmark_tables.md.
+# Takes about half an hour on an idle machine.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 RAYON_NUM_THREADS=1 cargo bench -p meshwright-benches -- --save-baseline one
@@ -13,7 +13,7 @@ Written by \`book/benchmarks.sh\` on $(date -u +%F), commit $(git describe --alw
 Machine: $(lscpu | sed -n 's/^Model name: *//p') ($(uname -m)), $(nproc) processors, $(free -g | awk '/^Mem/ { print $2 }') GB of memory.
 
 Times are medians. *Scaling* is the time of one thread divided by the time of two. *Relative to bytes alone* is the time of one
-thread divided by the time that one thread needs to copy, read or write the same bytes. Not every peer uses two threads.
+thread divided by the time that one thread needs to copy, read or write the same bytes. Not all of the other crates use two threads.
 HEAD
     cargo run --release -p meshwright-benches
 } > target/benchmark_tables.md

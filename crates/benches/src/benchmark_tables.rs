@@ -1,5 +1,5 @@
-//! Prints the tables of the book's chapter of benchmarks from the results of criterion in `target/criterion`:
-//! `book/benchmarks.sh` runs the benchmarks with one thread and with two, and then this program.
+//! Prints the tables of the book's page "Measured tables" from the results of criterion in `target/criterion`.
+//! `book/benchmarks.sh` runs the benchmarks with one and two threads, and then this program.
 
 #![expect(clippy::print_stdout, reason = "the tables are its output")]
 
@@ -8,7 +8,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-/// A benchmark: its name, its seconds with one thread and with two, and what one run of it processes.
+/// A benchmark: its name, its seconds with one and two threads, and the amount of data that one run processes.
 struct Row {
     name: String,
     seconds: [Option<f64>; 2],
@@ -74,8 +74,8 @@ fn main() -> std::io::Result<()> {
     Ok(())
 }
 
-/// The seconds of one thread that the bytes alone take: the row of the group whose name contains `bytes alone` and
-/// begins with the same word or with `bytes`. `None` for that row itself.
+/// Returns the seconds that one thread needs for only the bytes: those of the row of the group whose name contains `bytes
+/// alone` and begins with the same word or with `bytes`. `None` for that row itself.
 fn reference(row: &Row, rows: &[Row]) -> Option<f64> {
     let is_bytes = |row: &Row| row.name.contains("bytes alone");
     let word = row.name.split([' ', ',']).next()?;
@@ -85,7 +85,7 @@ fn reference(row: &Row, rows: &[Row]) -> Option<f64> {
     rows.iter().find(bytes).filter(|_| !is_bytes(row))?.seconds[0]
 }
 
-/// The folders in a folder, by name.
+/// Returns the folders in a folder, sorted by name.
 fn folders(path: &Path) -> std::io::Result<Vec<std::path::PathBuf>> {
     let mut paths = Vec::new();
     for entry in std::fs::read_dir(path)? {
@@ -102,13 +102,13 @@ fn json(path: &Path) -> Option<Value> {
     serde_json::from_str(&std::fs::read_to_string(path).ok()?).ok()
 }
 
-/// The median of one run, in seconds.
+/// Returns the median time of a run, in seconds.
 fn median(folder: &Path) -> Option<f64> {
     let nanoseconds = json(&folder.join("estimates.json"))?["median"]["point_estimate"].as_f64()?;
     Some(nanoseconds / 1e9)
 }
 
-/// Milliseconds with three significant digits.
+/// Formats a time in milliseconds, with three significant digits.
 fn milliseconds(seconds: f64) -> String {
     let ms = seconds * 1e3;
     let decimals = if ms < 10.0 {
@@ -119,7 +119,7 @@ fn milliseconds(seconds: f64) -> String {
     format!("{ms:.decimals$} ms")
 }
 
-/// Elements or bytes per second.
+/// Formats the elements or bytes per second.
 fn rate(throughput: &Value, seconds: f64) -> String {
     let per_second = |key: &str| Some(throughput[key].as_f64()? / seconds / 1e6);
     match (per_second("Elements"), per_second("Bytes")) {

@@ -44,8 +44,8 @@ fn selections_are_described_separately() {
         "EdgeSelection: ",
         "EdgeLoop(..)",
         // A description of several lines is complete.
-        "along the\n",
-        "boundary from an edge of it.",
+        "A loop goes\n",
+        "From a boundary edge it goes along the boundary.",
         "VertexSelection: ",
     ]);
     let operation = folder.run("ops SplitEdges").stdout;

@@ -1,8 +1,8 @@
 //! Backtraces of panics, printed by the program.
 //!
-//! With `RUST_BACKTRACE=1` the standard library prints a backtrace also where memory runs out. It takes a lock for that
-//! and needs memory, so that a second failure waits for this lock forever. The variable can only be changed
-//! for another process, so the program starts itself again without it, and prints the backtraces of panics in a hook.
+//! With `RUST_BACKTRACE=1` the standard library also prints a backtrace if memory runs out. Printing takes a lock and
+//! needs memory, so a second failed allocation would wait for this lock forever. The variable can only be changed for a
+//! new process, so the program starts itself again with `RUST_BACKTRACE=0`, and prints backtraces of panics in a hook.
 
 /// Makes panics print backtraces if `RUST_BACKTRACE` asks for them.
 #[cfg(not(unix))]
@@ -16,10 +16,10 @@ pub(crate) fn print_by_hook() {
     use std::os::unix::process::CommandExt;
     use std::process::Command;
 
-    /// Set for the second start.
-    const BY_HOOK: &str = "MESHWRIGHT_BACKTRACE";
+    /// The environment variable that marks the restarted process.
+    const RESTARTED: &str = "MESHWRIGHT_BACKTRACE";
 
-    if env::var_os(BY_HOOK).is_some() {
+    if env::var_os(RESTARTED).is_some() {
         let print_message = std::panic::take_hook();
         std::panic::set_hook(Box::new(move |panic| {
             print_message(panic);
@@ -29,15 +29,15 @@ pub(crate) fn print_by_hook() {
         && let Ok(program) = env::current_exe()
     {
         let mut arguments = env::args_os();
-        let mut again = Command::new(program);
+        let mut restart = Command::new(program);
         if let Some(name) = arguments.next() {
-            again.arg0(name);
+            restart.arg0(name);
         }
-        // Returns only if the program cannot be started; then it goes on as it is.
-        let _ = again
+        // Returns only if the restart fails; then this process continues.
+        let _ = restart
             .args(arguments)
             .env("RUST_BACKTRACE", "0")
-            .env(BY_HOOK, "1")
+            .env(RESTARTED, "1")
             .exec();
     }
 }

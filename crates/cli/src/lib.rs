@@ -83,7 +83,7 @@ pub fn run(registry: Registry) -> ExitCode {
         Command::NewOp(args) => commands::new_op::run(&args),
     };
     let result = catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|payload| {
-        // Arrays for which there is no memory are an error, panics are not.
+        // An array that does not fit into memory is an error, not a bug.
         match payload.downcast::<mesh::OutOfMemory>() {
             Ok(missing) => Err(anyhow::Error::new(*missing)),
             Err(payload) => resume_unwind(payload),

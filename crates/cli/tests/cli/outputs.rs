@@ -188,7 +188,7 @@ fn paths_that_lead_out_and_files_that_no_step_writes_are_refused() {
         ),
         (
             "path: \"sheet.obj\", as: \"g.obj\", tolerance: 3",
-            "a tolerance is for pictures",
+            "pictures",
         ),
         (
             "path: \"a/sheet.png\", as: \"g.png\", tolerance: 256",

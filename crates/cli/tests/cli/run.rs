@@ -260,8 +260,8 @@ fn a_check_forecasts_and_writes_nothing() {
 }
 
 #[test]
-fn a_check_and_a_run_agree_on_what_is_wrong() {
-    let folder = Folder::with_recipe("(recipe: 1, steps: [Cube(size: 1)])");
+fn a_check_and_a_run_report_the_same_errors() {
+    let folder = Folder::with_recipe("(recipe: 1, steps: [Cube(sise: 1)])");
     let check = folder.run("check recipe.ron").with_code(1);
     let run = folder.run("run recipe.ron").with_code(1);
     assert_eq!(check.stderr, run.stderr);

@@ -223,7 +223,7 @@ const BROKEN: &[(&str, &str, &str)] = &[
         "rows: 2, layers: 1",
         "an unknown field of an operation",
     ),
-    ("rows: 2, ", "", "a missing field"),
+    ("path: \"sheet.obj\"", "", "a missing field"),
     ("rows: 2", "rows: 0", "a number below its range"),
     ("rows: 2", "rows: -2", "a negative count"),
     ("rows: 2", "rows: 2.5", "a fraction instead of a count"),

@@ -28,6 +28,9 @@ pub trait MeshOperation:
     const EXAMPLE: &'static str;
     /// Earlier names of the operation, which recipes may still use.
     const ALIASES: &'static [&'static str] = &[];
+    /// What people who know other programs may call the operation, in lower case. Errors about an unknown operation
+    /// suggest the operation for these words.
+    const WORDS: &'static [&'static str] = &[];
 
     /// Changes `plan` as [`apply`](Self::apply) will change the mesh, and returns the problems.
     /// Runs before any geometry exists and must be fast.
@@ -57,6 +60,9 @@ pub trait Operation:
     const EXAMPLE: &'static str;
     /// Earlier names of the operation, which recipes may still use.
     const ALIASES: &'static [&'static str] = &[];
+    /// What people who know other programs may call the operation, in lower case. Errors about an unknown operation
+    /// suggest the operation for these words.
+    const WORDS: &'static [&'static str] = &[];
     /// Whether a step may choose objects with `on:`.
     const TAKES_ON: bool = false;
     /// Whether the operation leaves the scene unchanged when it fails. If not, the runner keeps the meshes
@@ -80,6 +86,7 @@ impl<T: MeshOperation> Operation for T {
     const SUMMARY: &'static str = <T as MeshOperation>::SUMMARY;
     const EXAMPLE: &'static str = <T as MeshOperation>::EXAMPLE;
     const ALIASES: &'static [&'static str] = <T as MeshOperation>::ALIASES;
+    const WORDS: &'static [&'static str] = <T as MeshOperation>::WORDS;
     const TAKES_ON: bool = true;
     const ATOMIC: bool = true;
 

@@ -36,6 +36,8 @@ pub struct Entry {
     pub example: &'static str,
     /// Earlier names of the operation, which recipes may still use.
     pub aliases: &'static [&'static str],
+    /// Other words for the operation, in lower case.
+    pub words: &'static [&'static str],
     /// Whether a step may choose objects with `on:`.
     pub takes_on: bool,
     schema: fn() -> Schema,
@@ -60,6 +62,7 @@ impl Entry {
             summary: T::SUMMARY,
             example: T::EXAMPLE,
             aliases: T::ALIASES,
+            words: T::WORDS,
             takes_on: T::TAKES_ON,
             schema: || schemars::schema_for!(T),
             schema_in: SchemaGenerator::subschema_for::<T>,

@@ -58,6 +58,8 @@ pub use sweep::{
     Axis, Grid, MAX_CELLS, Measured, Metric, SWEEP_VERSION, Setting, Sweep, SweepReading,
     read_sweep,
 };
+pub use unknown_operation::suggest_operations;
 
 #[cfg(test)]
 mod tests;
+mod unknown_operation;

@@ -28,6 +28,7 @@ impl MeshOperation for Reverse {
     const NAME: &'static str = "Reverse";
     const SUMMARY: &'static str = "Reverse the orientation of faces";
     const EXAMPLE: &'static str = "Reverse()";
+    const WORDS: &'static [&'static str] = &["invert", "orientation", "winding"];
 
     fn plan(&self, _: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         Vec::new() // counts, degrees and attributes stay as they are

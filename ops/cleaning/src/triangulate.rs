@@ -48,6 +48,7 @@ impl MeshOperation for Triangulate {
     const NAME: &'static str = "Triangulate";
     const SUMMARY: &'static str = "Cut polygons into triangles";
     const EXAMPLE: &'static str = "Triangulate()";
+    const WORDS: &'static [&'static str] = &["triangles", "ears"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let cut = self.faces.count(plan);

@@ -81,6 +81,7 @@ impl Operation for Tessellate {
     const NAME: &'static str = "Tessellate";
     const SUMMARY: &'static str = "Turn Bezier patches into a mesh";
     const EXAMPLE: &'static str = "Tessellate(segments: 3)";
+    const WORDS: &'static [&'static str] = &["patches", "mesh"];
     const TAKES_ON: bool = true;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {

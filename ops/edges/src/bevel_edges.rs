@@ -43,6 +43,7 @@ impl MeshOperation for BevelEdges {
     const NAME: &'static str = "BevelEdges";
     const SUMMARY: &'static str = "Replace edges with faces";
     const EXAMPLE: &'static str = "BevelEdges(edges: Between(0, 2), fraction: 0.25)";
+    const WORDS: &'static [&'static str] = &["chamfer"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let done = self.on_refusal.done(self.edges.count(plan));

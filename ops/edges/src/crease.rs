@@ -39,6 +39,7 @@ impl MeshOperation for Crease {
     const NAME: &'static str = "Crease";
     const SUMMARY: &'static str = "Make edges and vertices sharp for subdivision";
     const EXAMPLE: &'static str = "Crease(edges: Sharp(above: 40), sharpness: 2.5)";
+    const WORDS: &'static [&'static str] = &["sharpness", "sharp", "hard"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();

@@ -34,6 +34,7 @@ impl MeshOperation for DissolveEdges {
     const NAME: &'static str = "DissolveEdges";
     const SUMMARY: &'static str = "Remove edges and merge the faces beside them";
     const EXAMPLE: &'static str = "DissolveEdges(edges: Between(0, 1))";
+    const WORDS: &'static [&'static str] = &["remove", "delete"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let chosen = self.edges.count(plan);

@@ -77,6 +77,7 @@ impl MeshOperation for FlipEdges {
     const NAME: &'static str = "FlipEdges";
     const SUMMARY: &'static str = "Flip edges to the other diagonal of their two triangles";
     const EXAMPLE: &'static str = "FlipEdges(edges: All)";
+    const WORDS: &'static [&'static str] = &["swap", "delaunay", "rotate"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();

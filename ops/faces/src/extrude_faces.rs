@@ -93,6 +93,7 @@ impl MeshOperation for ExtrudeFaces {
     const NAME: &'static str = "ExtrudeFaces";
     const SUMMARY: &'static str = "Move faces out of the surface and add side faces";
     const EXAMPLE: &'static str = "ExtrudeFaces(faces: Faces([0]), by: Distance(0.5))";
+    const WORDS: &'static [&'static str] = &["offset", "thicken"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         // The rims have at most as many edges as the faces have sides, and contain each edge at most once.

@@ -41,6 +41,7 @@ impl MeshOperation for InsetFaces {
     const NAME: &'static str = "InsetFaces";
     const SUMMARY: &'static str = "Shrink faces, each with a ring of faces around it";
     const EXAMPLE: &'static str = "InsetFaces(faces: All, fraction: 0.25)";
+    const WORDS: &'static [&'static str] = &["shrink"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         crate::plan_rings(plan, self.on_refusal.done(self.faces.count(plan)));

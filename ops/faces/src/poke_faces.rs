@@ -43,6 +43,7 @@ impl MeshOperation for PokeFaces {
     const SUMMARY: &'static str =
         "Insert a vertex at the center of faces and join it to their corners";
     const EXAMPLE: &'static str = "PokeFaces()";
+    const WORDS: &'static [&'static str] = &["fan", "center"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let n = self.on_refusal.done(self.faces.count(plan));

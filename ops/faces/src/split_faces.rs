@@ -34,6 +34,7 @@ impl MeshOperation for SplitFaces {
     const NAME: &'static str = "SplitFaces";
     const SUMMARY: &'static str = "Cut faces in two with edges between their corners";
     const EXAMPLE: &'static str = "SplitFaces(between: [])";
+    const WORDS: &'static [&'static str] = &["knife", "connect"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let problem = self.problem(plan);

@@ -63,6 +63,7 @@ impl Operation for Load {
     const NAME: &'static str = "Load";
     const SUMMARY: &'static str = "Read the objects of a file";
     const EXAMPLE: &'static str = r#"Load(path: "teapot.bez")"#;
+    const WORDS: &'static [&'static str] = &["import", "open", "read"];
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
         let path = cx.files.to_read(&self.path);

@@ -21,6 +21,7 @@ impl Operation for Save {
     const NAME: &'static str = "Save";
     const SUMMARY: &'static str = "Write objects to a file";
     const EXAMPLE: &'static str = r#"Save(path: "a.obj")"#;
+    const WORDS: &'static [&'static str] = &["export", "write"];
     const TAKES_ON: bool = true;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {

@@ -40,6 +40,7 @@ impl MeshOperation for BridgeLoops {
     const NAME: &'static str = "BridgeLoops";
     const SUMMARY: &'static str = "Join two holes with a band of faces";
     const EXAMPLE: &'static str = "BridgeLoops(first: 0, second: 5)";
+    const WORDS: &'static [&'static str] = &["loft"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();

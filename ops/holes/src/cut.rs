@@ -34,6 +34,7 @@ impl MeshOperation for Cut {
     const NAME: &'static str = "Cut";
     const SUMMARY: &'static str = "Open the mesh along edges";
     const EXAMPLE: &'static str = "Cut(edges: All)";
+    const WORDS: &'static [&'static str] = &["rip", "open"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let n = self.edges.count(plan);

@@ -44,6 +44,7 @@ impl MeshOperation for Stitch {
     const NAME: &'static str = "Stitch";
     const SUMMARY: &'static str = "Join boundary edges that coincide";
     const EXAMPLE: &'static str = "Stitch(distance: 0)";
+    const WORDS: &'static [&'static str] = &["sew", "zip", "close"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         plan.vertices.min = plan.vertices.min.min(1);

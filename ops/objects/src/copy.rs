@@ -24,6 +24,7 @@ impl Operation for Copy {
     const NAME: &'static str = "Copy";
     const SUMMARY: &'static str = "Copy an object under a new name";
     const EXAMPLE: &'static str = r#"Copy(from: "mesh", to: "new")"#;
+    const WORDS: &'static [&'static str] = &["duplicate", "clone"];
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         let Some(object) = plan.object(&self.from) else {

@@ -21,6 +21,7 @@ impl Operation for Delete {
     const NAME: &'static str = "Delete";
     const SUMMARY: &'static str = "Delete objects";
     const EXAMPLE: &'static str = r#"Delete(objects: ["mesh"])"#;
+    const WORDS: &'static [&'static str] = &["remove"];
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();

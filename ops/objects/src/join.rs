@@ -46,6 +46,7 @@ impl Operation for Join {
     const NAME: &'static str = "Join";
     const SUMMARY: &'static str = "Join meshes into one object";
     const EXAMPLE: &'static str = r#"Join(objects: ["mesh", "other"], name: "joined")"#;
+    const WORDS: &'static [&'static str] = &["merge", "combine", "append"];
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         let mut problems = self.problems();

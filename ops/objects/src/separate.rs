@@ -53,6 +53,7 @@ impl Operation for Separate {
     const NAME: &'static str = "Separate";
     const SUMMARY: &'static str = "Split a mesh into several objects";
     const EXAMPLE: &'static str = r#"Separate(object: "mesh")"#;
+    const WORDS: &'static [&'static str] = &["split", "components", "parts"];
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         let Some(place) = plan.objects().iter().position(|o| o.name == self.object) else {

@@ -177,6 +177,7 @@ impl Operation for Transform {
     const NAME: &'static str = "Transform";
     const SUMMARY: &'static str = "Scale, rotate, move and mirror objects";
     const EXAMPLE: &'static str = "Transform()";
+    const WORDS: &'static [&'static str] = &["move", "translate", "scale", "rotate", "mirror"];
     const TAKES_ON: bool = true;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {

@@ -361,6 +361,7 @@ impl Operation for Picture {
     const NAME: &'static str = "Picture";
     const SUMMARY: &'static str = "Draw the scene into an image file";
     const EXAMPLE: &'static str = r#"Picture(path: "a.png", size: (64, 48), highlight: Edges(Sharp(above: 30)), style: (wireframe: ()))"#;
+    const WORDS: &'static [&'static str] = &["render", "draw", "screenshot", "image"];
     const TAKES_ON: bool = true;
     const ATOMIC: bool = true;
 

@@ -59,6 +59,7 @@ impl Operation for Cube {
     const NAME: &'static str = "Cube";
     const SUMMARY: &'static str = "Create a cube";
     const EXAMPLE: &'static str = r#"Cube(name: "new", size: 3, center: (1, 2, 3))"#;
+    const WORDS: &'static [&'static str] = &["box", "cuboid"];
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         self.source().plan(plan)

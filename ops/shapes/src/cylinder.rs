@@ -63,6 +63,7 @@ impl Operation for Cylinder {
     const SUMMARY: &'static str = "Create a cylinder";
     const EXAMPLE: &'static str =
         r#"Cylinder(name: "new", around: 6, radius: 1, height: 2, caps: true)"#;
+    const WORDS: &'static [&'static str] = &["tube", "prism"];
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         self.source().plan(plan)

@@ -56,6 +56,7 @@ impl Operation for Grid {
     const NAME: &'static str = "Grid";
     const SUMMARY: &'static str = "Create a flat sheet of squares";
     const EXAMPLE: &'static str = r#"Grid(name: "new", columns: 3, rows: 2)"#;
+    const WORDS: &'static [&'static str] = &["plane", "quad", "sheet"];
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         self.source().plan(plan)

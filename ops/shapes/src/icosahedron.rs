@@ -42,6 +42,7 @@ impl Operation for Icosahedron {
     const NAME: &'static str = "Icosahedron";
     const SUMMARY: &'static str = "Create a regular icosahedron";
     const EXAMPLE: &'static str = r#"Icosahedron(name: "new")"#;
+    const WORDS: &'static [&'static str] = &["icosphere", "ball"];
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         self.source().plan(plan)

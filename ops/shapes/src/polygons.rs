@@ -88,6 +88,7 @@ impl Operation for Polygons {
     const SUMMARY: &'static str = "Create a mesh from points and faces";
     const EXAMPLE: &'static str =
         r#"Polygons(name: "new", points: [(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces: [[0, 1, 2]])"#;
+    const WORDS: &'static [&'static str] = &["mesh", "polygon"];
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         let (mut source, _, changes) = self.source();

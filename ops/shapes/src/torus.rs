@@ -76,6 +76,7 @@ impl Operation for Torus {
     const SUMMARY: &'static str = "Create a torus";
     const EXAMPLE: &'static str =
         r#"Torus(name: "new", around: 7, across: 5, major: 2, minor: 0.5)"#;
+    const WORDS: &'static [&'static str] = &["donut", "ring"];
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         self.source().plan(plan)

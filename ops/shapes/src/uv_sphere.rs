@@ -63,6 +63,7 @@ impl Operation for UvSphere {
     const NAME: &'static str = "UvSphere";
     const SUMMARY: &'static str = "Create a sphere of meridians and rings";
     const EXAMPLE: &'static str = r#"UvSphere(name: "new", around: 8, rings: 4, radius: 2)"#;
+    const WORDS: &'static [&'static str] = &["sphere", "ball"];
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         self.source().plan(plan)

@@ -56,6 +56,7 @@ impl MeshOperation for Bisect {
     const NAME: &'static str = "Bisect";
     const SUMMARY: &'static str = "Cut meshes along a plane";
     const EXAMPLE: &'static str = "Bisect(normal: (0, 0, 1))";
+    const WORDS: &'static [&'static str] = &["slice", "clip", "plane"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         // The plane crosses at most all sides of a face, and cuts the face along half as many lines.

@@ -98,6 +98,7 @@ impl MeshOperation for CatmullClark {
     const NAME: &'static str = "CatmullClark";
     const SUMMARY: &'static str = "Split every face into quads and smooth";
     const EXAMPLE: &'static str = "CatmullClark(levels: 0)";
+    const WORDS: &'static [&'static str] = &["smooth", "subdivide", "subdivision", "catmull"];
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
         self.step().plan(Self::NAME, plan, cx)

@@ -100,6 +100,7 @@ impl MeshOperation for LoopSubdivide {
     const VERSION: u32 = 2;
     const SUMMARY: &'static str = "Split every triangle into four and smooth";
     const EXAMPLE: &'static str = "LoopSubdivide(levels: 0)";
+    const WORDS: &'static [&'static str] = &["smooth", "subdivide", "subdivision", "loop"];
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
         self.step().plan(Self::NAME, plan, cx)

@@ -22,6 +22,7 @@ impl MeshOperation for TagEdges {
     const NAME: &'static str = "TagEdges";
     const SUMMARY: &'static str = "Tag edges";
     const EXAMPLE: &'static str = r#"TagEdges(name: "marked", edges: EdgeLoop(Longest(count: 2)))"#;
+    const WORDS: &'static [&'static str] = &["select", "group", "mark"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         plan.provide(Domain::Edge, self.name.as_str());

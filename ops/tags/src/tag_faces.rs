@@ -23,6 +23,7 @@ impl MeshOperation for TagFaces {
     const SUMMARY: &'static str = "Tag faces";
     const EXAMPLE: &'static str =
         r#"TagFaces(name: "some", faces: Facing(direction: (0, 0, 1), within: 45))"#;
+    const WORDS: &'static [&'static str] = &["select", "group", "mark"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         plan.provide(Domain::Face, self.name.as_str());

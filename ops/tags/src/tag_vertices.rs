@@ -22,6 +22,7 @@ impl MeshOperation for TagVertices {
     const NAME: &'static str = "TagVertices";
     const SUMMARY: &'static str = "Tag vertices";
     const EXAMPLE: &'static str = r#"TagVertices(name: "some", vertices: Boundary)"#;
+    const WORDS: &'static [&'static str] = &["select", "group", "mark"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         plan.provide(Domain::Vertex, self.name.as_str());

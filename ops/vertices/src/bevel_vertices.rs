@@ -42,6 +42,7 @@ impl MeshOperation for BevelVertices {
     const NAME: &'static str = "BevelVertices";
     const SUMMARY: &'static str = "Replace vertices with faces";
     const EXAMPLE: &'static str = "BevelVertices(vertices: All, fraction: 0.25)";
+    const WORDS: &'static [&'static str] = &["chamfer"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let done = self.on_refusal.done(self.vertices.count(plan));

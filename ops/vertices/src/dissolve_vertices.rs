@@ -38,6 +38,7 @@ impl MeshOperation for DissolveVertices {
     const NAME: &'static str = "DissolveVertices";
     const SUMMARY: &'static str = "Remove vertices and merge the faces around them";
     const EXAMPLE: &'static str = "DissolveVertices(vertices: Vertices([1]))";
+    const WORDS: &'static [&'static str] = &["remove", "delete"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         plan.drop_normals();

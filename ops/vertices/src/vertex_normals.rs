@@ -55,6 +55,7 @@ impl MeshOperation for VertexNormals {
     const NAME: &'static str = "VertexNormals";
     const SUMMARY: &'static str = "Compute a unit normal for every vertex from the faces around it";
     const EXAMPLE: &'static str = "VertexNormals()";
+    const WORDS: &'static [&'static str] = &["normals", "shade", "smooth"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         plan.drop_attribute(Domain::Corner, CORNER_NORMAL.name);

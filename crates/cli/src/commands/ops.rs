@@ -2,7 +2,9 @@
 //! parsed into.
 
 use op::{Entry, Registry};
-use recipe::{FieldDoc, TypeDoc, VariantDoc, did_you_mean, fields, step_kinds, types};
+use recipe::{
+    FieldDoc, TypeDoc, VariantDoc, did_you_mean, fields, step_kinds, suggest_operations, types,
+};
 use serde_json::Value as Json;
 
 use super::reference::reference;
@@ -73,9 +75,8 @@ fn operation(name: &str, registry: &Registry) -> anyhow::Result<String> {
         return Ok(format!("{name}: {}", described(&schema)));
     }
     let Some(entry) = registry.get(name) else {
-        let known = registry.entries().iter().map(|e| e.name);
-        let known = known.chain(step_kinds().into_iter().map(|(name, _)| name));
-        anyhow::bail!("unknown operation `{name}`: {}", did_you_mean(name, known));
+        let help = suggest_operations(name, registry);
+        anyhow::bail!("unknown operation `{name}`: {help}");
     };
     Ok(detail(entry))
 }

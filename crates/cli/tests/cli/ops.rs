@@ -98,6 +98,24 @@ fn an_unknown_operation_gets_a_suggestion() {
         ended.stderr,
         "error: unknown operation `SplitEdge`: did you mean `SplitEdges`?\n"
     );
+    for (word, help) in [
+        ("decimate", "did you mean `CollapseEdges`?"),
+        (
+            "merge_vertices",
+            "did you mean `Join`, `Weld` or `CollapseEdges`?",
+        ),
+        ("Sphere", "did you mean `UvSphere`?"),
+        ("xyzzy", "`meshwright ops` lists all operations"),
+    ] {
+        let error = Folder::new()
+            .run(&format!("ops {word}"))
+            .with_code(1)
+            .stderr;
+        assert_eq!(
+            error,
+            format!("error: unknown operation `{word}`: {help}\n")
+        );
+    }
 }
 
 #[test]

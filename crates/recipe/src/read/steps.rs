@@ -6,9 +6,10 @@ use op::{Entry, Refusal, Step};
 use serde::Deserialize;
 
 use super::{Draft, Reader, flow};
-use crate::recipe::{Kind, MAX_STEPS, OnLoss, RecipeStep};
+use crate::recipe::{MAX_STEPS, OnLoss, RecipeStep};
 use crate::schema;
-use crate::shape::{Rename, check_shape, check_step, did_you_mean, unread};
+use crate::shape::{Rename, check_shape, check_step, unread};
+use crate::unknown_operation::suggest_operations;
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
 impl Reader<'_, '_> {
@@ -60,9 +61,7 @@ impl Reader<'_, '_> {
         let step = if let Some(entry) = &entry {
             self.operation(entry, run)
         } else {
-            let registry = self.shared.schemas.registry;
-            let known = registry.entries().iter().map(|e| e.name);
-            let help = did_you_mean(name, known.chain(Kind::ALL.map(Kind::name)));
+            let help = suggest_operations(name, self.shared.schemas.registry);
             self.error(span, format!("unknown operation `{name}`"), help);
             None
         };

@@ -379,7 +379,7 @@ pub(crate) fn counted(count: usize, thing: &str) -> String {
 }
 
 /// Returns a list of names in backticks, separated by commas.
-fn listed<'n>(names: impl IntoIterator<Item = &'n str>) -> String {
+pub(crate) fn listed<'n>(names: impl IntoIterator<Item = &'n str>) -> String {
     let quoted: Vec<String> = names.into_iter().map(|name| format!("`{name}`")).collect();
     quoted.join(", ")
 }

@@ -1,0 +1,59 @@
+//! Suggestions for the name of an unknown operation.
+
+use op::Registry;
+
+use crate::recipe::Kind;
+use crate::shape::{listed, nearest};
+
+/// Returns the help text of an error about an unknown operation: at most three operations with a similar name, or else
+/// with a similar meaning, or else the command that lists all.
+pub fn suggest_operations(name: &str, registry: &Registry) -> String {
+    let entries = registry.entries();
+    let known = entries.iter().map(|entry| entry.name);
+    let mut suggestions = nearest(name, known.chain(Kind::ALL.map(Kind::name)));
+    if suggestions.is_empty() {
+        let words = words(name);
+        let also_called =
+            (entries.iter()).filter(|e| words.iter().any(|w| e.words.contains(&w.as_str())));
+        let similar_name =
+            (entries.iter()).filter(|e| self::words(e.name).iter().any(|w| words.contains(w)));
+        for entry in also_called.chain(similar_name) {
+            if !suggestions.contains(&entry.name) {
+                suggestions.push(entry.name);
+            }
+        }
+    }
+    suggestions.truncate(3);
+    if suggestions.is_empty() {
+        "`meshwright ops` lists all operations".to_owned()
+    } else {
+        format!("did you mean {}?", listed(suggestions))
+    }
+}
+
+/// Returns the words of a name such as `FlipEdges`, `flip_edges` or `flip-edges`, in lower case.
+fn words(name: &str) -> Vec<String> {
+    let mut words = vec![String::new()];
+    for c in name.chars().take(64) {
+        if c.is_uppercase() || !c.is_alphanumeric() {
+            words.push(String::new());
+        }
+        if let Some(word) = words.last_mut().filter(|_| c.is_alphanumeric()) {
+            word.extend(c.to_lowercase());
+        }
+    }
+    words.retain(|word| !word.is_empty());
+    words
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_split_into_words() {
+        assert_eq!(words("FlipEdges"), ["flip", "edges"]);
+        assert_eq!(words("flip_edges-now"), ["flip", "edges", "now"]);
+        assert!(words("_").is_empty());
+    }
+}

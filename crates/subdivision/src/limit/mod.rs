@@ -6,8 +6,8 @@
 //! Kass and DeRose, "Efficient, Fair Interpolation using Catmull-Clark Surfaces", 1993; Hoppe et al.,
 //! "Piecewise Smooth Surface Reconstruction", 1994; Biermann, Levin and Zorin, "Piecewise Smooth Subdivision
 //! Surfaces with Normal Control", 2000). If an element is semi-sharp, the one-ring is refined until the
-//! sharpness of that element reaches 0. A dart, the end of a single sharp edge, has no closed form: its one-ring is refined
-//! until it converges.
+//! sharpness of that element reaches 0. A dart, the end of a single sharp edge, has no closed form: its one-ring is
+//! refined until it converges.
 
 mod masks;
 mod star;

@@ -1,8 +1,9 @@
 //! Backtraces of panics, printed by the program.
 //!
-//! With `RUST_BACKTRACE=1` the standard library prints a backtrace also where memory runs out. It takes a lock for that
-//! and needs memory, so that a second failure waits for this lock forever. The variable can only be changed
-//! for another process, so the program starts itself again without it, and prints the backtraces of panics in a hook.
+//! With `RUST_BACKTRACE=1`, the standard library also prints a backtrace if an allocation fails. To do this, it takes a
+//! lock and allocates memory. If this second allocation fails too, the program waits for the lock forever. A program
+//! can safely change the variable only for another process. This program therefore starts itself again with backtraces
+//! of the standard library switched off, and prints the backtraces of panics in a hook.
 
 /// Makes panics print backtraces if `RUST_BACKTRACE` asks for them.
 #[cfg(not(unix))]
@@ -16,7 +17,7 @@ pub(crate) fn print_by_hook() {
     use std::os::unix::process::CommandExt;
     use std::process::Command;
 
-    /// Set for the second start.
+    /// The variable that is set for the second start.
     const BY_HOOK: &str = "MESHWRIGHT_BACKTRACE";
 
     if env::var_os(BY_HOOK).is_some() {
@@ -33,7 +34,7 @@ pub(crate) fn print_by_hook() {
         if let Some(name) = arguments.next() {
             again.arg0(name);
         }
-        // Returns only if the program cannot be started; then it goes on as it is.
+        // `exec` returns only if the program cannot be started. In this case, the current process continues.
         let _ = again
             .args(arguments)
             .env("RUST_BACKTRACE", "0")

@@ -68,7 +68,7 @@ pub fn run(registry: Registry) -> ExitCode {
         Command::Picture(args) => commands::picture::run(&args, &engine),
         Command::Select(args) => commands::select::run(&args, &engine),
         Command::Diff(args) => {
-            // As in Unix `diff`: 1 means that the files differ, so errors need another code.
+            // As in Unix `diff`: the exit code 1 means that the files differ, so errors need another code.
             code_of_errors.set(2);
             commands::diff::run(&args, &engine)
         }
@@ -83,7 +83,7 @@ pub fn run(registry: Registry) -> ExitCode {
         Command::NewOp(args) => commands::new_op::run(&args),
     };
     let result = catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|payload| {
-        // Arrays for which there is no memory are an error, panics are not.
+        // A failed allocation of a large array is reported as an error. All other panics continue.
         match payload.downcast::<mesh::OutOfMemory>() {
             Ok(missing) => Err(anyhow::Error::new(*missing)),
             Err(payload) => resume_unwind(payload),

@@ -44,8 +44,8 @@ fn selections_are_described_separately() {
         "EdgeSelection: ",
         "EdgeLoop(..)",
         // A description of several lines is complete.
-        "along the\n",
-        "boundary from an edge of it.",
+        "that have four edges.\n",
+        "follows the boundary.",
         "VertexSelection: ",
     ]);
     let operation = folder.run("ops SplitEdges").stdout;

@@ -24,7 +24,8 @@ pub type Triangle = [u32; 3];
 
 /// Lengths, areas and turns whose relative difference is below this are treated as equal.
 const TOLERANCE: f64 = 1e-12;
-/// The most corners of a face for ear clipping, whose indices have 32 bits. Larger faces become fans.
+/// The largest number of corners for which a face is cut by ear clipping, which uses 32-bit indices. A face
+/// with more corners becomes a fan.
 const MAX_CORNERS: usize = 10_000_000;
 
 /// How a face is cut.
@@ -92,8 +93,8 @@ impl Cut {
 ///
 /// A quadrilateral is cut along its shorter diagonal. If both are equally long (relative difference of the
 /// squared lengths at most 1e-12), it is cut along the diagonal at its lowest vertex. A diagonal is avoided if
-/// one of its triangles has no area or is flipped, as seen along the face normal, unless the other diagonal has
-/// the same problem. So a quadrilateral with a reflex corner is cut at that corner.
+/// one of its triangles has no area or is flipped, as seen along the face normal. If both diagonals have this
+/// problem, neither is avoided. So a quadrilateral with a reflex corner is cut at that corner.
 ///
 /// A larger face is projected along its normal and cut by ear clipping (Held, "FIST: Fast Industrial-Strength
 /// Triangulation of Polygons", 2001, as implemented by the crate `earcut`). Then diagonals are flipped until it

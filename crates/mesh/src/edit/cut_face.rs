@@ -14,8 +14,8 @@ use crate::{EditError, FaceId, HalfEdgeId, Mesh};
 ///    0 --- 0 --- 1
 /// ```
 ///
-/// Each part starts with its lowest half-edge, and the parts are ordered by these. Returns `None` if diagonals
-/// cross, or if a part would have fewer than three sides.
+/// Each part starts with its lowest half-edge. The parts are ordered by their first half-edges. Returns `None`
+/// if diagonals cross, or if a part would have fewer than three sides.
 pub fn polygon_parts(n: usize, diagonals: &[[u32; 2]]) -> Option<Vec<Vec<usize>>> {
     // The diagonals at each corner, counter-clockwise from its side: the diagonal to the nearest corner ahead
     // is first. Each is (corner, distance to the other corner, half-edge).

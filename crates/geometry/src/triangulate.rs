@@ -276,8 +276,8 @@ fn insert_skipped_corners(n: usize, triangles: &mut Vec<Triangle>) {
         let place = used.partition_point(|&u| u <= i);
         used.get(place).copied().unwrap_or(first)
     };
-    // For each side of the polygon of used corners, the triangle at that side, indexed by the first corner of
-    // the side.
+    // Consider the polygon of the used corners. For each side of this polygon, the triangle at the side,
+    // indexed by the first corner of the side.
     let mut owner = vec![None; n];
     for (t, triangle) in triangles.iter().enumerate() {
         for k in 0..3 {
@@ -296,8 +296,8 @@ fn insert_skipped_corners(n: usize, triangles: &mut Vec<Triangle>) {
         let Some(&c) = triangles[t].iter().find(|&&c| c != a && c != b) else {
             continue;
         };
-        // The first part replaces the old triangle in the list and keeps the side from c. The last part has the
-        // side to c.
+        // The triangle is split into several triangles with corner c. The first one has the side from c to a,
+        // and replaces the old triangle in the list. The last one has the side from b to c.
         let mut from = a;
         let mut part = t;
         while from != b {

@@ -84,7 +84,7 @@ impl Distance {
     /// the meshes has no faces.
     pub fn between(a: &Mesh, b: &Mesh, tolerance: Option<f64>) -> Option<Self> {
         let found = Self::between_with(a, b, tolerance, &NoProgress);
-        found.expect("nobody cancels")
+        found.expect("never cancelled")
     }
 
     /// The same as [`between`](Self::between), but reports progress.
@@ -347,7 +347,7 @@ fn vertex_hits(from: &Mesh, to: &Surface, ask: &Ask) -> Result<Vec<Option<Hit>>,
 /// Returns the distance from each vertex of `from` to the surface of `to`, by vertex index. NaN for dead
 /// vertices. Returns `None` if `to` has no faces.
 pub fn vertex_distances(from: &Mesh, to: &Mesh) -> Option<Vec<f64>> {
-    let hits = vertex_hits(from, &Surface::new(to)?, &|| Ok(())).expect("nobody cancels");
+    let hits = vertex_hits(from, &Surface::new(to)?, &|| Ok(())).expect("never cancelled");
     let distance = |hit: Option<Hit>| hit.map_or(f64::NAN, |hit| hit.distance);
     Some(hits.into_iter().map(distance).collect())
 }

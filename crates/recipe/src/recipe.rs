@@ -140,16 +140,17 @@ pub struct RecipeStep {
     pub id: Option<String>,
     /// The current name of its operation. If the operation is unknown, the name as written.
     pub name: String,
-    /// The label, which is shown to users and seeds random choices: the id or else the operation. The names of the
-    /// calls around the step precede it, and the repetitions around the step follow it, as in `clean/Weld#2`.
+    /// The label, which is shown to users and seeds random choices. It is the id or, if the step has none, the name of
+    /// the operation. The names of the calls around the step are added before it, and the numbers of the repetitions
+    /// around the step after it, as in `clean/Weld#2`.
     pub label: String,
     /// The operation. `None` if the step could not be read.
     pub step: Option<Arc<dyn Step>>,
     /// The names of the objects in `on`, with their spans.
     pub on: Option<Vec<(String, Span)>>,
-    /// The reason for which the step must be refused.
+    /// The reason with which the step must be refused, if the recipe expects a refusal.
     pub refused: Option<Refusal>,
-    /// Which losses are allowed.
+    /// Which losses the step may cause.
     pub on_loss: OnLoss,
     /// The index of its scope in [`Recipe::scopes`].
     pub scope: usize,
@@ -248,8 +249,8 @@ impl Recipe {
         located(diagnostic, scope, &self.scopes)
     }
 
-    /// Returns the digest of what the recipe does: of its operations with all their parameters in canonical form.
-    /// Layout, comments and notes do not matter.
+    /// Returns the digest of the operations of the recipe with all their parameters in canonical form. Layout, comments
+    /// and notes do not change the digest.
     pub fn digest(&self) -> String {
         let mut hasher = blake3::Hasher::new();
         for step in &self.steps {
@@ -258,7 +259,8 @@ impl Recipe {
                 .as_ref()
                 .map(|s| s.canonical())
                 .unwrap_or_default();
-            // `None` for a label that is just the operation, so that such digests agree with those of older versions.
+            // If the label is only the name of the operation, the digest uses `None`, so that it is the same as in
+            // older versions.
             let id = (step.label != step.name).then_some(&step.label);
             let line = format!("{id:?} {:?} {} {canonical}\n", step.on_names(), step.name);
             hasher.update(line.as_bytes());

@@ -16,8 +16,8 @@ use crate::schema;
 use crate::shape;
 use ron_tree::{Diagnostic, Value, ValueKind};
 
-/// Reads a selection in the syntax of recipes. It selects elements of `kind` or, if `None`, of the only kind that has a
-/// selection like this.
+/// Reads a selection in the syntax of recipes. The selection is for elements of `kind`. If `kind` is `None`, it is for
+/// the only kind of elements that has such a selection.
 ///
 /// # Errors
 ///

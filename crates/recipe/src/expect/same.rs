@@ -68,8 +68,8 @@ impl<'m> PositionIndex<'m> {
     }
 }
 
-/// Whether the faces of `other`, with their vertices mapped by `map`, are those of `mesh`. If `reversed`, the winding
-/// of the mapped faces is reversed first.
+/// Whether the faces of `other`, with their vertices mapped by `map`, are the faces of `mesh`. If `reversed`, the
+/// winding of the mapped faces is reversed first.
 pub(crate) fn same_faces(mesh: &Mesh, other: &Mesh, map: &[VertexId], reversed: bool) -> bool {
     let canonical = |mut corners: Vec<VertexId>| {
         let lowest = corners

@@ -306,7 +306,7 @@ impl Sweep {
         })
     }
 
-    /// Every name is a parameter, and has values once.
+    /// Reports names that are not parameters of the recipe, and names that have values in several places.
     fn check_names(&self, parameters: &[Parameter], diagnostics: &mut Vec<Diagnostic>) {
         let mut seen: Vec<&Entry> = Vec::new();
         for entry in self.over.iter().chain(&self.zip).chain(&self.set) {

@@ -177,7 +177,8 @@ fn a_cube_has_24_rotations_and_48_motions() {
 
 #[test]
 fn a_tetrahedron_has_half_of_the_symmetries_of_a_cube() {
-    // The vertices of the tetrahedron are every second vertex of a cube: half of the cube's motions keep them.
+    // The vertices of the tetrahedron are every second vertex of a cube, so half of the motions of the cube map the
+    // tetrahedron onto itself.
     let tetrahedron = scene([("a", shapes::tetrahedron())]);
     holds_and_fails(
         &tetrahedron,

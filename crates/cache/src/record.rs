@@ -1,4 +1,5 @@
-//! The record of a step: its result without long arrays and output files, so that it can be read quickly.
+//! The record of a step: the result of the step without long arrays and output files. A record is short, so it can be
+//! read quickly.
 
 use std::path::PathBuf;
 

@@ -68,7 +68,7 @@ impl<B, S, W> Jobs<B, S, W> {
     /// Runs the jobs. `ended` is called on the calling thread with all jobs that ended since the last call, in the
     /// order in which they ended. Every job is passed to it exactly once.
     ///
-    /// Jobs start in their order. A job starts when its bytes and those of the running jobs together are within the
+    /// Jobs start in their order. A job starts when its bytes and the bytes of the running jobs together are within the
     /// budget. A job that exceeds the budget by itself runs alone. A panic ends only the job that panicked.
     ///
     /// Must not be called from a thread of a rayon pool, because it blocks.

@@ -20,9 +20,9 @@ pub const MAX_STEPS: usize = 100_000;
 pub struct Recipe {
     /// The description of the recipe.
     pub about: Option<String>,
-    /// The texts that spans refer to: that of the recipe itself first, then those of the recipes that it calls.
+    /// The texts that spans refer to: first the text of the recipe itself, then the texts of the recipes that it calls.
     pub sources: Vec<Source>,
-    /// The scopes of parameters: that of the recipe itself first, then one for each call.
+    /// The scopes of parameters: first the scope of the recipe itself, then one scope for each call.
     pub scopes: Vec<Scope>,
     /// The names of its presets.
     pub presets: Vec<String>,
@@ -244,7 +244,7 @@ impl Recipe {
         self.scopes.get(scope).map_or(0, |scope| scope.source)
     }
 
-    /// Sets the text of a diagnostic to that of a scope, and its calls to those that led to the scope.
+    /// Sets the text of a diagnostic to the text of a scope, and its calls to the calls that led to the scope.
     pub fn located(&self, diagnostic: Diagnostic, scope: usize) -> Diagnostic {
         located(diagnostic, scope, &self.scopes)
     }
@@ -277,7 +277,7 @@ impl Recipe {
     }
 }
 
-/// Sets the text of a diagnostic to that of a scope, and its calls to those that led to the scope.
+/// Sets the text of a diagnostic to the text of a scope, and its calls to the calls that led to the scope.
 pub(crate) fn located(mut diagnostic: Diagnostic, scope: usize, scopes: &[Scope]) -> Diagnostic {
     let Some(mut at) = scopes.get(scope) else {
         return diagnostic;

@@ -21,8 +21,8 @@ use ron_tree::{Diagnostic, Value, ValueKind};
 ///
 /// # Errors
 ///
-/// All errors, with spans in `source`. If `kind` is `None` and no kind fits, the errors are those for the kind that
-/// fits best. If several kinds fit, the error says that the kind must be specified.
+/// All errors, with spans in `source`. If `kind` is `None` and no kind fits, returns the errors for the kind that fits
+/// best. If several kinds fit, the error says that the kind must be specified.
 pub fn read_selection(
     source: &str,
     kind: Option<ElementKind>,

@@ -1,8 +1,8 @@
 //! Reduces a scene on which a step fails: removes objects and faces as long as the step fails in the same way.
 //!
-//! Faces are removed in blocks, whose size is halved down to single faces, as in the algorithm ddmin of Zeller and
-//! Hildebrandt, "Simplifying and Isolating Failure-Inducing Input", 2002. Vertices keep their ids until the end. Then
-//! isolated vertices are removed too, if the step still fails without them.
+//! Faces are removed in blocks. The size of the blocks is halved until the blocks are single faces, as in the algorithm
+//! ddmin of Zeller and Hildebrandt, "Simplifying and Isolating Failure-Inducing Input", 2002. Vertices keep their ids
+//! until the end. Then isolated vertices are removed too, if the step still fails without them.
 
 use std::sync::Arc;
 

@@ -137,7 +137,7 @@ impl Span {
         Self::new(self.start, other.end)
     }
 
-    /// Whether `other` lies within this span.
+    /// Whether `other` is within this span.
     pub fn contains(self, other: Self) -> bool {
         self.start <= other.start && other.end <= self.end
     }

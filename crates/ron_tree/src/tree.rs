@@ -43,7 +43,7 @@ pub enum ValueKind {
     Map(Vec<(Value, Value)>),
     /// `Name(..)`.
     Call(Box<Call>),
-    /// A value that could not be read. A diagnostic tells the reason.
+    /// A value that could not be read. A diagnostic gives the reason.
     Error,
 }
 

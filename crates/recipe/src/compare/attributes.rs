@@ -15,7 +15,7 @@ pub struct AttributeDifference {
     pub difference: ColumnDifference,
 }
 
-/// How an attribute of one mesh differs from that of another.
+/// How an attribute of one mesh differs from the same attribute of another mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ColumnDifference {
     /// Every value is the same.
@@ -92,7 +92,7 @@ pub(super) fn differences(
     found
 }
 
-/// Compares two columns: the value of each element in `first` with that of the corresponding element in `second`.
+/// Compares two columns: the value of each element in `first` with the value of the corresponding element in `second`.
 fn values<I: Id>(a: &Column, b: &Column, first: &[I], second: &[I]) -> ColumnDifference {
     let (mut count, mut most, mut element) = (0, 0.0, None);
     for (&i, &j) in first.iter().zip(second) {

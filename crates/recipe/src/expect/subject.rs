@@ -58,7 +58,7 @@ impl Violation {
         }
     }
 
-    /// A violation whose expected value can be replaced by the actual one.
+    /// A violation with the actual value, which can replace the expected value.
     pub(super) fn with_actual(message: String, found: ActualValue) -> Self {
         Self {
             found: Some(found),

@@ -1,5 +1,5 @@
-//! Enumerations whose outer name can be omitted if the content fits only one variant. Their schema has the keyword
-//! `x-shorthand`. An example is [`op::Elements`].
+//! Checks enumerations in which the outer name can be omitted if the content fits only one variant. Their schema has
+//! the keyword `x-shorthand`. An example is [`op::Elements`].
 //!
 //! ```text
 //! Sharp(above: 30)   exists only for edges                ---> Edges(Sharp(above: 30))

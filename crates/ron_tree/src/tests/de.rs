@@ -1,4 +1,4 @@
-//! Compares the deserializer with that of `ron`: both must give the same values and refuse the same texts.
+//! Compares the deserializer with the deserializer of `ron`: both must give the same values and refuse the same texts.
 
 use std::collections::BTreeMap;
 

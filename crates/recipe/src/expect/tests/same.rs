@@ -215,7 +215,7 @@ fn a_diagonal_on_each_face_breaks_the_symmetry_of_faces_but_not_of_vertices() {
         found.parse::<u64>().unwrap()
     };
     let (rotations, motions) = (count("CubeRotations"), count("CubeMotions"));
-    // The remaining motions are a subgroup, so their number divides that of the group.
+    // The remaining motions are a subgroup, so their number divides the number of motions of the group.
     assert!(rotations < 24 && 24 % rotations == 0, "{rotations}");
     assert!(motions < 48 && 48 % motions == 0, "{motions}");
     assert_eq!(

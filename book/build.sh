@@ -8,7 +8,7 @@ cp book/book.toml "$out" && cp -r book/src/. "$out/src"
 
 # Splits the generated reference into one page for each operation, and one for the types of parameters.
 awk -v out="$out/src/operations" '
-    /^# Steps that hold steps/ { page = out "/types.md"; print "# Types of parameters\n" > page }
+    /^# Steps that contain steps/ { page = out "/types.md"; print "# Types of parameters\n" > page }
     /^## / && page != out "/types.md" { page = out "/" $2 ".md"; sub("^## ", "# ") }
     page { gsub(/\(all\/pictures\//, "(../pictures/"); if (!/^# Types of parameters/ || page !~ /types/) print > page }
 ' ops/README.md

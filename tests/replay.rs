@@ -1,13 +1,13 @@
 //! Every recipe in `scenes/` is a test.
 //!
 //! ```text
-//! teapot                          all expectations hold, and the digest equals that in digests.txt
-//! teapot: any number of threads   1, 2 and 8 threads: the same digest and the same files
-//! teapot: from every step         a run that starts at a step, with the scene before it: the same digest
-//! teapot: every step is needed    without any one of its steps the recipe fails
+//! teapot                          all expectations hold, and the digest equals the digest in digests.txt
+//! teapot: any number of threads   runs with 1, 2 and 8 threads give the same digest and the same files
+//! teapot: from every step         a run that starts at a step, from the scene before the step, gives the same digest
+//! teapot: every step is needed    the recipe fails if any one of its steps is removed
 //! ```
 //!
-//! If the environment variable `MESHWRIGHT_UPDATE` is set, first rewrites digests.txt.
+//! If the environment variable `MESHWRIGHT_UPDATE` is set, digests.txt is rewritten before the tests run.
 
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -257,7 +257,7 @@ fn from_every_step(recipe: &Scene) -> Result<(), Failed> {
     if loaded.forecast.peak_bytes() > MAX_BYTES_FROM_EVERY_STEP {
         return Ok(());
     }
-    // The files that earlier steps write are missing.
+    // The run does not write the files of earlier steps, so expectations of files are removed.
     let expectations = &mut loaded.recipe.expectations;
     expectations.retain(|placed| placed.that.output().is_none());
     let recorder = SceneRecorder::default();
@@ -295,8 +295,8 @@ fn every_step_is_needed(recipe: &Scene) -> Result<(), Failed> {
         }
         let id = step.field("id").filter(|_| step.name().is_none());
         let id = id.and_then(Value::as_str);
-        // An expectation that names the id of the step would always fail without the step. So the step is also
-        // removed together with these expectations.
+        // Without the step, an expectation that names the id of the step would always fail. So the recipe is also
+        // tested without the step and without these expectations.
         let naming = list(&parsed.value, "expect").iter().filter(|expectation| {
             let after = expectation
                 .field("after")
@@ -330,12 +330,12 @@ fn every_step_is_needed(recipe: &Scene) -> Result<(), Failed> {
     fail(format!("the recipe succeeds without these steps:\n{steps}"))
 }
 
-/// Tests that a step is reported on which no other expectation depends.
+/// Tests that a step is reported if only the expectations that name the step depend on it.
 fn unneeded_steps_are_found() -> Result<(), Failed> {
     let source = r#"(
         recipe: 1,
         steps: [
-            Cube(name: "a"), // stays, and its comma goes
+            Cube(name: "a"), // If the step is removed, its comma is removed too, but this comment stays.
             (id: "more", run: VertexNormals()),
             Octahedron(name: "b")
         ],

@@ -13,7 +13,7 @@ use geometry::shapes;
 
 use any_edit::{EditCode, edit_and_check};
 
-/// A run stops when the mesh has more faces than this, so that it stays short.
+/// A run stops when the mesh has more faces than this, so that no run takes long.
 const MAX_FACES: usize = 100;
 
 fuzz_target!(|bytes: &[u8]| {

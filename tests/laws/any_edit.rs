@@ -29,7 +29,7 @@ impl EditCode {
         }
     }
 
-    /// Whether the edit can connect two vertices by a second edge, as documented.
+    /// Whether the documentation of the edit says that it can connect two vertices by a second edge.
     pub(crate) const fn can_duplicate_edges(self) -> bool {
         self.kind == SPLIT
     }
@@ -153,8 +153,8 @@ fn hole(mesh: &Mesh, h: HalfEdgeId) -> HalfEdgeId {
         .unwrap_or(h)
 }
 
-/// Applies the edit and checks the guarantees of every edit: the mesh stays valid, the edit makes no duplicate
-/// edges if there were none, and a refused edit changes nothing.
+/// Applies the edit and checks the guarantees of every edit. The mesh stays valid. If the mesh has no duplicate edges,
+/// the edit makes none, unless its documentation says that it can. A refused edit changes nothing.
 ///
 /// # Panics
 ///

@@ -54,8 +54,8 @@ fn blocks(kind: &str) -> Vec<(String, String)> {
     all
 }
 
-/// Returns the problem of a recipe as if it were in the folder `scenes/`, if any. Only reads the recipe if
-/// `read_only` is true; otherwise runs it.
+/// Reads a recipe as if it were in the folder `scenes/`, and runs it unless `read_only` is true. Returns the problem,
+/// if any.
 fn problem(engine: &Engine, text: &str, read_only: bool) -> Option<String> {
     let folder = tempfile::tempdir().expect("a temporary folder can be made");
     let options = Options {

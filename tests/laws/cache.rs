@@ -1,5 +1,5 @@
-//! Every recipe in `scenes/` gives the same results with a cache as without: with an empty, full or damaged
-//! cache, and with one that two runs share.
+//! Every recipe in `scenes/` gives the same results with a cache as without a cache. The cache can be empty,
+//! full, damaged, or shared by two runs.
 
 use std::collections::BTreeMap;
 use std::fs;

@@ -9,7 +9,7 @@ use recipe::Expectation;
 use recipe::expect::{Group, Subject};
 use scene::{Object, Scene};
 
-/// Returns a cube after one level of subdivision, with the diagonals in `pattern` flipped before.
+/// Flips the diagonals in `pattern` of a cube of triangles. Returns the cube after one level of subdivision.
 fn subdivided(pattern: usize) -> Scene {
     let mut cube = shapes::fans(&shapes::cube());
     let flat = |e: &EdgeId| cube.dihedral_angle(*e).is_some_and(|angle| angle < 0.1);

@@ -33,8 +33,8 @@ const NUMBERS: &[&str] = &[
 /// The memory budget in bytes. Cases whose plan exceeds it are skipped, so that meshes stay small.
 const BUDGET: u64 = 1 << 20;
 
-/// Returns variants of a sample in which one number, or all numbers, are replaced by an extreme number. Keeps
-/// the variants that can be read.
+/// Returns variants of a sample, in which an extreme number replaces one number or all numbers. Leaves out variants
+/// that cannot be read.
 fn extreme_variants(parameters: &str, can_be_read: impl Fn(&str) -> bool) -> Vec<String> {
     let tokens: Vec<_> = Lexer::new(parameters).collect();
     let with = |chosen: &[usize], number: &str| -> String {

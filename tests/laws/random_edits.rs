@@ -13,10 +13,10 @@ use crate::fixtures;
 #[derive(Clone, Copy, Debug)]
 enum Edit {
     Flip(usize),
-    /// Splits at a number of quarters of the edge; 0 and 4 are invalid.
+    /// Splits an edge. The number is the position in quarters of the edge; 0 and 4 are invalid.
     Split(usize, u8),
     DeleteFace(usize),
-    /// Collapses to a number of quarters of the edge; 5 is invalid.
+    /// Collapses an edge. The number is the position in quarters of the edge; 5 is invalid.
     Collapse(usize, u8),
     Compact,
 }

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-/// Returns the paths in a folder; none if the folder does not exist.
+/// Returns the paths in a folder. If the folder does not exist, returns no paths.
 fn list(folder: PathBuf) -> impl Iterator<Item = PathBuf> {
     let entries = std::fs::read_dir(folder).into_iter().flatten();
     entries.map(|entry| entry.expect("the folder can be listed").path())

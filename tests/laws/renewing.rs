@@ -1,5 +1,5 @@
-//! Updating the recorded numbers of a recipe restores changed numbers and keeps the rest of the text. Tested on
-//! the recipes in `scenes/`.
+//! Tests the update of the recorded numbers of a recipe: the update restores changed numbers and keeps the rest of the
+//! text. The tests use the recipes in `scenes/`.
 
 use engine::FileReader;
 use op::Files;

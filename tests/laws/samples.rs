@@ -177,7 +177,7 @@ fn every_example_is_a_step_of_its_operation() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 4000, ..ProptestConfig::default() })]
 
-    /// For samples and slightly changed samples, the syntax tree and `ron` read the same step, or both fail.
+    /// The syntax tree and `ron` read the same step from a sample or a slightly changed sample, or both fail.
     #[test]
     fn samples_are_read_as_ron_reads_them(
         at in any::<Index>(),

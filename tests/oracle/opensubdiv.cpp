@@ -1,7 +1,9 @@
 // Subdivides one case with Pixar's OpenSubdiv, as a reference for the crate `subdivision`.
 //
-//     g++ -std=c++17 -O2 opensubdiv.cpp -losdCPU -o opensubdiv ./opensubdiv cases/loop_closed.txt >
-//     results/loop_closed.txt README.md describes the case and result files.
+//     g++ -std=c++17 -O2 opensubdiv.cpp -losdCPU -o opensubdiv
+//     ./opensubdiv cases/loop_closed.txt > results/loop_closed.txt
+//
+// README.md describes the case and result files.
 
 #include <opensubdiv/far/primvarRefiner.h>
 #include <opensubdiv/far/topologyDescriptor.h>

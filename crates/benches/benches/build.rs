@@ -1,13 +1,14 @@
 //! How many triangles per second become a mesh, relative to copying the bytes of the mesh?
 //!
 //! The input is a torus of a million triangles and half a million vertices. Vertices are numbered row by row, so that
-//! neighbors are close in memory. The input is in memory before the timing starts; the output is in new memory.
+//! neighbors are close in memory. The input is in memory before the timing starts; the output is written to newly
+//! allocated memory.
 //!
 //! - `build`: from offsets and corners.
 //! - `from_polygons`: from a list for each triangle, which is first copied into offsets and corners.
 //! - `shuffled`: the same triangles and vertices in random order, the worst order that a file can have.
-//! - `half reversed`: every second triangle has the opposite orientation and is reversed. The mesh is built twice, with
-//!   a search for the triangles to reverse in between.
+//! - `half reversed`: every second triangle has the opposite orientation. The library builds the mesh, searches for the
+//!   triangles to reverse, reverses them, and builds the mesh again.
 
 use std::hint::black_box;
 use std::time::Duration;
@@ -48,7 +49,7 @@ fn a_million_triangles(c: &mut Criterion) {
             b.iter_batched(|| positions.clone(), built, BatchSize::PerIteration);
         });
     }
-    // Into new memory, as the mesh is.
+    // The copy goes to newly allocated memory, as the mesh does.
     group.bench_function("bytes alone: copy of the mesh", |b| {
         b.iter_batched(
             || (),
@@ -87,7 +88,7 @@ fn shuffled(positions: &[DVec3], triangles: &[[u32; 3]]) -> (Vec<DVec3>, Vec<[u3
     (moved, triangles)
 }
 
-/// Puts values into an order of chance: that of a linear congruential generator.
+/// Puts values into a random order, by a linear congruential generator.
 fn shuffle<T>(values: &mut [T]) {
     let mut state = 1_u64;
     for i in (1..values.len()).rev() {

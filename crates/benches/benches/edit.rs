@@ -39,7 +39,7 @@ fn every_edge_once(c: &mut Criterion) {
     group.finish();
 }
 
-/// Flips every edge; illegal flips are checked and refused.
+/// Flips every edge. Illegal flips are refused.
 fn flip(mesh: Mesh, edges: &[EdgeId]) -> Mesh {
     edit_every(mesh, edges, |mesh, e| mesh.flip_edge(e).map(drop))
 }

@@ -1,8 +1,8 @@
 //! Measures reading and writing a million triangles, in bytes per second, and compares it with reading and writing only
 //! the bytes.
 //!
-//! Other readers are measured in the same run, on the same files: `tobj` and `mesh-loader` return flat arrays, `alum` a
-//! half-edge mesh; the `gltf` crate returns accessors, which are copied into arrays here. If
+//! Other readers are measured in the same run, on the same files. `tobj` and `mesh-loader` return flat arrays, `alum`
+//! returns a half-edge mesh, and the `gltf` crate returns accessors, which are copied into arrays here. If
 //! `python3 -c "import rapidobj"` works (`pip install rapidobj`), that C++ reader is measured too: it uses all threads,
 //! returns 32-bit arrays, and triangulates polygons.
 //!
@@ -35,17 +35,17 @@ fn million_triangles(c: &mut Criterion) {
     ] {
         let path = folder.path().join(format!("torus.{ending}"));
         save(&path, scene);
-        let bytes = fs::read(&path).expect("the file is there");
+        let bytes = fs::read(&path).expect("the file was written above");
         let mut group = c.benchmark_group(format!("1 M triangles as {ending}, {digits}"));
         group
             .sample_size(10)
             .throughput(Throughput::Bytes(bytes.len() as u64));
         measure(&mut group, "read, bytes alone", || fs::read(&path));
         measure(&mut group, "read to arrays", || {
-            read_polygons(&Disk, &path, &ReadOptions::default()).expect("it was written")
+            read_polygons(&Disk, &path, &ReadOptions::default()).expect("the file was written")
         });
         measure(&mut group, "read to a connected mesh", || {
-            read(&Disk, &path, &ReadOptions::default()).expect("it was written")
+            read(&Disk, &path, &ReadOptions::default()).expect("the file was written")
         });
         match ending {
             "obj" => obj_peers(&mut group, &path),
@@ -56,7 +56,7 @@ fn million_triangles(c: &mut Criterion) {
         });
         measure(&mut group, "write", || save(&path, scene));
         if ending == "obj" {
-            let mesh = alum::PolyMeshF64::load_obj(&path).expect("it is a manifold");
+            let mesh = alum::PolyMeshF64::load_obj(&path).expect("the mesh is a manifold");
             measure(&mut group, "write, alum", || mesh.save_obj(&path));
         }
         group.finish();
@@ -66,12 +66,12 @@ fn million_triangles(c: &mut Criterion) {
 /// Other readers of OBJ.
 fn obj_peers(group: &mut Group, path: &Path) {
     measure(group, "read to arrays, tobj", || {
-        tobj::load_obj(path, &tobj::LoadOptions::default()).expect("it is OBJ")
+        tobj::load_obj(path, &tobj::LoadOptions::default()).expect("the file is OBJ")
     });
     measure(group, "read to arrays, mesh-loader", || {
         mesh_loader::Loader::default()
             .load_obj(path)
-            .expect("it is OBJ")
+            .expect("the file is OBJ")
     });
     let python = |repeats: u64| {
         let program = "import sys, time, rapidobj\n\
@@ -87,27 +87,27 @@ fn obj_peers(group: &mut Group, path: &Path) {
     if python(0).is_some() {
         group.bench_function("read to arrays, rapidobj", |b| {
             b.iter_custom(|n| {
-                let seconds = python(n).expect("it could be imported before");
+                let seconds = python(n).expect("rapidobj was imported before");
                 std::time::Duration::from_secs_f64(seconds)
             });
         });
     }
     measure(group, "read to a connected mesh, alum", || {
-        alum::PolyMeshF64::load_obj(path).expect("it is a manifold")
+        alum::PolyMeshF64::load_obj(path).expect("the mesh is a manifold")
     });
 }
 
 /// Reads GLB with the `gltf` crate.
 fn gltf_peer(group: &mut Group, path: &Path) {
     measure(group, "read to arrays, gltf", || {
-        let gltf::Gltf { document, blob } = gltf::Gltf::open(path).expect("it is glTF");
+        let gltf::Gltf { document, blob } = gltf::Gltf::open(path).expect("the file is glTF");
         let mesh = document.meshes().next().expect("there is a mesh");
-        let primitive = mesh.primitives().next().expect("it has triangles");
+        let primitive = mesh.primitives().next().expect("the mesh has triangles");
         let reader = primitive.reader(|_| blob.as_deref());
-        let positions: Vec<[f32; 3]> = reader.read_positions().expect("they are there").collect();
+        let positions: Vec<[f32; 3]> = reader.read_positions().expect("positions exist").collect();
         let indices: Vec<u32> = reader
             .read_indices()
-            .expect("they are there")
+            .expect("indices exist")
             .into_u32()
             .collect();
         (positions, indices)

@@ -1,8 +1,8 @@
 //! How many faces per second does subdivision produce, and how does that compare with the memory bandwidth?
 //!
-//! Measured from the cage in memory to the refined mesh, with full connectivity, in memory. `tests/oracle`
-//! measures `OpenSubdiv` on the same cages. The group also copies 256 MB, and fills 256 MB of new memory, to show
-//! what the machine allows.
+//! The time starts with the cage in memory and ends with the refined mesh, with full connectivity, in memory.
+//! `tests/oracle` measures `OpenSubdiv` on the same cages. The group also copies 256 MB and fills 256 MB of newly
+//! allocated memory, to show the speed of the memory of the machine.
 
 use std::hint::black_box;
 
@@ -78,7 +78,7 @@ fn triangles() -> Mesh {
     shapes::fans(&shapes::torus(224, 224, 2.0, 1.0))
 }
 
-/// A torus of 33,451 faces: of every three squares one is cut into two triangles.
+/// A torus of 33,451 faces: one of every three squares is cut into two triangles.
 fn mixed() -> Mesh {
     let torus = shapes::torus(224, 112, 2.0, 1.0);
     let mut polygons: Vec<Vec<u32>> = Vec::new();

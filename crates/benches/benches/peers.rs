@@ -1,21 +1,32 @@
 //! Compares the speed of local edits with other half-edge meshes in Rust.
 //!
-//! Each library flips and splits every edge of the same torus of a million triangles, and collapses every edge for which
-//! this is legal, in the same random order. The checks that a library makes are part of its edit:
+//! Each library flips and splits every edge of the same torus of a million triangles, and collapses every edge for
+//! which this is legal, in the same random order. The time of an edit includes the checks that the library makes.
 //!
-//! | | a flip checks | but not |
-//! | --- | --- | --- |
-//! | this crate | boundary, one face on both sides, ends of two edges, far corners joined or the same, seams | |
-//! | alum | boundary, one face on both sides, ends of one edge | far corners joined: the result has double edges |
-//! | alum, with double-edge check | the same, and far corners joined, by a separate search | far corners the same |
-//! | tri-mesh | boundary, far corners joined | one face on both sides, far corners the same |
+//! The far corners of an edge are the corners opposite to the edge in the two triangles beside it. A flip is illegal if
 //!
-//! A split puts a vertex on the edge and joins it to the far corners. alum does not have this edit: its `split_edge`
-//! leaves quadrilaterals, which are split here by two calls of `insert_edge`. A collapse moves one end to the other if
-//! the link condition allows it; this crate moves both ends to the midpoint. Collapses of tri-mesh, which
-//! makes no checks, are not measured. All positions are `f64`. This crate prefetches memory for the next edits, and
-//! checks for an open journal, attribute columns and dead elements, of which there are none. alum marks dead elements
-//! too. tri-mesh finds its elements through hash maps.
+//! 1. the edge is on the boundary,
+//! 2. one face is on both sides of the edge,
+//! 3. an end of the edge has too few edges,
+//! 4. an edge already connects the far corners, so that the flip would make a double edge,
+//! 5. the far corners are the same vertex, or
+//! 6. the edge is a seam.
+//!
+//! | | checks of a flip |
+//! | --- | --- |
+//! | this crate | 1 to 6 |
+//! | alum | 1, 2 and 3 |
+//! | alum, with double-edge check | 1, 2 and 3, and 4 by a separate search |
+//! | tri-mesh | 1 and 4 |
+//!
+//! A split adds a vertex on the edge and connects the vertex to the far corners. alum does not have this edit: its
+//! `split_edge` leaves quadrilaterals, which are split here by two calls of `insert_edge`. A collapse moves one end of
+//! the edge to the other end if the link condition allows this; this crate moves both ends to the midpoint. tri-mesh
+//! makes no checks before a collapse, so its collapses are not measured. All positions are `f64`.
+//!
+//! This crate prefetches memory for the next edits. It also checks for an open journal, for attribute columns and for
+//! dead elements; the mesh has none of these. alum marks dead elements too. tri-mesh finds its elements through hash
+//! maps.
 //!
 //! At the end the program checks that all libraries that check for double edges flipped the same number of edges.
 

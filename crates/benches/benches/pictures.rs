@@ -1,5 +1,5 @@
-//! How many triangles and pixels per second does a picture take? Measured from the scene in memory to the pixels in
-//! memory: many small triangles, few large ones, lines, and ambient occlusion.
+//! How many triangles and pixels per second does rendering process? The time starts with the scene in memory and ends
+//! with the pixels in memory. The scenes have many small triangles, few large triangles, lines, or ambient occlusion.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use geometry::shapes;

@@ -1,14 +1,15 @@
-//! Prints the tables of the book's page "Measured tables" from the results of criterion in `target/criterion`.
-//! `book/benchmarks.sh` runs the benchmarks with one and two threads, and then this program.
+//! Prints the tables of the chapter on benchmarks in the book, from the results of criterion in `target/criterion`.
+//! `book/benchmarks.sh` runs the benchmarks with one thread and with two threads, and then runs this program.
 
-#![expect(clippy::print_stdout, reason = "the tables are its output")]
+#![expect(clippy::print_stdout, reason = "the program prints the tables")]
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde_json::Value;
 
-/// A benchmark: its name, its seconds with one and two threads, and the amount of data that one run processes.
+/// A benchmark: its name, its time in seconds with one thread and with two threads, and the number of elements or bytes
+/// that one run processes.
 struct Row {
     name: String,
     seconds: [Option<f64>; 2],
@@ -74,8 +75,9 @@ fn main() -> std::io::Result<()> {
     Ok(())
 }
 
-/// Returns the seconds that one thread needs for only the bytes: those of the row of the group whose name contains `bytes
-/// alone` and begins with the same word or with `bytes`. `None` for that row itself.
+/// Returns the time, in seconds with one thread, of copying, reading or writing only the bytes that `row` processes.
+/// This is the time of the row of the group whose name contains `bytes alone` and starts with the first word of `row`
+/// or with `bytes`. `None` if `row` itself is such a row.
 fn reference(row: &Row, rows: &[Row]) -> Option<f64> {
     let is_bytes = |row: &Row| row.name.contains("bytes alone");
     let word = row.name.split([' ', ',']).next()?;
@@ -102,7 +104,7 @@ fn json(path: &Path) -> Option<Value> {
     serde_json::from_str(&std::fs::read_to_string(path).ok()?).ok()
 }
 
-/// Returns the median time of a run, in seconds.
+/// Reads the median time of a benchmark, in seconds.
 fn median(folder: &Path) -> Option<f64> {
     let nanoseconds = json(&folder.join("estimates.json"))?["median"]["point_estimate"].as_f64()?;
     Some(nanoseconds / 1e9)
@@ -119,7 +121,7 @@ fn milliseconds(seconds: f64) -> String {
     format!("{ms:.decimals$} ms")
 }
 
-/// Formats the elements or bytes per second.
+/// Formats a rate: millions of elements per second, or megabytes per second.
 fn rate(throughput: &Value, seconds: f64) -> String {
     let per_second = |key: &str| Some(throughput[key].as_f64()? / seconds / 1e6);
     match (per_second("Elements"), per_second("Bytes")) {

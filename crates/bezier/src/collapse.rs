@@ -8,11 +8,11 @@
 //!     corner 0 --- side 0 --- corner 1
 //! ```
 //!
-//! A side is collapsed if all samples of its boundary curve, at 0, 1/m, ... 1 with m the smaller of 3 and
-//! the number of segments, differ from its first point by at most 1e-12 times the patch's extent, in every
-//! coordinate. (A cubic that has the same value at four parameters is constant. So with three or more
-//! segments, a collapsed side is one point. With fewer segments, a side can also be a loop whose samples
-//! coincide.)
+//! To test a side, its boundary curve is sampled at 0, 1/m, ... 1, where m is the number of segments, but
+//! at most 3. The side is collapsed if every sample differs from the first sample by at most 1e-12 times
+//! the extent of the patch, in every coordinate. With three or more segments, a collapsed side is one
+//! point, because a cubic that has the same value at four parameters is constant. With fewer segments, a
+//! collapsed side can also be a loop whose samples coincide.
 
 use glam::DVec3;
 
@@ -55,8 +55,9 @@ impl Sides {
         }
     }
 
-    /// Returns, for each collapsed side, the lowest side of its chain. A chain is a set of adjacent collapsed
-    /// sides; together they become one vertex. For any other side, returns the side itself.
+    /// Returns, for each collapsed side, the side with the lowest number in its chain. A chain is a set of
+    /// adjacent collapsed sides, which together become one vertex. For a side that is not collapsed, returns
+    /// the side itself.
     pub(crate) fn chains(self) -> [usize; 4] {
         let mut chain = [0, 1, 2, 3];
         for a in 0..4 {
@@ -73,9 +74,9 @@ impl Sides {
     }
 
     /// Returns the exact number of elements of the tessellation of a patch with these sides. All counts are zero
-    /// if it has no face.
+    /// if the tessellation has no face.
     ///
-    /// Numbers that exceed 64 bits are given as the largest 64-bit number.
+    /// A number that exceeds 64 bits is replaced by the largest 64-bit number.
     pub(crate) fn counts(self, segments: u32, faces: Faces) -> Counts {
         let n = u64::from(segments);
         let square = |x: u64| x.saturating_mul(x);

@@ -23,8 +23,8 @@ use crate::weights::Weights;
 
 /// The largest number of control points of a [`Curve`].
 ///
-/// De Casteljau's algorithm computes n (n + 1) / 2 points for n control points. So this limits the
-/// cost of one evaluation (8 million steps) and the memory of [`Curve::levels`] (200 MB).
+/// De Casteljau's algorithm computes n (n + 1) / 2 points for n control points. This limit bounds
+/// the cost of one evaluation (8 million steps) and the memory of [`Curve::levels`] (200 MB).
 pub const MAX_POINTS: usize = 4096;
 
 /// A point or a vector, in 2D or 3D. The default is the origin.
@@ -57,8 +57,9 @@ impl Point for DVec3 {
 ///
 /// The curve starts at the first control point (t = 0) and ends at the last (t = 1). There it is tangent
 /// to the first and the last leg of the control polygon. For t from 0 to 1, it is inside the convex hull
-/// of the control points. Parameters outside this range are allowed everywhere: they continue the same
-/// polynomial. A parameter that is NaN gives points with NaN coordinates, and never causes a panic.
+/// of the control points. Every function also accepts parameters outside this range: the polynomial
+/// simply continues. If the parameter is NaN, the resulting points have NaN coordinates; no function
+/// panics.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve<P> {
     /// At least one point and at most [`MAX_POINTS`].
@@ -145,8 +146,8 @@ impl<P: Point> Curve<P> {
         }
     }
 
-    /// Returns the points at 0, 1/n, 2/n, ... 1 for n `segments`: n + 1 points. The first and the last are
-    /// the end control points, exactly.
+    /// Returns the n + 1 points at 0, 1/n, 2/n, ... 1, where n is `segments`. The first and the last point
+    /// are exactly the first and the last control point.
     ///
     /// For 0 segments, returns only the start point. The reversed curve gives the same points, bit for bit,
     /// in reverse order.

@@ -43,8 +43,8 @@ pub enum BezierError {
     /// A tessellation with no segments.
     #[error("expected at least 1 segment per side, found 0")]
     NoSegments,
-    /// A tessellation whose elements do not fit 32-bit ids. Counts that exceed 64 bits are given as the
-    /// largest 64-bit number.
+    /// A tessellation with more elements than 32-bit ids can number. A count that exceeds 64 bits is
+    /// replaced by the largest 64-bit number.
     #[error(
         "expected at most {} vertices, faces and face corners each, found {} vertices, {} faces and {} face corners",
         u32::MAX, .0.vertices, .0.faces, .0.corners

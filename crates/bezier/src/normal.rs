@@ -27,9 +27,10 @@
 //! or at a cusp), the result is the limit along this line. If N is zero along the whole line, two more
 //! lines beside it are tried; if N is zero along these too, the point has no normal.
 //!
-//! A coefficient is treated as zero if it is at most [`VANISHING`] after the derivatives were divided by
-//! the largest difference of neighboring control points, separately along u and along v. So thin and tiny
-//! patches have normals too.
+//! Before the coefficients are compared with zero, the derivatives along u are divided by the largest
+//! difference of control points that are neighbors along u, and the derivatives along v likewise. A
+//! coefficient of at most [`VANISHING`] is then treated as zero. This scaling gives thin and tiny patches
+//! normals too.
 
 use glam::{DVec2, DVec3};
 
@@ -44,8 +45,8 @@ pub const VANISHING: f64 = 1e-10;
 
 /// Returns the limit of the normals along a line into the patch from `uv`, if there is one.
 ///
-/// `c` has the Taylor coefficients of the patch at `uv`: c\[i\]\[j\] is that of x^i y^j. `max_steps` is the
-/// result of [`Patch::max_steps`](crate::Patch), which must not be zero.
+/// `c` has the Taylor coefficients of the patch at `uv`: c\[i\]\[j\] is the coefficient of x^i y^j.
+/// `max_steps` is the result of [`Patch::max_steps`](crate::Patch), which must not be zero.
 pub(crate) fn limit(c: &[[DVec3; 4]; 4], max_steps: DVec2, uv: DVec2) -> Option<DVec3> {
     inward_directions(uv)
         .into_iter()

@@ -29,8 +29,9 @@ pub const MAX_COORDINATE: f64 = 1e100;
 /// A bicubic Bezier patch: a surface in two parameters, u along the rows of its control points
 /// and v across them.
 ///
-/// Parameters outside 0 to 1 are allowed everywhere and continue the same polynomial. A parameter
-/// that is NaN gives points with NaN coordinates and a zero normal, and never causes a panic.
+/// Every function also accepts parameters outside 0 to 1: the polynomial simply continues. If a
+/// parameter is NaN, the resulting point has NaN coordinates and the normal is zero; no function
+/// panics.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Patch {
     points: [[DVec3; 4]; 4],

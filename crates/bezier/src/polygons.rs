@@ -92,8 +92,8 @@ impl Tessellation {
         (self.positions.len() - 1) as u32
     }
 
-    /// Adds a face, without corners that repeat the next one. Adds nothing if fewer than three corners
-    /// remain. The caller must have checked that the counts fit 32 bits.
+    /// Adds a face. A corner with the same vertex as the next corner is left out. If fewer than three
+    /// corners remain, adds nothing. The caller must have checked that the counts fit 32 bits.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "checked by tessellate_patch"

@@ -17,12 +17,15 @@
 //!
 //! A collapsed side, whose points coincide (as at the pole of a teapot's lid), becomes one vertex, and
 //! adjacent collapsed sides together become one vertex. A cell with one collapsed side becomes a triangle;
-//! a cell with more of them becomes no face. A side is collapsed if all samples of its boundary curve, at
-//! 0, 1/m, ... 1 with m the smaller of 3 and n, differ from its first point by at most 1e-12 times the
-//! extent of the patch's control points, in every coordinate. The vertex is at the start of the first of
-//! these sides, in the order v = 0, u = 1, v = 1, u = 0; its UV and normal are those of the middle of that
-//! side. Patches without remaining cells, and patches that are a curve or a point (all rows or all columns
-//! coincide, with the same tolerance), give no vertices and faces, and are listed.
+//! a cell with more of them becomes no face. To test a side, its boundary curve is sampled at 0, 1/m, ...
+//! 1, where m is n, but at most 3. The side is collapsed if every sample differs from the first sample by
+//! at most 1e-12 times the extent of the control points of the patch, in every coordinate. The vertex of
+//! adjacent collapsed sides is at the start of the first of these sides, in the order v = 0, u = 1, v = 1,
+//! u = 0. Its UV and its normal are those of the middle of that first side.
+//!
+//! A patch is a curve or a point if all of its rows or all of its columns coincide, with the same
+//! tolerance. Such a patch, and a patch of which no cell becomes a face, gives no vertices and no faces.
+//! The result lists these patches.
 //!
 //! Other degeneracies are not detected. Faces can have no area if a patch folds onto itself, or if the
 //! segments are so few that the corners of a cell are collinear (as at the tip of the teapot's spout with
@@ -199,7 +202,7 @@ mod tests {
         let mut patches = Vec::new();
         for mask in 0..16 {
             let mut points = *random.patch().points();
-            // Done twice, so that adjacent sides have the same corner.
+            // The second round gives adjacent collapsed sides the same corner.
             for _ in 0..2 {
                 for (k, side) in sides
                     .iter()

@@ -6,8 +6,8 @@ use crate::Point;
 ///
 /// Both are stored, because computing one from the other is not symmetric in floating point. With
 /// [`Weights::ratio`], evaluating a curve at i/n and the reversed curve at (n - i)/n gives the same
-/// products, added in the opposite order, which does not change any bit of the sum. So two patches
-/// that share a boundary, in either direction, have the same samples on it.
+/// products. They are added in the opposite order, which does not change any bit of the sum. So if
+/// two patches share a boundary, in either direction, they have the same samples on this boundary.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Weights {
     /// 1 - t.
@@ -38,8 +38,8 @@ impl Weights {
 
     /// Returns 0 at the start of the curve, 1 at its end, `None` elsewhere.
     ///
-    /// At an end, the point is a control point. It is used without arithmetic, which could turn -0 into 0,
-    /// depending on the other points.
+    /// At an end of the curve, the point is a control point, which is returned without arithmetic.
+    /// Arithmetic could turn -0 into 0, depending on the other control points.
     pub(crate) fn end(self) -> Option<usize> {
         if self.t == 0.0 {
             Some(0)

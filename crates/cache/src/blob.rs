@@ -135,7 +135,7 @@ pub(crate) fn restore_file(folder: &Folder, blob: &BlobRef, to: &Path) -> Result
     let written = |error: io::Error| Unusable::Damaged(format!("{}: {error}", to.display()));
     let mut out = File::create(to).map_err(written)?;
     let mut failed = None;
-    // Copies no more bytes than were stored, even if another process extends the file.
+    // At most the stored number of bytes is copied, even if another process extends the file.
     let copied = copy_hashed(&mut (&mut file).take(blob.len), |piece| {
         // A failure to write must not count as a damaged blob.
         let done = out.write_all(piece);

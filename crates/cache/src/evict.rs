@@ -20,7 +20,7 @@ struct Entry {
     used: SystemTime,
 }
 
-/// Lists all files of the cache except those that are being written.
+/// Lists all files of the cache, except files that are being written.
 fn entries(folder: &Folder) -> io::Result<Vec<Entry>> {
     let mut entries = Vec::new();
     for kind in Kind::ALL {
@@ -82,7 +82,7 @@ pub(crate) fn clear(folder: &Folder) -> io::Result<CacheSize> {
     }
     remove(&sizes(folder))?;
     remove(&folder.key_file())?;
-    // Files of others stay, and so do the folders that contain them.
+    // Only empty folders are removed, so files that the cache did not create stay.
     for kind in Kind::ALL {
         let kind = folder.root().join(kind.name());
         for part in list(&kind)? {
@@ -101,13 +101,13 @@ fn remove(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Returns the path of the file to which each run appends the number of bytes that it has stored, as 8 bytes.
+/// Returns the path of the file `sizes`. Each run appends the number of bytes that it has stored, as 8 bytes.
 fn sizes(folder: &Folder) -> PathBuf {
     folder.root().join("sizes")
 }
 
-/// Keeps the cache below its limit, if something was stored since the last call. Ignores errors; the next run tries
-/// again.
+/// If something was stored since the last call, keeps the cache below its limit. Ignores errors, because the next run
+/// tries again.
 pub(crate) fn after_run(folder: &Folder, limit: u64) {
     let added = folder.take_written();
     if added > 0 {
@@ -155,8 +155,8 @@ fn remove_old_temporaries(temporary: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// If the files exceed the limit, removes the least recently used ones until at most nine tenths of the limit remain.
-/// Returns the number of remaining bytes.
+/// If the files together exceed the limit, removes the least recently used files until the remaining files take at most
+/// nine tenths of the limit. Returns the number of remaining bytes.
 fn evict(folder: &Folder, limit: u64) -> io::Result<u64> {
     let mut entries = entries(folder)?;
     let mut total: u64 = entries.iter().map(|e| e.len).sum();
@@ -220,7 +220,7 @@ mod tests {
         let (_temporary, folder) = filled(3);
         after_run(&folder, 10_000);
         assert_eq!(fs::read(sizes(&folder)).unwrap(), 3000_u64.to_le_bytes());
-        // These files are not in the recorded total.
+        // No run recorded these files, so the recorded total does not include them.
         for i in 100..120 {
             let path = folder.path(Kind::Blob, &[i; 32]);
             fs::create_dir_all(path.parent().unwrap()).unwrap();

@@ -31,7 +31,7 @@ impl MetExpectation {
     }
 }
 
-/// Whether the expectation is among those in `met`, and its input files are unchanged.
+/// Whether `met` contains the expectation, and the input files of the expectation are unchanged.
 pub(crate) fn is_known_to_hold(
     met: &[MetExpectation],
     placed: &RecipeExpectation,

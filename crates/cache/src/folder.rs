@@ -14,7 +14,7 @@ pub(crate) type Hash = [u8; 32];
 
 /// Larger files are read, written and hashed by several threads, in pieces of this size (in bytes).
 const PIECE: usize = 4 << 20;
-/// A file that was marked as used less than this time ago is not marked again.
+/// If the last mark of a file as used is less than this time ago, the file is not marked again.
 const TOUCH_INTERVAL: Duration = Duration::from_secs(3600);
 
 /// Kinds of files. Each kind has its own folder.
@@ -42,7 +42,7 @@ impl Kind {
 pub(crate) enum Unusable {
     /// The file does not exist.
     Missing,
-    /// The file was changed after it was stored, or cannot be read; with the reason.
+    /// The file was changed after it was stored, or it cannot be read. The text is the reason.
     Damaged(String),
 }
 
@@ -87,8 +87,8 @@ impl Folder {
         self.root.join("tmp")
     }
 
-    /// Writes a file, completely or not at all, and returns whether that succeeded. The first failure is kept as
-    /// [`problem`](Self::problem); after it, nothing more is written.
+    /// Writes a file, completely or not at all, and returns whether that succeeded. After the first failure, which is
+    /// kept as [`problem`](Self::problem), nothing more is written.
     pub(crate) fn write(&self, path: &Path, fill: impl Fn(&mut File) -> io::Result<u64>) -> bool {
         if self.problem.get().is_some() {
             return false;
@@ -104,7 +104,7 @@ impl Folder {
             file.persist(path)?;
             Ok(n)
         };
-        // Another process may just have cleared the folder, so try again.
+        // Another process may have cleared the folder in the meantime, so try again.
         let retry = |error: io::Error| match error.kind() {
             io::ErrorKind::NotFound => try_write(),
             _ => Err(error),
@@ -115,7 +115,8 @@ impl Folder {
                 true
             }
             Err(error) => {
-                // Without the name of the temporary file, which is of no use to the user.
+                // The message ends with the path of the temporary file. This path does not help the user, so it is
+                // removed.
                 let error = error.to_string();
                 let error = error.split(" at path ").next().unwrap_or_default();
                 let root = self.root.display();
@@ -131,9 +132,9 @@ impl Folder {
         self.root.join("key")
     }
 
-    /// Returns the key of this cache: random bytes that only the user can read and that enter the digest of every
-    /// record. So a record that someone without the key has edited is rejected, even if its digest was computed again.
-    /// The key is read each time, because another process may have cleared the folder.
+    /// Returns the key of this cache: random bytes that only the user can read. The digest of every record depends on
+    /// the key. Whoever edits a record without knowing the key cannot compute the new digest, so the record is
+    /// rejected. The key is read each time, because another process may have cleared the folder.
     pub(crate) fn key(&self) -> Result<Hash, Unusable> {
         let path = self.key_file();
         let key = Self::read(&path, size_of::<Hash>() as u64).and_then(|key| {
@@ -171,7 +172,8 @@ impl Folder {
         let _ = fs::remove_file(path);
     }
 
-    /// Marks a file as used, unless it was marked within [`TOUCH_INTERVAL`]. Returns whether it was not.
+    /// Marks a file as used and returns true. If the file cannot be opened or was already marked within
+    /// [`TOUCH_INTERVAL`], returns false and does not mark it.
     pub(crate) fn touch(path: &Path) -> bool {
         let now = SystemTime::now();
         let Ok(file) = File::open(path) else {
@@ -271,7 +273,7 @@ pub(crate) fn copy_hashed(
             sink(&full)?;
             update(&mut hasher, &full);
             full.clear();
-            // A piece can be short without being the last one.
+            // A short piece need not be the last one. Only an empty piece means that the file has ended.
             read_piece(from, &mut full)?;
             continue;
         }

@@ -1,4 +1,4 @@
-//! The steps of the last run of a recipe, which explain why a step runs again.
+//! The steps of the last run of a recipe. They are used to explain why a step runs again.
 
 use std::path::PathBuf;
 
@@ -13,7 +13,8 @@ use crate::record::{load_data, store_data};
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub(crate) struct PastStep {
     pub(crate) ingredients: Ingredients,
-    /// The path and the reason, if the result was not stored because the input files are unknown.
+    /// If the result was not stored because the state of an input file is unknown, the path of that file and the
+    /// reason.
     pub(crate) unknown_input: Option<(PathBuf, String)>,
 }
 
@@ -66,8 +67,8 @@ impl History {
         }
     }
 
-    /// Returns why the key of a step differs from that in the last run. `rerun` is the number and the label of the last
-    /// earlier step that ran again in this run.
+    /// Returns why the key of a step differs from that in the last run. `rerun` is the number and the label of the
+    /// earlier step of this run that made later steps run again, if any.
     pub(crate) fn why(&self, now: &Ingredients, rerun: Option<(usize, String)>) -> RerunReason {
         let index = self.this_run.len();
         let is_same_step = |past: &&PastStep| {
@@ -130,7 +131,7 @@ fn parameter_changes(from: &str, to: &str) -> String {
         }
     }
     let text = |value: Option<&ron_tree::Value>| {
-        // Shown as in recipes: without `Some`.
+        // Values are shown as in recipes: without `Some`.
         let value = value.map(|value| value.some().unwrap_or(value));
         value.map_or_else(|| "nothing".to_owned(), ToString::to_string)
     };
@@ -140,7 +141,7 @@ fn parameter_changes(from: &str, to: &str) -> String {
         if from == to {
             None
         } else if from_short == to_short {
-            // Shortened, both values look the same.
+            // Both values are the same after shortening, so only the name is shown.
             Some(name.clone())
         } else {
             Some(format!("{name} {from_short} -> {to_short}"))

@@ -32,8 +32,8 @@ pub(crate) struct FileState {
 /// The input files of a step or an expectation.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Eq, Serialize)]
 pub(crate) struct Inputs {
-    /// The requested paths: as written in the recipe, and as resolved. In a different input folder, the same text
-    /// refers to a different file.
+    /// The requested paths, as written in the recipe and as resolved. The resolved path is needed because the same text
+    /// refers to different files in different input folders.
     requested: Vec<(String, PathBuf)>,
     /// The files that were read or looked for.
     pub(crate) files: Vec<FileState>,
@@ -137,7 +137,7 @@ impl FileChecker {
         Ok(Inputs { requested, files })
     }
 
-    /// Whether a file was modified after the run started. Then it is unknown which version of it was read.
+    /// Whether a file was modified after the run started. If so, it is unknown which version of the file was read.
     fn is_new(&self, path: &Path) -> bool {
         let modified = std::fs::metadata(path).and_then(|meta| meta.modified());
         modified.is_ok_and(|at| at > self.run_start)

@@ -7,7 +7,8 @@ use crate::folder::Hash;
 use crate::inputs::FileState;
 use recipe::RecipeStep;
 
-/// The version of the storage format. It is part of every digest, so that other versions never find these files.
+/// The version of the storage format. Every digest depends on it, so that programs with another version never find
+/// these files.
 const FORMAT: &str = "meshwright step cache 1";
 
 /// Everything that determines the result of a step before it runs.
@@ -137,7 +138,7 @@ mod tests {
             })
             .collect();
         assert_eq!(keys.len(), changes.len());
-        // The boundary between two fields matters.
+        // The same characters, divided differently between two fields, give a different key.
         let (mut a, mut b) = (ingredients(), ingredients());
         (a.program, a.operation) = ("pO".into(), "p".into());
         (b.program, b.operation) = ("p".into(), "Op".into());

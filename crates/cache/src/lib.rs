@@ -13,7 +13,7 @@
 //! operation with its version and parameters, the objects in `on`, the name that seeds random choices, the memory
 //! budget, and the state before the step. The state after a step is the digest of its key and of the contents of the
 //! files that it read. These files are known only after the step has run; their contents are compared again before a
-//! cached result is used. Modification times are not trusted.
+//! cached result is used. Modification times are not used for this.
 //!
 //! **Integrity.** Only regular files are read, never links, and never more bytes than were stored. Every blob must
 //! match the digest in its name, and every record its digest, which depends on the secret key of the cache. Only the
@@ -22,15 +22,16 @@
 //! renamed, so that neither concurrent nor killed processes leave incomplete files; no locks are needed. If the folder
 //! cannot be written, this is reported once, and the run continues without storing anything.
 //!
-//! **What is stored.** Records are always stored, and so are scenes and files of fewer than [`ALWAYS_STORED`] bytes. A
-//! larger scene is stored if the computation since the last stored scene took longer than storing the scene takes (at
-//! [`BYTES_PER_SECOND`]). So the cache at most about doubles the time of a first run, and a later run never spends more
-//! time on recomputing a scene than storing it would have taken. Large outputs are stored by the same rule, where the
-//! time includes that of loading their scene. Equal arrays are stored once: a step that changes one attribute adds only
-//! that attribute.
+//! **What is stored.** Records are always stored. Scenes and files of fewer than [`ALWAYS_STORED`] bytes are always
+//! stored too. A larger scene is stored if the computation since the last stored scene took longer than storing the
+//! scene takes (at [`BYTES_PER_SECOND`]). Therefore storing at most about doubles the time of a first run, and
+//! recomputing a scene in a later run takes no longer than storing the scene would have taken. The same rule applies to
+//! large output files, but the time for loading the scene is added to the computing time. Equal arrays are stored once:
+//! a step that changes one attribute adds only that attribute.
 //!
-//! **Size.** Each run that has stored something adds up the bytes that all runs have added. If the sum exceeds the
-//! limit, all files are listed, and the least recently used ones are removed until nine tenths of the limit remain.
+//! **Size.** At the end of a run that has stored something, the numbers of bytes that all runs have added are summed.
+//! If the sum exceeds the limit, all files are listed, and the least recently used files are removed until the
+//! remaining files take at most nine tenths of the limit.
 
 mod blob;
 mod evict;

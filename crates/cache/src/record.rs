@@ -1,4 +1,5 @@
-//! The record of a step: its result without long arrays and output files, so that it can be read quickly.
+//! The record of a step: the result of the step without long arrays and output files. A record is short, so it can be
+//! read quickly.
 
 use std::path::PathBuf;
 
@@ -38,7 +39,7 @@ pub(crate) struct Record {
 /// The output files of a step.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub(crate) struct Outputs {
-    /// The provenance, which the files may record.
+    /// The provenance of the run. The output files may contain it.
     pub(crate) provenance: Option<String>,
     /// The requested paths: as written in the recipe, and relative to the output folder.
     pub(crate) requested: Vec<(String, PathBuf)>,
@@ -55,7 +56,7 @@ pub(crate) struct OutputFile {
 }
 
 impl Record {
-    /// Whether both records are for the same input files and outputs. Then the newer one replaces the older one.
+    /// Whether both records are for the same input files and outputs. If so, the newer record replaces the older one.
     fn is_replaced_by(&self, other: &Self) -> bool {
         let provenance = |r: &Self| {
             r.outputs

@@ -19,7 +19,7 @@ use crate::inputs::FileChecker;
 use crate::key::{Ingredients, Key, State};
 use crate::record::{OutputFile, Outputs, Record, load, store};
 
-/// What is known about the scene between two steps, at the start, or at the end.
+/// What is known about the scene at one point of the run: at the start, or after a step.
 #[derive(Default)]
 struct Position {
     /// The identity of the scene, if it is known.
@@ -39,13 +39,14 @@ pub(crate) struct Session<'a> {
     caching: Caching<'a>,
     checker: FileChecker,
     history: History,
-    /// The position at the start, and one after each step that is done.
+    /// One position for the start of the run, and one for each step that is done.
     positions: Vec<Position>,
-    /// The ingredients of the step that was looked up last and must run.
+    /// The ingredients of the step that was looked up last, if that step must run.
     ingredients: Option<Ingredients>,
     /// The computing time since the last stored scene.
     unstored_time: Duration,
-    /// The last step whose own changes made later steps run again: its number (counted from 1) and its label.
+    /// The last step that had to run for a reason that can make later steps run again: its number (counted from 1) and
+    /// its label.
     last_changed: Option<(usize, String)>,
     notes: Vec<String>,
 }
@@ -138,7 +139,8 @@ impl CachedRun for Session<'_> {
                     "step {number} {label} is not stored: its input files are unknown: {}: {why}",
                     path.display()
                 ));
-                // Later steps can still be cached: their state is derived from the content of the scene.
+                // Later steps can still be cached, because the state after this step is derived from the content of the
+                // scene.
                 if is_dense(done.scene) {
                     let digest = position.digest.unwrap_or_else(|| done.scene.digest());
                     position.digest = Some(digest);
@@ -303,8 +305,8 @@ impl<'a> Session<'a> {
         Err(first.unwrap_or(RerunReason::Gone))
     }
 
-    /// Checks that the step would have the result in the record if it ran now. If so, restores its output files into
-    /// the stage.
+    /// Checks that the step would give the recorded result if it ran now. If so, and if there is a stage, restores the
+    /// output files of the step into the stage.
     fn use_record(
         &mut self,
         record: &Record,
@@ -320,7 +322,7 @@ impl<'a> Session<'a> {
         let Some(outputs) = &record.outputs else {
             return Ok(());
         };
-        // The provenance matters only if the output files are needed.
+        // If there is no stage, the output files are not needed, and a different provenance does not matter.
         if stage.is_some() && outputs.provenance != files.provenance {
             return Err(RerunReason::Provenance);
         }
@@ -347,13 +349,14 @@ impl<'a> Session<'a> {
             if restored.is_ok() {
                 restored = move_file(&part(i), &stage.join(&file.path));
             }
-            // Removes the temporary file if it was not moved.
+            // If the temporary file was not moved, it is removed.
             Folder::discard(&part(i));
         }
         restored
     }
 
-    /// Stores the scene after a step, if it can be restored exactly and storing it is faster than computing it again.
+    /// Stores the scene after a step, if the scene can be restored exactly and storing it is not slower than computing
+    /// it again.
     fn store_scene(&mut self, scene: &Scene, number: usize, label: &str) -> Option<SceneRef> {
         let bytes = estimated_bytes(scene);
         let why = if !is_dense(scene) {
@@ -375,8 +378,8 @@ impl<'a> Session<'a> {
         Some(stored)
     }
 
-    /// Stores the output files of a step, if storing them is faster than computing them again. `None` if the step has
-    /// no outputs.
+    /// Stores the output files of a step, if storing them is not slower than computing them again. `None` if the step
+    /// has no outputs.
     fn store_outputs(&mut self, files: &Files, done: &CompletedStep) -> Option<Outputs> {
         let requested: Vec<_> = done
             .uses
@@ -390,7 +393,8 @@ impl<'a> Session<'a> {
             return None;
         }
         let stored = done.stage.and_then(|stage| {
-            // `done.written` lacks files that were written twice within the resolution of modification times.
+            // If a file was written twice within the resolution of modification times, `done.written` does not contain
+            // it.
             let requested = requested.iter().map(|(_, path)| path);
             let requested = requested.filter(|path| stage.join(path).is_file());
             let written: BTreeSet<&PathBuf> = done.written.iter().chain(requested).collect();
@@ -426,7 +430,7 @@ fn is_below(path: &Path) -> bool {
     parts.all(|part| matches!(part, std::path::Component::Normal(_)))
 }
 
-/// Moves a file, and creates the folder that it is moved to.
+/// Moves a file. If the target folder does not exist, creates it.
 fn move_file(from: &Path, to: &Path) -> Result<(), RerunReason> {
     let folder = to.parent().map_or(Ok(()), std::fs::create_dir_all);
     let moved = folder.and_then(|()| std::fs::rename(from, to));
@@ -445,7 +449,8 @@ fn is_worth_storing(bytes: u64, time: Duration) -> bool {
     bytes < ALWAYS_STORED || bytes as f64 / BYTES_PER_SECOND <= time.as_secs_f64()
 }
 
-/// Whether no mesh has removed elements. Only then is the scene the same after it is stored and loaded.
+/// Whether all meshes are dense, which means that they have no removed elements. Only a scene of dense meshes is the
+/// same after it was stored and loaded.
 fn is_dense(scene: &Scene) -> bool {
     let mut meshes = scene.objects().iter().filter_map(|o| o.as_mesh());
     meshes.all(|mesh| mesh.is_dense())

@@ -226,7 +226,7 @@ fn only_the_changed_step_and_later_steps_run_again() {
     let ninth = ten(|i| if i == 9 { 2.5 } else { 1.5 });
     let after = "step 9 lift9 ran again".to_owned();
     assert_eq!(place.ran(&ninth), [(9, why), (10, after)]);
-    // The results of both versions are in the cache now.
+    // Now the cache contains the results of both versions of the recipe.
     place.runs_nothing(&ten(|_| 1.5));
     place.runs_nothing(&ninth);
 }
@@ -328,7 +328,7 @@ fn an_input_file_that_changes_disappears_or_appears_is_named() {
         assert_eq!(ran[0], (1, why));
         place.runs_nothing(&text);
     }
-    // An earlier state of the files: its result is still in the cache.
+    // The files are again as in an earlier run, and the result of that run is still in the cache.
     fs::remove_file(place.path("n.beside")).unwrap();
     place.write("n.txt", "4");
     place.runs_nothing(&text);
@@ -348,7 +348,7 @@ fn a_step_that_does_not_report_what_it_reads_runs_every_time() {
     );
     place.write("n.txt", "4");
     assert_eq!(place.numbers(&text), [1, 2, 3]);
-    // Later steps depend only on the scene, which is the same.
+    // Both texts give the same scene, and later steps depend only on the scene.
     place.write("n.txt", " 3");
     assert_eq!(place.numbers(&text), [1]);
 }
@@ -391,7 +391,7 @@ fn outputs_come_from_the_cache_with_the_same_bytes() {
     fs::remove_dir_all(place.path("out")).unwrap();
     place.runs_nothing(&text);
     assert_eq!(fs::read(place.path("out/deep/a.txt")).unwrap(), b"sheet");
-    // The output files may record the provenance, so they are written again.
+    // The provenance has changed. The output files may contain it, so they are written again.
     let edited = text.replace("by: 1", "by: 2");
     let ran = place.ran(&edited);
     assert_eq!(ran[0], (2, RerunReason::Provenance.to_string()));
@@ -433,13 +433,13 @@ fn expectations_that_hold_are_not_checked_again() {
     let outcome = place.run(text);
     assert_eq!(outcome.checked, 3);
     assert!(outcome.scene.is_none(), "the scene was not needed");
-    // A change of the file to compare with matters.
+    // If the file that the expectation compares with changes, the expectation is checked again.
     place.write("n.txt", "3");
     let outcome = place.run(text);
     assert_eq!(outcome.failures.len(), 1);
     place.write("n.txt", "2");
     assert!(place.run(text).scene.is_none());
-    // A new expectation is checked, on the scene after its step.
+    // A new expectation is checked against the scene after its step.
     let outcome = place.run(&text.replace("Faces(eq: 2)", "Vertices(eq: 7)"));
     assert_eq!(outcome.failures.len(), 1);
     assert!(outcome.steps.iter().all(|step| step.ran.is_none()));
@@ -462,7 +462,7 @@ fn a_large_scene_that_is_fast_to_compute_may_be_computed_again() {
     let place = Place::new();
     let text = steps("Sheet(columns: 60000), Write(path: \"a.txt\")");
     place.run(&text);
-    // Whether the scene is stored depends on the speed of the machine; the outcome does not.
+    // It depends on the speed of the machine whether the scene is stored. The outcome is the same in both cases.
     let more = text.replace("])", ", Sheet(columns: 1, name: \"b\")])");
     let outcome = place.run(&more);
     assert_eq!(outcome.steps.len(), 3);

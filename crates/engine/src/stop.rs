@@ -4,12 +4,14 @@ use recipe::{RecipeStep, did_you_mean};
 
 use crate::Loaded;
 
-/// Where a recipe stops. By default it runs to the end.
+/// Where a recipe stops. By default, the recipe runs to the end.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Stop<'a> {
-    /// Stop after the step or call with this id or label. If it is repeated, after its last repetition.
+    /// Stop after the step or call with this id or label. If the step or call is repeated, stop after its last
+    /// repetition.
     pub after: Option<&'a str>,
-    /// Stop before the step or call with this id or label. If it is repeated, before its first repetition.
+    /// Stop before the step or call with this id or label. If the step or call is repeated, stop before its first
+    /// repetition.
     pub before: Option<&'a str>,
 }
 
@@ -26,12 +28,12 @@ pub struct UnknownStep {
 }
 
 impl Loaded {
-    /// Removes the steps after the stop, and all expectations. Returns the label of the step in [`Stop::before`], which
-    /// seeds the random choices of that step, or an empty string if none is given.
+    /// Removes the steps after the stop, and all expectations. Returns the label of the step that [`Stop::before`]
+    /// names. The label seeds the random choices of that step. If [`Stop::before`] is `None`, returns an empty string.
     ///
     /// # Errors
     ///
-    /// [`UnknownStep`]
+    /// [`UnknownStep`] if no step or call has the id or label.
     pub fn stop(&mut self, stop: Stop) -> Result<String, UnknownStep> {
         let steps = &self.recipe.steps;
         let unknown = |id: &str| {
@@ -58,7 +60,7 @@ impl Loaded {
     }
 }
 
-/// Whether a step has the id or the label, or is part of a call that has it.
+/// Whether `id` is the id or the label of a step, or the label of a call that contains the step.
 fn is_match(step: &RecipeStep, id: &str) -> bool {
     let inside = step.label.strip_prefix(id);
     step.label == id

@@ -2,9 +2,9 @@
 
 use mesh::{EdgeId, FaceId, Mesh};
 
-/// The remaining lengths of edges that bevels cut. They convert fractions of the edge lengths before the step
-/// to fractions of the current lengths, so that the result does not depend on which end of an edge is cut
-/// first.
+/// The remaining lengths of edges that bevels cut. A fraction of the length that an edge had before the step
+/// is converted to a fraction of its current length. So the result does not depend on which end of an edge is
+/// cut first.
 ///
 /// ```text
 ///    a---+---------------+---b      both cuts at a quarter of a-b: the second cut is at a third

@@ -42,8 +42,8 @@ pub fn mean_curvatures(mesh: &Mesh) -> Vec<f64> {
     })
 }
 
-/// Returns the area of the surface that belongs to a vertex, in scene unit²: for each face around it, the area
-/// of the face divided by its number of corners.
+/// Returns the area of the surface that belongs to a vertex, in scene unit². Each face around the vertex
+/// contributes its area divided by its number of corners.
 pub fn vertex_area(mesh: &Mesh, v: VertexId) -> f64 {
     let faces = mesh.vertex_half_edges(v).filter_map(|h| mesh.face(h));
     #[expect(clippy::cast_precision_loss, reason = "a face has few corners")]

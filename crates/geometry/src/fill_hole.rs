@@ -32,9 +32,9 @@ const SHAPE_WEIGHT: f64 = 1e-6;
 ///
 /// If the hole has at most 500 edges, the triangles have the smallest total area of all triangulations of the
 /// vertices around the hole: Barequet and Sharir, "Filling gaps in the boundary of a polyhedron", 1995, in time
-/// n³. If several triangulations have the same area, as in a flat hole, the one whose triangles are closest to
-/// equilateral is used: a shape term is added to the area of each triangle, at most 1e-6 times the mean squared
-/// edge length of the hole.
+/// n³. If several triangulations have the same area, as in a flat hole, the triangulation whose triangles are
+/// closest to equilateral is used. To this end, a shape term is added to the area of each triangle. It is at
+/// most 1e-6 times the mean squared edge length of the hole.
 ///
 /// In larger holes, the corner whose neighbours are nearest to each other is cut off repeatedly, in time n log
 /// n. Corners that are straight or reflex, as seen along the mean normal, come last. In a hole that is far from
@@ -59,7 +59,8 @@ pub fn fill_hole_triangles(mesh: &mut Mesh, h: HalfEdgeId) -> Result<Vec<FaceId>
     mesh.fill_hole_by_ears(h, &ears)
 }
 
-/// Returns the vertices to cut off, in order, as indices into `rim`. There are two fewer than the rim has.
+/// Returns the vertices to cut off, in order, as indices into `rim`. The two vertices that remain at the end
+/// are not returned.
 fn ears(mesh: &Mesh, rim: &[HalfEdgeId]) -> Result<Vec<usize>, EditError> {
     let hole = Hole::of(mesh, rim);
     let ears = if rim.len() <= MAX_EXACT_EDGES {
@@ -78,8 +79,8 @@ struct Hole<'m> {
     shape: f64,
 }
 
-/// The cost of the best triangulation of a part of the rim, and the third corner of the triangle at the edge
-/// between the ends of that part.
+/// The best triangulation of a part of the rim: its cost, and the third corner of the triangle whose side
+/// joins the two ends of the part.
 type Best = (f64, usize);
 
 impl<'m> Hole<'m> {
@@ -129,7 +130,8 @@ impl<'m> Hole<'m> {
         for length in 2..n {
             for i in 0..n - length {
                 let k = i + length;
-                // The longest part is closed by the last edge of the rim, which is not new.
+                // A part is closed by a new edge between its ends. Only the longest part is closed by an edge
+                // of the rim.
                 if length < n - 1 && self.is_joined(i, k) {
                     continue;
                 }
@@ -184,7 +186,8 @@ impl<'m> Hole<'m> {
         let mut is_cut = vec![false; n];
         while ears.len() < n - 3 {
             let Reverse((_, ear, p, q)) = queue.pop()?;
-            // Skips entries that are out of date because a neighbour was cut off. The queue has a newer entry.
+            // An entry is out of date if a neighbour of its corner was cut off. It is skipped, because the
+            // queue has a newer entry.
             let is_outdated = is_cut[ear] || before[ear] != p || next[ear] != q;
             if is_outdated || self.is_joined(p, q) {
                 continue;

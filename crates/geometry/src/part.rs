@@ -60,11 +60,11 @@ pub fn separated(mesh: &Mesh) -> Vec<Mesh> {
 /// Splits the mesh into separate meshes: one part for each number in `part_of_face`, which is indexed by face.
 /// Parts are in ascending order of these numbers. Faces with `usize::MAX` and isolated vertices are left out.
 ///
-/// Elements keep their order and their values. An edge between two parts is in both. If the faces of a part
-/// form several fans around a vertex, the fan with the lowest boundary half-edge keeps the vertex, and each of
-/// the other fans gets a copy, numbered after all other vertices. A part with a new boundary loses the columns
-/// with [`Rule::Drop`](mesh::Rule::Drop). The parts are dense. Except for sorting, takes linear time for any
-/// number of parts.
+/// Elements keep their order and their values. An edge between two parts is copied to both. If the faces of a
+/// part form several fans around a vertex, the fan with the lowest boundary half-edge keeps the vertex, and
+/// each of the other fans gets a copy, numbered after all other vertices. A part with a new boundary loses the
+/// columns with [`Rule::Drop`](mesh::Rule::Drop). The parts are dense. Except for sorting, takes linear time
+/// for any number of parts.
 ///
 /// # Panics
 ///
@@ -138,7 +138,8 @@ impl PartBuilder<'_> {
             }
             c.face_half_edge.push(half_edge(old.face_half_edge(f)));
         }
-        // Vertices inside the part keep their half-edge; those on its boundary get theirs below.
+        // A vertex inside the part keeps its half-edge. A vertex on the boundary of the part gets its half-edge
+        // below.
         for (v, slot) in vertices.iter().zip(&mut c.vertex_half_edge) {
             let h = old
                 .vertex_half_edge(*v)
@@ -187,7 +188,8 @@ fn link_boundary(c: &mut Connectivity, prev: &[HalfEdgeId], vertices: &mut Vec<V
         .filter(|h| c.face[h.index()] == FaceId::NONE)
         .collect();
     for &h in &boundary {
-        // Walks around the target, through the faces of the fan, to the boundary half-edge that starts there.
+        // Walks around the target of h, through the faces of the fan, to the boundary half-edge that leaves the
+        // target.
         let mut leaving = h.twin();
         while c.face[leaving.index()] != FaceId::NONE {
             leaving = prev[leaving.index()].twin();

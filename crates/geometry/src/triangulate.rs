@@ -24,7 +24,8 @@ pub type Triangle = [u32; 3];
 
 /// Lengths, areas and turns whose relative difference is below this are treated as equal.
 const TOLERANCE: f64 = 1e-12;
-/// The most corners of a face for ear clipping, whose indices have 32 bits. Larger faces become fans.
+/// The largest number of corners for which a face is cut by ear clipping, which uses 32-bit indices. A face
+/// with more corners becomes a fan.
 const MAX_CORNERS: usize = 10_000_000;
 
 /// How a face is cut.
@@ -92,8 +93,8 @@ impl Cut {
 ///
 /// A quadrilateral is cut along its shorter diagonal. If both are equally long (relative difference of the
 /// squared lengths at most 1e-12), it is cut along the diagonal at its lowest vertex. A diagonal is avoided if
-/// one of its triangles has no area or is flipped, as seen along the face normal, unless the other diagonal has
-/// the same problem. So a quadrilateral with a reflex corner is cut at that corner.
+/// one of its triangles has no area or is flipped, as seen along the face normal. If both diagonals have this
+/// problem, neither is avoided. So a quadrilateral with a reflex corner is cut at that corner.
 ///
 /// A larger face is projected along its normal and cut by ear clipping (Held, "FIST: Fast Industrial-Strength
 /// Triangulation of Polygons", 2001, as implemented by the crate `earcut`). Then diagonals are flipped until it
@@ -275,8 +276,8 @@ fn insert_skipped_corners(n: usize, triangles: &mut Vec<Triangle>) {
         let place = used.partition_point(|&u| u <= i);
         used.get(place).copied().unwrap_or(first)
     };
-    // For each side of the polygon of used corners, the triangle at that side, indexed by the first corner of
-    // the side.
+    // Consider the polygon of the used corners. For each side of this polygon, the triangle at the side,
+    // indexed by the first corner of the side.
     let mut owner = vec![None; n];
     for (t, triangle) in triangles.iter().enumerate() {
         for k in 0..3 {
@@ -295,8 +296,8 @@ fn insert_skipped_corners(n: usize, triangles: &mut Vec<Triangle>) {
         let Some(&c) = triangles[t].iter().find(|&&c| c != a && c != b) else {
             continue;
         };
-        // The first part replaces the old triangle in the list and keeps the side from c. The last part has the
-        // side to c.
+        // The triangle is split into several triangles with corner c. The first one has the side from c to a,
+        // and replaces the old triangle in the list. The last one has the side from b to c.
         let mut from = a;
         let mut part = t;
         while from != b {

@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 
 use store::{Store, StoreError, folder_of};
 
-/// Resolves a path that must stay inside a folder: relative, without a drive, and with `..` only as long as the
-/// path does not leave the folder.
+/// Resolves a path that must stay inside a folder. The path must be relative and must not name a drive. It can
+/// contain `..` if it does not leave the folder.
 ///
 /// # Errors
 ///
-/// The reason why the path is refused, as words that follow the path.
+/// The reason why the path is refused, worded to follow the path in a message.
 pub(crate) fn inside(name: &str) -> Result<PathBuf, &'static str> {
     if name.is_empty() {
         return Err("is empty");
@@ -41,11 +41,11 @@ pub(crate) fn inside(name: &str) -> Result<PathBuf, &'static str> {
     }
 }
 
-/// As [`inside`], for a URI reference in glTF, in which bytes are percent-encoded.
+/// Like [`inside`], but for a URI reference in glTF, in which bytes can be percent-encoded.
 ///
 /// # Errors
 ///
-/// The reason why the URI is refused, as words that follow the URI.
+/// The reason why the URI is refused, worded to follow the URI in a message.
 pub(crate) fn inside_uri(uri: &str) -> Result<PathBuf, &'static str> {
     if uri.contains('\\') {
         return Err("has a backslash");
@@ -56,7 +56,7 @@ pub(crate) fn inside_uri(uri: &str) -> Result<PathBuf, &'static str> {
     let mut decoded = Vec::new();
     for segment in uri.split('/') {
         let part = percent_decoded(segment).ok_or("has an invalid percent-encoding")?;
-        // Decoded after splitting, so that an encoded separator or dot does not act as one.
+        // Each segment is decoded after splitting, so that an encoded separator does not split the path.
         if part.contains(['/', '\\']) || (part != segment && (part == "." || part == "..")) {
             return Err("has a percent-encoded separator or dot segment");
         }
@@ -65,7 +65,7 @@ pub(crate) fn inside_uri(uri: &str) -> Result<PathBuf, &'static str> {
     inside(&decoded.join("/"))
 }
 
-/// Decodes the percent-encoded bytes of a part of a URI; `None` if it is not valid.
+/// Decodes the percent-encoded bytes of a part of a URI; `None` if the encoding is not valid.
 pub(crate) fn percent_decoded(segment: &str) -> Option<String> {
     let mut bytes = Vec::with_capacity(segment.len());
     let mut rest = segment.as_bytes();

@@ -8,14 +8,15 @@ use mesh::{Attributes, Domain, Elements, VertexId};
 use crate::note::{NoteKind, Notes};
 use crate::{CleanupPolicy, Policies, Polygons, parallel};
 
-/// A face is degenerate if its area is less than this multiple of the square of its longest side, which is the
-/// rounding error of an area of zero.
+/// A face is degenerate if its area is less than this multiple of the square of its longest side. This bound is
+/// the rounding error of an area of zero.
 const DEGENERATE_RATIO: f64 = 1e-14;
 
-/// The number of groups, by hash, within which faces are compared. Groups are processed in parallel.
+/// The number of groups of faces. Faces are grouped by hash, and each face is compared only with faces of its
+/// group. Groups are processed in parallel.
 const N_GROUPS: usize = 16;
 
-/// For each polygon, its index in the file; `None` if the indices are the same.
+/// For each polygon, its index in the file; `None` if every polygon has the same index as in the file.
 pub(crate) type SourcePolygons = Option<Vec<u32>>;
 
 /// Removes corners that repeat the corner before them, and the faces and vertices that the policies drop. Returns
@@ -75,8 +76,8 @@ fn corners(polygons: &Polygons, f: usize) -> &[u32] {
     &polygons.corners[polygons.offsets[f] as usize..polygons.offsets[f + 1] as usize]
 }
 
-/// Returns the polygons in which a corner has the vertex of the corner before it and at least three corners are
-/// left without the repeated ones. For these, fills `is_kept` with a flag for each corner.
+/// Returns the polygons with corners that repeat the vertex of the corner before them, if at least three corners
+/// are left without these. For the polygons that it returns, fills `is_kept` with a flag for each corner.
 fn repeated_corners(polygons: &Polygons, is_kept: &mut Vec<bool>) -> Vec<usize> {
     let kept_in = |corners: &[u32]| {
         let before = corners.iter().cycle().skip(corners.len().max(1) - 1);
@@ -129,7 +130,7 @@ fn is_degenerate(points: &[DVec3]) -> bool {
     let longest = sides
         .map(|(a, b)| a.distance_squared(*b))
         .fold(0.0, f64::max);
-    // Not `>`, so that a face whose numbers overflow is kept.
+    // If numbers overflow to NaN, this comparison is false, so that the face is kept.
     double.length() <= 2.0 * DEGENERATE_RATIO * longest
 }
 
@@ -178,7 +179,7 @@ fn sum_of_hashes(corners: &[u32]) -> u64 {
     hashes.fold(corners.len() as u64, u64::wrapping_add)
 }
 
-/// The corners beginning with the lowest vertex, in the direction of its lower neighbor.
+/// The vertices of the corners, beginning with the lowest vertex and continuing towards its lower neighbor.
 fn canonical(corners: &[u32]) -> Vec<u32> {
     let Some(start) = (0..corners.len()).min_by_key(|&i| corners[i]) else {
         return Vec::new();

@@ -9,8 +9,8 @@ use mesh::{FaceId, HalfEdgeId, Mesh, VertexId};
 /// The largest number of distinct values at a vertex that a corner is compared with.
 const MAX_COMPARED: usize = 64;
 
-/// Numbers for the distinct values on the corners around each vertex of a mesh, over all corners, in the order of
-/// the faces and their corners.
+/// Numbers the distinct values on the corners of each vertex of a mesh. The numbers run over the whole mesh, in
+/// the order of the faces and their corners.
 #[derive(Debug)]
 pub(crate) struct CornerNumbers {
     /// For each half-edge of a face, the first half-edge that leaves the same vertex with the same value.
@@ -27,8 +27,8 @@ impl CornerNumbers {
     /// vertex with a million corners stays linear. If a vertex has more distinct values, a value can get a second
     /// number.
     pub(crate) fn new(mesh: &Mesh, equal: impl Fn(HalfEdgeId, HalfEdgeId) -> bool + Sync) -> Self {
-        // Each entry is written by a single task: that of the vertex which the half-edge leaves, or that of its
-        // face.
+        // Each entry is written by a single task: in `same` by the task of the vertex that the half-edge leaves,
+        // in `numbers` by the task of the number.
         let unset = || -> Vec<AtomicU32> { mesh::zeroed(mesh.n_half_edges()) };
         let (same, numbers) = (unset(), unset());
         let number_of = |i: usize| u32::try_from(i).unwrap_or(u32::MAX);

@@ -1,7 +1,8 @@
 //! Decimal numbers as text: reading correctly rounded numbers, and writing the shortest text that reads back as the
 //! same number.
 
-/// Parses the finite number at the beginning of `text`, correctly rounded. Returns it with its length in bytes.
+/// Parses the finite number at the beginning of `text`, correctly rounded. Returns the number and the length of
+/// its text in bytes.
 #[inline]
 pub(crate) fn leading_number(text: &[u8]) -> Option<(f64, usize)> {
     let unsigned = match text {
@@ -14,7 +15,7 @@ pub(crate) fn leading_number(text: &[u8]) -> Option<(f64, usize)> {
     x.is_finite().then_some((x, length))
 }
 
-/// Parses the digits at `at`, at most eight. Returns their value and their number.
+/// Parses at most eight digits, beginning at `at`. Returns their value and the number of digits.
 ///
 /// Processes all digits at once as the bytes of one word (Lemire, "Quickly parsing eight digits", 2018).
 #[inline]
@@ -94,8 +95,9 @@ fn push_bytes(out: &mut Vec<u8>, word: u64, n: usize) {
 pub(crate) fn push_whole(out: &mut Vec<u8>, value: usize) {
     match u64::try_from(value) {
         Ok(value) if value < 100_000_000 => {
-            // Computes all eight digits at once: first halves, then pairs, then digits, the first digit in the
-            // lowest byte. The multiplications replace divisions by 100 and 10.
+            // Computes all eight digits at once: splits the value into two halves, the halves into pairs of
+            // digits, and the pairs into digits. The first digit is then in the lowest byte. The multiplications
+            // replace divisions by 100 and 10.
             let halves = (value / 10_000) | (value % 10_000) << 32;
             let hundreds = ((halves * 10_486) >> 20) & 0x0000_007f_0000_007f;
             let pairs = hundreds | (halves - 100 * hundreds) << 16;

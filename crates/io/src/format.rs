@@ -24,7 +24,7 @@ pub enum Format {
     Mws,
     /// Bicubic Bezier patches as text.
     Bez,
-    /// SingleFile planar Bezier curve as text.
+    /// A planar Bezier curve as text.
     Bzc,
 }
 

@@ -15,7 +15,7 @@ use crate::writing::dense;
 pub(crate) struct Joined<'a> {
     /// The mesh without dead elements. The meshes of several objects are appended in order.
     pub(crate) mesh: Cow<'a, Mesh>,
-    /// The object that losses name: the first object.
+    /// The object name that losses report: the name of the first object.
     pub(crate) name: String,
     pub(crate) losses: Vec<Loss>,
 }

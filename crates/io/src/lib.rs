@@ -278,7 +278,8 @@ fn fail_if_left_out(path: &Path, notes: &[Note]) -> Result<(), ReadError> {
     })
 }
 
-/// Returns what reading a file will give, from the headers of the file if it has any.
+/// Returns the objects that reading a file would give, with their counts. Uses the headers of the file if it has
+/// any.
 ///
 /// Bezier files are checked completely and glTF files up to the end of their JSON. OBJ files are not checked: their
 /// statements are only counted.

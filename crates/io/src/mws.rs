@@ -29,7 +29,8 @@ pub(crate) fn read(bytes: &[u8], name: Option<&str>) -> Result<Vec<ParsedObject>
     Ok(objects.collect())
 }
 
-/// Returns what reading will give. Decodes the whole file, because all of it must be valid.
+/// Returns the objects that reading would give, with their counts. Decodes the whole file, because all of it
+/// must be valid.
 pub(crate) fn peek(bytes: &[u8], name: Option<&str>) -> Result<Vec<PeekObject>, Fault> {
     let objects = objects(bytes, name)?.into_iter().map(|object| PeekObject {
         geometry: PeekGeometry::of(&object.geometry),

@@ -37,7 +37,7 @@ impl Note {
 pub(crate) struct PolygonArrays<'a> {
     /// The position of each vertex.
     pub(crate) positions: &'a [DVec3],
-    /// Where the corners of each polygon begin, followed by where those of the last one end.
+    /// For each polygon, the index of its first corner, followed by the total number of corners.
     pub(crate) offsets: &'a [u32],
     /// The vertex of each corner.
     pub(crate) corners: &'a [u32],
@@ -71,7 +71,7 @@ impl PolygonArrays<'_> {
 pub enum NoteKind {
     /// The file holds something that the scene does not.
     LeftOut,
-    /// The scene holds it in a different form than the file.
+    /// The scene holds something in a different form than the file.
     Changed,
 }
 

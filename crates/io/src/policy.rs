@@ -16,8 +16,8 @@ pub struct Policies {
     pub orientation: Orientation,
     /// Faces with the same vertices as an earlier face in the same circular order, in either direction.
     pub duplicates: CleanupPolicy,
-    /// Faces without area: less than 1e-14 times the square of their longest side, which is the rounding error of
-    /// an area of zero.
+    /// Faces without area: less than 1e-14 times the square of their longest side. This bound is the rounding
+    /// error of an area of zero.
     pub degenerate: CleanupPolicy,
     /// Vertices without a face.
     pub isolated: CleanupPolicy,

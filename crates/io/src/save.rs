@@ -17,7 +17,7 @@ pub(crate) enum Content<'a> {
     Blocks(Vec<Block<'a>>),
 }
 
-/// Appends a block of some hundred kilobytes to a file.
+/// Appends a block of a few hundred kilobytes to a file.
 pub(crate) type Block<'a> = Box<dyn Fn(&mut Vec<u8>) + Send + Sync + 'a>;
 
 /// Writes all files to temporary files first, and moves them to their paths in the given order when all are

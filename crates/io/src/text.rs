@@ -298,7 +298,7 @@ pub(crate) fn is_not_finite(word: &[u8]) -> bool {
 ///
 /// # Errors
 ///
-/// At the beginning of the text, with the name of the encoding.
+/// If the text is in UTF-16 or UTF-32. The error is at the beginning of the text and names the encoding.
 pub(crate) fn check_encoding(bytes: &[u8]) -> Result<(), Fault> {
     let is_wide = |first: usize| {
         let mut pairs = bytes.chunks_exact(2).take(16);

@@ -19,7 +19,7 @@ const BUCKET: usize = 1 << 14;
 const MAX_BUCKETS: usize = 1 << 10;
 
 /// Counts the vertices with faces whose position, rounded to 32 bits, equals that of an earlier vertex. Formats
-/// that identify vertices by position merge them.
+/// that identify vertices by position merge these vertices.
 pub(crate) fn n_merged(mesh: &Mesh) -> usize {
     let used = parallel::filter(mesh.n_vertices(), |v| {
         mesh.vertex_half_edge(VertexId::new(v)).is_some()
@@ -30,14 +30,14 @@ pub(crate) fn n_merged(mesh: &Mesh) -> usize {
     used.len() - weld(places).0.len()
 }
 
-/// Returns the distinct positions in order of first occurrence, and for each position its index among them. 0 and
-/// -0 are equal. There must be fewer than 2^32 - 1 positions.
+/// Returns the distinct positions in order of first occurrence, and for each given position its index in this
+/// list. 0 and -0 are equal. There must be fewer than 2^32 - 1 positions.
 ///
 /// If all positions are distinct, the list is returned unchanged.
 pub(crate) fn weld(positions: Vec<DVec3>) -> (Vec<DVec3>, Vec<u32>) {
     let mut vertex_of = firsts(&positions);
     let is_first = |i: usize, first: u32| i == first as usize;
-    // The number of distinct positions that begin in each chunk.
+    // The number of distinct positions that occur first in each chunk.
     let counts = parallel::consume(vertex_of.chunks(CHUNK), |chunk, firsts| {
         let own = (chunk * CHUNK..).zip(firsts);
         own.filter(|&(i, &first)| is_first(i, first)).count()

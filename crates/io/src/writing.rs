@@ -19,7 +19,7 @@ pub(crate) fn dense(mesh: &Mesh) -> Cow<'_, Mesh> {
     Cow::Owned(copy)
 }
 
-/// Appends a comment, each of its lines after `word`.
+/// Appends a comment. `word` precedes each of its lines.
 pub(crate) fn push_comment(out: &mut Vec<u8>, word: &str, comment: Option<&str>) {
     for line in comment
         .into_iter()
@@ -29,7 +29,7 @@ pub(crate) fn push_comment(out: &mut Vec<u8>, word: &str, comment: Option<&str>)
     }
 }
 
-/// Converts a color component to the nearest number of 255ths.
+/// Converts a color component to the nearest multiple of 1/255, as a byte.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -39,7 +39,7 @@ pub(crate) fn to_byte(x: f64) -> u8 {
     (x * 255.0).round() as u8
 }
 
-/// Whether a color component is exactly a number of 255ths.
+/// Whether a color component is exactly a multiple of 1/255.
 pub(crate) fn is_byte(x: f64) -> bool {
     (f64::from(to_byte(x)) / 255.0).to_bits() == x.to_bits()
 }

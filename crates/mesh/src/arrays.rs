@@ -235,7 +235,7 @@ impl Mesh {
         self.connectivity.vertex_half_edge[v.index()].some()
     }
 
-    /// Returns the half-edge of `f` at which its first corner is.
+    /// Returns the half-edge of `f` that leaves the first corner of `f`.
     #[inline]
     pub fn face_half_edge(&self, f: FaceId) -> HalfEdgeId {
         self.connectivity.face_half_edge[f.index()]

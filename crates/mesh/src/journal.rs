@@ -9,8 +9,8 @@
 //! them to the outer level.
 //!
 //! The journal is a stack of entries. Elements that were added after the level was opened need no
-//! entries: undoing truncates the arrays to their old lengths. Undoing records the values that it
-//! overwrites in the same way, which gives the change that redoes the edits. Entries that would take
+//! entries: an undo truncates the arrays to their old lengths. An undo records the values that it
+//! overwrites in the same way. This record is the change that redoes the edits. Entries that would take
 //! more memory than the mesh are replaced by one copy of the mesh, and a level that has a copy needs no
 //! further entries. So a journal never takes more than about twice the memory of its mesh.
 
@@ -50,16 +50,17 @@ const JOURNAL_ALLOWANCE: usize = 1 << 16;
 pub(crate) struct Journal {
     recorded: Change,
     levels: Vec<Level>,
-    /// The numbers of elements that are older than the innermost level. Only elements below them are recorded.
+    /// The numbers of elements when the innermost level was opened. Only changes of these elements are
+    /// recorded. All numbers are 0 if the whole mesh was recorded.
     lengths: Lengths,
 }
 
 /// One level of recording: from a `begin` to its `commit` or `rollback`.
 #[derive(Clone, Copy, Debug)]
 struct Level {
-    /// The index of its first entry.
+    /// The index of the first entry of the level.
     start: usize,
-    /// The index of its first byte of values.
+    /// The index of the first byte of values of the level.
     first_value: usize,
     /// The lengths of the arrays at `begin`.
     lengths: Lengths,
@@ -70,7 +71,7 @@ struct Level {
 /// One recorded value, to be restored.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Entry {
-    /// In this array, at this index: the overwritten id, as a plain number.
+    /// An overwritten id: the array, the index in the array, and the id as a plain number.
     Link(Array, u32, u32),
     /// The position of a vertex; the bytes are in [`Change::values`].
     Position(VertexId),

@@ -8,8 +8,8 @@ use bytemuck::Zeroable;
 /// Arrays of at least this many bytes request large pages. Smaller arrays would waste memory.
 const LARGE: usize = 8 << 20;
 
-/// The system has no memory for a large array. [`zeroed`] unwinds with this value, which is no panic of the program:
-/// callers that catch it report it as an error.
+/// The system has no memory for a large array. [`zeroed`] unwinds with this value. This is not a bug in the program:
+/// callers catch the value and report it as an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the system has no memory for another {bytes} bytes")]
 pub struct OutOfMemory {

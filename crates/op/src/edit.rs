@@ -39,7 +39,7 @@ impl OnRefusal {
     ///
     /// # Errors
     ///
-    /// Returns `refused` for [`OnRefusal::Error`], and whenever `refused` is not a refusal.
+    /// Returns `refused` for [`OnRefusal::Error`], and for any error that is not a refusal.
     pub fn refuse(self, refused: OpError, report: &mut Report) -> Result<(), OpError> {
         match self {
             Self::Error => Err(refused),
@@ -73,7 +73,7 @@ pub trait EditTarget: Copy {
     /// Returns the elements.
     fn elements(self) -> Vec<Element>;
 
-    /// Asks the processor to prefetch the memory that the edits after number `at` will access.
+    /// Asks the processor to prefetch the memory that the edits after the edit with the number `at` will access.
     fn fetch_ahead(_: &Mesh, _: &[Self], _at: usize) {}
 }
 

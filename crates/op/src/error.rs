@@ -26,15 +26,15 @@ pub enum Refusal {
     SameFace,
     /// Two vertices would be joined by a second edge.
     DuplicateEdge,
-    /// A vertex has too few edges.
+    /// A vertex has too few edges for the edit.
     FewEdges,
-    /// A face has too few corners.
+    /// A face has too few corners for the edit.
     FewCorners,
     /// A face would have the same vertex at two corners.
     RepeatedVertex,
     /// No face would remain around an edge.
     Vanishes,
-    /// The ends of an edge have a common neighbour that is not a corner of the two faces beside the edge, so the
+    /// The ends of an edge have a common neighbor that is not a corner of the two faces beside the edge, so the
     /// ends cannot be merged.
     Link,
     /// An edge inside the surface joins two boundary vertices, so its ends cannot be merged.
@@ -50,9 +50,9 @@ pub enum Refusal {
     /// The faces are only a part of their connected component.
     PartOfComponent,
     /// The elements do not have the relation that the edit needs: a path has a gap, two corners belong to
-    /// different faces, an element is named twice, or no element is named.
+    /// different faces, an element is given twice, or no element is given.
     WrongPlace,
-    /// A named vertex, edge, face, tag or material does not exist, or no longer exists.
+    /// A vertex, edge, face, tag or material that the step refers to does not exist, or no longer exists.
     Missing,
     /// A selection did not match the expected number of elements.
     Expectation,
@@ -102,7 +102,7 @@ impl From<EditError> for Refusal {
     }
 }
 
-/// Why an operation failed. The scene stays as it was before the step.
+/// Why an operation failed. The scene is then the same as before the step.
 #[derive(Debug, thiserror::Error)]
 pub enum OpError {
     /// The run was cancelled.

@@ -67,7 +67,7 @@ mod tests {
 
         let (error, places) = refused(&[refused_edge.index()]);
 
-        // The two vertices that are already joined, and the edge whose flip is refused.
+        // The locations are the two vertices that are already joined, and the edge whose flip is refused.
         let Some(EditError::DuplicateEdge(v, w)) = mesh.clone().flip_edge(refused_edge).err()
         else {
             panic!("{error}");

@@ -106,8 +106,8 @@ impl Default for Files {
 }
 
 impl Files {
-    /// Returns the path of an input file: `path` relative to the folder of the recipe. The caller reports the
-    /// reading with [`has_read`](Self::has_read).
+    /// Returns the path of an input file: `path` relative to the folder of the recipe. When the caller has read the
+    /// file, it calls [`has_read`](Self::has_read).
     pub fn to_read(&self, path: &str) -> PathBuf {
         let full = self.input.join(path);
         let file = FileUse::Requested {
@@ -118,14 +118,14 @@ impl Files {
         full
     }
 
-    /// Logs that a file was read: a path that [`to_read`](Self::to_read) returned, or a file that one of these files
-    /// refers to. A step can be cached if it calls this for every requested path. Its result must then not
-    /// depend on the contents of other files.
+    /// Logs that a file was read: a file whose path [`to_read`](Self::to_read) returned, or a file to which such a
+    /// file refers. If an operation calls this for every requested path, the step can be cached. The result of the
+    /// step must then not depend on the contents of any other file.
     pub fn has_read(&self, path: impl Into<PathBuf>) {
         self.log.note(FileUse::Read(path.into()));
     }
 
-    /// Logs that a file was read or, if `is_read` is false, that its existence was checked.
+    /// Logs that a file was read. If `is_read` is false, logs that the existence of the file was checked.
     pub fn has_used(&self, path: PathBuf, is_read: bool) {
         self.log.note(if is_read {
             FileUse::Read(path)

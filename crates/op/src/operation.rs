@@ -65,8 +65,8 @@ pub trait Operation:
     const WORDS: &'static [&'static str] = &[];
     /// Whether a step may choose objects with `on:`.
     const TAKES_ON: bool = false;
-    /// Whether the operation leaves the scene unchanged when it fails. If not, the runner keeps the meshes
-    /// from before the step, and the operation changes copies.
+    /// Whether the operation leaves the scene unchanged when it fails. If false, the runner keeps the meshes from
+    /// before the step, and the operation changes copies of them.
     const ATOMIC: bool = false;
 
     /// Changes `plan` as [`apply`](Self::apply) will change the scene, and returns the problems.
@@ -116,7 +116,8 @@ impl<T: MeshOperation> Operation for T {
             }
         }
         for (name, change) in changes {
-            // The change may contain a whole mesh: its memory is freed before compacting allocates.
+            // The change can contain a whole mesh. It is dropped here so that its memory is free before compacting
+            // allocates.
             drop(change);
             mesh_mut(scene, name)?.compact();
         }

@@ -190,7 +190,7 @@ impl MeshPlan {
                 .map(|(domain, c)| PlannedAttribute {
                     domain,
                     name: c.name.clone(),
-                    // An edit that changes connectivity drops a column with this rule.
+                    // Columns with the rule `Drop` are lost in an edit that changes connectivity.
                     certain: c.rule != Rule::Drop,
                 })
                 .collect(),

@@ -20,8 +20,8 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// A listener that receives the progress of a computation and can cancel it.
 pub trait Progress: Sync {
-    /// Receives that `done` of `total` parts of a computation are done. `task` names the computation in a few
-    /// words. Returns whether to continue.
+    /// Called when `done` of the `total` parts of a computation are finished. `task` describes the
+    /// computation in a few words. Returns whether the computation should continue.
     fn advance(&self, task: &str, done: u64, total: u64) -> bool;
 
     /// Calls [`advance`](Self::advance) and returns a `Result`, for use with `?`.
@@ -61,7 +61,7 @@ impl<'a> Meter<'a> {
         }
     }
 
-    /// Sets how many parts must be done between two reports. For callers that add few parts at a time.
+    /// Sets the number of parts between two reports. Useful for callers that add few parts at a time.
     #[must_use]
     pub fn every(self, interval: u64) -> Self {
         Self { interval, ..self }

@@ -22,8 +22,8 @@ use ron_tree::{Value, ValueKind, string_literal};
 /// The file name of the scene in a capsule.
 pub const BEFORE: &str = "before.mws";
 
-/// Returns the text of the recipe for a capsule in `folder`: the steps of `recipe` starting at the index `from`, where
-/// that step failed with `message`. `inputs` are the files that the recipe reads.
+/// Returns the text of the recipe for a capsule in `folder`. It contains the steps of `recipe` from the index `from`
+/// on. The step at this index failed with `message`. `inputs` are the files that `recipe` reads.
 pub fn capsule(
     recipe: &Recipe,
     from: usize,
@@ -41,7 +41,7 @@ pub fn capsule(
         string_literal(&about)
     );
     text += "    steps: [\n";
-    // Before the first step the scene is empty.
+    // Before the first step, the scene is empty, so nothing is loaded.
     if from > 0 {
         text += &format!("        Load(path: {}),\n", string_literal(BEFORE));
     }

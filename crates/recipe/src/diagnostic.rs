@@ -63,7 +63,7 @@ pub fn render(sources: &[Source], diagnostics: &[Diagnostic], colours: bool) -> 
                 term::emit_into_string(&config, &texts, &report).ok()
             }
         };
-        // If a line is too long to be shown, only the position and the message are.
+        // If a line is too long to be shown, the diagnostic is shown without an excerpt.
         let path = source.path.display().to_string();
         out += &rendered.unwrap_or_else(|| in_short(&path, diagnostic, index, &notes));
     }

@@ -7,10 +7,10 @@
 //!
 //! Jobs run on the same threads as the parallel loops inside them. While every thread has a job, no thread is idle, so
 //! each loop runs on the thread of its job at no extra cost. When no jobs are left to start, idle threads help with the
-//! loops of the last jobs. A thread never blocks until memory becomes free, because it could not help then: it returns
-//! to the pool, and the thread that next completes a job wakes it again. A thread that waits inside a job for a part of
-//! a loop never starts another job in the meantime. So no job has to wait for another job, and a job cannot deadlock on
-//! a lock that a suspended job on the same thread holds.
+//! loops of the last jobs. A thread never blocks until memory becomes free, because a blocked thread could not help.
+//! Instead it returns to the pool, and the thread that next completes a job wakes it again. A thread that waits inside
+//! a job for a part of a loop never starts another job in the meantime. So no job has to wait for another job, and a
+//! job cannot deadlock on a lock that a suspended job on the same thread holds.
 
 use std::any::Any;
 use std::cell::Cell;
@@ -68,14 +68,14 @@ impl<B, S, W> Jobs<B, S, W> {
     /// Runs the jobs. `ended` is called on the calling thread with all jobs that ended since the last call, in the
     /// order in which they ended. Every job is passed to it exactly once.
     ///
-    /// Jobs start in their order. A job starts when its bytes and those of the running jobs together are within the
+    /// Jobs start in their order. A job starts when its bytes and the bytes of the running jobs together are within the
     /// budget. A job that exceeds the budget by itself runs alone. A panic ends only the job that panicked.
     ///
     /// Must not be called from a thread of a rayon pool, because it blocks.
     ///
     /// # Errors
     ///
-    /// [`JobsError`] if the threads cannot be started. No job has started then.
+    /// [`JobsError`] if the threads cannot be started. In that case, no job has started.
     pub fn run<T>(
         &self,
         limits: JobLimits,
@@ -135,7 +135,7 @@ fn deliver<T>(
 }
 
 thread_local! {
-    /// Whether this thread runs a job. It may be waiting for a part of the job.
+    /// Whether this thread runs a job, or waits inside a job for a part of it.
     static RUNS_JOB: Cell<bool> = const { Cell::new(false) };
 }
 
@@ -164,11 +164,11 @@ where
     S: Fn() -> bool + Sync,
     W: Fn(usize) -> T + Sync,
 {
-    /// Runs jobs as long as a job can start. With each job that it starts, wakes another thread if one more job could
-    /// start; but not with its first job if all threads were started together (`is_broadcast`).
+    /// Runs jobs until no job can start. Whenever it starts a job and the limits allow one more, wakes another thread.
+    /// If `is_broadcast`, all threads were started together, so the first job wakes no other thread.
     fn work<'s>(&'s self, scope: &Scope<'s>, is_broadcast: bool) {
-        // This thread already runs a job, which waits for a part of a loop. It would have to wait until a whole other
-        // job has ended.
+        // This thread already runs a job, which waits for a part of a loop. If the thread started another job now, the
+        // waiting job could not continue before the other job has ended.
         if RUNS_JOB.get() {
             return;
         }
@@ -188,7 +188,7 @@ where
             state.running -= 1;
             state.used -= started.bytes;
             drop(state);
-            // Fails only if the calling thread has panicked. The result is not needed then.
+            // Sending fails only if the calling thread has panicked. In that case, the result is not needed.
             let _ = self.sender.send((started.job, end));
         }
     }
@@ -235,7 +235,7 @@ where
 struct StartedJob {
     job: usize,
     bytes: u64,
-    /// Whether another job could start in addition.
+    /// Whether the limits allow one more job to start.
     is_room_for_more: bool,
 }
 
@@ -281,8 +281,9 @@ impl<T> InOrder<T> {
 const BYTES_FOR_EACH_BYTE_READ: u64 = 8;
 
 impl Forecast {
-    /// Returns the estimated peak memory of the run, in bytes: its input files and the largest size of its meshes. If a
-    /// step does not limit the size of its meshes, eight times its input files.
+    /// Returns the estimated peak memory of the run, in bytes. If the forecast has an upper limit for the meshes of
+    /// every step, the estimate is the size of the input files plus the largest of these limits. Otherwise it is eight
+    /// times the size of the input files, but at least the largest lower limit.
     pub fn peak_bytes(&self) -> u64 {
         let size = |path: &std::path::PathBuf| Path::metadata(path).map_or(0, |m| m.len());
         let read: u64 = self.inputs.iter().map(size).sum();

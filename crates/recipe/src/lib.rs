@@ -4,9 +4,9 @@
 //! text --read--> Recipe + diagnostics --check--> Forecast + diagnostics --run--> Outcome
 //! ```
 //!
-//! [`read`] turns text into operations of a [`Registry`](op::Registry) and reports every error at once.
-//! [`check`] plans all steps without touching geometry: counts, memory, files, names. [`run`] runs them;
-//! outputs appear only when every step is done and every expectation holds.
+//! [`read`] turns text into operations of a [`Registry`](op::Registry) and reports every error at once. [`check`] plans
+//! all steps without computing geometry: it forecasts counts and memory, and checks files and names. [`run`] runs the
+//! steps. Outputs are written only if every step succeeds and every expectation holds.
 
 pub mod capsule;
 pub mod compare;

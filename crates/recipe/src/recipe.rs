@@ -20,9 +20,9 @@ pub const MAX_STEPS: usize = 100_000;
 pub struct Recipe {
     /// The description of the recipe.
     pub about: Option<String>,
-    /// The texts that spans refer to: that of the recipe itself first, then those of the recipes that it calls.
+    /// The texts that spans refer to: first the text of the recipe itself, then the texts of the recipes that it calls.
     pub sources: Vec<Source>,
-    /// The scopes of parameters: that of the recipe itself first, then one for each call.
+    /// The scopes of parameters: first the scope of the recipe itself, then one scope for each call.
     pub scopes: Vec<Scope>,
     /// The names of its presets.
     pub presets: Vec<String>,
@@ -140,16 +140,17 @@ pub struct RecipeStep {
     pub id: Option<String>,
     /// The current name of its operation. If the operation is unknown, the name as written.
     pub name: String,
-    /// The label, which is shown to users and seeds random choices: the id or else the operation. The names of the
-    /// calls around the step precede it, and the repetitions around the step follow it, as in `clean/Weld#2`.
+    /// The label, which is shown to users and seeds random choices. It is the id or, if the step has none, the name of
+    /// the operation. The names of the calls around the step are added before it, and the numbers of the repetitions
+    /// around the step after it, as in `clean/Weld#2`.
     pub label: String,
     /// The operation. `None` if the step could not be read.
     pub step: Option<Arc<dyn Step>>,
     /// The names of the objects in `on`, with their spans.
     pub on: Option<Vec<(String, Span)>>,
-    /// The reason for which the step must be refused.
+    /// The reason with which the step must be refused, if the recipe expects a refusal.
     pub refused: Option<Refusal>,
-    /// Which losses are allowed.
+    /// Which losses the step may cause.
     pub on_loss: OnLoss,
     /// The index of its scope in [`Recipe::scopes`].
     pub scope: usize,
@@ -243,13 +244,13 @@ impl Recipe {
         self.scopes.get(scope).map_or(0, |scope| scope.source)
     }
 
-    /// Sets the text of a diagnostic to that of a scope, and its calls to those that led to the scope.
+    /// Sets the text of a diagnostic to the text of a scope, and its calls to the calls that led to the scope.
     pub fn located(&self, diagnostic: Diagnostic, scope: usize) -> Diagnostic {
         located(diagnostic, scope, &self.scopes)
     }
 
-    /// Returns the digest of what the recipe does: of its operations with all their parameters in canonical form.
-    /// Layout, comments and notes do not matter.
+    /// Returns the digest of the operations of the recipe with all their parameters in canonical form. Layout, comments
+    /// and notes do not change the digest.
     pub fn digest(&self) -> String {
         let mut hasher = blake3::Hasher::new();
         for step in &self.steps {
@@ -258,7 +259,8 @@ impl Recipe {
                 .as_ref()
                 .map(|s| s.canonical())
                 .unwrap_or_default();
-            // `None` for a label that is just the operation, so that such digests agree with those of older versions.
+            // If the label is only the name of the operation, the digest uses `None`, so that it is the same as in
+            // older versions.
             let id = (step.label != step.name).then_some(&step.label);
             let line = format!("{id:?} {:?} {} {canonical}\n", step.on_names(), step.name);
             hasher.update(line.as_bytes());
@@ -275,7 +277,7 @@ impl Recipe {
     }
 }
 
-/// Sets the text of a diagnostic to that of a scope, and its calls to those that led to the scope.
+/// Sets the text of a diagnostic to the text of a scope, and its calls to the calls that led to the scope.
 pub(crate) fn located(mut diagnostic: Diagnostic, scope: usize, scopes: &[Scope]) -> Diagnostic {
     let Some(mut at) = scopes.get(scope) else {
         return diagnostic;

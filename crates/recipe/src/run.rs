@@ -91,7 +91,7 @@ pub fn run_from(
     match staging(&settings) {
         Ok(stage) => {
             let mut files = settings.files.clone();
-            // A new log, so that it has only the file accesses of this run.
+            // A new log, which has only the file accesses of this run.
             files.log.clone_from(&runner.log);
             if let Some(stage) = &stage {
                 stage.path().clone_into(&mut files.output);
@@ -123,13 +123,14 @@ struct Runner<'a> {
     log: FileLog,
     stage: Option<PathBuf>,
     session: Option<Box<dyn CachedRun + 'a>>,
-    /// The scene before the step with index `scene_index`. The results of later steps came from the cache, so that
-    /// `scene` can be behind `n_done`.
+    /// The scene before the step with index `scene_index`. `scene_index` is less than `n_done` if the results of the
+    /// steps between them came from the cache.
     scene: Scene,
     scene_index: usize,
     /// The index of the step that the run starts with.
     first: usize,
-    /// The number of steps that are done. Larger than `steps.len()` by one if the last step had a forbidden loss.
+    /// The index of the first step that is not done. A step with a forbidden loss counts as done, but is not in
+    /// `steps`.
     n_done: usize,
     steps: Vec<StepDone>,
     failures: Vec<Diagnostic>,
@@ -144,7 +145,7 @@ pub(crate) struct StepError {
     places: Vec<ErrorLocation>,
 }
 
-/// The run ends early: it was cancelled, or a failure was reported.
+/// The run ends early because it was cancelled or because a failure was reported.
 struct Stopped;
 
 impl Runner<'_> {
@@ -262,8 +263,8 @@ impl Runner<'_> {
         Ok(digest)
     }
 
-    /// Advances `scene` to the scene before step `to`, whose predecessors are all done: loads a scene from the cache
-    /// and runs the steps after it again.
+    /// Advances `scene` to the scene before the step with index `to`. All earlier steps must be done. Loads the latest
+    /// stored scene from the cache, and runs the steps after that scene again.
     fn advance_scene(&mut self, to: usize, listener: &dyn Listener) -> Result<(), Stopped> {
         if self.scene_index < to
             && let Some(session) = &mut self.session
@@ -293,7 +294,7 @@ impl Runner<'_> {
         Ok(())
     }
 
-    /// Runs a step. If it fails, the scene is unchanged.
+    /// Runs a step, and reports the failure if it fails. See `run_step` for the scene after a failure.
     fn apply(
         &mut self,
         step: &RecipeStep,
@@ -406,7 +407,7 @@ impl Runner<'_> {
         let is_current = self.scene_index == self.n_done;
         let known = self.session.as_ref().and_then(|s| s.digest());
         if known.is_none() && !is_current && !self.cancelled {
-            // If a step fails when it runs again for its scene, `apply` has added the failure.
+            // If a step fails while it runs again, `apply` adds the failure.
             let _ = self.advance_scene(self.n_done, &Silent);
         }
         let is_current = self.scene_index == self.n_done;
@@ -434,11 +435,12 @@ impl Runner<'_> {
     }
 }
 
-/// Runs a step. Returns its report and, if the step was refused as the recipe expects, the reason.
+/// Runs a step. Returns the report of the step and, if the recipe expects a refusal, the reason for the refusal.
 ///
 /// # Errors
 ///
-/// `None` if the step was cancelled, or else why it failed. The scene is then unchanged.
+/// If the step was cancelled, `None`. If the step failed, the reason. In both cases, the scene is unchanged. But if the
+/// operation panicked and the scene had not been cloned before, the scene is empty.
 pub(crate) fn run_step(
     step: &RecipeStep,
     scene: &mut Scene,
@@ -453,7 +455,8 @@ pub(crate) fn run_step(
     let Some(operation) = &step.step else {
         return error("this step could not be read".to_owned(), &[]);
     };
-    // Cloned only if needed: while the clone exists, an operation copies each mesh before it changes it.
+    // The scene is cloned only if needed. While a clone exists, an operation must copy each mesh before it changes the
+    // mesh.
     let needs_rollback = step.refused.is_some() || !operation.is_atomic();
     let before = needs_rollback.then(|| scene.clone());
     let on = step.on_names();
@@ -461,7 +464,7 @@ pub(crate) fn run_step(
     cx.on = on.as_deref();
     cx.stream = step.label();
     cx.budget = budget;
-    // Safe to assert: after a panic the scene is replaced and the run ends.
+    // `AssertUnwindSafe` is correct here, because the scene is replaced and the run ends after a panic.
     let apply = AssertUnwindSafe(|| operation.apply(scene, &mut cx));
     let result = match catch_unwind(apply) {
         Ok(result) => result,

@@ -16,13 +16,13 @@ use crate::schema;
 use crate::shape;
 use ron_tree::{Diagnostic, Value, ValueKind};
 
-/// Reads a selection in the syntax of recipes. It selects elements of `kind` or, if `None`, of the only kind that has a
-/// selection like this.
+/// Reads a selection in the syntax of recipes. The selection is for elements of `kind`. If `kind` is `None`, it is for
+/// the only kind of elements that has such a selection.
 ///
 /// # Errors
 ///
-/// All errors, with spans in `source`. If `kind` is `None` and no kind fits, the errors are those for the kind that
-/// fits best. If several kinds fit, the error says that the kind must be specified.
+/// All errors, with spans in `source`. If `kind` is `None` and no kind fits, returns the errors for the kind that fits
+/// best. If several kinds fit, the error says that the kind must be specified.
 pub fn read_selection(
     source: &str,
     kind: Option<ElementKind>,

@@ -1,8 +1,8 @@
 //! Reduces a scene on which a step fails: removes objects and faces as long as the step fails in the same way.
 //!
-//! Faces are removed in blocks, whose size is halved down to single faces, as in the algorithm ddmin of Zeller and
-//! Hildebrandt, "Simplifying and Isolating Failure-Inducing Input", 2002. Vertices keep their ids until the end. Then
-//! isolated vertices are removed too, if the step still fails without them.
+//! Faces are removed in blocks. The size of the blocks is halved until the blocks are single faces, as in the algorithm
+//! ddmin of Zeller and Hildebrandt, "Simplifying and Isolating Failure-Inducing Input", 2002. Vertices keep their ids
+//! until the end. Then isolated vertices are removed too, if the step still fails without them.
 
 use std::sync::Arc;
 
@@ -42,8 +42,8 @@ pub fn is_alike(a: &str, b: &str) -> bool {
     words(a) == words(b)
 }
 
-/// Returns the smallest scene that was found for which `fails` is still true. It must be true for `scene`. Tries at
-/// most `tries` scenes.
+/// Returns the smallest scene that was found for which `fails` is still true. `fails` must be true for `scene`. Calls
+/// `fails` at most `tries` times.
 ///
 /// # Errors
 ///
@@ -116,7 +116,8 @@ impl<F: FnMut(&Scene) -> Result<bool, OpError>> Search<F> {
                     None => false,
                 };
                 is_smaller |= is_done;
-                // After a removal, the following faces have moved down to the removed ids.
+                // After a removal, the next faces have the ids of the removed faces, so the next block starts at the
+                // same id.
                 first = if is_done { first } else { last };
             }
             // Single faces are tried again, because a face can become removable after other faces were removed.

@@ -1,4 +1,4 @@
-//! The texts of a recipe: that of the recipe itself, and those of the recipes that it calls.
+//! The texts of a recipe: the text of the recipe itself, and the texts of the recipes that it calls.
 
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;

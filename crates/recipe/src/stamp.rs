@@ -5,7 +5,8 @@
 //! ```
 //!
 //! The digest of the recipe comes first, so that formats that store only a short text keep it. The stamp contains no
-//! absolute paths: inputs are relative to the recipe's folder, or only their file name if their path is absolute.
+//! absolute paths: an input is given by its path relative to the recipe's folder, or only by its file name if its path
+//! is absolute.
 
 use std::fmt;
 use std::path::Path;

@@ -22,7 +22,7 @@ pub struct Update {
     pub changes: Vec<Change>,
     /// The reference files to write, with their contents.
     pub files: BTreeMap<PathBuf, Vec<u8>>,
-    /// The failures that the update does not fix, in the order of the run. Their help tells why.
+    /// The failures that the update does not fix, in the order of the run. The help of each failure gives the reason.
     pub left: Vec<Diagnostic>,
 }
 
@@ -88,7 +88,7 @@ pub fn update(recipe: &Recipe, outcome: &Outcome) -> Update {
             .next()
             .is_some_and(|i| fixed.binary_search(&i).is_err())
     });
-    // The edits cannot overlap, because neither expectations nor the values in them do.
+    // The edits cannot overlap, because neither expectations nor the values in them overlap.
     let text = ron_tree::replace(source, edits).unwrap_or_else(|_| source.to_owned());
     Update {
         text,
@@ -98,8 +98,8 @@ pub fn update(recipe: &Recipe, outcome: &Outcome) -> Update {
     }
 }
 
-/// Returns the expectations of the text that do not hold. Each is a list with one entry for each repetition of its
-/// step, which is `None` if the expectation holds in that repetition.
+/// Returns the expectations of the text that do not hold. For each of these expectations, the list has one entry for
+/// each repetition of the step. The entry is `None` if the expectation holds in that repetition.
 fn unmet_in_text<'o>(
     recipe: &Recipe,
     outcome: &'o Outcome,

@@ -86,7 +86,7 @@ pub fn to_gif(
             width,
             height,
             delay: timing.delay.div_ceil(10),
-            // Through transparent pixels, the previous image would stay visible: it is cleared.
+            // The previous image would stay visible through transparent pixels, so it is cleared.
             dispose: if palette.transparent().is_some() {
                 gif::DisposalMethod::Background
             } else {

@@ -88,8 +88,8 @@ impl Camera {
 
     /// Returns the few points that determine the view in a picture of this size.
     ///
-    /// The [`View`] of several scenes can be computed from the extreme points of each scene. Empty if the view does not
-    /// depend on the points.
+    /// The [`View`] of several scenes can be computed from the extreme points of each scene. If the view does not
+    /// depend on the points, returns no points.
     ///
     /// # Errors
     ///
@@ -240,7 +240,7 @@ impl Side {
 pub struct View {
     /// Directions to the right, upwards, and towards the camera: orthogonal unit vectors.
     axes: [DVec3; 3],
-    /// With perspective, the position of the camera; else a point in the middle of the picture.
+    /// With perspective, the position of the camera; otherwise a point that is shown in the middle of the picture.
     eye: DVec3,
     /// Pixels per scene unit; with perspective, at distance 1.
     scale: f64,
@@ -340,8 +340,8 @@ impl View {
     /// Returns a number that is not negative if the point `v`, in [camera coordinates](Self::to_camera), is inside of a
     /// clipping plane. The number is linear in `v`.
     ///
-    /// Plane 0 is the near plane. The other four planes are `far` pixels from the upper left corner of the picture, to
-    /// each side.
+    /// Plane 0 is the near plane. The other four planes are `far` pixels to the left, to the right, above and below the
+    /// upper left corner of the picture.
     pub(crate) fn clip_distance(&self, plane: usize, far: f64, v: DVec3) -> f64 {
         let distance = if self.is_perspective { v.z } else { 1.0 };
         let (x, y) = (self.scale * v.x, -self.scale * v.y);
@@ -403,7 +403,7 @@ impl View {
         }
     }
 
-    /// Returns the change of depth over a length, in scene units, away from the camera.
+    /// Returns how much the depth changes if a point at `depth` moves away from the camera by `length` scene units.
     pub(crate) fn depth_change(&self, length: f64, depth: f64) -> f64 {
         if self.is_perspective {
             length * depth * depth

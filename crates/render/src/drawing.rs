@@ -46,7 +46,7 @@ pub struct Part<'a> {
     pub material_of_face: Vec<u32>,
     /// Sets of texture coordinates of corners, with v upwards, for the textures of the materials.
     pub uvs: Vec<Cow<'a, [DVec2]>>,
-    /// The color of the back of faces, in place of the front color. If `None`, the same as the front.
+    /// The color of the back of faces. If `None`, the back has the color of the front.
     pub back: Option<[f32; 3]>,
 }
 
@@ -81,7 +81,7 @@ impl Default for Surface {
 }
 
 impl Surface {
-    /// Whether its alpha is below one half or its texture is not opaque.
+    /// Whether the alpha of the surface is below one half, or the surface has a texture that is not opaque.
     pub(crate) fn is_transparent(&self) -> bool {
         self.color[3] < 0.5 || self.texture.as_ref().is_some_and(|t| !t.is_opaque())
     }
@@ -156,7 +156,7 @@ impl Drawing<'_> {
         }
     }
 
-    /// Whether it has no triangles and no lines.
+    /// Whether the drawing has no triangles and no lines.
     pub fn is_empty(&self) -> bool {
         self.n_triangles() == 0 && self.lines.is_empty()
     }

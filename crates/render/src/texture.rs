@@ -144,7 +144,7 @@ impl Texture {
     fn footprint(&self, uv: DVec2, steps: [DVec2; 2]) -> Footprint {
         let (sin, cos) = libm::sincos(self.transform.rotation);
         let [sx, sy] = self.transform.scale;
-        // The linear part of the transform, without its offset, with v downwards.
+        // Applies the transform without its offset. Here v points downwards.
         let scale_and_rotate = |d: DVec2| {
             let (x, y) = (d.x * sx, d.y * sy);
             DVec2::new(cos * x + sin * y, cos * y - sin * x)
@@ -153,7 +153,7 @@ impl Texture {
         let position = scale_and_rotate(DVec2::new(uv.x, 1.0 - uv.y)) + offset;
         let size = DVec2::new(self.levels[0].width as f64, self.levels[0].height as f64);
         let [a, b] = steps.map(|d| (scale_and_rotate(DVec2::new(d.x, -d.y)) * size).length());
-        // In pixels of the image.
+        // The width of a pixel of the picture, in pixels of the image.
         let width = a.max(b).max(1.0);
         let level = libm::log2(width).min((self.levels.len() - 1) as f64);
         Footprint {
@@ -164,8 +164,8 @@ impl Texture {
         }
     }
 
-    /// Interpolates the values of `texel` for the pixels of a level at the position of `footprint`. Outside of the
-    /// image, the sampler decides.
+    /// Interpolates between the pixels of a level at the position of `footprint`. `texel` converts a pixel to the
+    /// values to interpolate. Outside of the image, the wrap mode of the sampler selects the pixels.
     fn at_level<const N: usize>(
         &self,
         level: usize,
@@ -211,8 +211,8 @@ fn unit(byte: u8) -> f32 {
 }
 
 impl Level {
-    /// Returns the level of half the width and height, of the means of four pixels each. `weight` returns the weight of
-    /// a pixel for its alpha. `None` if this level is a single pixel.
+    /// Returns a level with half the width and height of this level. Each of its pixels is the weighted mean of four
+    /// pixels; `weight` returns the weight of a pixel for its alpha. `None` if this level is a single pixel.
     fn half(&self, weight: impl Fn(u8) -> f32) -> Option<Self> {
         if self.width * self.height == 1 {
             return None;

@@ -9,7 +9,7 @@ pub struct Diagnostic {
     pub severity: Severity,
     /// The message: one line that starts in lower case and has no final period.
     pub message: String,
-    /// The text that the spans refer to: its index in the list of texts that the reader keeps. 0 is the first text.
+    /// The index of the text that the spans refer to, in the list of texts that the reader keeps. 0 is the first text.
     pub source: usize,
     /// The span that the message is about, if it is about a part of the text.
     pub span: Option<Span>,
@@ -17,7 +17,8 @@ pub struct Diagnostic {
     pub labels: Vec<(Span, String)>,
     /// How to correct the text.
     pub help: Option<String>,
-    /// The calls that led to the text, the innermost first: the index of the calling text and the span of the call.
+    /// The calls that led to the text, innermost first. Each has the index of the calling text and the span of the call
+    /// in that text.
     pub calls: Vec<(usize, Span)>,
 }
 
@@ -136,7 +137,7 @@ impl Span {
         Self::new(self.start, other.end)
     }
 
-    /// Whether `other` lies within this span.
+    /// Whether `other` is within this span.
     pub fn contains(self, other: Self) -> bool {
         self.start <= other.start && other.end <= self.end
     }
@@ -151,7 +152,8 @@ impl Span {
         self.start..self.end
     }
 
-    /// Returns the span as a range, moved to the nearest positions in `source` that do not split a character.
+    /// Returns the span as a range that does not split a character of `source`. A bound inside a character is moved to
+    /// the start of that character, and a bound beyond the text to the end of the text.
     pub fn fitted(self, source: &str) -> Range<usize> {
         let start = char_start(source, self.start);
         start..char_start(source, self.end).max(start)
@@ -182,8 +184,8 @@ impl<'s> LineIndex<'s> {
 
     /// Returns the line and the column of the byte at `offset`, both counted from 1. Columns count characters.
     ///
-    /// An offset beyond the end of the text counts as the end; an offset inside a character, as the start of that
-    /// character.
+    /// An offset beyond the end of the text counts as the end of the text. An offset inside a character counts as the
+    /// start of that character.
     pub fn position(&self, offset: usize) -> (usize, usize) {
         let offset = char_start(self.source, offset);
         let line = self.starts.partition_point(|&start| start <= offset);
@@ -201,7 +203,8 @@ impl<'s> LineIndex<'s> {
     }
 }
 
-/// Returns the start of the character at `offset`, or the end of the text.
+/// Returns the start of the character that contains the byte at `offset`, or the end of the text if `offset` is beyond
+/// it.
 fn char_start(source: &str, offset: usize) -> usize {
     let mut offset = offset.min(source.len());
     while !source.is_char_boundary(offset) {

@@ -13,12 +13,12 @@ pub(super) struct Contents {
     pub(super) fields: Vec<Field>,
     values: Vec<Value>,
     entries: Vec<(Value, Value)>,
-    /// Whether everything could be read so far.
+    /// Whether all items up to now could be read.
     complete: bool,
 }
 
 impl Contents {
-    /// Whether the group is a tuple so far: it has values without names, and no fields.
+    /// Whether the group seems to be a tuple: up to now, it has values without names, and no fields.
     pub(super) fn is_tuple(&self) -> bool {
         self.bracket == Bracket::Round && self.fields.is_empty() && !self.values.is_empty()
     }
@@ -253,7 +253,7 @@ impl Parser<'_> {
             complete,
         } = contents;
         if !complete && (bracket == Bracket::Square || !values.is_empty()) {
-            // An unreadable item, because the number of items is unknown.
+            // Some items could not be read, so their number is unknown. The error value stands for these items.
             values.push(self.missing_value());
         }
         let has_fields = !fields.is_empty();
@@ -335,7 +335,7 @@ impl Parser<'_> {
             let text = format!("and this `{}`", open.bracket.open());
             diagnostic = diagnostic.with_label(open.span, text);
         }
-        // Reported only once for `current`, although the outer groups end here too.
+        // The outer groups end here too, but `complain` reports only the first error about `current`.
         self.complain(diagnostic);
     }
 }

@@ -112,16 +112,16 @@ pub struct Lexer<'s> {
     at: usize,
     /// Whether a `"` string must end in the line in which it starts.
     lines_end_strings: bool,
-    /// A raw string with at least this number of hashes has no end in the rest of the text.
+    /// No raw string with this number of hashes or more ends in the rest of the text.
     unclosed_hashes: usize,
 }
 
 impl<'s> Lexer<'s> {
     /// Creates a lexer for `source`.
     ///
-    /// Strings can span lines. But if a quote of the text has no partner, a quote is missing, and all text after it
-    /// would be taken for strings and all strings for text. In that case every string ends with its line at the latest,
-    /// so that only the line with the missing quote is misread.
+    /// A string can span several lines. If the text has an unclosed string, a quote is missing somewhere, and all
+    /// strings after the missing quote would be read as text, and all text as strings. In that case, every string ends
+    /// at the end of its line at the latest, so that only the line with the missing quote is misread.
     pub fn new(source: &'s str) -> Self {
         let mut lexer = Self {
             source,
@@ -245,8 +245,8 @@ impl Iterator for Lexer<'_> {
         let rest = self.rest();
         let first = rest.chars().next()?;
         let (kind, mut length) = self.token(rest, first);
-        // `string` skips two bytes for an escape. That is too much at the end of the text, and can end inside a
-        // character of several bytes.
+        // `string` skips two bytes for an escape. The second byte can be beyond the end of the text, or be the first
+        // byte of a longer character.
         length = length.clamp(first.len_utf8(), rest.len());
         while !rest.is_char_boundary(length) {
             length += 1;
@@ -257,7 +257,8 @@ impl Iterator for Lexer<'_> {
     }
 }
 
-/// The maximum length of text that is searched for a missing quote, so that lexing takes linear time.
+/// The maximum length of the text in which the place of a missing quote is searched for. The limit keeps the time for
+/// lexing linear.
 const MAX_GUESS_LEN: usize = 4096;
 
 /// Returns where the next `, name:` starts in the rest of a line with a missing quote.

@@ -6,10 +6,10 @@
 //!   +---------------- replace <--------------+
 //! ```
 //!
-//! The `ron` crate stops at the first syntax error and tells little about its location. This parser continues after an
-//! error, so that all errors are reported. The spans are used by errors that are found later, by parameters, and by
-//! programs that rewrite recipes without losing comments. [`Value`] is a [`serde::Deserializer`], so that a value is
-//! read into a Rust type without parsing the text again.
+//! The `ron` crate stops at the first syntax error and gives little information about its location. This parser
+//! continues after an error, so that all errors are reported. Later checks report the spans in their errors, the
+//! substitution of parameters uses the spans, and programs use the spans to rewrite recipes without losing comments.
+//! [`Value`] is a [`serde::Deserializer`], so that a value is read into a Rust type without parsing the text again.
 
 mod attribute;
 mod de;

@@ -1,6 +1,6 @@
 //! Reads the values of literals: numbers, strings, characters, names.
 //!
-//! The rules are those of `ron`, except that numbers cannot have a type suffix (`1u32`) and byte strings are not
+//! The rules are the same as in `ron`, except that numbers cannot have a type suffix (`1u32`) and byte strings are not
 //! supported.
 
 use std::str::FromStr;
@@ -81,7 +81,7 @@ impl Number {
     }
 }
 
-/// Parses a whole number. `None` if the text is not one; `Some(Err(()))` if the value does not fit 128 bits.
+/// Parses a whole number. `None` if the text is not a whole number, `Some(Err(()))` if the value does not fit 128 bits.
 fn parse_int(text: &str) -> Option<Result<i128, ()>> {
     let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
     let (base, digits) = base(unsigned);

@@ -1,8 +1,8 @@
-//! Parses a text into a tree of values. Every text gives a tree, whatever its errors.
+//! Parses a text into a tree of values. A text with errors gives a tree too.
 //!
-//! Each error gives one diagnostic, and parsing continues after it. To recover, the parser assumes common mistakes: one
-//! bracket is missing or mistyped, while line breaks and indentation are right and each item of a list starts on its
-//! own line. The module [`recovery`](super::recovery) handles brackets.
+//! Each error gives one diagnostic, and parsing continues after it. To recover from a bracket error, the parser assumes
+//! that only one bracket is missing or mistyped, that line breaks and indentation are right, and that each item of a
+//! list starts on its own line. The module [`recovery`](super::recovery) does this.
 
 use super::lexer::{Bracket, Lexer, Token, TokenKind};
 use super::literal::{self, BadLiteral, Number};
@@ -16,7 +16,7 @@ pub const MAX_BYTES: usize = 64 << 20;
 /// The maximum nesting depth of brackets.
 pub const MAX_DEPTH: usize = 128;
 
-/// The maximum number of values in a text. Each takes about a hundred bytes of memory.
+/// The maximum number of values in a text. Each value takes about a hundred bytes of memory.
 pub const MAX_VALUES: usize = 4 << 20;
 
 /// The maximum number of errors that are reported.
@@ -84,7 +84,7 @@ pub(super) struct Parser<'s> {
     /// The brackets around `current`, outermost first.
     pub(super) open: Vec<OpenBracket>,
     diagnostics: Vec<Diagnostic>,
-    /// The start of the token that the last error was about, so that it is not reported twice.
+    /// The start of the token that the last error was about. No second error is reported about that token.
     pub(super) complained_at: Option<usize>,
     values: usize,
     pub(super) too_deep: bool,
@@ -188,7 +188,7 @@ impl<'s> Parser<'s> {
     /// Reports an error about `current`, unless an error about it was already reported.
     pub(super) fn complain(&mut self, diagnostic: Diagnostic) {
         let start = self.current.span.start;
-        // These tokens are errors themselves, and `value` reports them.
+        // These tokens are errors by themselves, and `value` reports them.
         let is_bad = matches!(
             self.current.kind,
             Some(TokenKind::UnclosedString | TokenKind::BadChar)

@@ -5,11 +5,11 @@ use crate::diagnostic::Span;
 
 /// Returns the span of the value at `path` in `value`.
 ///
-/// The path consists of names of fields, variants and keys, and of indices of items (counted from 0), from the outside
-/// in, as in the JSON form: `["edges", "Random", "count"]` leads to the 24 in
-/// `FlipEdges(edges: Random(count: 24))`. The name of the outermost call, `Some(..)` and the parentheses of a variant
-/// with one value can be omitted in the path. If the path leads to a parameter that was omitted, returns the span of
-/// the deepest value on the path that exists.
+/// The path starts at the outermost value. It consists of the names of fields, variants and keys, and of the indices of
+/// items (counted from 0), as in the JSON form: `["edges", "Random", "count"]` leads to the 24 in
+/// `FlipEdges(edges: Random(count: 24))`. The path can omit the name of the outermost call, `Some(..)`, and the
+/// parentheses of a variant with one value. If the value at `path` does not exist, returns the span of the deepest
+/// existing value on the path.
 pub fn field_span(value: &Value, path: &[String]) -> Span {
     let (mut value, mut deepest) = (value, value);
     // Whether the path has already used the name of the variant at `value`.
@@ -57,8 +57,8 @@ fn step<'v>(value: &'v Value, item: &str, is_variant_matched: bool) -> Step<'v> 
             .iter()
             .find(|(key, _)| key.as_str() == Some(item))
             .map(|(_, value)| value),
-        // A tuple with one item is usually the content of a variant. The path skips it, unless it has an index and the
-        // item has no items of its own.
+        // A tuple with one item is usually the content of a variant, so the path skips the tuple. But if the path
+        // continues with an index and the item is neither a tuple nor a list, the index refers to the tuple itself.
         ValueKind::Tuple(items)
             if items.len() == 1
                 && (index.is_err()

@@ -79,7 +79,8 @@ impl Parser<'_> {
         }
     }
 
-    /// Whether `current` seems to start an item of an outer bracket, so that the innermost bracket is not closed.
+    /// Whether `current` seems to start an item of an outer group. Then the closing bracket of the innermost group is
+    /// missing.
     pub(super) fn belongs_outside(&self, contents: &Contents) -> bool {
         let Lexeme {
             kind, starts_line, ..
@@ -94,10 +95,10 @@ impl Parser<'_> {
             .last()
             .is_some_and(|open| open.bracket == Bracket::Round);
         match contents.bracket {
-            // In a tuple without a name: a field of the enclosing struct.
+            // A tuple has no named fields, so `current` starts a field of the enclosing struct.
             Bracket::Round if contents.is_tuple() && names_field => !innermost.has_name && in_round,
             _ if !starts_line => false,
-            // Among named fields: an item of the enclosing list.
+            // After named fields, a value without a name is an item of the enclosing list.
             Bracket::Round => {
                 !contents.fields.is_empty()
                     && (kind == Some(TokenKind::Open(Bracket::Round)) || is_ident && next_opens)
@@ -109,7 +110,7 @@ impl Parser<'_> {
                             open.bracket == Bracket::Square && open.line < self.current.line
                         })
             }
-            // In a list: a field of the enclosing struct.
+            // A list has no named fields, so `current` starts a field of the enclosing struct.
             Bracket::Square => names_field && in_round,
             Bracket::Curly => false,
         }

@@ -11,7 +11,8 @@ pub struct Value {
     pub span: Span,
     /// The kind of value, and its content.
     pub kind: ValueKind,
-    /// The recipe parameter that this value was substituted for, if any. The span is then that of the `arg(..)`.
+    /// The name of the recipe parameter, if this value was substituted for an `arg(..)`. The span is then the span of
+    /// the `arg(..)`.
     pub parameter: Option<Box<str>>,
 }
 
@@ -42,7 +43,7 @@ pub enum ValueKind {
     Map(Vec<(Value, Value)>),
     /// `Name(..)`.
     Call(Box<Call>),
-    /// A value that could not be read. A diagnostic tells the reason.
+    /// A value that could not be read. A diagnostic gives the reason.
     Error,
 }
 

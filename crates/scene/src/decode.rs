@@ -14,7 +14,7 @@ use crate::{
     TextureTransform,
 };
 
-/// A source of the long arrays that [`Scene::encode_with_separate_arrays`] has separated.
+/// A source of the long arrays that [`Scene::encode_with_separate_arrays`] separated from the canonical form.
 pub trait ArraySource {
     /// Returns the size of the next array in bytes; `None` if there is none.
     fn next_len(&self) -> Option<u64>;

@@ -5,8 +5,8 @@
 //! objects with the same arrays, in the same order.
 //!
 //! A material is written as its name, base color, metalness, roughness and the path of its base color
-//! texture. If it has other properties, they follow after a marker ([`MORE`]), each with its name. So the
-//! form of a material without other properties is the same as in the first version.
+//! texture. If it has other properties, they follow after a marker ([`MORE`]), each with its name. So a
+//! material without other properties has the same form as in the first version of the canonical form.
 
 use std::fmt;
 
@@ -70,7 +70,7 @@ impl Scene {
 
     /// Returns the canonical form without the contents of long arrays. An array is long if it has at least
     /// `min_long` bytes; each long array is passed to `array` in one piece, in order.
-    /// [`decode`](Self::decode) reads both.
+    /// [`decode`](Self::decode) reads the form together with the arrays.
     pub fn encode_with_separate_arrays(
         &self,
         min_long: usize,
@@ -100,11 +100,11 @@ impl Scene {
 
 /// The first text of the canonical form, with its version.
 pub(crate) const FORM: &str = "meshwright scene 1";
-/// The marker before the other properties of a material. It is written in the place of the length of a text,
-/// and no text has this length.
+/// The marker before the other properties of a material. It is written in place of the length of a text. No
+/// text has this length, so the marker cannot be mistaken for a text.
 pub(crate) const MORE: u64 = u64::MAX;
 
-/// The name of a texture in the canonical form, and the field of the material.
+/// The name of a texture in the canonical form, and a function that returns its field of a material.
 type NamedTexture = (&'static str, fn(&mut Material) -> &mut Option<Texture>);
 
 /// The textures of a material that are written with their names.

@@ -17,7 +17,7 @@ impl ErrorLocation {
     /// The largest number of elements of an error for which locations are stored.
     pub const MAX_ELEMENTS: usize = 10_000;
 
-    /// The name of a place where an element is expected but missing.
+    /// The name that is used for a place where an element is expected but missing.
     pub const EXPECTED: &'static str = "expected";
 
     /// Returns the place of an element of an object; `None` if the mesh does not have the element.

@@ -86,7 +86,7 @@ impl Store for Disk {
     }
 
     fn remove_folder(&self, folder: &Path) -> Result<(), StoreError> {
-        // Again if that fails: a folder that cannot be listed now may be listed a moment later.
+        // Tries a second time after an error: a folder that cannot be listed now may be listable a moment later.
         remove_all(folder)
             .or_else(|_| remove_all(folder))
             .map_err(|error| StoreError::new("write", folder, error))
@@ -104,8 +104,8 @@ impl Store for Disk {
     }
 }
 
-/// Removes a folder with everything in it. Each folder is listed and closed before the next one is opened, so that one
-/// file descriptor is enough. An empty folder is not opened at all.
+/// Removes a folder with its content. Each folder is listed and closed before the next one is opened, so that one file
+/// descriptor is enough. Empty folders are not opened.
 fn remove_all(folder: &Path) -> io::Result<()> {
     if fs::remove_dir(folder).is_ok() {
         return Ok(());
@@ -141,8 +141,8 @@ pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     replaced().map_err(|error| StoreError::new("write", path, error))
 }
 
-/// The prefix of the names of the temporary folders of a process. These folders are only left behind if the process
-/// is killed.
+/// Returns the prefix of the names of the temporary folders of a process. These folders are left behind only if the
+/// process is killed.
 pub fn temporary_prefix(process: u32) -> String {
     format!(".meshwright-{process}-")
 }
@@ -224,7 +224,7 @@ fn read_plain(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
         bytes = read_at_once(&file, expected)?;
         io::Seek::seek(&mut file, io::SeekFrom::Start(expected as u64))?;
     }
-    // The rest: all of a small file, or bytes that were added to a large file since its size was determined.
+    // Reads the rest: a whole small file, or bytes that were added to a large file after its size was determined.
     let rest = limit - bytes.len() as u64;
     file.take(rest).read_to_end(&mut bytes)?;
     Ok(bytes)

@@ -152,8 +152,8 @@ pub trait Store: Debug + Send + Sync {
     }
 }
 
-/// A file that is written to a temporary location. If it is dropped without [`commit`](Self::commit), nothing is
-/// left of it.
+/// A file that is written to a temporary location. If it is dropped without [`commit`](Self::commit), the
+/// temporary file is removed.
 pub trait NewFile: Write + Send {
     /// Waits until the bytes are on the disk. Some systems only report a full disk at this point.
     ///
@@ -179,7 +179,7 @@ pub struct Entry {
     pub kind: Kind,
     /// The length of a file in bytes.
     pub len: u64,
-    /// The time of the last change, if known. Files in memory count changes in nanoseconds.
+    /// The time of the last change, if known. For files in memory, the number of the change as nanoseconds.
     pub modified: Option<SystemTime>,
 }
 

@@ -35,12 +35,12 @@ impl AttributeSources<'_> {
     ///
     /// - Vertices: [`Rule::Interpolate`] uses the masks of the positions. [`Rule::Copy`] keeps the values of
     ///   old vertices, and new vertices have zero.
-    /// - Corners: [`Rule::Interpolate`] follows [`FaceVarying`], each piece between seams separately.
-    ///   [`Rule::Copy`] is as for vertices.
+    /// - Corners: [`Rule::Interpolate`] smooths each piece between seams separately, as [`FaceVarying`] says.
+    ///   [`Rule::Copy`] works as for vertices.
     /// - Edges: parts of an old edge copy its value, other edges have zero.
     /// - Faces: parts of an old face copy its value.
     ///
-    /// Columns with [`Rule::Normal`] or [`Rule::Drop`] are dropped. Sharpness decreases.
+    /// Columns with [`Rule::Normal`] or [`Rule::Drop`] are dropped. If `sharpness` is given, sharpness decreases.
     pub(crate) fn attributes(&self, meter: &Meter) -> Result<Attributes, Cancelled> {
         let mut new = Attributes::default();
         let columns = self.mesh.attributes().iter();
@@ -178,7 +178,7 @@ fn from_vec4s(like: &Values, new: Vec<DVec4>) -> Values {
     }
 }
 
-/// Calls [`Values::gather`] with a `dyn` closure, so that it is compiled once.
+/// Calls [`Values::gather`] with a `dyn` closure, so that `gather` is compiled once and not for each closure.
 pub(crate) fn gathered(
     column: &Column,
     n: usize,

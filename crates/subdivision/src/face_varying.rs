@@ -14,9 +14,9 @@
 //!
 //! [`FaceVarying`] decides which vertices are corners of a piece. The rules are those of OpenSubdiv's
 //! face-varying interpolation, applied to each level on its own, so that computing two levels at once equals
-//! computing one level twice. (OpenSubdiv decides only once whether the sharpness of one of two pieces sharpens
-//! the other piece. If the pieces, their seam and their vertex have different semi-sharp values, the results
-//! can differ for a level.)
+//! computing one level twice. (One exception: if two pieces meet at a vertex, a semi-sharp piece can
+//! sharpen the other piece. OpenSubdiv decides this on the first level and keeps the decision. If the pieces,
+//! their seam and their vertex have different semi-sharp values, the results on later levels can differ.)
 
 use mesh::{DVec4, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};
@@ -61,7 +61,7 @@ struct Piece {
     size: usize,
     /// The outgoing half-edges of the edges inside the piece.
     inside: Vec<HalfEdgeId>,
-    /// Whether the piece is not a single run of corners without seams.
+    /// Whether the corners are not consecutive, or a seam runs between two of them.
     is_torn: bool,
 }
 
@@ -107,7 +107,8 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Returns the sharpness of the edge of `h`, and of its part at the origin of `h` on the next level.
+    /// Returns the sharpness of the edge of `h` on this level, and on the next level the sharpness of the part of
+    /// that edge at the origin of `h`.
     fn edge_sharpness(&self, h: HalfEdgeId) -> [f64; 2] {
         [self.sharpness.edge(h.edge()), self.sharpness.of_half(h)]
     }
@@ -116,7 +117,8 @@ impl<'a> Field<'a> {
         self.values[h.index()]
     }
 
-    /// Returns the value at the target of a half-edge, in its face or else in the face of its twin.
+    /// Returns the value at the target of a half-edge: in the face of the half-edge, or if the half-edge has no
+    /// face, in the face of the twin.
     fn far(&self, h: HalfEdgeId) -> DVec4 {
         if self.mesh.face(h).is_some() {
             self.of(self.mesh.next(h))
@@ -133,7 +135,7 @@ impl<'a> Field<'a> {
         sum * (1.0 / self.mesh.degree(f) as f64)
     }
 
-    /// Returns the new value in the middle of a half-edge, in its face.
+    /// Returns the new value in the middle of a half-edge, in the face of the half-edge.
     fn on(&self, h: HalfEdgeId) -> DVec4 {
         let e = h.edge();
         let sharp = if self.seams[e.index()] {
@@ -144,7 +146,7 @@ impl<'a> Field<'a> {
         if sharp >= 1.0 {
             return (self.of(h) + self.of(self.mesh.next(h))) * 0.5;
         }
-        // Both sides sum in the same order, so that they get the same bits.
+        // The values on both sides are sums in the same order, so that they have the same bits.
         let halves = e.half_edges();
         let ends = self.of(halves[0]) + self.of(self.mesh.next(halves[0]));
         let [smooth_end, sides] = if self.scheme == Scheme::CatmullClark {
@@ -159,7 +161,7 @@ impl<'a> Field<'a> {
         ends * (0.5 * sharp) + (smooth_end + sides) * (1.0 - sharp)
     }
 
-    /// Returns the new value at the origin of a half-edge, in its face.
+    /// Returns the new value at the origin of a half-edge, in the face of the half-edge.
     fn at(&self, h: HalfEdgeId) -> DVec4 {
         let v = self.mesh.origin(h);
         let start = self.mesh.vertex_half_edge(v).expect("a vertex of a face");
@@ -218,12 +220,13 @@ impl<'a> Field<'a> {
 
     /// Collects the pieces around a vertex.
     fn pieces(&self, v: VertexId, start: HalfEdgeId) -> VertexPieces {
-        // Counter-clockwise; on the boundary from one boundary edge to the other.
+        // The corners are in counter-clockwise order. At a boundary vertex they go from one boundary edge to the
+        // other.
         let corners = self.mesh.vertex_half_edges(v);
         let mut ring: Vec<HalfEdgeId> = corners.filter(|&h| self.mesh.face(h).is_some()).collect();
         ring.reverse();
         let is_inner = self.mesh.face(start).is_some();
-        // The edge of the half-edge of a corner lies between that corner and the corner before.
+        // The half-edge of a corner separates the corner from the previous corner.
         let is_seam = |h: &HalfEdgeId| self.seams[h.edge().index()];
         let n_seams = ring.iter().filter(|h| is_seam(h)).count();
         let is_dart =
@@ -301,7 +304,7 @@ impl VertexPieces {
         }
     }
 
-    /// Returns the state of piece `i` by the sharpness on this level or on the next.
+    /// Returns the state of piece `i`, from the sharpness on this level or on the next level.
     fn state(&self, field: &Field, i: usize, when: usize) -> State {
         let (rule, n) = (field.rule, self.pieces.len());
         let own = self.sharpness(field)[when];

@@ -56,8 +56,8 @@ pub(crate) fn triangulated(mesh: &Mesh) -> Mesh {
         .0
 }
 
-/// Returns the sorted list of faces as vertex numbers, each starting with its lowest. Equal for two meshes that
-/// differ only in the ids of edges and faces.
+/// Returns the sorted list of faces as vertex numbers. Each face starts with its lowest vertex. Two meshes that
+/// differ only in the ids of edges and faces have equal lists.
 pub(crate) fn triangles(mesh: &Mesh) -> Vec<[u32; 3]> {
     let mut triangles: Vec<[u32; 3]> = mesh.faces().map(|f| corners(mesh, f)).collect();
     for t in &mut triangles {
@@ -69,7 +69,7 @@ pub(crate) fn triangles(mesh: &Mesh) -> Vec<[u32; 3]> {
     triangles
 }
 
-/// Returns the vertices of a triangle, from its first half-edge.
+/// Returns the vertices of a triangle, starting with the origin of its first half-edge.
 pub(crate) fn corners(mesh: &Mesh, f: FaceId) -> [u32; 3] {
     let mut v = mesh.face_vertices(f).map(number);
     [(); 3].map(|()| v.next().unwrap())

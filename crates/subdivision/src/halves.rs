@@ -1,8 +1,8 @@
-//! The two halves of every old edge, which most schemes make.
+//! Splits every old edge in two, as most schemes do.
 //!
 //! New edges are numbered so that the id of each new half-edge follows from the old ids without a search. Old
-//! edge e has the halves h = 2e, from a to b, and its twin. It becomes the edges 2e and 2e + 1 on both sides of
-//! the new vertex V + e:
+//! edge e consists of the half-edge h = 2e, from a to b, and its twin. The edge becomes the new edges 2e and
+//! 2e + 1, which meet at the new vertex V + e:
 //!
 //! ```text
 //!            first(h) = 4e            second(h) = 4e + 2
@@ -14,11 +14,11 @@
 //!      first(h) = 2h + (h & 1)       second(h) = first(h) ^ 2
 //! ```
 //!
-//! The half-edge of an old vertex becomes the first part of its old half-edge, which is on the boundary if the
-//! old half-edge was. The half-edge of a new vertex is the second part of one half of its edge: the boundary
-//! half if there is one.
+//! The new half-edge of an old vertex is the first part of its old half-edge. The new half-edge is on the boundary
+//! if the old half-edge is. The half-edge of a new vertex is the second part of one half-edge of the old edge: of
+//! the boundary half-edge, if there is one.
 //!
-//! So one task for each old edge writes four half-edges and a vertex, and no task reads what another task
+//! One task for each old edge writes four half-edges and a vertex, and no task reads what another task
 //! writes. The idea is from Vanhoey and Dupuy, "A Halfedge Refinement Rule for Parallel Loop Subdivision",
 //! 2022, adapted to half-edges stored in pairs.
 
@@ -49,8 +49,8 @@ pub(crate) fn on_edge(mesh: &Mesh, h: HalfEdgeId) -> VertexId {
 
 /// Returns the place of the corner of new half-edge `i`, which must be a part of an old half-edge.
 pub(crate) fn place(mesh: &Mesh, i: usize) -> Place {
-    // An edge has four parts: 0 and 2 belong to its first half, 1 and 3 to its second half. 0 and 3 are the
-    // first parts of their halves.
+    // An old edge has four parts: parts 0 and 2 belong to its first half-edge, parts 1 and 3 to its second
+    // half-edge. Parts 0 and 3 start at the origins of these half-edges.
     let h = HalfEdgeId::new(i / 4 * 2 + i % 2);
     if mesh.face(h).is_none() {
         Place::Outside
@@ -67,7 +67,7 @@ pub(crate) type PartLinks = ([HalfEdgeId; 2], [FaceId; 2]);
 /// The slices of the arrays of the next level that come after the elements made from old edges.
 pub(crate) struct AddedArrays<'n> {
     pub(crate) halves: Arrays<'n>,
-    /// The half-edges of the vertices after those on old edges.
+    /// The half-edges of the vertices that come after the new vertices on old edges.
     pub(crate) vertex_half_edge: &'n mut [HalfEdgeId],
     pub(crate) face_half_edge: &'n mut [HalfEdgeId],
 }

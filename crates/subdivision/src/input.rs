@@ -9,10 +9,10 @@ use crate::parallel::any;
 use crate::rules::Scheme;
 
 /// The largest absolute value of a coordinate that can be subdivided. Masks sum the coordinates of fewer than
-/// 2^32 vertices, each several times, so that these sums stay finite.
+/// 2^32 vertices, each several times. With this limit, these sums stay finite.
 pub const MAX_COORDINATE: f64 = 1e290;
 
-/// Returns the mesh without dead elements; borrows it if it has none.
+/// Returns the mesh without dead elements. A mesh that has no dead elements is borrowed.
 pub(crate) fn dense(mesh: &Mesh) -> Cow<'_, Mesh> {
     if mesh.is_dense() {
         return Cow::Borrowed(mesh);

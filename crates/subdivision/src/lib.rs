@@ -6,8 +6,8 @@
 //!
 //! | scheme | faces become | old vertices | limit surface |
 //! | --- | --- | --- | --- |
-//! | [`Loop`](Scheme::Loop) | 4 triangles each | move | smooth, curvature continuous away from valence ≠ 6 |
-//! | [`CatmullClark`](Scheme::CatmullClark) | a quad for each corner | move | smooth, curvature continuous away from valence ≠ 4 |
+//! | [`Loop`](Scheme::Loop) | 4 triangles each | move | smooth, curvature continuous except at valence ≠ 6 |
+//! | [`CatmullClark`](Scheme::CatmullClark) | a quad for each corner | move | smooth, curvature continuous except at valence ≠ 4 |
 //! | [`Midpoint`](Scheme::Midpoint) | 4 triangles, or a quad for each corner | stay | the mesh itself |
 //! | [`Butterfly`](Scheme::Butterfly) | 4 triangles each | stay | smooth, through all vertices |
 //! | [`Sqrt3`](Scheme::Sqrt3) | 3 triangles each, turned | move | smooth |
@@ -20,8 +20,8 @@
 //!
 //! # Convergence
 //!
-//! [`limit`] computes the position to which each vertex converges. This is the largest distance from a vertex
-//! to its limit position, for Loop subdivision:
+//! [`limit`] computes the position to which each vertex converges. The diagram shows the largest distance from a
+//! vertex to its limit position after each level of Loop subdivision:
 //!
 //! ```text
 //! 1    |

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::parallel::{BLOCK, fill_uncounted};
 
-/// A range of half-edges to be written: the same slice of three arrays.
+/// A range of half-edges to be written: the same range of three arrays.
 pub(crate) struct Arrays<'n> {
     pub(crate) next: &'n mut [HalfEdgeId],
     pub(crate) origin: &'n mut [VertexId],

@@ -21,9 +21,9 @@
 //!            b                              b
 //! ```
 //!
-//! Each piece is similar to its old triangle, or is half of a triangle that is, so that angles do not shrink
-//! from level to level: the cotangent of the smallest angle grows by at most a factor of three in total.
-//! Source: Bank, Sherman and Weiser, "Refinement Algorithms and Data Structures for Regular Local Mesh
+//! Each piece is similar to its old triangle, or is half of a triangle that is similar to the old triangle. So
+//! angles do not shrink from level to level: the cotangent of the smallest angle grows by at most a factor of three in
+//! total. Source: Bank, Sherman and Weiser, "Refinement Algorithms and Data Structures for Regular Local Mesh
 //! Refinement", 1983.
 //!
 //! # Polygons
@@ -60,8 +60,9 @@ use smoothed::{LocalMasks, SmoothedElements};
 /// Around the chosen faces, triangles are cut in four or in two so that no vertex lies inside an edge. If the
 /// scheme makes quads, the neighbors of chosen faces get additional corners instead. The surface outside of the
 /// chosen faces does not change at all. An old vertex follows the masks of the scheme if all its faces are
-/// chosen. A new vertex on an edge does so if all faces at the edge are chosen, and lies in the middle of the
-/// edge otherwise. If all faces are chosen, the result is the same as that of [`subdivide`](crate::subdivide).
+/// chosen; otherwise it stays in place. A new vertex on an edge follows the masks if all faces at the edge are
+/// chosen; otherwise it lies in the middle of the edge. If all faces are chosen, the result is the same as that of
+/// [`subdivide`](crate::subdivide).
 ///
 /// What happens to ids: old vertices keep their ids. Each level appends the new vertices on edges, in order of
 /// the edges, then the new vertices in faces, in order of the faces. Edges and faces are renumbered. The parts

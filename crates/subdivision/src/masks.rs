@@ -20,7 +20,7 @@ use crate::sharpness::{Sharpness, VertexRule};
 
 /// The masks of a scheme on one mesh.
 pub(crate) trait Masks: Sync {
-    /// Calls `add` with the old vertices and weights whose weighted sum is new vertex `i`, in a fixed order.
+    /// Calls `add` with each old vertex and its weight in vertex `i` of the next level, in a fixed order.
     /// The weights sum to 1. A vertex can occur more than once.
     fn mask(&self, i: usize, add: &mut impl FnMut(usize, f64));
 

@@ -106,9 +106,11 @@ impl SparseMatrix {
     }
 }
 
-/// Returns the matrix that maps the positions of a mesh to the positions after `levels` levels. It has a row
-/// for each new vertex and a column for each old one. [`SparseMatrix::apply`] refines any other field with the
-/// weights of the positions.
+/// Returns the matrix that maps the positions of a mesh to the positions after `levels` levels. The matrix has a
+/// row for each vertex of the refined mesh and a column for each vertex of the given mesh.
+///
+/// [`SparseMatrix::apply`] multiplies the matrix by any values of the vertices. The refined values have the same
+/// weights as the refined positions.
 ///
 /// A mesh with dead elements is compacted first, and the columns are the vertices of the compacted mesh.
 ///

@@ -20,7 +20,7 @@ pub(crate) fn by_splits_and_flips(old: &Mesh) -> Mesh {
     for e in old.edges() {
         let n_edges = mesh.n_edges();
         mesh.split_edge(e, 0.5).unwrap();
-        // The first new edge is the other half of e.
+        // The first new edge is one of the two parts of e. The other part is e itself.
         cuts.extend((n_edges + 1..mesh.n_edges()).map(EdgeId::new));
     }
     let is_old = |v: VertexId| old.has_vertex(v);
@@ -76,8 +76,8 @@ fn between(mesh: &Mesh, e: EdgeId) -> DVec3 {
 }
 
 /// Subdivides a list of triangles without half-edges: an edge is a pair of vertices. Returns the positions and
-/// the triangles. Vertices on edges come after the old vertices, sorted by the pairs. Wrong if two edges
-/// connect the same two vertices.
+/// the triangles. Vertices on edges come after the old vertices, sorted by the pairs. The
+/// result is wrong if two edges connect the same two vertices.
 pub(crate) fn over_polygons(
     positions: &[DVec3],
     triangles: &[[u32; 3]],

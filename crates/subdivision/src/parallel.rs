@@ -6,11 +6,11 @@ use mesh::Value;
 use progress::{Cancelled, Meter};
 use rayon::prelude::*;
 
-/// The number of elements in one block, the work of one task. A block takes well below a millisecond, so that
-/// progress is smooth and cancelling is quick.
+/// The number of elements in one block. Each task processes one block, which takes well below a millisecond, so
+/// that progress is smooth and cancelling is quick.
 pub(crate) const BLOCK: usize = 4096;
 
-/// Processes one block of an array, given the number of its first element.
+/// Processes one block of an array. The first argument is the number of the first element of the block.
 type Task<'a, T> = dyn Fn(usize, &mut [T]) -> Result<(), Cancelled> + Sync + 'a;
 
 /// Runs `task` on all blocks of an array in parallel. The task is `dyn`, here and in the functions below, so
@@ -29,7 +29,7 @@ pub(crate) fn fill<T: Send>(
     fill_counted(array, meter, 1, value)
 }
 
-/// As [`fill`], but adds nothing to the meter: for arrays that its total leaves out.
+/// As [`fill`], but adds nothing to the meter. For arrays that the total of the meter does not include.
 pub(crate) fn fill_uncounted<T: Send>(
     array: &mut [T],
     meter: &Meter,

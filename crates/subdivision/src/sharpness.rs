@@ -35,7 +35,7 @@ pub(crate) struct Sharpness<'a> {
     vertices: Option<&'a [f64]>,
 }
 
-/// How a vertex moves. `K` is the type that names edges around the vertex.
+/// How a vertex moves. `K` is the type that identifies edges around the vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum VertexRule<K> {
     /// By the mask of the scheme.
@@ -49,9 +49,9 @@ pub(crate) enum VertexRule<K> {
 /// The rule of a vertex, and the rule that it changes to within the level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Blend<K> {
-    /// The rule by the sharpness on this level.
+    /// The rule for the sharpness on this level.
     pub(crate) now: VertexRule<K>,
-    /// The rule by the sharpness on the next level, and the weight of the rule `now`.
+    /// The rule for the sharpness on the next level, and the weight of the rule `now`.
     pub(crate) next: Option<(VertexRule<K>, f64)>,
 }
 
@@ -113,7 +113,8 @@ impl SemiSharp {
         semi_sharp
     }
 
-    /// Returns the sharpness on the next level of the half, at this vertex, of an edge with sharpness `s`.
+    /// An edge at this vertex with sharpness `s` is split in two. Returns the sharpness, on the next level, of the
+    /// part at this vertex.
     pub(crate) fn half_of(self, s: f64) -> f64 {
         if s <= 0.0 || s >= INFINITE || self.n < 2 {
             return decreased(s);
@@ -185,7 +186,8 @@ impl<'a> Sharpness<'a> {
         }
     }
 
-    /// Returns the sharpness of a vertex. `h` is its half-edge, which is the boundary one on the boundary.
+    /// Returns the sharpness of a vertex. `h` is the half-edge of the vertex; for a boundary vertex, `h` is a
+    /// boundary half-edge.
     #[inline]
     pub(crate) fn vertex(&self, v: VertexId, h: HalfEdgeId) -> f64 {
         if self.mesh.face(h).is_none() {
@@ -207,8 +209,8 @@ impl<'a> Sharpness<'a> {
         self.mesh.prev(h).twin()
     }
 
-    /// Returns the weight of the sharp mask in the new vertex on an edge: 1 is the middle of the edge, 0 is the
-    /// smooth mask.
+    /// Returns the weight of the sharp mask for the new vertex on an edge: 1 gives the middle of the edge, 0 gives
+    /// the smooth mask.
     #[inline]
     pub(crate) fn weight_at_edge(&self, e: EdgeId) -> f64 {
         let s = self.edge(e);
@@ -220,7 +222,8 @@ impl<'a> Sharpness<'a> {
         if stays { 1.0 } else { s }
     }
 
-    /// Returns how vertex `v` moves. `h` is its half-edge, which is the boundary one on the boundary.
+    /// Returns how vertex `v` moves. `h` is the half-edge of the vertex; for a boundary vertex, `h` is a boundary
+    /// half-edge.
     #[inline]
     pub(crate) fn at_vertex(&self, v: VertexId, h: HalfEdgeId) -> Blend<HalfEdgeId> {
         if !self.is_plain() {
@@ -251,13 +254,14 @@ impl<'a> Sharpness<'a> {
         SemiSharp::of(self.creasing, edges.map(|h| self.edge(h.edge())))
     }
 
-    /// Returns the sharpness on the next level of the half of an edge at the origin of `h`.
+    /// The edge of `h` is split in two. Returns the sharpness, on the next level, of the part at the origin of `h`.
     pub(crate) fn of_half(&self, h: HalfEdgeId) -> f64 {
         let semi_sharp = self.semi_sharp(self.mesh.origin(h));
         semi_sharp.half_of(self.edge(h.edge()))
     }
 
-    /// Returns the sharpness to store on the next level for the half of an edge at the origin of `h`.
+    /// The edge of `h` is split in two. Returns the sharpness to store, on the next level, for the part at the
+    /// origin of `h`.
     pub(crate) fn next_of_half(&self, h: HalfEdgeId) -> f64 {
         if self.edges.is_none() {
             0.0

@@ -3,8 +3,8 @@
 //! Half-edge h runs from a to b and has face f, whose opposite corner is c; its twin t has face g. Every face
 //! gets the vertex V + f at its center and three spokes, the edges from its corners to the center. Every inner
 //! edge is flipped, so that it connects two centers. Edges keep their numbers. The spoke of the k-th corner of
-//! face f is edge E + 3f + k, and spoke(h) is its half that starts at the origin of h. T(h), the k-th triangle
-//! of face f, is 3f + k:
+//! face f is edge E + 3f + k, and spoke(h) is the half-edge of that spoke that starts at the origin of h. T(h), the
+//! k-th triangle of face f, is 3f + k:
 //!
 //! ```text
 //!              c                           c
@@ -32,7 +32,8 @@
 //!      even level          odd level
 //! ```
 //!
-//! In the flips of the other two edges x and y replace the center, each for the edge nearer to it. After two
+//! The other two edges of the triangle are flipped. The flipped edge that is nearer to x than to y ends at x instead
+//! of the center, and the other flipped edge ends at y. After two
 //! levels every boundary edge, and every old edge, has become three edges. Source: Kobbelt, "√3-Subdivision",
 //! 2000.
 
@@ -50,7 +51,7 @@ pub(crate) struct Sqrt3<'a> {
     n_vertices: usize,
     n_edges: usize,
     n_faces: usize,
-    /// On odd levels the half-edges without a face. Their edges are cut in three.
+    /// The half-edges without a face, on odd levels only. Their edges are cut in three.
     cut: Option<Subset>,
 }
 
@@ -206,7 +207,7 @@ impl<'a> Sqrt3<'a> {
         if mesh.face(h).is_none() {
             let inner = h.twin();
             let (origin, next) = match self.side(inner) {
-                // From y to x, then to a.
+                // The half-edge ends where the half-edge from x to a starts. It runs from y to x.
                 Side::Cut => (self.end(mesh.next(inner)), self.spoke(inner).twin()),
                 _ => (mesh.origin(h), mesh.next(h)),
             };
@@ -226,10 +227,10 @@ impl<'a> Sqrt3<'a> {
         let mesh = self.mesh;
         let (before, after) = (self.prev(h), mesh.next(h));
         let (next, face) = match (self.side(before), self.side(after)) {
-            // From b to y, along the boundary.
+            // This half-edge runs from b to y, along the boundary.
             (Side::Cut, _) => (before.twin(), FaceId::NONE),
             (Side::Kept, _) => (self.spoke(before).twin(), self.triangle(before)),
-            // From c to x.
+            // This half-edge runs from c to x.
             (Side::Flipped, Side::Cut) => (after, self.triangle(after)),
             (Side::Flipped, _) => (before.twin(), self.triangle(before.twin())),
         };
@@ -237,7 +238,7 @@ impl<'a> Sqrt3<'a> {
         let (next, face) = match self.side(h) {
             Side::Flipped => (self.spoke_at_target(h.twin()), self.triangle(h)),
             Side::Kept => (h, self.triangle(h)),
-            // From x to a, then along the boundary.
+            // This half-edge runs from x to a. The next half-edge continues along the boundary.
             Side::Cut => {
                 let following = mesh.next(h.twin()).twin();
                 (self.spoke(mesh.next(following)), FaceId::NONE)
@@ -300,7 +301,7 @@ impl Links for Sqrt3<'_> {
                 },
             },
             Source::Center(f) => self.spoke(mesh.face_half_edge(f)).twin(),
-            // From x to a, or from y to x.
+            // The half-edge runs from x to a, or from y to x.
             Source::Near(h) if mesh.face(h).is_some() => self.spoke(h).twin(),
             Source::Near(h) => h,
         }
@@ -321,8 +322,8 @@ impl Topology for Sqrt3<'_> {
         links::connectivity(self, meter)
     }
 
-    /// A triangle at a flipped edge lies in two old faces. At its old vertex it has the value of the face that
-    /// it is numbered after, and at each center the value of the face of that center.
+    /// A triangle at a flipped edge lies in two old faces. At its old vertex, triangle 3f + k has the value of the
+    /// corner of face f. At each center it has the value of the face of that center.
     fn corner(&self, finer: &Connectivity, i: usize) -> Place {
         let mesh = self.mesh;
         let Some(face) = finer.face[i].some() else {
@@ -347,7 +348,7 @@ impl Topology for Sqrt3<'_> {
         if spoke >= 3 * self.n_faces {
             return None;
         }
-        // The two spokes that are the outer parts of a cut edge.
+        // The spokes at both ends of a cut edge are parts of that edge.
         let h = self.of_corner(spoke);
         let mut parents = [h, self.prev(h)].into_iter();
         let cut = parents.find(|&h| self.side(h) == Side::Cut);

@@ -14,8 +14,9 @@ pub(crate) trait Topology: Sync {
     /// The place in the old mesh of the corner of half-edge `i` of the next level.
     fn corner(&self, finer: &Connectivity, i: usize) -> Place;
 
-    /// The old vertex that new vertex `i` comes from, if any. By default old vertices keep their numbers; for
-    /// the number of a new vertex the result is a number above those of the old vertices.
+    /// The old vertex that vertex `i` of the next level comes from, if any. The default returns `i`, because old
+    /// vertices keep their numbers in most schemes. A result that is not the number of an old vertex means that
+    /// vertex `i` is new.
     fn vertex(&self, i: usize) -> Option<usize> {
         Some(i)
     }
@@ -26,8 +27,9 @@ pub(crate) trait Topology: Sync {
     /// The old face that new face `i` is a part of, if any.
     fn face(&self, i: usize) -> Option<usize>;
 
-    /// The old half-edge whose part at its origin is new edge `i`, if any. The default is for schemes that
-    /// split each edge in two and number the parts first.
+    /// If edge `i` of the next level is a part of an old edge: the half-edge of the old edge that starts at the end
+    /// of the old edge where the part is. The default is for schemes that split each edge in two and number these
+    /// parts before all other edges.
     fn half(&self, i: usize) -> Option<HalfEdgeId> {
         self.edge(i).map(|_| HalfEdgeId::new(i))
     }

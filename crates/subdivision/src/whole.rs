@@ -49,8 +49,8 @@ pub fn subdivide(
 
 /// Computes a range of levels, starting from this mesh, if the result takes at most `budget` bytes.
 ///
-/// `levels.start` is the number of levels that this mesh has already been through, and 0 for a coarse mesh. The
-/// number matters for [`Scheme::Sqrt3`](crate::Scheme::Sqrt3), whose even and odd levels differ.
+/// `levels.start` is the number of levels that were applied to this mesh before; 0 for a coarse mesh. The number
+/// matters for [`Scheme::Sqrt3`](crate::Scheme::Sqrt3), whose even and odd levels differ.
 ///
 /// # Errors
 ///

@@ -27,11 +27,11 @@ const EXPECTED: Color = Color::rgb(0x1b, 0x8e, 0x3d);
 const HALO: Color = Color([255, 255, 255, 220]);
 /// The opacity of hidden marks.
 const HIDDEN: f64 = 0.4;
-/// The maximum number of locations for which small ones have dots in the overview.
+/// If there are more locations than this, small locations have no dots in the overview.
 const MAX_DOTTED: usize = 200;
 /// The maximum number of names in the close-up.
 const MAX_NAMES: usize = 24;
-/// The maximum number of faces of a scene whose edges are drawn in the overview. More would cover the picture.
+/// If a scene has more faces than this, the overview does not draw their edges, which would cover the picture.
 const MAX_FACES_WITH_EDGES: usize = 5_000;
 /// The tangent of half the default field of view, which is 25 degrees.
 const TANGENT: f64 = 0.221_694_662_642_939_43;
@@ -61,14 +61,14 @@ pub fn draw_error_locations(
         let size = size
             .max(1.2 * surroundings.mean_edge_length)
             .max(0.01 * radius);
-        // At most as much as in the overview.
+        // The close-up shows at most as much as the overview.
         let visible = (1.6 * size).min(radius);
         (
             middle,
             visible.max(1e-6 * middle.abs().max_element()) / TANGENT,
         )
     });
-    // Without a close-up if the distance overflows.
+    // If the distance overflows, there is no close-up.
     let focus = focus.filter(|(_, distance)| (distance * distance).is_finite());
     let mut direction = preferred_direction(surroundings.normal, locations, center);
     if let (Some(first), Some((middle, distance))) = (locations.first(), focus) {
@@ -149,7 +149,7 @@ struct Surroundings {
     n_faces: usize,
     /// The sum of the area vectors of the faces that touch the first location.
     normal: DVec3,
-    /// The mean length of the edges of these faces.
+    /// The mean length of the edges of the faces that touch the first location.
     mean_edge_length: f64,
     /// The faces that are locations of errors, by object.
     faces: Vec<(String, Vec<FaceId>)>,
@@ -241,7 +241,7 @@ fn preferred_direction(normal: DVec3, locations: &[ErrorLocation], center: DVec3
         .map_or(center, |first| sphere(&first.points).0);
     let outward = normal.normalize_or((middle - center).normalize_or_zero());
     let direction = (outward + 0.45 * default).normalize_or(default);
-    // Limited to 75 degrees, because near straight above the upward direction of the picture is unstable.
+    // Limited to 75 degrees: if the camera looks almost straight down, the upward direction of the picture is unstable.
     let (azimuth, elevation) = angles(direction);
     let (sin, cos) = geometry::sin_cos_degrees(azimuth);
     let (up, horizontal) = geometry::sin_cos_degrees(elevation.clamp(-75.0, 75.0));
@@ -256,7 +256,7 @@ fn angles(direction: DVec3) -> (f64, f64) {
 }
 
 /// Marks the locations with lines of the width `width` and dots of the diameter `dot`, in pixels. Locations that are
-/// smaller than `dot_limit`, in scene units, are marked with a dot too.
+/// smaller than `dot_limit`, in scene units, also get a dot.
 fn marks(
     locations: &[ErrorLocation],
     surroundings: &Surroundings,

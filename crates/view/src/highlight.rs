@@ -10,10 +10,10 @@ const EDGE_WIDTH: f64 = 4.0;
 /// The diameter of highlighted vertices in a picture that is 960 pixels high.
 const VERTEX_DIAMETER: f64 = 13.0;
 
-/// In smaller pictures, the width of edges is proportional to this power of the height. In proportion to the height
-/// itself, it would be too small to see.
+/// In pictures less than 960 pixels high, the width of edges is proportional to this power of the height. If the width
+/// were proportional to the height, edges in small pictures would be too thin to see.
 const EDGE_POWER: f64 = 0.25;
-/// The same for the diameter of vertices.
+/// The power for the diameter of vertices, as `EDGE_POWER` for the width of edges.
 const VERTEX_POWER: f64 = 0.4;
 
 /// The opacity of hidden edges.
@@ -31,7 +31,8 @@ fn scaled(length: f64, power: f64, size: [u32; 2]) -> f64 {
     }
 }
 
-/// Returns the maximum diameter of `n` dots so that they cover at most 15 % of a picture, but at least 2.5 pixels.
+/// Returns the maximum diameter of `n` dots in pixels. Dots of this diameter cover at most 15 % of a picture, unless
+/// the diameter is limited to its minimum of 2.5 pixels.
 fn max_diameter(n: usize, [width, height]: [u32; 2]) -> f64 {
     #[expect(
         clippy::cast_precision_loss,
@@ -41,8 +42,8 @@ fn max_diameter(n: usize, [width, height]: [u32; 2]) -> f64 {
     area.sqrt().max(2.5)
 }
 
-/// Highlights elements of an object. `width` is the width of edges and the diameter of vertices in pixels. If omitted,
-/// it depends on the size of the picture.
+/// Highlights elements of an object. `width` is the width of edges and the diameter of vertices in pixels; if `None`,
+/// the default for the picture size `size`.
 pub fn highlight(
     object: &str,
     elements: Elements,

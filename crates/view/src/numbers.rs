@@ -85,7 +85,7 @@ pub(crate) struct ColorScale {
 }
 
 impl ColorBy {
-    /// Creates it with the default color map, range and legend.
+    /// Shows a quantity as colors, with the default color map, range and legend.
     pub fn new(of: Quantity) -> Self {
         Self {
             of,

@@ -47,7 +47,7 @@ pub struct Subject<'s> {
 }
 
 impl<'s> Subject<'s> {
-    /// Prepares a scene with its overlays and numbers. Returns also a message for each texture that cannot be drawn.
+    /// Prepares a scene with its overlays and numbers. Also returns a message for each texture that cannot be drawn.
     ///
     /// `caption` is written below the view unless it is empty. `images` returns the bytes of an image file for its path
     /// in a material.

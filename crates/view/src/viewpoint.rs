@@ -28,9 +28,9 @@ pub(crate) struct Target<'a> {
 
 /// Returns the direction from a target to the camera, which is a unit vector.
 ///
-/// The direction is as near as possible to `preferred`, a unit vector, and on the outer side of the surface. In this
-/// direction, no face hides the middle of the target; if there is no such direction, no face nearer than `near`; if
-/// there is none either, returns `preferred`.
+/// The candidates are directions on the outer side of the surface. Of the candidates in which no face hides the middle
+/// of the target, returns the one nearest to `preferred`, a unit vector. If there is no such candidate, ignores faces
+/// at a distance of `near` or more. If there is still no candidate, returns `preferred`.
 pub(crate) fn clear_direction(
     scene: &Scene,
     target: &Target,
@@ -122,7 +122,7 @@ fn triangle_distance([a, b, c]: [DVec3; 3], from: DVec3, direction: DVec3) -> f6
     let q = offset.cross(ab);
     let v = direction.dot(q) * inverse;
     let t = ac.dot(q) * inverse;
-    // False for NaN, which results from triangles without area or seen edge-on.
+    // False for NaN, which is the result for a triangle without area or seen edge-on.
     if u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 {
         t
     } else {

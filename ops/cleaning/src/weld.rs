@@ -24,7 +24,7 @@ use op::prelude::*;
 /// between the same two vertices become one edge with the values of the first. Corner values stay with their corners,
 /// so UV seams are kept.
 ///
-/// If neighbouring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
+/// If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
 /// corners left or would visit a vertex twice. If joined faces have opposite orientations, the smaller group is
 /// reversed, provided that all orientations then agree. Reversed faces are counted, and the normals of vertices and
 /// corners are dropped. If the result would still not be manifold, it is split, and the splits are counted: for

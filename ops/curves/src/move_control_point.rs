@@ -15,8 +15,8 @@ use scene::Geometry;
 
 /// Moves one control point of curves.
 ///
-/// The other control points do not move. The point of the curve at t moves in the same direction, by the
-/// distance multiplied by the Bernstein polynomial of the control point at t.
+/// The other control points do not move. The point of the curve at t moves in the same direction. The distance
+/// that it moves is the distance of the control point multiplied by the value of its Bernstein polynomial at t.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MoveControlPoint {

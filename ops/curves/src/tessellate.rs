@@ -53,7 +53,7 @@ pub enum Faces {
     /// Two triangles, divided by the diagonal from the corner with the lowest u and v.
     #[default]
     Triangles,
-    /// One quad; a triangle at a side whose points coincide.
+    /// One quad, or one triangle if a side of the cell is a side of the patch whose points coincide.
     Quads,
 }
 
@@ -116,8 +116,8 @@ impl Operation for Tessellate {
 }
 
 impl Tessellate {
-    /// Returns the plan of the mesh for this number of patches. Counts are upper limits: collapsed sides and empty
-    /// patches give fewer elements.
+    /// Returns the plan of the mesh for this number of patches. Counts are upper limits: collapsed sides and patches
+    /// without area give fewer elements.
     fn planned(&self, patches: u64) -> MeshPlan {
         let n = u64::from(self.segments.get());
         let at_most = |each| Range::at_most(patches.saturating_mul(each));

@@ -13,19 +13,20 @@ use op::prelude::*;
 
 /// Replaces edges with faces.
 ///
-/// A selected edge and both of its ends are removed. The other edges at the ends are cut at a fraction of their lengths
-/// before the step, and a new face joins the cuts. The face has four corners if three edges met at each end. Edges are
-/// bevelled in order of their numbers, in the mesh as edited so far: an edge at the end of an earlier bevelled edge
-/// starts at its cut. If an edge is cut at both ends, the fraction must be below 0.5.
+/// A selected edge and both of its ends are removed. Each other edge at these ends is cut at a fraction of the length
+/// that it had before the step, and a new face joins the cuts. The face has four corners if three edges met at each
+/// end. Edges are bevelled in order of their numbers, in the mesh as edited so far: an edge that an earlier bevel has
+/// cut starts at the cut. If an edge is cut at both ends, the fraction must be below 0.5.
 ///
-/// The ends of the edges are removed, and later vertices are renumbered. New vertices are numbered last, in order of the
-/// edges and clockwise around each. Faces keep their numbers; new faces are numbered last, in order of the edges.
+/// The ends of the edges are removed, and later vertices are renumbered. New vertices are numbered last, in order of
+/// the edges and clockwise around each edge. Faces keep their numbers; new faces are numbered last, in order of the
+/// edges.
 ///
 /// Values at the cuts are interpolated between the ends of the edge, so textures do not change. A new face has the
 /// values (material, tags) of a face beside the edge. New edges have no values. Normals are dropped.
 ///
-/// An edge is refused if it or one of its ends is on the boundary, if an end has fewer than three edges, if its ends are
-/// also joined by another edge, or if the rest of an edge at one of its ends is too short for the cut.
+/// An edge is refused if it or one of its ends is on the boundary, if an end has fewer than three edges, if its ends
+/// are also joined by another edge, or if earlier cuts leave too little of an edge at one of its ends.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct BevelEdges {

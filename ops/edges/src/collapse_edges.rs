@@ -12,18 +12,18 @@ use op::prelude::*;
 
 /// Collapses edges: the two ends of each edge become one vertex.
 ///
-/// In a mesh of triangles, a collapse removes 1 vertex, 3 edges and 2 faces, or 1 vertex, 2 edges and 1 face on the
-/// boundary. A face beside the edge with more than three corners only loses a corner. The vertex at the end with the
-/// lower number is kept. Edges are collapsed in order of their numbers; an edge that an earlier collapse removed counts
-/// as refused.
+/// In a mesh of triangles, a collapse removes 1 vertex, 3 edges and 2 faces or, on the boundary, 1 vertex, 2 edges and
+/// 1 face. A face with more than three corners beside the edge only loses a corner. Of the two ends, the vertex with
+/// the lower number is kept. Edges are collapsed in order of their numbers. An edge that an earlier collapse removed
+/// counts as refused.
 ///
 /// A collapse is refused if it would change the topology of the surface or make elements coincide:
 ///
 /// - `JoinsBoundaries`: an edge inside the surface joins two boundary vertices.
-/// - `Link`: the ends have a common neighbour that is not a corner of a triangle beside the edge, for example around a
-///   tube of three sides or at a hole with three edges.
+/// - `Link`: the ends have a common neighbor that is not a corner of a triangle beside the edge, for example on a tube
+///   with three sides or at a hole with three edges.
 /// - `DuplicateEdge`: a second edge joins the ends.
-/// - `RepeatedVertex`: the ends are also corners of a face that is not beside the edge.
+/// - `RepeatedVertex`: both ends are also corners of a face that is not beside the edge.
 /// - `Vanishes`: the mesh around the edge is a tetrahedron or a single triangle.
 /// - `SameFace`: the same face is on both sides of the edge.
 /// - `SameOpposite`: the two triangles beside the edge share another edge.

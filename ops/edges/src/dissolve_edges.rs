@@ -10,13 +10,15 @@ use op::prelude::*;
 
 /// Removes edges and merges the faces beside them.
 ///
-/// Edges are removed in order of their numbers. Each removal is checked against the mesh as edited so far. A removal
-/// takes away 1 edge and 1 face: the face with the lower number is kept, with its values. No vertex is removed or moves;
-/// `DissolveVertices(vertices: Valence(2))` removes vertices that are left with two edges. The remaining elements keep
-/// their order and their values but are renumbered.
+/// Edges are removed in order of their numbers. Each removal is checked against the mesh as edited so far. After a
+/// removal, the mesh has 1 edge and 1 face less. Of the two faces beside the edge, the one with the lower number is
+/// kept, with its values. No vertex is removed or moves. To remove vertices that are left with two edges, use
+/// `DissolveVertices(vertices: Valence(2))` in a later step. The remaining elements keep their order and their values
+/// but are renumbered.
 ///
-/// An edge is refused if it is on the boundary, if the same face is on both of its sides, if one of its ends has only two
-/// edges, if its two faces have common corners other than its ends, and at a seam.
+/// An edge is refused if it is on the boundary, if the same face is on both of its sides, if one of its ends has only
+/// two edges, or if its two faces have common corners other than its ends. An edge that is a seam is refused unless
+/// `seams` is `Drop`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DissolveEdges {

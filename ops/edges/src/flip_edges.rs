@@ -22,10 +22,10 @@ use goal::Goal;
 /// Replaces the edge between two triangles by the other diagonal of the pair.
 ///
 /// Edges are flipped in order of their numbers. Each flip is checked against the mesh as edited so far. A flip is
-/// refused if the edge is on the boundary, if a face beside it is not a triangle, if the opposite corners of the two
-/// triangles are already joined by an edge or are the same vertex, and at a seam. No number of an element changes and no
-/// vertex moves. Values of vertices, edges and faces stay with their elements; corners take the values of the same vertex
-/// in the other triangle.
+/// refused if the edge is on the boundary, if a face beside it is not a triangle, or if the opposite corners of the two
+/// triangles are already joined by an edge or are the same vertex. At a seam, a flip is refused unless `seams` is
+/// `Drop`. All elements keep their numbers, and no vertex moves. Vertices, edges and faces keep their values. The
+/// corners of the new triangles take the values of the same vertex in the other triangle.
 ///
 /// With `until: Delaunay` or `until: Valence`, an edge is flipped only if that improves the mesh. Edges are checked
 /// again, pass after pass, until no edge is flipped. These flips neither fold the surface nor create triangles without
@@ -61,8 +61,8 @@ pub enum Until {
     /// Flip each edge once.
     #[default]
     Once,
-    /// Flip edges until no flip reduces the sum of the cotangents of all angles of all triangles. This avoids very small
-    /// and very large angles. On a flat mesh, the result is the Delaunay triangulation.
+    /// Flip edges until no flip reduces the sum of the cotangents of all angles of all triangles. This avoids very
+    /// small and very large angles. On a flat mesh, the result is the Delaunay triangulation.
     Delaunay,
     /// Flip edges until no flip brings the valences of the vertices closer to 6, or to 4 on the boundary. Each flip
     /// reduces the sum of the squared differences.

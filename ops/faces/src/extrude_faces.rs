@@ -25,19 +25,20 @@ use region::Region;
 ///
 /// Selected faces that share an edge form a region and move together, with one normal and one center. A region is first
 /// scaled, then rotated, both about the mean of its vertices, and then moved. Side faces with four corners are added
-/// along the rim of the region: the edges with a face of the region on one side only. A whole open sheet becomes a box
-/// that is open where the sheet was. A whole closed part has no rim and no normal: it only moves, and needs an `Offset`.
+/// along the rim of the region: the edges with a face of the region on one side only. If all faces of an open sheet are
+/// extruded, the result is a box that is open where the sheet was. If a region is closed, it has no rim and no normal:
+/// its faces only move, and `by` must be an `Offset`.
 ///
 /// The faces keep their numbers, so the same selection can be extruded again in later steps, for example to grow an arm
 /// out of a body. Vertices and edges inside a region also keep their numbers. The vertices and edges of the old rim do
 /// not move, and the moved faces get new ones. New side faces are numbered last: by region in order of their lowest
-/// faces, then in order of the faces, then counter-clockwise around each face from its first corner. New vertices are in
-/// the same order, each above the first vertex of its side face.
+/// faces, then in order of the faces, then counter-clockwise around each face from its first corner. New vertices are
+/// in the same order, each above the first vertex of its side face.
 ///
-/// A side face has the values of the face that it belongs to (material, tags). Its corners have the values of the corners
-/// of that face, so textures continue without a seam but have no width on the side faces. The new edges of the rim have
-/// the values of the old ones (creases, tags), and the edges between the old and the new rim have no values. Normals are
-/// dropped.
+/// A side face has the values of the adjacent moved face (material, tags). Its corners have the values of the corners
+/// of that face, so textures have no seam there, but each side face only shows the line of the texture along its edge.
+/// The new edges of the rim have the values of the old ones (creases, tags), and the edges between the old and the new
+/// rim have no values. Normals are dropped.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExtrudeFaces {
@@ -52,8 +53,8 @@ pub struct ExtrudeFaces {
     #[serde(default, alias = "turn")]
     #[schemars(extend("aliases" = ["turn"]))]
     pub rotate: Vec<Turn>,
-    /// The name of a tag for the moved faces and their side faces. Faces that already have the tag keep it. If omitted, no
-    /// faces are tagged.
+    /// The name of a tag for the moved faces and their side faces. Faces that already have the tag keep it. If omitted,
+    /// no faces are tagged.
     #[serde(default)]
     pub tag: Option<TagName>,
 }

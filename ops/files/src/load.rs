@@ -127,8 +127,8 @@ impl Load {
     }
 }
 
-/// The mesh that reading gives for these counts. Reading can leave out faces and remove repeated corners, and
-/// splitting can add vertices and edges.
+/// Returns the plan of the mesh that is read from a file with these counts. Reading can leave out faces and remove
+/// repeated corners, and splitting can add vertices and edges.
 fn planned(peek: &PeekMesh) -> MeshPlan {
     let mut plan = MeshPlan {
         vertices: Range::at_most(peek.vertices.saturating_add(peek.corners)),

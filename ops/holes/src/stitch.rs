@@ -20,20 +20,20 @@ use pairs::Pairs;
 ///
 /// Two boundary edges form a pair if the distance between their corresponding ends is at most `distance`, and no third
 /// boundary edge is within this distance of either edge. Choose a distance below the lengths of the edges. If more than
-/// two edges coincide, none of them are joined, and they are refused (`NonManifold`). Unlike `Weld`, this operation never
-/// merges vertices inside the surface or vertices whose edges do not coincide.
+/// two edges coincide, none of them are joined, and they are refused (`NonManifold`). Unlike `Weld`, this operation
+/// never merges vertices inside the surface or vertices whose edges do not coincide.
 ///
 /// Of each pair of vertices or edges, the one with the lower number keeps its position and its values. The other one is
 /// removed, and later elements are renumbered. Faces and corners do not change: different UVs become a seam. Remaining
 /// holes with two edges are also closed.
 ///
-/// A pair is refused if both edges belong to the same face (`SameFace`), if the ends of an edge would become one vertex or
-/// a face would visit a vertex twice (`WrongPlace`), or if two edges would join the same vertices (`DuplicateEdge`).
+/// A pair is refused if both edges belong to the same face (`SameFace`), if the ends of an edge would become one vertex
+/// or a face would visit a vertex twice (`WrongPlace`), or if two edges would join the same vertices (`DuplicateEdge`).
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stitch {
-    /// The largest distance between corresponding ends of two edges, in scene units. With 0, only ends at equal positions
-    /// are joined.
+    /// The largest distance between corresponding ends of two edges, in scene units. With 0, only ends at equal
+    /// positions are joined.
     pub distance: Length,
     /// What to do when a pair is refused, or when more than two edges coincide.
     #[serde(default)]
@@ -66,7 +66,7 @@ impl MeshOperation for Stitch {
             return Ok(report.note("no pairs of coinciding boundary edges"));
         }
         let edit = |mesh: &mut Mesh, [h, g]: [HalfEdgeId; 2]| {
-            // Joining neighbouring pairs may already have joined this pair.
+            // This pair may already have been joined, as a result of joining neighboring pairs.
             if is_closed(mesh, h) && is_closed(mesh, g) {
                 return Ok(());
             }

@@ -22,9 +22,10 @@ use scene::Object;
 /// Vertices, edges and faces are numbered part by part, in the order of the list. The parts are not connected, even
 /// where they touch. The result replaces the first mesh of the list in the scene; the other meshes are removed.
 ///
-/// If a part lacks an attribute, its values are zero there, or -1 (no material) for materials. Normals are dropped and
-/// reported as lost unless all parts have them. If an attribute of a part has a different type than in earlier parts, the
-/// attribute of this part is dropped and reported as lost. Equal materials become one.
+/// If a part lacks an attribute that another part has, its elements get the value zero, or -1 (no material) for
+/// material numbers. Normals are dropped and reported as lost unless all parts have them. If an attribute of a part has
+/// a different type than in earlier parts, the attribute of this part is dropped and reported as lost. Equal materials
+/// become one.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Join {

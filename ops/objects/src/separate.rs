@@ -20,8 +20,8 @@ use scene::{Geometry, Object};
 /// parts are added after all other objects. Elements keep their order and their values, and every part has all
 /// materials. Vertices without a face are dropped and counted. A mesh without faces is refused.
 ///
-/// If parts of one component are separated, the edges and vertices between them are copied to both parts. If the faces of
-/// a part around a vertex form several fans, each fan gets a separate copy of the vertex.
+/// If parts of one component are separated, the edges and vertices between them are copied to both parts. If the faces
+/// of a part around a vertex form several fans, each fan gets a separate copy of the vertex.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Separate {
@@ -31,7 +31,7 @@ pub struct Separate {
     #[serde(default)]
     pub by: By,
     /// The expected number of parts. The step is refused if the number differs. If omitted, the names of the parts are
-    /// only known when the recipe runs, so names of objects in later steps are not checked before.
+    /// not known before the recipe runs, so the object names in later steps cannot be checked before the run.
     #[serde(default)]
     pub count: Option<Count<1>>,
 }

@@ -24,9 +24,9 @@ use view::{ColorBy, Extent, HIGHLIGHT_COLOR, Shot, Subject, highlight};
 
 /// Draws the scene into an image file.
 ///
-/// The extension of the file determines the format: `.png`; with `turntable`, `.gif`, or `.apng` or `.png` for an
-/// animated PNG. The file is written only if the whole recipe succeeds. The scene does not change. Drawing needs no GPU
-/// and gives the same bytes on every machine.
+/// The extension of the file determines the format: `.png` for an image. For a turntable, `.gif` for an animated GIF,
+/// or `.apng` or `.png` for an animated PNG. The file is written only if the whole recipe succeeds. The scene does not
+/// change. Drawing needs no GPU and gives the same bytes on every machine.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Picture {
@@ -52,8 +52,8 @@ pub struct Picture {
     #[serde(default)]
     pub highlight: Option<Elements>,
     /// The width of highlighted edges and the diameter of highlighted vertices, in pixels. If omitted, 2.8 and 7.5 in
-    /// pictures that are 240 pixels high, 3.4 and 10 at 480, 4 and 13 at 960, 8 and 26 at 1920; many vertices are
-    /// smaller. Hidden edges are faint, and hidden vertices are rings.
+    /// pictures that are 240 pixels high, 3.4 and 10 at 480, 4 and 13 at 960, 8 and 26 at 1920. If there are many
+    /// vertices, they are smaller. Hidden edges are faint, and hidden vertices are rings.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub highlight_width: Option<f64>,
@@ -251,7 +251,7 @@ impl Picture {
         }
     }
 
-    /// Prepares a scene with its highlights and numbers. Returns also notes on parts that are not drawn.
+    /// Prepares a scene with its highlights and numbers. Also returns notes on parts that are not drawn.
     fn subject<'s>(
         &self,
         scene: &'s Scene,

@@ -13,11 +13,11 @@ use op::prelude::*;
 
 /// Cuts meshes along a plane.
 ///
-/// Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along it,
-/// concave faces possibly several times. A vertex closer to the plane than 1e-9 of the largest extent of the mesh
-/// counts as on the plane and is not moved. The part of an edge at its lower vertex keeps the number of the edge, and
-/// the part of a face at its first corner keeps the number of the face. New elements are numbered last. Attributes are
-/// interpolated at the crossings, on both sides of seams.
+/// Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along it. A
+/// concave face can be cut several times. A vertex closer to the plane than 1e-9 of the largest extent of the mesh
+/// counts as on the plane and is not moved. The part of an edge at the end with the lower number keeps the number of
+/// the edge, and the part of a face with the first corner keeps the number of the face. New elements are numbered last.
+/// Attributes are interpolated at the crossings, on both sides of seams.
 ///
 /// With `keep`, one side of the plane is removed. A face in the plane belongs to the back if its normal points to the
 /// front, because it closes the solid behind it. Vertices left without a face are removed. If the remaining faces
@@ -59,7 +59,7 @@ impl MeshOperation for Bisect {
     const WORDS: &'static [&'static str] = &["slice", "clip", "plane"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // The plane crosses at most all sides of a face, and cuts the face along half as many lines.
+        // The plane crosses each side of a face at most once, and cuts the face along half as many lines as crossings.
         let per_face = plan.degrees.max / 2;
         let crossings = plan.edges.or_less();
         let cuts = plan.faces.by(per_face).capped(crossings.max).or_less();

@@ -38,10 +38,10 @@ use crate::step::{Step, Until};
 
 /// Splits every face into quads and smooths, for a number of levels.
 ///
-/// A level makes a quad of each corner of a face. It turns V vertices, E edges and F faces with C corners in
+/// A level creates a quad at each corner of each face. It turns V vertices, E edges and F faces with C corners in
 /// total into V + E + F vertices, 2 E + C edges and C quads, so V - E + F does not change. Old vertices keep
-/// their ids, the vertex on edge e is V + e, the center of face f is V + E + f, and edge e becomes edges 2e and
-/// 2e + 1. Quads are numbered face by face, in order of the corners.
+/// their ids, the vertex on edge e has the id V + e, the vertex at the center of face f has the id V + E + f, and
+/// edge e becomes edges 2e and 2e + 1. Quads are numbered face by face, in order of the corners.
 ///
 /// Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner
 /// values are smoothed as `face_varying` says, and seams are kept. Parts of an edge or a face copy the values

@@ -36,15 +36,16 @@ use crate::step::{Step, Until};
 
 /// Replaces every edge and vertex by a face and shrinks the old faces, for a number of levels.
 ///
-/// A level turns a closed mesh of V vertices, E edges and F faces into one of 2 E vertices, 4 E edges and F + E +
-/// V faces; a boundary adds more. V - E + F does not change. The face inside old face f is f, the face of edge
-/// e is F + e, and the faces of vertices follow. Isolated vertices are kept, after all other vertices. They do
-/// not become faces, and neither do inner vertices of valence 2.
+/// A level turns a closed mesh with V vertices, E edges and F faces into a mesh with 2 E vertices, 4 E edges and
+/// F + E + V faces. If the mesh has a boundary, these numbers are larger. V - E + F does not change. The face
+/// inside old face f has the id f, the face of edge e has the id F + e, and the faces of vertices follow. Isolated
+/// vertices are kept, after all other vertices. They do not become faces, and neither do inner vertices of
+/// valence 2.
 ///
 /// Vertex attributes are smoothed with the weights of the positions. Corner values are smoothed within one old
 /// face, so at a seam the faces of edges and vertices have corner values of several old faces, and texture
 /// coordinates are torn there. A face inside an old face copies its values; the face of an edge or a vertex
-/// copies those of an adjacent face. The two edges along an old edge copy its values; other edges have none.
+/// copies those of an adjacent face. The two edges along an old edge copy its values; other edges have no values.
 /// Normals are dropped, because they would be wrong.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]

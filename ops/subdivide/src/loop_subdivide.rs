@@ -38,8 +38,8 @@ use crate::step::{Step, Until};
 /// Splits every triangle into four and smooths, for a number of levels.
 ///
 /// A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles, so
-/// V - E + F does not change. Old vertices keep their ids, the vertex on edge e is V + e, edge e becomes edges
-/// 2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
+/// V - E + F does not change. Old vertices keep their ids, the vertex on edge e has the id V + e, edge e becomes
+/// edges 2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
 ///
 /// Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner
 /// values are smoothed as `face_varying` says, and seams are kept. Parts of an edge or a triangle copy the

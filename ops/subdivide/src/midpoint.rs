@@ -24,12 +24,12 @@ use crate::step::{Step, Until};
 
 /// Splits every face into smaller faces without moving vertices, for a number of levels.
 ///
-/// `into: Triangles` takes triangles only and turns V vertices, E edges and F triangles into V + E vertices, 2
-/// E + 3 F edges and 4 F triangles. `into: Quads` takes any polygons and makes a quad of each corner: V
-/// vertices, E edges and F faces with C corners in total become V + E + F vertices, 2 E + C edges and C quads.
-/// Old vertices keep their ids and positions, the vertex on edge e is V + e, and edge e becomes edges 2e and 2e + 1.
-/// Triangle f becomes faces 4f to 4f + 3. Quads are numbered face by face, and the center of face f is V + E +
-/// f.
+/// `into: Triangles` requires a mesh of triangles. A level turns V vertices, E edges and F triangles into V + E
+/// vertices, 2 E + 3 F edges and 4 F triangles. `into: Quads` accepts all polygons and creates a quad at each
+/// corner: V vertices, E edges and F faces with C corners in total become V + E + F vertices, 2 E + C edges and
+/// C quads. Old vertices keep their ids and positions, the vertex on edge e has the id V + e, and edge e becomes
+/// edges 2e and 2e + 1. Triangle f becomes faces 4f to 4f + 3. Quads are numbered face by face, and the vertex at
+/// the center of face f has the id V + E + f.
 ///
 /// Vertex attributes are interpolated, and so are corner values, each within one old face. Parts of an edge or
 /// a face copy the values of the old edge or face, including sharpness. Normals are dropped.

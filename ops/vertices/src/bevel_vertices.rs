@@ -13,19 +13,19 @@ use op::prelude::*;
 
 /// Replaces vertices with faces.
 ///
-/// Each edge at a selected vertex is cut at a fraction of its length before the step, and a new face joins the cuts. The
-/// new face has as many corners as the vertex had edges. If both ends of an edge are selected, the fraction must be
+/// Each edge at a selected vertex is cut at a fraction of its length before the step, and a new face joins the cuts.
+/// The new face has as many corners as the vertex had edges. If both ends of an edge are selected, the fraction must be
 /// below 0.5. For example, a fraction of 0.25 turns a cube into a truncated cube.
 ///
-/// The selected vertices are removed, and later vertices are renumbered. New vertices are numbered last, in order of the
-/// selected vertices and clockwise around each. Faces keep their numbers; new faces are numbered last, in order of the
-/// vertices.
+/// The selected vertices are removed, and later vertices are renumbered. New vertices are numbered last, in order of
+/// the selected vertices and clockwise around each vertex. Faces keep their numbers; new faces are numbered last, in
+/// order of the vertices.
 ///
 /// Values at the cuts are interpolated between the ends of the edge, so textures do not change. A new face has the
 /// values (material, tags) of a face that was at the vertex. New edges have no values. Normals are dropped.
 ///
-/// A vertex is refused if it is on the boundary, if it has fewer than three edges, or if the rest of one of its edges is
-/// too short for the cut.
+/// A vertex is refused if it is on the boundary, if it has fewer than three edges, or if earlier cuts leave too little
+/// of one of its edges.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct BevelVertices {

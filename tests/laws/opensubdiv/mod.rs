@@ -280,13 +280,14 @@ fn the_stored_results_of_small_meshes_equal_those_computed_by_hand() {
     // sum to p, and so do the three faces.
     let [near, corner, far] = [[0.0, 0.0, 1.0], [5.0 / 9.0; 3], [0.0, 0.75, 0.75]];
     assert_positions("known_cube", &[(near, 6), (corner, 8), (far, 12)]);
-    // Sharpness 1/2: halfway between the smooth rules and the sharp rules, which keep corners and midpoints.
+    // With sharpness 1/2, positions are halfway between those of the smooth rules and those of the sharp rules. The
+    // sharp rules keep corners and midpoints.
     let [corner, far] = [[7.0 / 9.0; 3], [0.0, 0.875, 0.875]];
     assert_positions("known_sharp_cube", &[(near, 6), (corner, 8), (far, 12)]);
     // On a boundary without corners the weights are 3/4 and twice 1/8.
     let [corner, far] = [[0.0, 0.75, 0.75], [0.0, 0.0, 1.0]];
     assert_positions("known_square", &[([0.0; 3], 1), (corner, 4), (far, 4)]);
-    // Its uvs are the positions of the corners, and `CornersOnly` keeps them.
+    // The uvs of the square are the positions of its corners, and `CornersOnly` keeps them.
     let corners = result("known_square").uvs();
     let unchanged = corners.iter().filter(|uv| uv.abs() == DVec2::ONE);
     assert_eq!(unchanged.count(), 4);

@@ -36,7 +36,7 @@ fn recipe() -> impl Strategy<Value = String> {
             .into_iter()
             .filter(|step| !step.contains("Write") || !std::mem::replace(&mut written, true))
             .scan(false, |has_id, step| {
-                // An id must be unique.
+                // Ids must be unique, so only the first step with an id is kept.
                 let is_named = step.contains("id:");
                 Some((
                     is_named && std::mem::replace(has_id, *has_id || is_named),
@@ -161,7 +161,7 @@ fn concurrent_runs_can_share_a_cache() {
                         b"file\nsheet"
                     );
                     if thread == 0 && n % 4 == 3 {
-                        // While the other threads use the cache.
+                        // The other threads use the cache at the same time.
                         let _ = cache.clear();
                     }
                 }

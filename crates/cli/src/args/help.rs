@@ -1,4 +1,4 @@
-//! The help of the program: commands group_digits by purpose, each with an example.
+//! The help of the program: commands grouped by purpose, each with an example.
 
 use std::fmt::Write;
 

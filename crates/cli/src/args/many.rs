@@ -15,7 +15,7 @@ pub(crate) struct ManyArgs {
     /// Number of threads; defaults to the number of processors
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// Maximum number of runs at the same time; at most, and by default, the number of threads
+    /// Maximum number of runs at the same time, up to the number of threads; defaults to the number of threads
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
     /// Memory budget for the meshes of all simultaneous runs together, such as 512MiB or 8GiB

@@ -78,7 +78,7 @@ fn show(path: &Path, scene: Scene) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Converts a note to JSON. `text` names only some of the elements; the list has all of them.
+/// Converts a note to JSON. The field `text` contains only some of the elements; the list contains all of them.
 fn note_json(note: &Note) -> serde_json::Value {
     let mut json = json!({
         "text": note.to_string(),

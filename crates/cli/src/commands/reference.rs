@@ -37,7 +37,7 @@ pub(crate) fn reference(registry: &Registry, pictures: Option<&Path>) -> String 
         }
         used.extend(types(&schema).into_iter().map(|t| (t.name.clone(), t)));
     }
-    text += "\n# Steps that hold steps\n";
+    text += "\n# Steps that contain steps\n";
     for (name, schema) in step_kinds() {
         let (doc, table) = (description(&schema), fields_table(&fields(&schema)));
         text += &format!("\n## {name}\n\n{doc}.\n\n{table}");

@@ -22,7 +22,7 @@ pub(crate) fn run(args: &ReproduceArgs, engine: &Engine) -> anyhow::Result<bool>
     for file in &args.files {
         let stamp = mesh_io::provenance(&Disk, file)?.and_then(|text| Stamp::parse(&text));
         let (source, run) = recipe_of(file, stamp.as_ref(), args, engine)?;
-        // Consecutive files of one run share its rerun.
+        // If consecutive files come from the same run, that run is repeated only once.
         let rerun = match last.take() {
             Some(rerun) if rerun.is_of(&source, &run) => rerun,
             _ => Rerun::run(source, run, args.budget, engine)?,

@@ -195,16 +195,16 @@ fn finished_files_are_not_processed_again_until_something_changes() {
     assert_eq!(again("--report a.json"), 8);
     assert_eq!(again("--report b.json"), 0);
     assert_eq!(report(&folder, "a.json"), report(&folder, "b.json"));
-    // The broken file.
+    // Only the broken file is processed again.
     assert_eq!(again("--retry-failed"), 1);
-    // An input.
+    // An input was changed.
     fs::write(folder.path("models/m002.obj"), tetrahedron(9)).unwrap();
     assert_eq!(again(""), 1);
-    // Outputs that were removed or changed.
+    // One output was removed, and one was changed.
     fs::remove_file(folder.path("out/m001.obj")).unwrap();
     fs::write(folder.path("out/m004.obj"), "").unwrap();
     assert_eq!(again(""), 2);
-    // A parameter.
+    // A parameter was changed.
     assert_eq!(again("--set levels=2"), 8);
     assert_eq!(again("--set levels=2"), 0);
     // Changing a comment of the recipe has no effect, but changing an expectation does.

@@ -7,17 +7,17 @@ use std::time::Duration;
 
 use crate::folder::{Folder, PROGRAM};
 
-/// Two outputs, one in a folder of its own.
+/// A recipe with two outputs, the second of which is in a subfolder.
 const RECIPE: &str = r#"(recipe: 1, params: { "n": Int(default: 3) }, steps: [
     Grid(name: "a", columns: arg("n"), rows: 9), Save(path: "a.obj"), Save(path: "b/c.ply")])"#;
 
-/// What is in the output folder: old, new or not there, each file whole.
+/// Returns the content of each output file; `None` if the file does not exist.
 fn outputs(folder: &Folder) -> Vec<Option<Vec<u8>>> {
     let read = |path: &str| std::fs::read(folder.path(path)).ok();
     ["out/a.obj", "out/b/c.ply"].map(read).to_vec()
 }
 
-/// The outputs of a run with a value of `n`.
+/// Returns the outputs of a run with this value of `n`.
 fn made(n: u32) -> Vec<Option<Vec<u8>>> {
     let folder = Folder::with_recipe(RECIPE);
     folder
@@ -72,7 +72,7 @@ fn a_run_that_is_killed_leaves_old_or_new_outputs() {
             .spawn()
             .unwrap();
         sleep(Duration::from_millis(wait));
-        // It may have ended by itself.
+        // The process may already have ended.
         let _ = child.kill();
         child.wait().unwrap();
         for (i, found) in outputs(&folder).iter().enumerate() {
@@ -82,7 +82,7 @@ fn a_run_that_is_killed_leaves_old_or_new_outputs() {
             );
         }
     }
-    // What killed runs have left is in nobody's way.
+    // A run succeeds even if killed runs have left temporary files.
     folder
         .run("run recipe.ron --no-cache --set n=300")
         .with_code(0);

@@ -1,4 +1,4 @@
-//! Little memory: every run ends, whatever the limit.
+//! Runs with little memory: every run ends, for any memory limit.
 #![cfg(target_os = "linux")]
 
 use crate::folder::Folder;

@@ -81,7 +81,7 @@ fn one_different_pixel_fails_unless_tolerated() {
     let folder = recorded();
     change_a_pixel(&folder, "goldens/sheet.png", 41, 4);
     let message = "expected \"a/sheet.png\" to match goldens/sheet.png: 1 of 1200 pixels differs, by 4 of 255, at (1, 1)";
-    // Also if the step that writes the picture comes from the cache.
+    // The result is the same if the step that writes the picture comes from the cache.
     for command in [
         "test recipe.ron",
         "test recipe.ron --no-cache",
@@ -204,7 +204,7 @@ fn paths_that_lead_out_and_files_that_no_step_writes_are_refused() {
         }
         assert_eq!(folder.entries("."), ["recipe.ron"]);
     }
-    // Before the step that writes the picture.
+    // The expectation is checked before the step that writes the picture.
     let grid = "Grid(name: \"sheet\", columns: 3, rows: 1)";
     let early = RECIPE
         .replace(grid, &format!("(id: \"grid\", run: {grid})"))

@@ -143,7 +143,7 @@ fn a_selection_and_a_file_can_be_shown_beside_their_facts() {
     assert!(!ended.stdout.contains('\x1b'));
 }
 
-/// Where three faces meet at one edge.
+/// A mesh with an edge that three faces share.
 const FAN: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\n";
 
 #[test]

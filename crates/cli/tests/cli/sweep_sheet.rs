@@ -112,7 +112,7 @@ fn all_cells_are_drawn_in_one_scale() {
             .collect();
         columns[columns.len() - 1] - columns[0] + 1
     });
-    // Radii 1.5 and 4.5, but for pixels that are covered in part.
+    // The radii are 1.5 and 4.5. Pixels that are covered in part cause small differences.
     assert!((3 * widths[0]).abs_diff(widths[1]) <= 5, "{widths:?}");
 }
 
@@ -129,7 +129,7 @@ fn colors_mean_the_same_in_all_cells_and_are_explained_once() {
     assert!(height > 150);
     let made = pixels(&folder, "s.png");
     assert!(drawn(&made.part([plain, 0], [colored - plain, height])) > 1000);
-    // The faces of the second are the largest: only they have the last colors.
+    // The second cell has the largest faces: only these faces have the last colors.
     let colors = |i: u32| {
         let cell = cell(&made, [0, 0], 68, [i, 0]);
         move |is: fn([u8; 3]) -> bool| cell.count(is)

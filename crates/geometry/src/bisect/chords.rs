@@ -1,10 +1,10 @@
 //! Computes the chords along which a line cuts a polygon.
 //!
 //! ```text
-//!                 +     +              corners on the line are sorted along it; the two sides of each
-//!               /   \ /   \            corner tell whether the polygon is inside to its left and right:
-//!    ... ------a     b-----c---- line  a has the inside to its right, b to its left and right, c to its
-//!            /    inside     \         left. Each inside interval becomes a chord.
+//!                 +     +              Corners on the line are sorted along the line. The sides of the
+//!               /   \ /   \            polygon at a corner show where the line is inside the polygon:
+//!    ... ------a     b-----c---- line  ahead of a, behind and ahead of b, behind c.
+//!            /    inside     \         Each inside interval becomes a chord.
 //!           +-----------------+
 //! ```
 
@@ -30,7 +30,7 @@ impl Corner {
 }
 
 /// Returns chords that cut the polygon so that each part has corners on one side of the line only. The polygon
-/// has corners on both sides, and `normal` is its normal.
+/// must have corners on both sides of the line. `normal` is the normal of the polygon.
 ///
 /// If the corners on the line do not give consistent inside intervals, each part to the left of the line is cut
 /// off separately.
@@ -103,7 +103,8 @@ fn inside_chords(corners: &[Corner], normal: DVec3) -> Option<Vec<[u32; 2]>> {
     (!is_inside).then_some(chords)
 }
 
-/// Returns whether the inside of the polygon is behind and ahead of a corner on the line, along the line.
+/// Returns two flags for a corner on the line: whether the line is inside the polygon just behind the corner,
+/// and whether it is inside the polygon just ahead of the corner.
 ///
 /// The directions to the next and to the previous corner are measured in quarter turns from the line: 0 is
 /// ahead, 1 left, 2 behind, 3 right. Counter-clockwise, the inside starts at the direction to the next corner
@@ -213,7 +214,8 @@ mod tests {
             (-1., -1.),
             (-1., 0.),
         ];
-        // An edge crosses the line at (-2, 0). As the caller does, inserts a corner there.
+        // An edge crosses the line at (-2, 0). The test inserts a corner there, as the caller of the function
+        // does.
         let mut crossed = zigzag.to_vec();
         crossed.insert(7, (-2., 0.));
         assert_eq!(cut(&crossed), [[7, 10]]);
@@ -242,7 +244,7 @@ mod tests {
             (-4., 4.),
             (-4., 0.),
         ];
-        // The hole is between -2 and 2. The line crosses the slit at 3 twice, once for each of its sides.
+        // The hole is between -2 and 2. The slit has two sides, so the line crosses it twice at 3.
         let chords = cut(&keyhole);
         assert_eq!(chords, [[2, 5], [8, 17], [11, 14]]);
     }

@@ -12,7 +12,8 @@ use chords::Corner;
 
 /// Vertices nearer to the plane than this fraction of the largest extent of the mesh count as on the plane.
 const RELATIVE_TOLERANCE: f64 = 1e-9;
-/// The same as a fraction of the largest coordinate: the size of rounding errors far from the origin.
+/// Vertices nearer to the plane than this fraction of the largest coordinate also count as on the plane. Far
+/// from the origin, rounding errors have this size.
 const ROUNDING_TOLERANCE: f64 = 1e-14;
 
 /// The result of [`bisect`].
@@ -37,22 +38,25 @@ pub struct Bisection {
 /// ```
 ///
 /// Every edge that crosses the plane gets a vertex at the crossing point. Every face that crosses the plane is
-/// cut along it, concave faces possibly several times. The parts stay connected. A vertex counts as on the
-/// plane if its distance is at most 1e-9 times the largest extent of the mesh or 1e-14 times the largest
-/// coordinate. Such a vertex is not moved, and an edge that ends there is not split. The side of a vertex is
-/// decided once, for all its edges and faces. A crossing point does not depend on the direction of its edge.
+/// cut along the plane; a concave face can be cut several times. The parts stay connected. A vertex counts as
+/// on the plane if its distance is at most 1e-9 times the largest extent of the mesh or 1e-14 times the
+/// largest coordinate. Such a vertex is not moved, and an edge that ends there is not split. The side of a
+/// vertex is decided once, for all its edges and faces. A crossing point does not depend on the direction of
+/// its edge.
 ///
-/// What happens to ids: the part of an edge at the origin of its first half keeps the id of the edge. The other
-/// parts and the crossing points are new, in order of the edges. The new edges on the plane come after them,
-/// face by face. The part of a face at its first corner keeps the id of the face; its other parts are new.
+/// What happens to ids: when an edge is split, the part at the origin of its first half keeps the id of the
+/// edge. The other parts and the crossing points are new, in order of the edges. The new edges on the plane
+/// come after them, face by face. When a face is cut, the part with its first corner keeps the id of the
+/// face; the other parts are new.
 ///
 /// Values are interpolated at crossing points. Corner values are interpolated within their face, so that seams
 /// are kept. Parts of an edge or a face copy its values, and new edges on the plane have zero values.
 ///
-/// The line in which the plane meets a flat face crosses its sides an even number of times, and the intervals
-/// between crossings are alternately inside and outside of the face. If this fails because a face is twisted or
-/// intersects itself, each part in front of the plane is cut off separately. If two faces share both edges that
-/// the plane crosses, each gets a separate edge between the same two crossing points.
+/// The plane meets a flat face in a line. This line crosses the sides of the face an even number of times, and
+/// the intervals between crossings are alternately inside and outside of the face. A face that is twisted or
+/// intersects itself may not have this property. Then each part in front of the plane is cut off separately. If
+/// two faces share both edges that the plane crosses, each gets a separate edge between the same two crossing
+/// points.
 ///
 /// A face that lies in the plane counts as behind it if its normal points to the front, because the solid that
 /// it bounds lies behind. Otherwise it counts as in front.
@@ -102,7 +106,7 @@ fn heights(mesh: &Mesh, point: DVec3, normal: DVec3) -> Result<Vec<f64>, EditErr
             return Ok(0.0);
         }
         let height = (mesh.position(v) - point).dot(normal);
-        // The difference of two heights is at most twice this height.
+        // The difference of two heights must be finite too. Its magnitude is at most twice the larger height.
         if !(2.0 * height).is_finite() || !near.is_finite() {
             return Err(EditError::BadNumber(height));
         }

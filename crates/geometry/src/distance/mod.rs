@@ -1,14 +1,15 @@
 //! The distance between two surfaces: the largest distance, with a bound of its error, and the mean distance.
 //!
 //! The Hausdorff distance is the largest distance from a point of one surface to the other surface. It can be
-//! reached inside a face: a spike of the other surface can end over the middle of a face. So triangles are cut
-//! into pieces until no piece can be further away than the largest distance found by more than a tolerance:
+//! reached inside a face: a spike of the other surface can end over the middle of a face. Therefore triangles
+//! are cut into pieces. The cutting stops when no piece can exceed the largest distance found by more than a
+//! tolerance:
 //!
 //! ```text
 //!     c              c
-//!    / \            /|\       the distance is computed at corners and centers of pieces. A bound for all points
-//!   /   \   --->   / | \      of a piece follows from convexity: no point of it is further from a triangle
-//!  a-----b        a--m--b     of the other surface than its furthest corner is.
+//!    / \            /|\       Distances are computed at the corners and centers of pieces. By convexity,
+//!   /   \   --->   / | \      no point of a piece is further from a triangle of the other surface than
+//!  a-----b        a--m--b     the furthest corner of the piece. This gives a bound for all points.
 //! ```
 //!
 //! Only pieces whose bound is above the largest distance found so far are cut. Sources: Aspert, Santa-Cruz,
@@ -44,10 +45,10 @@ pub struct Distance {
 /// The distances from the points of one surface to another surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OneSided {
-    /// The largest distance found. It is exact up to rounding unless the search for a nearest point was stopped
-    /// early because very many places are almost equally near; then it is a lower bound.
+    /// The largest distance found, exact up to rounding. It is only a lower bound if the search for a nearest
+    /// point was stopped early, because very many places are almost equally near.
     pub largest: f64,
-    /// An upper bound of the distance of all points.
+    /// An upper bound of the distances of all points of this surface.
     pub at_most: f64,
     /// The mean distance over the area, from samples at the corners and inside the triangles. If the surface
     /// has no area, the mean over the vertices.
@@ -83,7 +84,7 @@ impl Distance {
     /// the meshes has no faces.
     pub fn between(a: &Mesh, b: &Mesh, tolerance: Option<f64>) -> Option<Self> {
         let found = Self::between_with(a, b, tolerance, &NoProgress);
-        found.expect("nobody cancels")
+        found.expect("never cancelled")
     }
 
     /// The same as [`between`](Self::between), but reports progress.
@@ -110,7 +111,8 @@ impl Distance {
         }))
     }
 
-    /// Whether the largest distance from the first surface to the second is at least as large as the other way.
+    /// Whether the largest distance from the first surface to the second is at least the largest distance from
+    /// the second to the first.
     pub fn is_worst_forth(&self) -> bool {
         self.forth.largest >= self.back.largest
     }
@@ -167,7 +169,7 @@ const BLOCK: usize = 1024;
 struct Block {
     /// The pieces whose bound is above the largest distance found.
     pieces: Vec<Piece>,
-    /// An upper bound of the distance of all points outside of `pieces`.
+    /// An upper bound of the distances of all points that are not in one of the `pieces`.
     ceiling: f64,
     farthest: Option<Farthest>,
     /// The sum of the areas.
@@ -295,7 +297,8 @@ impl Block {
         for i in 0..n {
             ask()?;
             for j in 0..n - i {
-                // The part with the same orientation as the triangle and, if it is inside, the inverted part.
+                // The smaller triangle with the orientation of the triangle, and the inverted one if it lies
+                // inside the triangle.
                 let n_parts = if i + j + 2 <= n { 2 } else { 1 };
                 for shift in [third, 2.0 * third].into_iter().take(n_parts) {
                     let (u, v) = (f64::from(i) + shift, f64::from(j) + shift);
@@ -322,7 +325,8 @@ fn vertex_hits(from: &Mesh, to: &Surface, ask: &Ask) -> Result<Vec<Option<Hit>>,
     hits.par_chunks_mut(BLOCK)
         .enumerate()
         .try_for_each(|(b, block)| {
-            // The previous hit is a good first guess if consecutive vertices are near each other.
+            // Consecutive vertices are often near each other, so the triangle of the previous hit is a good
+            // first guess.
             let mut hint = 0;
             for (i, slot) in block.iter_mut().enumerate() {
                 if i % 128 == 0 {
@@ -343,7 +347,7 @@ fn vertex_hits(from: &Mesh, to: &Surface, ask: &Ask) -> Result<Vec<Option<Hit>>,
 /// Returns the distance from each vertex of `from` to the surface of `to`, by vertex index. NaN for dead
 /// vertices. Returns `None` if `to` has no faces.
 pub fn vertex_distances(from: &Mesh, to: &Mesh) -> Option<Vec<f64>> {
-    let hits = vertex_hits(from, &Surface::new(to)?, &|| Ok(())).expect("nobody cancels");
+    let hits = vertex_hits(from, &Surface::new(to)?, &|| Ok(())).expect("never cancelled");
     let distance = |hit: Option<Hit>| hit.map_or(f64::NAN, |hit| hit.distance);
     Some(hits.into_iter().map(distance).collect())
 }

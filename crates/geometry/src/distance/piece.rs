@@ -20,7 +20,7 @@ pub(super) struct Sample {
 pub(super) struct Piece {
     corners: [Sample; 3],
     face: FaceId,
-    /// An upper bound of the distance of all points of the piece.
+    /// An upper bound of the distances from all points of the piece to the other surface.
     pub(super) upper: f64,
 }
 
@@ -37,16 +37,17 @@ const BLOCK: usize = 64;
 /// The maximum number of pieces in a round. If there are more, those with the largest bounds are kept.
 const MAX_PIECES: usize = 1 << 18;
 
-/// The number of visited nodes of the other surface at which the search stops: a few seconds.
+/// The search stops after it has visited this number of nodes in the tree of the other surface. This takes a
+/// few seconds.
 const MAX_VISITS: u64 = 1 << 28;
 
 impl Farthest {
-    /// Returns a lower bound of the distance of the sample.
+    /// Returns a lower bound of the distance from the sample to the other surface.
     pub(super) fn lower_bound(&self) -> f64 {
         self.sample.hit.lower
     }
 
-    /// Returns the further of the two; `self` if both are equally far.
+    /// Returns the sample that is further away; `self` if both are equally far away.
     pub(super) fn or(self, other: Option<Self>) -> Self {
         match other {
             Some(other) if other.lower_bound() > self.lower_bound() => other,
@@ -74,15 +75,18 @@ impl Piece {
         piece
     }
 
-    /// Returns an upper bound of the distance of all points of the piece: the smallest of several bounds.
+    /// Returns an upper bound of the distances from all points of the piece to the other surface. It is the
+    /// smallest of these bounds:
     ///
-    /// 1. The distance to one triangle of the other surface. It is a convex function, so its maximum over the
-    ///    piece is at a corner.
-    /// 2. If the nearest points of the corners lie on two triangles with a common edge, the triangle spanned by
-    ///    these points is close to the two triangles: no point of a chord across the edge is further from them
-    ///    than the distance from the chord to the edge. A point of the piece is no further from the spanned
-    ///    triangle than the furthest corner is from its nearest point.
-    /// 3. Each point of the piece has a corner at a distance of at most 1/√3 times the longest side.
+    /// 1. The largest distance from a corner of the piece to one triangle of the other surface. The distance
+    ///    to a triangle is a convex function, so its maximum over the piece is at a corner.
+    /// 2. If the nearest points of the corners lie on two triangles with a common edge, the sum of two
+    ///    distances. The first is the largest distance from a corner to its nearest point: no point of the
+    ///    piece is further than this from the triangle that the three nearest points span. The second is the
+    ///    largest distance from the common edge to a side of the spanned triangle that leads from one of the
+    ///    two triangles to the other: no point of such a side is further than this from the two triangles.
+    /// 3. The largest distance of a corner, plus 1/√3 times the longest side. Each point of the piece has a
+    ///    corner within 1/√3 times the longest side.
     fn bound(&self, to: &Surface) -> f64 {
         let [a, b, c] = self.corners;
         let far = self.corners.iter().fold(0.0, |d, s| s.hit.distance.max(d));
@@ -122,8 +126,8 @@ impl Piece {
         self.corners.iter().map(distance).fold(0.0, f64::max)
     }
 
-    /// Whether cutting the piece can lower its bound. It cannot if the distances of the corners are not exact
-    /// and already determine the bound.
+    /// Whether cutting the piece can lower its bound. Cutting does not help if the distance of a corner is
+    /// inexact and the bound exceeds the largest corner distance by at most `tolerance`.
     fn can_improve(&self, tolerance: f64) -> bool {
         let hits = self.corners.map(|s| s.hit);
         let far = hits.iter().fold(0.0, |d, hit| hit.distance.max(d));
@@ -141,7 +145,8 @@ impl Piece {
         )
     }
 
-    /// Returns the center of the piece with its nearest point.
+    /// Returns the sample at the center of the piece: the center, and the point of the other surface nearest to
+    /// it.
     pub(super) fn middle(&self, to: &Surface) -> Sample {
         let [a, b, c] = self.corners;
         let at = (a.at + b.at + c.at) / 3.0;
@@ -149,7 +154,8 @@ impl Piece {
         Sample { at, hit }
     }
 
-    /// Lowers the bound with the triangle that is nearest to the center.
+    /// Lowers the bound if the triangle nearest to the center gives a lower bound. `middle` is the sample at
+    /// the center.
     pub(super) fn lower(&mut self, middle: &Sample, to: &Surface) {
         self.upper = self.upper.min(self.to_triangle(to, middle.hit.triangle));
     }
@@ -162,7 +168,8 @@ impl Piece {
         }
     }
 
-    /// Cuts the piece in two at the middle of its longest side. Returns the halves and the middle.
+    /// Cuts the piece in two at the midpoint of its longest side. Returns the two halves and the sample at the
+    /// midpoint.
     fn cut(&self, to: &Surface) -> ([Self; 2], Sample) {
         let (i, _) = self.longest_side();
         let [a, b, c] = [0, 1, 2].map(|k| self.corners[(i + k) % 3]);
@@ -183,8 +190,8 @@ impl Piece {
 }
 
 /// Cuts pieces until no piece can be further away than the furthest sample by more than `tolerance`, or until
-/// the limit of visited nodes is reached. Returns the furthest sample and an upper bound of the distance of all
-/// points. `ceiling` is an upper bound for the rest of the surface.
+/// [`MAX_VISITS`] nodes were visited. Returns the furthest sample and an upper bound of the distances of all
+/// points of the surface. `ceiling` is an upper bound for the points that are not in one of the `pieces`.
 pub(super) fn refine(
     mut pieces: Vec<Piece>,
     mut farthest: Farthest,
@@ -194,9 +201,10 @@ pub(super) fn refine(
     ask: &Ask,
 ) -> Result<(Farthest, f64), Cancelled> {
     let mut visits_left = MAX_VISITS;
-    // The pieces of a round are limited by the visits that are left, and by what earlier searches took.
+    // A round has only as many pieces as the remaining visits allow. The earlier searches show how many visits
+    // a search takes.
     let visits = pieces.iter().map(|p| u64::from(p.corners[0].hit.visits));
-    // A piece that is cut takes about five searches.
+    // Cutting a piece takes about five searches.
     let per_piece = 5 * (visits.sum::<u64>() / (pieces.len() as u64).max(1)).max(1);
     let affordable = |visits: u64, per_piece: u64| {
         usize::try_from(visits / per_piece).map_or(MAX_PIECES, |n| n.clamp(1, MAX_PIECES))

@@ -8,14 +8,14 @@ use mesh::{DVec3, FaceId, Mesh, VertexId};
 use super::triangle::nearest_on_triangle;
 use crate::triangulate::Cutter;
 
-/// The triangles of a mesh in a tree. Each face is triangulated as a fan at its first corner.
+/// The triangles of a mesh in a tree.
 pub(super) struct Surface {
     nodes: Vec<Node>,
     /// The triangles, in the order of the tree.
     triangles: Vec<Triangle>,
 }
 
-/// A triangle of the fan of a face.
+/// A triangle of a face.
 #[derive(Clone, Copy)]
 pub(super) struct Triangle {
     pub(super) at: [DVec3; 3],
@@ -27,8 +27,8 @@ pub(super) struct Triangle {
 #[derive(Clone, Copy)]
 pub(super) struct Hit {
     pub(super) distance: f64,
-    /// A lower bound of the distance. It equals `distance` unless the search was stopped early because too many
-    /// triangles are almost equally near.
+    /// A lower bound of the distance. It equals `distance`, except if the search was stopped early because too
+    /// many triangles are almost equally near.
     pub(super) lower: f64,
     pub(super) point: DVec3,
     /// The index of the triangle that contains the point.
@@ -37,8 +37,8 @@ pub(super) struct Hit {
     pub(super) visits: u32,
 }
 
-/// A box around the triangles `first..last`. The children of an inner node are the next node and `right`, which
-/// is 0 for a leaf.
+/// A box around the triangles `first..last`. An inner node has two children: the node that follows it in the
+/// list, and the node with index `right`. In a leaf, `right` is 0.
 struct Node {
     min: DVec3,
     max: DVec3,
@@ -50,8 +50,8 @@ struct Node {
 /// The maximum number of triangles of a leaf.
 const LEAF: usize = 4;
 
-/// The number of nodes visited for one point before the search accepts an inexact answer. Searches usually
-/// visit at most a few hundred.
+/// A search for a nearest point accepts an inexact answer after it has visited this number of nodes.
+/// A search usually visits at most a few hundred nodes.
 const MAX_NODES: u32 = 1000;
 
 /// Iterates over the triangles of the fan of a face.
@@ -69,8 +69,9 @@ pub(super) fn fan(mesh: &Mesh, face: FaceId) -> impl Iterator<Item = Triangle> {
     })
 }
 
-/// Appends the triangles of a face. A face of more than four corners is triangulated inside its sides: the triangles
-/// of a fan would lie over each other, so that a point would be near to all of them.
+/// Appends the triangles of a face. A face with at most four corners is triangulated as a fan. A larger face is
+/// triangulated by `cutter`: the triangles of a fan could lie on top of each other, and a point near the face would
+/// be near all of them.
 pub(super) fn triangulate(
     mesh: &Mesh,
     face: FaceId,
@@ -114,8 +115,8 @@ impl Surface {
         &self.triangles[i as usize]
     }
 
-    /// Builds the node over the triangles `first..last` and its children, which each get half of the triangles,
-    /// split along the longest side of the box.
+    /// Builds the node over the triangles `first..last`, and its children. The triangles are split along the
+    /// longest side of the box, and each child gets half of them.
     fn build(&mut self, first: usize, last: usize) {
         let corners = self.triangles[first..last].iter().flat_map(|t| t.at);
         let (min, max) = corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), p| {
@@ -142,8 +143,8 @@ impl Surface {
         self.build(first + middle, last);
     }
 
-    /// Returns the point nearest to `p`. `hint` is the index of a triangle that is probably near, which saves
-    /// time.
+    /// Returns the point nearest to `p`. `hint` is the index of a triangle that is probably near `p`; a good
+    /// hint saves time.
     ///
     /// If `p` is the center of a sphere, all triangles are equally near and the search would visit all of them.
     /// After [`MAX_NODES`] nodes it continues with [`nearly_nearest`](Self::nearly_nearest), which stops early.
@@ -186,8 +187,8 @@ impl Surface {
         best.hit(None, visits)
     }
 
-    /// Continues the search in the order of the distances of the nodes, which gives the best lower bound if it
-    /// stops early.
+    /// Continues the search and visits the nodes in order of their distances from `p`. If the search stops
+    /// early, this order gives the best lower bound.
     fn nearly_nearest(&self, p: DVec3, mut best: Best) -> Hit {
         // Squares are non-negative, so they have the same order as their bits.
         let mut waiting = BinaryHeap::from([Reverse((0_u64, 0_usize))]);
@@ -277,7 +278,7 @@ impl Node {
     }
 }
 
-/// Converts an array index. A mesh has fewer than 2³² half-edges, and its fans have fewer triangles than that.
+/// Converts an array index. A mesh has fewer than 2³² half-edges, and fewer triangles than half-edges.
 fn number(i: usize) -> u32 {
     u32::try_from(i).expect("fewer than 2^32 triangles")
 }

@@ -269,7 +269,7 @@ fn vertex_distances_are_those_of_each_vertex() {
     assert_eq!(vertex_distances(&cube, &Mesh::default()), None);
 }
 
-/// A star of one face, whose corners lie on two circles in turn.
+/// Returns a star of one face. Its corners lie alternately on two circles.
 fn star(n: u32) -> Mesh {
     let corner = |i: u32| {
         let radius = 1.0 + 0.5 * f64::from(i % 2);
@@ -311,7 +311,7 @@ fn the_nearest_point_of_one_large_face_takes_few_visits() {
 
 #[test]
 fn a_measurement_can_be_cancelled_at_any_report() {
-    /// Allows so many reports.
+    /// A listener that cancels after this number of reports.
     struct Stop(std::sync::atomic::AtomicU64);
     impl Progress for Stop {
         fn advance(&self, _: &str, _: u64, _: u64) -> bool {

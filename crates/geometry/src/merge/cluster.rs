@@ -72,7 +72,8 @@ fn sort_into_tree(points: &mut [Point]) {
     if points.len() <= LEAF || min == max {
         return;
     }
-    // Halves, because the difference of two finite numbers may be infinite.
+    // The sides of the box are compared at half their length, because the difference of two finite numbers may
+    // be infinite.
     let axis = (0.5 * max - 0.5 * min).max_position();
     let n = points.len();
     let middle = n / 2;
@@ -110,7 +111,7 @@ struct Tree<'p> {
     min: DVec3,
     max: DVec3,
     points: &'p [Point],
-    /// Whether any two points of the box are at most one step apart.
+    /// Whether every two points of the box are at most one step apart.
     is_cluster: bool,
     halves: Option<Box<[Tree<'p>; 2]>>,
 }
@@ -157,8 +158,8 @@ impl Reach {
         }
     }
 
-    /// Whether the difference is at most one step. If so, every difference with smaller absolute coordinates is
-    /// too.
+    /// Whether the difference is at most one step. If it is, every difference with smaller absolute coordinates
+    /// is at most one step too.
     fn covers(&self, difference: DVec3) -> bool {
         if self.squared == 0.0 {
             // The square of a tiny difference would be 0 too.
@@ -233,7 +234,7 @@ impl Search<'_> {
         }
     }
 
-    /// Joins `q` with all points of a box, which are known to belong to its cluster.
+    /// Joins `q` with all points of a box. The caller must know that they belong to the cluster of `q`.
     fn join_all(&self, tree: &Tree, q: Point) {
         for p in tree.points {
             self.sets.join(p.index, q.index);

@@ -103,9 +103,9 @@ pub fn merge_vertices(
 ///
 /// A face loses each corner that merges with the next corner around it. The face is dropped if fewer than three
 /// corners are left or if it would visit a vertex twice. If connected faces then have opposite orientations,
-/// the smaller number of them is reversed if that makes all orientations agree, and normals are dropped. If the
-/// result is still non-manifold, it is split as [`build()`] does: the third face at an edge gets a copy of the
-/// edge.
+/// and reversing some of them makes all orientations agree, the minority is reversed and normals are dropped.
+/// If the result is still non-manifold, it is split as by [`build()`]: the third face at an edge gets a copy of
+/// the edge.
 ///
 /// # Errors
 ///
@@ -114,8 +114,8 @@ pub fn merge_vertices(
 ///
 /// # Panics
 ///
-/// If the mesh is not dense, if `lowest` does not have one number for each vertex, or if a number is not that
-/// of a vertex.
+/// If the mesh is not dense, if `lowest` does not have one number for each vertex, or if a number is not the
+/// index of a vertex.
 pub fn merge_clusters(mesh: &mut Mesh, lowest: &[u32]) -> Result<Merged, BuildError> {
     assert!(mesh.is_dense(), "the mesh must be dense");
     assert_eq!(
@@ -211,7 +211,7 @@ impl Polygons {
         for (&old_h, (&e, &h)) in self.half_edges.iter().zip(sides) {
             if h != HalfEdgeId::NONE {
                 corners[h.index()] = old_h;
-                // `NONE` is above all ids.
+                // `NONE` is greater than all ids, so any edge replaces it.
                 let edge = &mut edges[e.index()];
                 *edge = old_h.edge().min(*edge);
             }

@@ -1,8 +1,8 @@
 //! The approximate costs in bytes of the parts of a file, for its memory budget.
 
-/// The memory budget is this multiple of the size of the file, ...
+/// The memory budget of a file is this multiple of its size in bytes, but at least [`MIN_BUDGET`].
 pub(super) const BUDGET_FACTOR: usize = 64;
-/// ... but at least this many bytes.
+/// The smallest memory budget of a file, in bytes.
 pub(super) const MIN_BUDGET: usize = 1 << 24;
 /// The approximate sizes of an object without faces, a material, the binding of a material, a vertex, a corner, and
 /// an additional value of a corner.
@@ -12,5 +12,6 @@ pub(super) const BOUND: usize = 50;
 pub(super) const VERTEX: usize = 64;
 pub(super) const CORNER: usize = 48;
 pub(super) const VALUE: usize = 24;
-/// The cost of each time that a number is read. It limits time rather than memory.
+/// The cost of reading a number. A number that is read several times counts each time. The cost limits time
+/// rather than memory.
 pub(super) const NUMBER: usize = 20;

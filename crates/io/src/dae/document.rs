@@ -126,7 +126,7 @@ pub(super) struct Document<'a> {
     pub(super) ids: BTreeMap<&'a str, Node<'a>>,
     /// The size of the text in bytes.
     pub(super) size: usize,
-    /// What was left out or changed: the total of each kind, and the first line.
+    /// The content that was left out or changed.
     tally: RefCell<Tally>,
     /// The memory that the file can still use. Instances can repeat geometries, but only within this budget.
     budget: Cell<usize>,
@@ -135,7 +135,7 @@ pub(super) struct Document<'a> {
 impl<'a> Document<'a> {
     /// # Errors
     ///
-    /// If the root element is not that of a COLLADA file.
+    /// If the root element is not `<COLLADA>`.
     pub(super) fn new(xml: &'a Xml<'a>) -> Result<Self, Fault> {
         let root = xml.root_element();
         if root.tag_name().name() != "COLLADA" {
@@ -269,7 +269,7 @@ pub(super) fn child<'a>(node: Node<'a>, name: &'static str) -> Option<Node<'a>> 
     named(node, name).next()
 }
 
-/// The element at a path of names, each the name of a child of the previous element.
+/// Follows a path of child names down from `node`, and returns the last element.
 pub(super) fn below<'a>(node: Node<'a>, names: &[&'static str]) -> Option<Node<'a>> {
     names.iter().try_fold(node, |node, name| child(node, name))
 }

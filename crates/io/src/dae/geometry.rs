@@ -25,7 +25,7 @@ pub(super) struct Surface<'a> {
     pub(super) polygons: Polygons,
     /// The material symbols of the polygons, in order of first occurrence.
     pub(super) symbols: Vec<&'a str>,
-    /// For each polygon the index of its symbol; -1 without one.
+    /// For each polygon, the index of its symbol, or -1 if it has none.
     pub(super) symbol_of: Vec<i32>,
 }
 
@@ -58,7 +58,7 @@ enum Kind {
 
 struct Input<'a> {
     kind: Kind,
-    /// The offset of the index of this input in the indices of a corner.
+    /// The place of this input's index among the indices of a corner.
     offset: usize,
     source: Node<'a>,
 }
@@ -67,7 +67,7 @@ struct Input<'a> {
 struct Inputs<'a> {
     /// The number of indices of a corner.
     stride: usize,
-    /// The offset of the index of the vertex.
+    /// The place of the vertex index among the indices of a corner.
     vertex: usize,
     /// The element with the positions.
     vertices: Node<'a>,
@@ -175,7 +175,7 @@ impl<'a, 'd> Geometries<'a, 'd> {
         Ok(read)
     }
 
-    /// Reads the inputs of a list of polygons, followed by those of its vertices.
+    /// Reads the inputs of a list of polygons, followed by the inputs of its `<vertices>` element.
     fn inputs(&self, list: Node<'a>) -> Result<Inputs<'a>, Fault> {
         let mut stride = 0;
         let mut vertex = None;
@@ -307,7 +307,7 @@ impl<'a, 'd> Geometries<'a, 'd> {
 }
 
 impl Columns {
-    /// Adds the columns to `polygons`. Corners without a value get zero, or white as color.
+    /// Adds the columns to `polygons`. Corners without a value get zero, or white for colors.
     fn finish(mut self, polygons: &mut Polygons) {
         let n = polygons.corners.len();
         if !self.normals.is_empty() {

@@ -139,7 +139,8 @@ fn opacity(scope: &Scope, shader: Node) -> Result<Option<f64>, Fault> {
         "RGB_ONE" => luminance * transparency,
         _ => alpha * transparency,
     };
-    // Programs disagree about whether 0 or 1 is opaque, and completely invisible surfaces are not intended.
+    // Programs disagree about whether 0 or 1 means opaque. A completely invisible surface is hardly ever
+    // intended, so it is made opaque.
     if opacity <= 0.0 {
         let what = "invisible materials made opaque";
         scope.document.changed(1, shader, what);

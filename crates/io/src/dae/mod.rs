@@ -23,11 +23,11 @@
 //! | `unit`, `up_axis` | ignored with a note: coordinates are neither scaled nor rotated |
 //! | lines, splines, skins, morphs, animations, cameras, lights, physics, `skew` | left out, with a note |
 //!
-//! Corners without a normal or texture coordinate get zero, those without a color white. A file without a scene
-//! gives an object for each geometry. Other files that a file refers to are not read.
+//! Corners without a normal or a texture coordinate get zero, and corners without a color get white. If a file
+//! has no scene, each of its geometries becomes an object. Other files that a file refers to are not read.
 //!
-//! Document type declarations are refused, so that entities cannot expand. Content that instances repeat can use 64
-//! times the size of the file in memory, and at least 16 MiB.
+//! Document type declarations are refused, so that entities cannot expand. Instances can repeat content, but the
+//! memory that a file can use is limited to 64 times its size, or 16 MiB if that is more.
 
 mod cost;
 mod document;
@@ -67,7 +67,7 @@ pub(crate) fn read(
     })
 }
 
-/// Returns what reading will give.
+/// Returns the objects that reading would give, with their counts.
 ///
 /// # Errors
 ///

@@ -142,7 +142,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         Ok(())
     }
 
-    /// Pushes the nodes below `node` on the stack, the first on top.
+    /// Pushes the nodes below `node` on the stack. The first of them is on top.
     fn open_children(
         &mut self,
         node: Node<'a>,
@@ -238,8 +238,8 @@ impl<'a, 'd> Walk<'a, 'd> {
         Ok(materials)
     }
 
-    /// The transform of a node relative to its parent: the product of its transforms, the first in the file
-    /// outermost.
+    /// The transform of a node relative to its parent: the product of its transform elements, with the first
+    /// element in the file as the leftmost factor.
     fn transform(&mut self, node: Node<'a>) -> Result<DAffine3, Fault> {
         if let Some(known) = self.transforms.get(&number_of(node)) {
             return Ok(*known);

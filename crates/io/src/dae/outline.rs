@@ -15,7 +15,7 @@ pub(super) enum Shape {
     Fans,
 }
 
-/// The kind of polygons in a list; `None` if the list has none.
+/// The kind of polygons in a list; `None` if the list has no polygons.
 pub(super) fn shape(list: Node, document: &Document) -> Result<Option<Shape>, Fault> {
     let shape = match list.tag_name().name() {
         "triangles" => Shape::Triangles,
@@ -57,7 +57,7 @@ impl Shape {
     ) -> Result<Outline<'a>, Fault> {
         let mut outline = Outline::default();
         let mut holes = 0;
-        // Where the corners of each element with indices begin.
+        // The first corner of each element with indices, followed by the total number of corners.
         let mut starts = vec![0];
         for part in elements(list) {
             let indices = if is(part, "p") {

@@ -14,7 +14,7 @@ use super::views::Reader;
 use crate::fault::Fault;
 use crate::parallel;
 
-/// The number of elements that an accessor without a buffer view, which is all zeros, can always have, even in a
+/// An accessor without a buffer view consists of zeros. It can always have this number of elements, even in a
 /// tiny file.
 const MIN_ZEROS: u64 = 1 << 16;
 impl Reader<'_> {
@@ -41,8 +41,8 @@ impl Reader<'_> {
         get(&self.document.accessors, index, pointer, "accessor")
     }
 
-    /// Reads the elements of an accessor, each converted from N numbers. Components that its type does not have are
-    /// set to `fill`. Normalized integers are scaled to 0 to 1, or to -1 to 1.
+    /// Reads the elements of an accessor. Each element is converted from N numbers. Components that the type of
+    /// the accessor does not have are set to `fill`. Normalized integers are scaled to 0 to 1, or to -1 to 1.
     ///
     /// # Errors
     ///
@@ -100,7 +100,7 @@ impl Reader<'_> {
         if has_non_finite.into_inner() {
             let finite = |bytes: &[u8]| i32::from(general(bytes).iter().all(|x| x.is_finite()));
             let finite = self.elements(index, multiplicity, component, 1, finite)?;
-            // If sparse values replace all non-finite ones, there is none.
+            // Sparse values can replace all non-finite values. In that case no element is reported.
             if let Some(i) = finite.iter().position(|&is| is == 0) {
                 let message = format!("element {i} is not a finite number");
                 return Err(Fault::json(here, message));
@@ -137,7 +137,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Reads every element, from its view or as `zero`, and then applies the sparse values.
+    /// Reads every element from the view, or as `zero` if there is no view. Then applies the sparse values.
     fn elements<T: Copy + Zeroable + Send + Sync>(
         &self,
         index: usize,

@@ -4,9 +4,9 @@ use std::cell::Cell;
 
 use crate::fault::Fault;
 
-/// The budget is this multiple of the size of the file, ...
+/// The budget is this multiple of the size of the file, but at least [`MIN_BUDGET`].
 const BUDGET_FACTOR: u64 = 64;
-/// ... but at least this many bytes.
+/// The smallest budget of a file, in bytes.
 const MIN_BUDGET: u64 = 1 << 24;
 
 /// A byte of a buffer with compressed views counts as this many other bytes. A triangle with its share of the
@@ -42,14 +42,15 @@ impl Budget {
         }
     }
 
-    /// Increases the budget by the additional share of compressed views in buffers of `size` bytes, whose normal
-    /// share was granted before.
+    /// Increases the budget for buffers of `size` bytes that contain compressed views. The normal share of these
+    /// buffers was granted before.
     pub(super) fn grant_compressed(&self, size: u64) {
         let more = size.saturating_mul(BUDGET_FACTOR * (COMPRESSED - 1));
         self.left.set(self.left.get().saturating_add(more));
     }
 
-    /// Takes bytes from the budget. Several parts of a file can refer to the same bytes of it.
+    /// Takes bytes from the budget. The budget is necessary because several parts of a file can refer to the
+    /// same bytes.
     ///
     /// # Errors
     ///
@@ -66,8 +67,8 @@ impl Budget {
         Ok(())
     }
 
-    /// Takes the decoded size of a compressed view from the budget, and returns it as a `usize`. Streams of zeros
-    /// are compressed to a thousandth, but real files do not consist of zeros.
+    /// Takes the decoded size of a compressed view from the budget, and returns it as a `usize`. A stream of
+    /// zeros is compressed to a thousandth of its size, but real files do not consist of zeros.
     ///
     /// # Errors
     ///

@@ -94,14 +94,14 @@ pub(super) fn container(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
     }
 }
 
-/// Loads the bytes of all buffers. `binary` is the chunk of a GLB file, which is borrowed. Files next to the
-/// document increase the budget; reading a file again uses it. Buffers marked in `fallbacks` are not read and stay
-/// empty.
+/// Loads the bytes of all buffers. `binary` is the chunk of a GLB file, which is borrowed. A file next to the
+/// document increases the budget when it is read for the first time, and uses the budget when it is read again.
+/// Buffers marked in `fallbacks` are not read and stay empty.
 ///
 /// # Errors
 ///
-/// If a URI leads out of the folder of the file, its file cannot be read, or there are fewer bytes than a buffer
-/// declares.
+/// If a URI leads out of the folder of the document, if a file cannot be read, or if there are fewer bytes than
+/// a buffer declares.
 pub(super) fn load<'a>(
     buffers: &[Buffer],
     fallbacks: &[bool],
@@ -164,12 +164,12 @@ pub(super) fn load<'a>(
     Ok(loaded)
 }
 
-/// Decodes a data URI (RFC 2397) after its `data:`. Returns its media type and its bytes. `pointer` is its
-/// location.
+/// Decodes a data URI (RFC 2397). `data` is the text after `data:`, and `pointer` is the location of the URI.
+/// Returns the media type and the bytes.
 ///
 /// # Errors
 ///
-/// If it is not valid base64.
+/// If the data is not valid base64.
 pub(super) fn data_uri<'a>(data: &'a str, pointer: &str) -> Result<(&'a str, Vec<u8>), Fault> {
     let (kind, encoded) = data
         .split_once(";base64,")

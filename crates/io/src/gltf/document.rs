@@ -39,7 +39,7 @@ pub(super) struct Document {
     /// For each buffer, whether it is never read.
     pub(super) fallbacks: Vec<bool>,
     pub(super) views: Vec<View>,
-    /// For each view, its compression, if it is compressed.
+    /// For each view, how it is compressed; `None` if it is not compressed.
     pub(super) compressed: Vec<Option<Compressed>>,
     pub(super) materials: Vec<MaterialJson>,
     pub(super) meshes: Vec<Mesh>,
@@ -241,7 +241,8 @@ fn list<'a>(json: &'a Value, key: &str) -> Result<&'a [Value], Fault> {
     }
 }
 
-/// Deserialises the elements of a list. In the text, an element with default values is far smaller than in memory.
+/// Deserialises the elements of a list. An element with default values takes far less space in the text than in
+/// memory.
 fn pieces<T: DeserializeOwned>(json: &Value, key: &str, budget: &Budget) -> Result<Vec<T>, Fault> {
     let piece = |(i, value): (usize, &Value)| {
         T::deserialize(value).map_err(|e| Fault::json(format!("/{key}/{i}"), e.to_string()))

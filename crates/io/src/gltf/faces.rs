@@ -13,11 +13,12 @@ use crate::parallel;
 /// Triangles in the order of the faces.
 pub(super) struct Faces {
     pub(super) n_triangles: usize,
-    /// The corners of the triangles, as vertices of glTF. `None` if the triangles are all faces of a triangle mesh.
+    /// The corners of the triangles, as vertices of glTF; `None` if the mesh has only triangles and all of them have
+    /// the same material.
     pub(super) corners: Option<Vec<u32>>,
 }
 
-/// Groups triangles by material; -1 is no material.
+/// Groups triangles by material. The key -1 holds the triangles without a material.
 pub(super) fn faces_by_material(
     object: &Object,
     mesh: &Mesh,

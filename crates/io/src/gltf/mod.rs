@@ -28,8 +28,9 @@
 //! | textures, samplers, images | textures of the materials: the path of an image file, or the bytes of an image |
 //! | cameras, lights, skins, animations, morph targets, other scenes | left out, with a note |
 //!
-//! Accessors can be interleaved, sparse, without a view (zeros), and of integers, normalized or not. Buffers are
-//! files inside the folder of the document, data URIs, or the second chunk of a GLB file.
+//! Accessors can be interleaved or sparse, can lack a view (all values are then zero), and can contain integers,
+//! normalized or not. Buffers are files inside the folder of the document, data URIs, or the second chunk of a
+//! GLB file.
 //!
 //! | extension | support |
 //! | --- | --- |
@@ -55,8 +56,8 @@
 //! Lost content is reported as a [`Loss`](crate::Loss), and content that is left out or changed as a
 //! [`Note`](crate::Note).
 //!
-//! Content that is repeated, such as a mesh of several nodes, can use 64 times the size of the file in memory, and
-//! at least 16 MiB.
+//! Content can be repeated, such as a mesh of several nodes, but the memory that a file can use is limited to 64
+//! times its size, or 16 MiB if that is more.
 //!
 //! Each part of the JSON is deserialised separately into the types of `gltf_json`, so that an error has the JSON
 //! pointer of its part, and errors in parts that are not read do not matter.

@@ -5,8 +5,8 @@
 //! COLOR_0 <-> color    _any_name  <-> any_name
 //! ```
 //!
-//! Reserved names of a mesh keep their underscore when they are read: `_uv` stays `_uv`. It is written as `__uv`,
-//! which is read as `_uv` again.
+//! If the rest of `_name` is a reserved name of a mesh, the reader keeps the underscore: `_uv` in a file becomes
+//! the attribute `_uv`. The writer writes this attribute as `__uv`, which is read as `_uv` again.
 
 use gltf_json::mesh::Semantic;
 

@@ -14,7 +14,7 @@ use crate::error::Unwritable;
 use crate::loss::Losses;
 use crate::weld::n_merged;
 
-/// An object with everything that writing it needs.
+/// An object with the data that is needed to write it.
 pub(super) struct PreparedObject<'a> {
     pub(super) object: &'a Object,
     pub(super) mesh: &'a Mesh,
@@ -46,12 +46,12 @@ impl<'a> PreparedObject<'a> {
             note_changed(stream, mesh, &split, losses);
         }
         let isolated = mesh.n_isolated_vertices();
-        let reason = "isolated vertices, but glTF only stores triangles";
+        let reason = "isolated vertices, but only triangles are written to glTF";
         losses.add(Domain::Vertex, "position", isolated, reason);
         let reason = "coincident vertices, which readers of glTF merge";
         losses.add(Domain::Vertex, "position", n_merged(mesh), reason);
         let polygons = mesh.faces().filter(|&f| !mesh.is_triangle(f)).count();
-        let reason = "glTF only stores triangles, so polygons are triangulated";
+        let reason = "only triangles are written to glTF, so polygons are triangulated";
         losses.add(Domain::Face, "polygon", polygons, reason);
         let is_empty = usize::from(mesh.n_faces() == 0);
         let reason = "glTF cannot store meshes without faces, so the object is not written";

@@ -20,7 +20,7 @@ use crate::parallel;
 /// memory.
 const SMALL: u64 = 16;
 
-/// All primitives of a mesh. Vertices are those of glTF, one for each side of a seam.
+/// All primitives of a mesh. The vertices are those of glTF: one for each side of a seam.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Triangles {
     pub(super) positions: Vec<DVec3>,
@@ -28,7 +28,7 @@ pub(super) struct Triangles {
     pub(super) attributes: Attributes,
     /// Three corners for each triangle.
     pub(super) corners: Vec<u32>,
-    /// For each triangle its material in the document; empty if no triangle has a material.
+    /// For each triangle, its material in the document; empty if no triangle has a material.
     pub(super) materials: Vec<Option<usize>>,
 }
 
@@ -126,7 +126,7 @@ impl Triangles {
         let pointer = |name: &str| format!("{here}/attributes/{name}");
         let semantic = Checked::Valid(Semantic::Positions);
         let Some(positions) = primitive.attributes.get(&semantic) else {
-            // Valid, but the primitive is empty without an extension.
+            // A primitive without positions is valid, but it is empty unless an extension defines its content.
             left_out.empty += 1;
             return Ok((0, 0));
         };

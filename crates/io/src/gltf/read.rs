@@ -33,7 +33,7 @@ pub(crate) fn read(
     assets: &mut Assets,
     notes: &mut Notes,
 ) -> Result<Vec<ParsedObject>, Fault> {
-    // SourcePolygons until the end, because accessors read from these bytes directly.
+    // The bytes are kept until the end, because accessors read from them directly.
     let bytes = bytes.into_boxed_slice();
     let (json, binary) = buffers::container(&bytes)?;
     let json = parse(json)?;
@@ -51,7 +51,8 @@ pub(crate) fn read(
 fn objects(reader: &Reader, name: &str, notes: &mut Notes) -> Result<Vec<ParsedObject>, Fault> {
     let document = reader.document;
     let placed = placed_meshes(document, notes)?;
-    // How often each mesh is still used. The last object takes its arrays instead of copying them.
+    // The number of remaining uses of each mesh. The last object that uses a mesh takes its arrays instead of
+    // copying them.
     let mut uses = BTreeMap::new();
     for placed in &placed {
         *uses.entry(placed.mesh).or_insert(0) += 1;
@@ -111,8 +112,8 @@ pub(super) fn parse(json: &[u8]) -> Result<Value, Fault> {
     })
 }
 
-/// The materials that the triangles use, in the order of the document, and the index among them of each material of
-/// the document.
+/// Returns the materials that the triangles use, in the order of the document, and for each material of the
+/// document its index in this list.
 fn used_materials(
     materials: &mut Materials,
     triangles: &Triangles,
@@ -180,7 +181,8 @@ fn polygons(
 }
 
 /// Merges vertices at exactly the same position, in order of first occurrence, and leaves out vertices without a
-/// triangle. Returns the positions, the index among them of each vertex, and the number of vertices left out.
+/// triangle. Returns the positions, for each vertex the index of its position, and the number of vertices left
+/// out.
 fn weld(mut positions: Vec<DVec3>, corners: &[u32]) -> (Vec<DVec3>, Vec<u32>, usize) {
     let n = positions.len();
     let used = parallel::index_flags(n, corners);

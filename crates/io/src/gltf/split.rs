@@ -9,9 +9,9 @@ use super::streams::Stream;
 use crate::loss::Losses;
 use crate::parallel::{self, BLOCK};
 
-/// The largest number of corners around a vertex that a corner is compared with, beginning with the latest, so that
-/// the time for a vertex with a million corners stays linear. With more distinct corners, equal corners can become
-/// two vertices.
+/// A corner is compared with at most this number of corners around its vertex, the latest first. This keeps the
+/// time for a vertex with a million corners linear. If a vertex has more distinct corners, equal corners can
+/// become two vertices.
 const MAX_COMPARED: usize = 64;
 
 /// The vertices of glTF, in the order of the vertices of the mesh.

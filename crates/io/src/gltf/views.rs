@@ -79,7 +79,8 @@ impl Reader<'_> {
         })
     }
 
-    /// The `count` pieces of `size` bytes in a view from `offset`, at the stride of the view.
+    /// Returns `count` pieces of `size` bytes of a view. The first piece is at `offset`, and the pieces have the
+    /// stride of the view.
     pub(super) fn rows(
         &self,
         index: usize,

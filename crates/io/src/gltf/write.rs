@@ -1,7 +1,7 @@
 //! Writes a scene to a glTF document and its bytes.
 //!
-//! All sizes are determined first, so that the document is complete before its bytes. These are then written once,
-//! in parallel, directly to their positions.
+//! All sizes are determined first, so that the document is complete before any bytes of the buffer are written.
+//! The bytes are then written once, in parallel, directly to their positions.
 
 use std::path::Path;
 
@@ -16,8 +16,8 @@ use crate::loss::Losses;
 use crate::writing::dense;
 use crate::{WriteOptions, Written};
 
-/// Writes `scene` to the bytes of files, in the order in which they are to be renamed, and lists what the files do
-/// not store.
+/// Converts `scene` to the bytes of files, and lists what the files do not store. The files are in the order in
+/// which they must be renamed.
 ///
 /// # Errors
 ///

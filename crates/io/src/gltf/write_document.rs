@@ -128,7 +128,8 @@ impl<'a> Writer<'a> {
 
     fn indices(&mut self, prepared: &'a PreparedObject<'a>, faces: &'a Faces) -> usize {
         let PreparedObject { mesh, split, .. } = prepared;
-        // The largest number of each type is not used, because it restarts primitives on graphics cards.
+        // The largest index of each type is not used, because for graphics cards it means that a new primitive
+        // starts.
         let short = u16::try_from(split.n).is_ok();
         let component = if short {
             ComponentType::U16

@@ -1,5 +1,5 @@
-//! The corners of faces, lines and points, with indices that count from 1, or backwards from the last element if
-//! negative.
+//! The corners of faces, lines and points. Indices count from 1. Negative indices count backwards from the last
+//! element.
 
 use super::file::NONE;
 use crate::fault::Fault;
@@ -31,7 +31,7 @@ pub(super) enum Limits {
     Whole(Counts),
 }
 
-/// Singular and plural.
+/// The singular and the plural of a noun.
 type Noun = (&'static str, &'static str);
 const NOUNS: [Noun; 3] = [
     ("vertex", "vertices"),
@@ -71,7 +71,7 @@ pub(super) fn corner(
 }
 
 /// Parses `field` of the corner `word`. `count` is the number of elements of its kind defined so far. `limit` is
-/// the number that can exist, or `None` in a part of a file.
+/// the largest number of these elements that can exist, or `None` in a part of a file.
 fn index(
     place: TextPosition,
     word: &[u8],

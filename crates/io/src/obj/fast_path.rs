@@ -104,7 +104,7 @@ fn numbers<const N: usize>(line: &[u8], mut at: usize) -> Option<([f64; N], usiz
     }
 }
 
-/// Parses an index of at most eight digits. Returns it with its end.
+/// Parses an index of at most eight digits. Returns the index and its end.
 #[inline]
 fn index(line: &[u8], at: usize, count: usize) -> Option<(Index, usize)> {
     let negative = line.get(at) == Some(&b'-');

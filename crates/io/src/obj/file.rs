@@ -17,7 +17,7 @@ pub(super) const NO_MATERIAL: &[u8] = b"(null)";
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ObjFile {
     pub(super) positions: Vec<DVec3>,
-    /// SingleFile color for each position, or empty. A vertex without a color is white.
+    /// One color for each position, or empty. A vertex without a color is white.
     pub(super) colors: Vec<DVec4>,
     /// The values of `#MRGB` comments of `ZBrush`: mask, red, green and blue, from the highest byte.
     pub(super) mrgb_colors: Vec<u32>,
@@ -41,7 +41,7 @@ pub(super) struct ObjFile {
     pub(super) material_names: Vec<String>,
     /// The text after each `mtllib`, with its position.
     pub(super) libraries: Vec<(TextPosition, String)>,
-    /// What was left out: the number and the first line.
+    /// The number and the first line of each kind of content that was left out.
     pub(super) left_out: BTreeMap<LeftOut, (usize, usize)>,
 }
 

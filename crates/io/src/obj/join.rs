@@ -73,7 +73,7 @@ pub(super) fn join(mut parts: Vec<Part>) -> ObjFile {
 
 // ---- Arrays ------------------------------------------------------------------------------------
 
-/// Where each of several pieces starts in the joined array, followed by the end of the last.
+/// The start of each piece in the joined array, followed by the end of the last piece.
 fn starts(lengths: impl Iterator<Item = usize>) -> Vec<usize> {
     let mut starts = vec![0];
     let mut end = 0;
@@ -141,7 +141,8 @@ fn column<'a>(
     })
 }
 
-/// Joins the ends of faces or lines into offsets: where each begins, followed by where the last ends.
+/// Joins the ends of faces or lines into offsets: the start of each face or line, followed by the end of the
+/// last one.
 fn ends<'a>(pieces: impl Iterator<Item = &'a mut Vec<u32>>, corners: &[usize]) -> Vec<u32> {
     let mut pieces: Vec<Vec<u32>> = pieces.map(std::mem::take).collect();
     // The first face or line begins at 0.

@@ -56,7 +56,7 @@ pub(super) fn push_values(out: &mut Vec<u8>, keyword: &str, values: &[f64]) {
     out.push(b'\n');
 }
 
-/// Adds losses for what [`write_library`] does not write of a material.
+/// Adds a loss for each part of a material that [`write_library`] does not write.
 fn note_losses(material: &Material, losses: &mut Losses) {
     let mut lose = |count: bool, what: &str| {
         let reason = format!("MTL cannot store {what}");

@@ -83,8 +83,8 @@ pub(super) fn read_libraries(
     Ok(materials)
 }
 
-/// The file names on an `mtllib` line: names in quotes, several words that together are the name of a file, or
-/// single words. Returns at most `most` names, and the number of words that remain.
+/// The file names on an `mtllib` line. A name is in quotes, consists of several words that together are the name
+/// of a file, or is a single word. Returns at most `most` names, and the number of words that remain.
 fn library_names(words: &str, most: usize, assets: &mut Assets) -> (Vec<String>, usize) {
     let mut is_file = |name: &str| {
         let short = Some(name).filter(|name| name.len() <= MAX_PATH_BYTES);
@@ -96,7 +96,7 @@ fn library_names(words: &str, most: usize, assets: &mut Assets) -> (Vec<String>,
     while !rest.is_empty() && names.len() < most {
         let quoted = rest.strip_prefix('"').and_then(|rest| rest.split_once('"'));
         let (name, behind) = quoted.unwrap_or_else(|| {
-            // The longest beginning that is the name of a file, or else a single word.
+            // Takes the longest beginning that is the name of a file, or else a single word.
             let blanks = rest.rmatch_indices(char::is_whitespace).take(MAX_BLANKS);
             let ends = std::iter::once(rest.len()).chain(blanks.map(|(at, _)| at));
             let first = rest.find(char::is_whitespace).unwrap_or(rest.len());

@@ -43,8 +43,8 @@ fn parse_whole(bytes: &[u8]) -> Result<Part, Fault> {
     if fits(std::slice::from_ref(&part)) {
         return Ok(part);
     }
-    // A vertex can be defined after the faces that use it, so the first pass does not know all counts. Some index
-    // was too high: parse again with the final counts to find its line.
+    // A vertex can be defined after the faces that use it, so the first pass does not know all counts. If an
+    // index was too high, a second pass with the final counts finds its line.
     let counts: Counts = part.counts();
     drop(part);
     read_whole(bytes, Limits::Whole(counts))

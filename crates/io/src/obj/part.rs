@@ -8,12 +8,12 @@ use super::corner::{Corner, Counts, Index};
 use super::file::{LeftOut, NONE};
 use crate::text::{TextPosition, name};
 
-/// The content of a part of an OBJ file. Lines count from 1 and faces, sets and names from 0, beginning with the
-/// part.
+/// The content of a part of an OBJ file. Lines count from 1, and faces, sets and names from 0. The counts begin
+/// with the part.
 #[derive(Debug, Default)]
 pub(super) struct Part {
     pub(super) positions: Vec<DVec3>,
-    /// SingleFile color for each position, or empty.
+    /// One color for each position, or empty.
     pub(super) colors: Vec<DVec4>,
     /// The values of `#MRGB` comments: mask, red, green and blue, from the highest byte.
     pub(super) mrgb_colors: Vec<u32>,
@@ -42,9 +42,9 @@ pub(super) struct Part {
     pub(super) libraries: Vec<(TextPosition, String)>,
     /// The number and the first line of each kind of content that was left out.
     pub(super) left_out: BTreeMap<LeftOut, (usize, usize)>,
-    /// SingleFile more than the highest absolute index of each kind.
+    /// For each kind, the highest absolute index plus 1.
     pub(super) highest: Counts,
-    /// How many elements before the beginning of the part relative indices refer to.
+    /// For each kind, how many elements relative indices reach back before the beginning of the part.
     pub(super) reach: Counts,
     /// The number of lines that end in this part.
     pub(super) n_lines: usize,
@@ -98,7 +98,8 @@ impl Part {
         }
     }
 
-    /// Removes the corners of faces from `n` on. Columns that had no corner before (`had`) become empty.
+    /// Removes the corners of faces from `n` on. Columns for which `had` is false become empty: they had no
+    /// values before.
     pub(super) fn truncate_corners(&mut self, n: usize, had: [bool; 3]) {
         for (column, had) in self.corners.iter_mut().zip(had) {
             column.truncate(if had { n } else { 0 });
@@ -146,8 +147,8 @@ impl Indices {
         }
     }
 
-    /// Appends to a column that stays empty until its first value. If it is the first value, it is preceded by `n`
-    /// missing ones.
+    /// Appends a value to a column that stays empty until its first value. The first value is preceded by `n`
+    /// missing values.
     #[inline]
     pub(super) fn push_optional(&mut self, n: usize, index: Option<Index>) {
         match index {

@@ -173,7 +173,7 @@ fn set_tags(polygons: &mut Polygons, file: &ObjFile, notes: &mut Notes) {
     let what = "groups and objects left out: too many for a mesh of this size";
     notes.left_out(n - n_columns, None, what);
     let mut columns: Vec<Vec<bool>> = vec![vec![false; n_faces]; n_columns];
-    // Objects come first because they matter more if not all tags fit.
+    // Tags of objects come before tags of groups, because objects matter more if not all tags fit.
     for (i, run) in file.runs.iter().enumerate() {
         let groups = file.group_sets[run.groups].iter();
         let of_groups = groups.map(|&g| objects + g as usize);

@@ -19,7 +19,7 @@ pub(super) const MAX_LISTED_WORDS: usize = 8;
 ///
 /// # Errors
 ///
-/// The first line that breaks the rules of the format, or that has one more unknown word than can be listed.
+/// The first line that breaks the rules of the format, or the first unknown word after [`MAX_LISTED_WORDS`] others.
 pub(super) fn read_part(bytes: &[u8], is_first: bool) -> Result<Part, Fault> {
     let cursor = if is_first {
         Cursor::new(bytes)
@@ -29,7 +29,7 @@ pub(super) fn read_part(bytes: &[u8], is_first: bool) -> Result<Part, Fault> {
     Parser::new(cursor, Limits::Part).run()
 }
 
-/// Parses the statements of a whole file in order. Slower than in parts, but errors are exact.
+/// Parses the statements of a whole file in order. This is slower than parsing in parts, but errors are exact.
 ///
 /// # Errors
 ///

@@ -18,8 +18,8 @@ pub(super) struct FaceState<'a> {
     pub(super) smoothing: i32,
 }
 
-/// The elements that the text defines so far, and the material and smoothing group at its end. Groups are empty
-/// there.
+/// The number of elements that the text defines so far, and the material and smoothing group at its end. No
+/// groups are set at its end.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct TextState {
     pub(super) counts: Counts,

@@ -190,7 +190,7 @@ fn numbers<const N: usize>(words: Words) -> Result<[f64; N], Fault> {
     Ok(numbers)
 }
 
-/// The colors of a file, which are scaled when all are known.
+/// The colors of a file. They are scaled after all of them are read.
 #[derive(Default)]
 struct Colors {
     /// The color and, if given, the alpha of each element; `None` for a face without a color.
@@ -233,7 +233,7 @@ fn faces(
     notes: &mut Notes,
 ) -> Result<(), Fault> {
     check_room(cursor, header.n_faces, 1, "faces")?;
-    // Both are empty until the first face that has one.
+    // Each list is empty until the first face that has a color or a color index, respectively.
     let (mut colors, mut indices) = (Colors::default(), Vec::new());
     let (mut small, mut first_small) = (0, None);
     let mut words = Vec::new();

@@ -32,7 +32,7 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile,
 /// The content to write, with 0 in place of non-finite numbers.
 struct Content<'a> {
     mesh: &'a Mesh,
-    /// Those of normals, colors and texture coordinates that exist.
+    /// The normals, colors and texture coordinates of the vertices, if they exist.
     of_vertices: Vec<Cow<'a, Values>>,
     /// Colors, or indices into a color map.
     of_faces: Option<Cow<'a, Values>>,

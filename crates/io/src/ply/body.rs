@@ -215,7 +215,7 @@ fn push_value(
     word: &[u8],
 ) -> Result<i64, Fault> {
     if kind.is_float() {
-        // Whether non-finite values are allowed is decided where they are used.
+        // Non-finite values are accepted here. The code that uses the value decides whether they are allowed.
         let x = if is_not_finite(word) {
             f64::NAN
         } else {

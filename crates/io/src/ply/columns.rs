@@ -66,13 +66,13 @@ impl Kind {
 pub(super) enum Source<'a> {
     /// In scalar properties, beginning with this one.
     Scalars(usize),
-    /// In a list property, for corner attributes. The offsets are where the corners of each face begin, followed by
-    /// the end of the last.
+    /// In a list property, for corner attributes. The offsets are the first corner of each face, followed by the
+    /// total number of corners.
     List(usize, &'a [u32]),
 }
 
-/// Decodes the values of `kind` in a table. For corner attributes, the values are zero for faces whose list does
-/// not have as many numbers as their corners need. Returns the values and the number of such faces.
+/// Decodes the values of `kind` in a table. If a list does not have as many numbers as the corners of its face
+/// need, these corners get zero. Returns the values and the number of such faces.
 pub(super) fn values(table: &Table, source: Source, kind: Kind) -> (Values, usize) {
     #[expect(
         clippy::cast_possible_truncation,

@@ -6,9 +6,9 @@ use super::types::Type;
 use crate::fault::Fault;
 use crate::text::{BYTE_ORDER_MARK, TextPosition, name, parsed, quoted};
 
-/// The largest number of properties, more than any program writes. It limits the passes over the data.
+/// The largest number of properties, which is more than any program writes. It limits the passes over the data.
 pub(super) const MAX_PROPERTIES: usize = 4096;
-/// The largest number of elements, more than any program writes. It limits the searches by name.
+/// The largest number of elements, which is more than any program writes. It limits the searches by name.
 const MAX_ELEMENTS: usize = 1024;
 
 /// The encoding of the values of a file.
@@ -26,7 +26,7 @@ pub(super) struct Header {
     pub(super) elements: Vec<Element>,
     /// The comments, without the word `comment`.
     pub(super) comments: Vec<String>,
-    /// Where the values begin.
+    /// The length of the header in bytes. The values begin after it.
     pub(super) length: usize,
     /// The number of lines of the header.
     pub(super) lines: usize,
@@ -74,7 +74,7 @@ impl fmt::Display for Property {
 }
 
 impl Element {
-    /// The index of the property with this name that is a list or a single value.
+    /// The index of the property with this name. It must be a list if `is_list` is true, and a scalar otherwise.
     pub(super) fn find(&self, name: &str, is_list: bool) -> Option<usize> {
         let is_it = |p: &Property| p.count.is_some() == is_list && p.name == name;
         self.properties.iter().position(is_it)

@@ -17,8 +17,8 @@
 //! | other lists, other elements (`edge`, `range_grid` and so on) | left out, with a note |
 //! | other comments, `obj_info` | not kept |
 //!
-//! Floating-point properties of vertices are interpolated by edits, all others are copied. Non-finite values become
-//! 0 with a note, except that non-finite positions are an error.
+//! Edits interpolate floating-point properties of vertices and copy all other properties. Non-finite positions
+//! are an error. Other non-finite values become 0, with a note.
 //!
 //! The writer uses the same table in the other direction and writes little-endian binary. Positions and custom
 //! attributes are written with 64 bits, normals and texture coordinates with 32 bits if that is exact, and colors

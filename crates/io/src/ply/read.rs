@@ -288,7 +288,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Adds a column. A number is appended to a name that is taken.
+    /// Adds a column. If the name is taken, a number is appended to it.
     fn insert(&mut self, domain: Domain, name: &str, rule: Rule, mut values: Values) {
         let what = format!("non-finite values of `{}` set to 0", name.escape_debug());
         self.notes.changed(zero_non_finite(&mut values), None, what);

@@ -212,7 +212,7 @@ impl<'a> Element<'a> {
         self.values(&names, is_list, values, kind.size(), form);
     }
 
-    /// Returns property names for the components of an attribute that no other property has.
+    /// Returns names for the properties of an attribute with `n` components. No other property has these names.
     fn free_names(&mut self, name: &str, n: usize) -> Vec<String> {
         let is_fine = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.' | ':');
         let word = name.replace(|c| !is_fine(c), "_");

@@ -54,8 +54,8 @@ fn kind(bytes: &[u8]) -> Result<Kind, Fault> {
         .unwrap_or(bytes)
         .trim_ascii_start();
     let word = start.get(..5).unwrap_or_default();
-    // The header of a binary file can begin with `solid`, but is followed by zero bytes, which a text does not
-    // have.
+    // The header of a binary file can begin with `solid`. A binary file has zero bytes near its beginning, but a
+    // text has none.
     if word.eq_ignore_ascii_case(b"solid") && !bytes[..n_bytes.min(512)].contains(&0) {
         return Ok(Kind::Text);
     }

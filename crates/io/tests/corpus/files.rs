@@ -9,10 +9,10 @@ use scene::Scene;
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
 
-/// Reading can use memory of this multiple of the size of the file, ...
+/// Reading can use this multiple of the size of the file, plus [`SMALL`] bytes.
 const TIMES: usize = 64;
 
-/// ... plus this many bytes for tables, threads and messages.
+/// The number of bytes for tables, threads and messages that reading can use in addition.
 const SMALL: usize = 1 << 20;
 
 /// The largest number of rounds in which the written bytes can differ. For example, an object that loses its last
@@ -22,9 +22,9 @@ const ROUNDS: usize = 4;
 /// The memory that repeated instances can use even in a small file.
 const INSTANCES: usize = 1 << 25;
 
-/// Reads `bytes` as a file with this extension, in bounded memory. Then writes and reads the result until nothing
-/// more is lost, after which the bytes must stay the same. An `.mtl` file is read as the library of an `.obj` file,
-/// and the content of a `.dae` file is written as OBJ.
+/// Reads `bytes` as a file with this extension, in bounded memory. Then writes and reads the result until a
+/// round loses nothing more. From then on, the bytes must stay the same. An `.mtl` file is read as the library
+/// of an `.obj` file, and the content of a `.dae` file is written as OBJ.
 ///
 /// # Panics
 ///
@@ -102,7 +102,7 @@ fn round_trip(path: &Path, loaded: Loaded) -> Option<Round> {
     })
 }
 
-/// A folder in memory, if the system has one.
+/// A folder in memory, if the system has such a folder.
 fn memory_folder() -> std::path::PathBuf {
     let memory = Path::new("/dev/shm");
     if memory.is_dir() {

@@ -1,5 +1,6 @@
-//! Each file in `tests/fuzz/corpus/` is a separate test: it must be read or refused in little time and memory, as
-//! the fuzzer checks for random bytes. The corpus includes the findings of the fuzzer, under descriptive names.
+//! Each file in `tests/fuzz/corpus/` is a separate test. The file must be read or refused in little time and
+//! memory, as the fuzzer checks for random bytes. The corpus includes the findings of the fuzzer, under
+//! descriptive names.
 
 mod files;
 
@@ -13,7 +14,7 @@ use libtest_mimic::{Arguments, Failed, Trial};
 const LONG: Duration = Duration::from_secs(10);
 
 fn main() {
-    // One at a time, because the measured memory peak is that of the whole process.
+    // Tests run one at a time, because the memory peak is measured for the whole process.
     let arguments = Arguments {
         test_threads: Some(1),
         ..Arguments::from_args()
@@ -29,7 +30,7 @@ fn main() {
         })
     });
     let trials = trials.collect();
-    // Reading the first file also allocates threads and tables that stay.
+    // Reading the first file also allocates threads and tables that are not freed.
     files::check("off", b"OFF 0 0 0");
     libtest_mimic::run(&arguments, trials).exit();
 }

@@ -309,7 +309,7 @@ fn a_geometry_that_is_repeated_too_often_is_refused() {
 
 #[test]
 fn many_sources_of_a_long_array_are_refused() {
-    // Each source has no vectors, but needs all numbers to be read.
+    // Each source has no vectors, but all its numbers must be read.
     let source = |i: usize| {
         format!(
             "<source id=\"s{i}\"><technique_common><accessor source=\"#a\" count=\"0\" stride=\"3\">\

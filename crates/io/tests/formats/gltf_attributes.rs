@@ -216,7 +216,7 @@ fn compressed_files_are_refused_with_advice() {
 
 #[test]
 fn colors_of_every_type_are_read() {
-    // In multiples of 1/5.
+    // The numbers are multiples of 1/5.
     let colors = [[0_u8, 1, 5, 2], [5, 3, 0, 4]];
     for components in [3_usize, 4] {
         for (component, size) in [(5121, 1), (5123, 2), (5126, 4)] {
@@ -264,7 +264,7 @@ fn colors_of_every_type_are_read() {
 
 #[test]
 fn sparse_accessors_do_not_need_a_buffer_view() {
-    // The square as zeros, three of which are replaced.
+    // The positions of the square are zeros, three of which are replaced.
     let mut bytes = floats(&SQUARE[3..]);
     bytes.extend([1_u8, 2, 3, 0]);
     let accessors = json!([{

@@ -110,7 +110,8 @@ fn triangles_with_seams_and_materials_survive_a_round_trip() {
                 .map(|i| DVec4::new(0.5, 0.25, 1.0, (i % 2) as f64))
                 .collect(),
         );
-        // The writer orders faces by material, so the order is kept if it is already so.
+        // The writer orders faces by material. These faces are already in this order, so their order does not
+        // change.
         mesh.set(MATERIAL, (0..20).map(|i| i / 8 - 1).collect());
         let materials = vec![
             Material {
@@ -270,7 +271,7 @@ fn large_meshes_get_32_bit_indices() {
     let folder = Folder::new();
     let path = folder.path("a.glb");
     for n in [254, 255] {
-        // 255 x 256 vertices are 65280, which fits in 16-bit indices; 256 x 256 are too many.
+        // 255 x 256 = 65280 vertices fit in 16-bit indices; 256 x 256 vertices do not.
         let mesh = shapes::grid(n, 255);
         write(&path, [Object::mesh("a", mesh.clone())]);
         let document = gltf::Gltf::open(&path).unwrap();

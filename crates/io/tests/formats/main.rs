@@ -51,7 +51,7 @@ impl Folder {
         path
     }
 
-    /// The number of files and folders in it.
+    /// The number of files and folders in this folder.
     fn count(&self) -> usize {
         std::fs::read_dir(self.0.path()).unwrap().count()
     }

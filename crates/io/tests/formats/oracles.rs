@@ -78,7 +78,7 @@ fn ply_files_without_attributes_are_doubles_and_lists() {
     }
 }
 
-/// `mesh_loader` gives three vertices for each facet.
+/// `mesh_loader` returns three separate vertices for each facet.
 #[test]
 fn another_reader_finds_the_same_facets_in_stl_files() {
     for mesh in [

@@ -26,13 +26,13 @@ const TABLE: &str = include_str!("../../src/kept.md");
 /// What a format does with some content.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Outcome {
-    /// It is restored bit for bit.
+    /// The content is restored bit for bit.
     Exactly,
-    /// Its numbers are rounded to 32 bits.
+    /// The numbers of the content are rounded to 32 bits.
     Rounded,
-    /// It has a different form after reading, and this is not reported.
+    /// The content has a different form after reading, and this is not reported.
     Changed,
-    /// Some or all of it is not restored, and a loss reports it.
+    /// Some or all of the content is not restored, and a loss reports it.
     Lost,
     /// Writing fails.
     Refused,
@@ -90,7 +90,7 @@ fn reported(objects: &[Object], losses: &[Loss]) -> BTreeSet<Key> {
         (domain, name) => key(domain, name),
     };
     let mut all: BTreeSet<Key> = losses.iter().map(of).collect();
-    // A mesh that only has isolated vertices is lost with them.
+    // If all vertices of a mesh are isolated, the mesh is lost with its vertices.
     let is_bare = |object: &Object| object.as_mesh().is_some_and(|mesh| mesh.n_faces() == 0);
     if objects.iter().any(is_bare) && all.contains(&key(Domain::Vertex, "position")) {
         all.insert(key(None, "name"));
@@ -231,7 +231,7 @@ fn check_laws(objects: &[Object], extension: &str) -> Result<(), String> {
             })?;
         }
     }
-    // Merged vertices are noted.
+    // Notes are only allowed if vertices were merged, or if the STL reader changed content.
     let notes = &first.loaded.notes;
     let is_fine = |note: &Note| note.kind == NoteKind::Changed && extension == "stl";
     ensure(is_merged || notes.iter().all(is_fine), || {

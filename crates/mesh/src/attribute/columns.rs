@@ -83,8 +83,8 @@ impl Attributes {
         index.map(|i| &mut self.columns[domain as usize][i])
     }
 
-    /// Inserts a column into a domain, and replaces a column of the same name. Its length must be that
-    /// of the domain in the mesh that gets these attributes.
+    /// Inserts a column into a domain, and replaces a column of the same name. The length of the
+    /// column must be the number of elements of this domain in the mesh that gets these attributes.
     pub fn insert(&mut self, domain: Domain, column: Column) {
         let index = self.find(domain, &column.name);
         let columns = &mut self.columns[domain as usize];
@@ -100,7 +100,7 @@ impl Attributes {
         index.map(|i| self.columns[domain as usize].remove(i))
     }
 
-    /// Returns the same columns for a new mesh: each new element gets the values of its source.
+    /// Returns the columns for a new mesh: each new element gets the values of its source element.
     #[must_use]
     pub fn gathered(&self, sources: Sources) -> Self {
         fn run<I: Id>(columns: &[Column], from: &[I]) -> Vec<Column> {
@@ -235,7 +235,7 @@ impl Column {
     pub(crate) fn negate_normals(&mut self, range: Range<usize>) {
         let normals = self.normals_mut().map(|normals| &mut normals[range]);
         for normal in normals.into_iter().flatten() {
-            // Subtracted from zero, so that 0 does not become -0.
+            // Subtracts the value from zero instead of negating it, so that 0 does not become -0.
             *normal = DVec3::ZERO - *normal;
         }
     }

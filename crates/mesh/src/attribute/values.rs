@@ -89,8 +89,9 @@ impl Values {
     }
 
     /// Returns `n` new values, each a weighted sum of old values: `weights(i, add)` calls
-    /// `add(source, weight)` for each term of new value i. Integers and tags cannot be interpolated: they
-    /// get the value of the source with the largest weight, the first of them if several weights are equal.
+    /// `add(source, weight)` for each term of new value i. Integers and tags cannot be interpolated: they get the value
+    /// of the source with the largest weight. If several sources have the largest weight, the first of them
+    /// is used.
     #[must_use]
     pub fn blend(
         &self,
@@ -151,8 +152,8 @@ impl Values {
         each!(self, v => bytes.extend(bytemuck::bytes_of(&v[i])));
     }
 
-    /// Sets the value at `i` from the end of `bytes`, where [`push_bytes`](Self::push_bytes) put it, and
-    /// removes it there.
+    /// Sets the value at `i` to the last value in `bytes`, which [`push_bytes`](Self::push_bytes)
+    /// appended, and removes it from `bytes`.
     pub(crate) fn pop_bytes(&mut self, i: usize, bytes: &mut Vec<u8>) {
         each!(self, v => v[i] = pop_value(bytes));
     }
@@ -176,8 +177,9 @@ impl Values {
         each!(self, v => Value::of(other).map(|more| v.extend_from_slice(more)).is_some())
     }
 
-    /// Sets the value at `to` to the weighted mean of those at `a` and `b`, where `t` is the weight of `b`.
-    /// Integers and tags get the value of the larger weight, that of `b` if both are equal.
+    /// Sets the value at `to` to the weighted mean of the values at `a` and `b`, where `t` is the weight of
+    /// `b`. Integers and tags get the value with the larger weight; if both weights are equal, the value at
+    /// `b`.
     pub(super) fn mix(&mut self, a: usize, b: usize, t: f64, to: usize) {
         match self {
             Self::Float(v) => v[to] = v[a] * (1.0 - t) + v[b] * t,

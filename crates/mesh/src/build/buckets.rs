@@ -24,7 +24,7 @@ impl Buckets {
         let n_tasks = rayon::current_num_threads().min(MAX_TASKS);
         let width = n_vertices.div_ceil(n_tasks).max(1);
 
-        // First, count the corners of each bucket, shifted by one place, ...
+        // 1. Count the corners of each vertex v, in `first[v + 1]`.
         let mut first: Vec<u32> = crate::zeroed(n_vertices + 1);
         let tasks = first[1..].par_chunks_mut(width).enumerate();
         tasks.for_each(|(task, counts)| {
@@ -34,7 +34,7 @@ impl Buckets {
                 }
             }
         });
-        // ... then turn each count into the start of the bucket, ...
+        // 2. Replace each count by the start of the bucket of v.
         let mut sum = 0;
         for count in &mut first[1..] {
             sum += *count;
@@ -44,7 +44,8 @@ impl Buckets {
         let ends = starts.clone().skip(1).chain([vertices.len()]);
         let lengths: Vec<usize> = starts.zip(ends).map(|(start, end)| end - start).collect();
         let mut corners = crate::zeroed(vertices.len());
-        // ... which is incremented while the bucket is filled, and so becomes the start of the next bucket.
+        // 3. Fill the buckets. Each corner increments the start of its bucket, which ends as the start of the
+        //    next bucket.
         first[1..]
             .par_chunks_mut(width)
             .zip(pieces(&mut corners, lengths))

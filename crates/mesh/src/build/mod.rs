@@ -14,17 +14,18 @@
 //!
 //! Input that is not a manifold is repaired, and a [`BuildReport`] lists all repairs:
 //!
-//! - Two polygons that share an edge have a consistent orientation if their sides run in opposite
-//!   directions. If reversing some polygons makes all neighbors consistent, they are reversed: in each
-//!   part that is connected through edges with two sides, the minority is reversed; in a tie, the
-//!   polygons that agree with the lowest-numbered one stay. The first corner of a polygon stays the
-//!   first. Parts without a consistent orientation are not reversed.
-//! - If there are more than two sides between the same two vertices, or two that still run in the same
-//!   direction, the k-th side from a to b is paired with the k-th side from b to a, in order of
-//!   corners. Unpaired sides become boundary edges.
+//! - Two polygons that share an edge have a consistent orientation if their sides run along the edge
+//!   in opposite directions. Each part that is connected through edges with two sides is treated
+//!   separately. If reversing some of its polygons makes all neighbors consistent, the minority is
+//!   reversed. In a tie, the polygons that agree with the lowest-numbered one stay. If no choice of
+//!   polygons makes all neighbors consistent, none is reversed. The first corner of a reversed polygon
+//!   stays the first.
+//! - Two vertices a and b can have more than two sides between them, or two sides that still run in
+//!   the same direction. Then the k-th side from a to b is paired with the k-th side from b to a, in
+//!   order of corners. Unpaired sides become boundary edges.
 //! - If the faces around a vertex form several fans, the fan of the first corner keeps the vertex. Each
 //!   other fan gets a copy of the vertex, appended after all other vertices.
-//! - A polygon with fewer than three corners, or that visits a vertex twice, is dropped.
+//! - A polygon that has fewer than three corners, or that visits a vertex twice, is dropped.
 
 mod assemble;
 mod buckets;
@@ -75,8 +76,8 @@ pub enum BuildError {
         "the faces are not a manifold: face {0} has fewer than three corners, or visits a vertex twice"
     )]
     Degenerate(usize),
-    /// More than two polygons have a side between these vertices, or two have sides that run in the same
-    /// direction, and non-manifold input is refused.
+    /// More than two polygons have a side between these vertices, or the sides of two polygons run in
+    /// the same direction, and non-manifold input is refused.
     #[error(
         "the faces are not a manifold: the edge {}-{} has more than two faces, or two with the same direction",
         .0[0], .0[1]
@@ -94,8 +95,8 @@ pub enum NonManifold {
     /// the mesh is a manifold, and report both.
     #[default]
     Split,
-    /// Like [`Split`](Self::Split), but every polygon keeps its orientation: if neighbors have an edge with
-    /// the same direction, the edge is split.
+    /// Like [`Split`](Self::Split), but every polygon keeps its orientation: if two neighbors run along
+    /// their common edge in the same direction, the edge is split.
     SplitAsGiven,
     /// Reverse polygons where that makes the orientation consistent, and return an error if the result
     /// is not a manifold.

@@ -24,7 +24,8 @@ use crate::blocks::BLOCK;
 pub(super) struct Orientation {
     /// The polygons to reverse, in order.
     pub(super) reversed: Vec<usize>,
-    /// The first polygon of each part without a consistent orientation. No polygon of it is reversed.
+    /// For each part without a consistent orientation, its first polygon. No polygon of these parts is
+    /// reversed.
     pub(super) unorientable: Vec<usize>,
 }
 
@@ -34,7 +35,7 @@ impl Orientation {
         let opposite_sides = opposite_sides(polygons, buckets);
         let mut orientation = Self::default();
         let mut is_visited = vec![false; polygons.n()];
-        // Relative to the first polygon of the part.
+        // Whether each polygon has the opposite orientation of the first polygon of its part.
         let mut is_reversed = vec![false; polygons.n()];
         let mut part = Vec::new();
         for first in 0..polygons.n() {
@@ -79,7 +80,8 @@ impl Orientation {
         orientation
     }
 
-    /// Reverses polygons: `values` are their corners, or values by corner. The first corner stays the first.
+    /// Reverses polygons. `values` has one value for each corner. The first corner of a polygon stays the
+    /// first.
     pub(super) fn reverse<T>(&self, offsets: &[u32], values: &mut [T]) {
         for &f in &self.reversed {
             values[offsets[f] as usize + 1..offsets[f + 1] as usize].reverse();
@@ -87,7 +89,8 @@ impl Orientation {
     }
 }
 
-/// Returns, for each side, the other side if the edge has exactly two, in any direction; otherwise `NONE`.
+/// Returns, for each side, the other side of its edge if the edge has exactly two sides, in any direction;
+/// otherwise `NONE`.
 fn opposite_sides(polygons: &Polygons, buckets: &Buckets) -> Vec<u32> {
     let opposite_sides: Vec<AtomicU32> = (0..polygons.corners.len())
         .into_par_iter()

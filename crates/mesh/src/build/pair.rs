@@ -17,9 +17,11 @@ pub(super) struct PairedSides {
     pub(super) twin: Vec<u32>,
     /// For each vertex, its outgoing half-edge.
     pub(super) outgoing: Vec<Outgoing>,
-    /// The vertices that have more than one fan, in order. Their `outgoing` belongs to any of their fans.
+    /// The vertices that have more than one fan, in order. The `outgoing` of such a vertex can belong to any of
+    /// its fans.
     pub(super) pinched: Vec<u32>,
-    /// The edges with more than two sides, or with two that run in the same direction, in order of vertices.
+    /// The edges with more than two sides, or with two sides that run in the same direction. In order of their
+    /// vertices.
     pub(super) non_manifold_edges: Vec<[VertexId; 2]>,
     /// Whether any edge has exactly two sides that run in the same direction.
     pub(super) has_inconsistent_edge: bool,
@@ -67,8 +69,8 @@ struct Irregularities {
     has_inconsistent_edge: bool,
 }
 
-/// Pairs outgoing and incoming sides around each vertex. Each side is visited twice, at both of its ends; its
-/// twin is written when its origin is visited.
+/// Pairs outgoing and incoming sides around each vertex. Each side is visited at both of its ends. The twin
+/// of a side is stored during the visit of the origin of the side.
 pub(super) fn pair(polygons: &Polygons, buckets: &Buckets) -> PairedSides {
     let twin: Vec<AtomicU32> = crate::zeroed(polygons.corners.len());
     let mut outgoing: Vec<Outgoing> = crate::zeroed(buckets.n_vertices());
@@ -103,7 +105,7 @@ pub(super) fn pair(polygons: &Polygons, buckets: &Buckets) -> PairedSides {
         .clone()
         .flat_map(|block| block.edges.clone())
         .collect();
-    // Most edges were added at both ends.
+    // Most edges were added twice, once at each end.
     non_manifold_edges.sort_unstable();
     non_manifold_edges.dedup();
     PairedSides {
@@ -119,7 +121,7 @@ pub(super) fn pair(polygons: &Polygons, buckets: &Buckets) -> PairedSides {
 }
 
 impl Irregularities {
-    /// Adds the non-manifold edges at `v`, given as by [`Star::non_manifold_edges`].
+    /// Adds the non-manifold edges at `v`. `neighbors` is the result of [`Star::non_manifold_edges`].
     fn add_edges(&mut self, v: u32, neighbors: &[(u32, usize, usize)]) {
         for &(w, n_to, n_from) in neighbors {
             let edge = [v.min(w), v.max(w)];

@@ -10,13 +10,14 @@ pub struct BuildReport {
     /// Pairs of vertices, lower first, with more than two sides between them, or with two sides that
     /// run in the same direction.
     pub split_edges: Vec<[VertexId; 2]>,
-    /// Pairs of a vertex that joined several fans and the copy that one of the fans got.
+    /// Pairs of two vertices: a vertex that joined several fans, and its copy, which one of the fans got.
     pub split_vertices: Vec<(VertexId, VertexId)>,
     /// Indices of polygons that were reversed to make their orientation consistent with their neighbors,
     /// in order.
     pub reversed_faces: Vec<usize>,
     /// For each connected part without a consistent orientation, such as a Moebius strip, the index of
-    /// its first polygon. The polygons of these parts are not reversed; inconsistent edges are split.
+    /// its first polygon. The polygons of these parts are not reversed. Edges along which two polygons
+    /// run in the same direction are split.
     pub unorientable: Vec<usize>,
     /// Indices of polygons that were dropped, in order.
     pub dropped_faces: Vec<usize>,

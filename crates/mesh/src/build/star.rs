@@ -31,7 +31,7 @@ pub(super) struct Star {
 
 /// Corners at a vertex that are connected through shared edges.
 pub(super) struct Fan {
-    /// The outgoing half-edge: the boundary one if there is one.
+    /// An outgoing half-edge of the vertex: the boundary half-edge if the fan has one.
     pub(super) outgoing: Outgoing,
     pub(super) corners: Vec<u32>,
 }
@@ -56,8 +56,8 @@ impl Star {
         }
     }
 
-    /// Finds the corner after each corner: for each neighbor, the k-th corner whose side leads to it is
-    /// followed by the k-th corner whose side before it comes from it.
+    /// Finds the corner after each corner. For each neighbor w of the vertex, the k-th corner with a
+    /// side to w is followed by the k-th corner that has a side from w before it.
     fn match_by_comparing(&mut self) {
         let n = self.to.len();
         let mut free = if n == MAX_COMPARED {
@@ -75,7 +75,8 @@ impl Star {
                 free &= !(1 << hit);
                 self.after.push(hit);
             } else {
-                // A previous corner can have a side to the same neighbor.
+                // No corner is left to follow this one. If another corner has a side to the same neighbor, the
+                // edge is non-manifold.
                 let n_sides = self.to.iter().filter(|&&other| other == to).count();
                 self.has_non_manifold_edge |= n_sides > 1;
                 self.after.push(NONE);
@@ -153,7 +154,8 @@ impl Star {
             if is_visited[lowest as usize] {
                 continue;
             }
-            // Walk back to the corner that has no predecessor, or once around.
+            // Walk back to the corner that has no predecessor. If every corner has one, walk once around the
+            // vertex.
             let mut start = lowest;
             while predecessor[start as usize] != NONE {
                 start = predecessor[start as usize];

@@ -22,8 +22,8 @@ impl Mesh {
     /// At a cut, vertex attributes are interpolated between v and the other end of the edge, and corner
     /// attributes within their face, so that both sides of a seam keep their values. Attributes that are
     /// not interpolated are copied from v. The new face has the values of the face to the left of the first
-    /// edge; each of its corners has those of the face to the left of the edge there. New edges have zero
-    /// values.
+    /// edge. At each cut, the corner of the new face has the values of the corner in the face to the left
+    /// of the cut edge. New edges have zero values.
     ///
     /// Returns the new face.
     ///
@@ -66,8 +66,8 @@ impl Mesh {
         Ok(new)
     }
 
-    /// Replaces `e` by a face: the other edges at its ends are cut at `fraction` of their lengths from
-    /// there, and the cuts are connected.
+    /// Replaces `e` by a face: every other edge at an end of `e` is cut at `fraction` of its length,
+    /// measured from that end, and the cuts are connected.
     ///
     /// ```text
     ///     \               /            \               /
@@ -81,7 +81,7 @@ impl Mesh {
     /// elements are, in clockwise order around e, from the edge after e at a (the origin of its first half)
     /// to the last edge at b: n vertices, the n edges from each new vertex to the next, and the face, whose
     /// first corner is the first new vertex. V, E and F grow by n - 2, n - 1 and 1. The faces beside e keep
-    /// their number of corners; each other face at a or b gains one corner for each of its corners there.
+    /// their number of corners. Any other face gains one corner for each of its corners at a or b.
     ///
     /// Attributes are set as in [`bevel_vertex`](Self::bevel_vertex). The new face has the values of the face
     /// to the left of the first half of e.
@@ -167,8 +167,9 @@ impl Mesh {
     /// Cuts the half-edges of `cuts` at their fractions, and connects the cuts by a new face with the values
     /// of `f`.
     ///
-    /// The half-edges must be in clockwise order. On the face to the right of each one, its twin is followed
-    /// by the next half-edge of `cuts`, or by a half-edge of the beveled edge and then by the next one.
+    /// The half-edges must be in clockwise order. Consider a half-edge h of `cuts` and the face to its
+    /// right. On this face, the twin of h must be followed by the next half-edge of `cuts`. Between the two
+    /// there can be one half-edge of the beveled edge.
     fn join_cuts(&mut self, cuts: &[(HalfEdgeId, f64)], f: FaceId) -> FaceId {
         self.drop_columns_by_rule();
         let n = cuts.len();
@@ -188,8 +189,8 @@ impl Mesh {
         }
         let new = self.push_copy_of_face(f, ring[n - 1][1]);
 
-        // The corners at the cuts. Those to the right of each edge are first, because they need the old values
-        // of those to the left.
+        // Sets the values of the corners at the cuts. The corners to the right of the cut edges come first,
+        // because they need the old values of the corners to the left.
         for (&(h, t), [along, _]) in cuts.iter().zip(&ring) {
             let corner = self.next(h.twin());
             self.copy_values(corner, *along);

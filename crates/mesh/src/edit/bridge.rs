@@ -19,9 +19,10 @@ impl Mesh {
     ///
     /// All existing ids stay the same. New edges and faces are numbered along the longer loop (that of `h` if
     /// both have the same length), starting with a-d and f. A new face has the values of the face beside its
-    /// edge of the longer loop. A corner has the values of the corner at the same vertex, in the face beside
-    /// the loop edge of its own face. In a triangle, which has no edge of the shorter loop, the corner at that
-    /// loop uses the loop edge of the previous face of the band. New edges have zero values.
+    /// edge of the longer loop. A new corner is at a vertex of one of the loops. Its face has an edge of this
+    /// loop, and the corner gets the values of the existing corner at the same vertex in the face on the other
+    /// side of this edge. Only a triangle has no edge of the shorter loop. Its corner at that loop uses the
+    /// edge of the last quad before it. New edges have zero values.
     ///
     /// Returns the new faces.
     ///
@@ -59,8 +60,8 @@ impl Mesh {
         // The loops run in opposite directions.
         short[1..].reverse();
         let (n, m) = (long.len(), short.len());
-        // Rung i joins the origin of half-edge i of the long loop to this place of the short loop. Rounded up,
-        // so that the first face is a quad.
+        // Rung i runs from the origin of half-edge i of the long loop to the target of this half-edge of the
+        // short loop. The index is rounded up, so that the first face is a quad.
         let short_index = |i: usize| (i * m).div_ceil(n);
         let rungs: Vec<_> = (0..n)
             .map(|i| (self.origin(long[i]), self.target(short[short_index(i) % m])))

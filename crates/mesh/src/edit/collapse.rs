@@ -23,17 +23,17 @@ impl Mesh {
     ///
     /// Vertex attributes of v are interpolated between the two ends; attributes that are not interpolated
     /// stay as they are at v. The corners at v of the faces beside `e` are interpolated within their face,
-    /// so that both sides of a seam keep their values. For a corner of any other face at an end of `e`: if,
-    /// in an attribute, it has the same value as the corner of a face beside `e` at this end, it gets the
-    /// new value of that corner; otherwise it keeps its value. When two edges become one, the larger number
-    /// is kept, so that creases stay, and a tag is set if either edge had it; for other types the remaining
-    /// edge keeps its value.
+    /// so that both sides of a seam keep their values. Each corner of another face at an end of `e` is
+    /// compared with the corners of the faces beside `e` at the same end, for each attribute. If it has the
+    /// same value as one of these corners, it gets the new value of that corner. Otherwise it keeps its
+    /// value. When two edges become one, the larger number is kept, so that creases stay, and a tag is set
+    /// if either edge had it. For other types, the remaining edge keeps its value.
     ///
     /// A collapse is refused if it would change the topology of the surface or make two elements coincide.
     /// The test is the link condition of Dey, Edelsbrunner, Guha and Nekhayev ("Topology preserving edge
-    /// contraction", 1999), extended to polygons, on the surface with each hole closed by a cone. It allows
-    /// a common neighbor of the ends only if it is a corner of a triangle beside `e`, and a common face of
-    /// the ends only if it is beside `e`.
+    /// contraction", 1999), extended to polygons. It is applied to the surface with each hole closed by a
+    /// cone. The ends may have a common neighbor only if it is a corner of a triangle beside `e`. They may
+    /// have a common face only if it is beside `e`.
     ///
     /// Returns v.
     ///
@@ -45,11 +45,12 @@ impl Mesh {
     /// - [`EditError::DuplicateEdge`] if a second edge joins the ends.
     /// - [`EditError::VisitsTwice`] if a face that is not beside `e` has both ends as corners: it would
     ///   visit v twice.
-    /// - [`EditError::Vanishes`] for the edges of a single triangle, and if no faces would be left, or only
-    ///   two faces back to back, as for a tetrahedron.
-    /// - [`EditError::SameFace`] if one face is on both sides of `e`, or would be on both sides of an edge
-    ///   that results from two; [`EditError::SameOpposite`] if two triangles beside `e` share a second edge.
-    ///   A collapse would be possible in both cases, but these edges only result from other edits.
+    /// - [`EditError::Vanishes`] for the edges of a single triangle, if no faces would be left, or if the
+    ///   only faces left at the merged vertex would be two faces back to back, as for a tetrahedron.
+    /// - [`EditError::SameFace`] if one face is on both sides of `e`, or if two edges would become one and
+    ///   this edge would have the same face on both sides. [`EditError::SameOpposite`] if two triangles
+    ///   beside `e` share a second edge. In both cases a collapse would be possible, but only other edits
+    ///   produce such edges.
     /// - [`EditError::NoSuchEdge`].
     ///
     /// The mesh is unchanged.
@@ -121,8 +122,9 @@ impl Mesh {
         }
         self.kill(e);
         self.kill(removed);
-        // A triangle has become a face of two edges. On the side of the first half of e, the edge at b comes
-        // after e; on the side of the second half, the edge at a.
+        // A triangle beside e has become a face of two edges. Of these, the edge at the removed vertex is
+        // removed. On the side of the first half of e, the edge at b comes after e and the edge at a before
+        // it. On the side of the second half, the edge at a comes after e and the edge at b before it.
         for (i, h) in sides.into_iter().enumerate().filter(|&(i, _)| vanishes[i]) {
             let after = self.next(h);
             if (removed == b) == (i == 0) {
@@ -150,12 +152,12 @@ impl Mesh {
         }
         self.check_outer_faces(e)?;
 
-        // The link of the edge: the only vertices that the links of both ends can have in common.
+        // The third corners of the triangles beside the edge. Only these may be neighbors of both ends.
         let apexes = [ab, ba].map(|h| {
             self.is_beside_triangle(h)
                 .then(|| self.target(self.next(h)))
         });
-        // The neighbors and faces of b.
+        // The neighbors of b other than a, and the faces around b.
         let (mut vertices, mut faces) = (SmallIdSet::new(), SmallIdSet::new());
         let mut h = self.next(ab);
         while h != ba {
@@ -187,8 +189,8 @@ impl Mesh {
             valence += 1;
             h = self.next(h.twin());
         }
-        // More edges lead to an apex than the triangles merge only if there are parallel edges, or a hole with
-        // three edges whose third corner is an apex.
+        // Each triangle beside the edge merges one pair of edges that lead to its apex. There are more such
+        // pairs only if there are parallel edges, or a hole with three edges whose third corner is the apex.
         for (i, x) in apexes.into_iter().enumerate() {
             let merged = apexes.iter().filter(|&&apex| apex == x).count();
             if let Some(x) = x.filter(|&x| shared[i].min(vertices.count(x)) > merged) {
@@ -211,8 +213,9 @@ impl Mesh {
         Ok(())
     }
 
-    /// Checks, for each triangle beside `e`, the faces beyond its other two edges, which become one edge: they
-    /// must not be the same face, nor both missing, nor be the triangle on the other side of `e`.
+    /// Checks each triangle beside `e`. Its other two edges become one edge. The faces on the far sides of
+    /// these two edges must not both be missing, and must not both be the face on the other side of `e`. If
+    /// there is a triangle on the other side of `e`, neither of them may be this triangle.
     fn check_outer_faces(&self, e: EdgeId) -> Result<(), EditError> {
         for h in e.half_edges() {
             if !self.is_beside_triangle(h) {
@@ -240,11 +243,12 @@ impl Mesh {
         Ok(())
     }
 
-    /// Whether the two faces that would be left at the merged vertex, which would have two edges, would lie back
-    /// to back. This is so if all vertices of one of them would have two edges.
+    /// Called if the merged vertex would have two edges and two faces. Returns whether these faces would lie
+    /// back to back, which is true if every vertex of one of them would have two edges.
     fn would_fold(&self, e: EdgeId, apexes: [Option<VertexId>; 2]) -> bool {
         let [ab, ba] = e.half_edges();
-        // A larger face beside e remains; otherwise the third face at a remains.
+        // Finds one of the two faces. A face beside e that is not a triangle remains. If both are triangles,
+        // the next face at a remains.
         let around = match apexes {
             [None, _] => ab,
             [_, None] => ba,
@@ -287,8 +291,8 @@ impl Mesh {
         }
     }
 
-    /// Removes the face of two edges that consists of `x` and `y`, and the edge of `x`: `y` replaces the twin
-    /// of `x`.
+    /// Removes the face that consists of the half-edges `x` and `y` only, and removes the edge of `x`. `y`
+    /// takes the place of the twin of `x`.
     fn remove_two_gon(&mut self, x: HalfEdgeId, y: HalfEdgeId) {
         let outer = x.twin();
         let (before, after) = (self.prev(outer), self.next(outer));
@@ -307,7 +311,7 @@ impl Mesh {
         }
     }
 
-    /// Sets the values of the corners at both ends of `e` for a collapse to the point at `t` on it.
+    /// Sets the values of the corners at both ends of `e` for a collapse to the point at `t` on `e`.
     fn mix_corners_along(&mut self, e: EdgeId, t: f64, v: VertexId) {
         if !self.has_corner_columns() {
             return;
@@ -328,7 +332,8 @@ impl Mesh {
         }
         for (h, side) in [ab, ba].into_iter().zip(sides) {
             if let Some([at_a, at_b]) = side {
-                // Values that are not interpolated are those at v. The corner after h remains.
+                // Values that are not interpolated are taken from the corner at v. The result is stored at the
+                // half-edge after h, because h is removed.
                 let at_v = if v == self.origin(ab) { at_a } else { at_b };
                 self.mix_values(at_a, at_b, t, at_v);
                 if at_v == h {
@@ -343,7 +348,7 @@ impl Mesh {
 struct SmallIdSet<I> {
     on_stack: [I; 16],
     n: usize,
-    /// All ids, once there are more than fit on the stack.
+    /// All ids, if they do not fit on the stack; otherwise empty.
     on_heap: Vec<I>,
 }
 
@@ -368,7 +373,7 @@ impl<I: Id + Ord> SmallIdSet<I> {
         self.n += 1;
     }
 
-    /// Prepares `has` and `count`. Must be called after the last `push`.
+    /// Must be called after the last `push`, before `has` and `count`.
     fn sort(&mut self) {
         self.on_heap.sort_unstable();
     }

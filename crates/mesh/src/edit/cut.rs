@@ -111,8 +111,9 @@ impl Mesh {
         Ok(new)
     }
 
-    /// Returns the edges of `edges` that would become slits if all of `edges` were cut: both ends are inside
-    /// the mesh, and no other edge of `edges` is at them. In order of ids.
+    /// Returns the edges of `edges` that would become slits if all of `edges` were cut, in order of ids. An
+    /// edge becomes a slit if both of its ends are inside the mesh and no other edge of `edges` has one of
+    /// these ends.
     ///
     /// # Panics
     ///
@@ -156,10 +157,10 @@ impl Mesh {
     }
 }
 
-/// Returns the parts of a fan, which starts at a gap, after its cut edges were duplicated.
+/// Returns the parts of a fan after its cut edges were duplicated. The fan must start at a gap.
 fn parts(fan: &[HalfEdgeId], copy_of: impl Fn(HalfEdgeId) -> Option<EdgeId>) -> Vec<Part> {
-    // For a cut edge and its copy: the outgoing half of the part before the cut (clockwise), and the outgoing
-    // boundary half of the part after the cut.
+    // Returns two outgoing half-edges at the cut of h: the last half-edge of the part before the cut
+    // (clockwise), and the first half-edge of the part after the cut, which is on the boundary.
     let sides = |h: HalfEdgeId| {
         let [first, second] = copy_of(h)?.half_edges();
         let is_first = h == h.edge().half_edge();

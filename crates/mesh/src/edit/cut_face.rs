@@ -14,11 +14,11 @@ use crate::{EditError, FaceId, HalfEdgeId, Mesh};
 ///    0 --- 0 --- 1
 /// ```
 ///
-/// Each part starts with its lowest half-edge, and the parts are ordered by these. Returns `None` if diagonals
-/// cross, or if a part would have fewer than three sides.
+/// Each part starts with its lowest half-edge. The parts are ordered by their first half-edges. Returns `None`
+/// if diagonals cross, or if a part would have fewer than three sides.
 pub fn polygon_parts(n: usize, diagonals: &[[u32; 2]]) -> Option<Vec<Vec<usize>>> {
-    // The diagonals at each corner, counter-clockwise from its side: the diagonal to the nearest corner ahead
-    // is first. Each is (corner, distance to the other corner, half-edge).
+    // The diagonals at each corner, counter-clockwise from the side that starts at the corner. The diagonal
+    // to the nearest corner ahead comes first. Each is (corner, distance to the other corner, half-edge).
     let mut outgoing: Vec<(usize, usize, usize)> = Vec::with_capacity(2 * diagonals.len());
     for (k, diagonal) in diagonals.iter().enumerate() {
         let [a, b] = diagonal.map(|corner| corner as usize);
@@ -34,7 +34,8 @@ pub fn polygon_parts(n: usize, diagonals: &[[u32; 2]]) -> Option<Vec<Vec<usize>>
     for (i, &(corner, _, h)) in outgoing.iter().enumerate() {
         let is_first = i == 0 || outgoing[i - 1].0 != corner;
         next[twin(h)] = if is_first { corner } else { clockwise };
-        // The side that ends at the corner is followed by the last diagonal: later diagonals overwrite this.
+        // The last diagonal at the corner follows the side that ends there. Each diagonal overwrites the entry
+        // of the diagonal before it.
         next[(corner + n - 1) % n] = h;
         clockwise = h;
     }

@@ -74,7 +74,8 @@ impl Mesh {
         }
 
         self.drop_columns_by_rule();
-        // At b, the corner of f remains. At a, the corner of g remains and gets the values of that of f.
+        // At b, the half-edge that stores the corner of f remains. At a, the half-edge that stores the corner
+        // of g remains and gets the values of the corner of f.
         self.copy_values(ab, after_a);
         let moved: Vec<HalfEdgeId> = self.face_half_edges(g).collect();
         for h in moved {
@@ -90,7 +91,7 @@ impl Mesh {
         Ok(f)
     }
 
-    /// Returns a vertex that both faces beside the edge of `h` have in common, other than the ends of that edge.
+    /// Returns a common vertex of the two faces beside the edge of `h`, other than the ends of that edge.
     /// Searches around the corners of the smaller face, so that merging many small faces into a large one is
     /// fast.
     fn other_common_corner(&self, h: HalfEdgeId) -> Option<VertexId> {
@@ -234,7 +235,8 @@ mod tests {
 
     #[test]
     fn faces_with_another_common_vertex_are_not_merged() {
-        // The last of three squares around a tube meets the merged other two on both sides.
+        // The tube has three squares. Two of them were merged, and both side edges of the third square are
+        // edges of the merged face.
         let mut tube = shapes::cylinder(3, false);
         tube.dissolve_edge(between(&tube, 1, 4)).unwrap();
         let refused = refused(&tube, between(&tube, 2, 5));

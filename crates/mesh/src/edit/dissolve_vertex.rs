@@ -32,14 +32,16 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// - [`EditError::FewEdges`] with `v` if it is isolated or has a single edge; with a neighbor of `v` if
-    ///   that would be left with a single edge inside the merged face (remove that vertex first).
+    /// - [`EditError::FewEdges`] with `v` if `v` is isolated or has a single edge. The same error with a
+    ///   neighbor of `v` if the neighbor would be left with a single edge inside the merged face (remove
+    ///   the neighbor first).
     /// - [`EditError::RepeatedVertex`] if a face visits `v` twice, or the merged face would visit another
     ///   vertex twice.
     /// - [`EditError::DuplicateEdge`] if two edges would become one between vertices that already share an
     ///   edge.
     /// - [`EditError::FewCorners`] if a face would be left with fewer than three corners.
-    /// - [`EditError::Seam`] with an edge at `v` if corner attributes differ across it at its other end.
+    /// - [`EditError::Seam`] with an edge at `v` if, at the other end of the edge, corner attributes differ
+    ///   between its two sides.
     /// - [`EditError::NoSuchVertex`].
     ///
     /// The mesh is unchanged.
@@ -142,7 +144,8 @@ impl Mesh {
         Ok(merged)
     }
 
-    /// Returns the half-edges of the faces of `spokes` that are not at the origin of the spokes.
+    /// Returns the half-edges of the faces around a vertex, except those that start or end at the vertex.
+    /// `spokes` are the outgoing half-edges of the vertex.
     fn rim_around(&self, spokes: &[HalfEdgeId]) -> Vec<HalfEdgeId> {
         let mut rim = Vec::new();
         for &spoke in spokes.iter().filter(|&&h| self.face(h).is_some()) {
@@ -187,7 +190,7 @@ impl Mesh {
         let (x, y) = if x.edge() < y.edge() { (x, y) } else { (y, x) };
         let (before, after) = (self.prev(y.twin()), self.next(y));
         let (v, b) = (self.origin(x), self.target(y));
-        // The corner of x moves to b, where the corner of the twin of y was.
+        // Half-edge x now leaves b. It stores the corner that the twin of y stored before.
         self.copy_values(y.twin(), x);
         self.set_next(x.twin(), after);
         self.set_next(before, x);

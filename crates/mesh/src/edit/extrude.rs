@@ -141,7 +141,8 @@ impl Mesh {
 pub(super) struct Rim {
     /// All half-edges of the faces, in order.
     half_edges: Vec<HalfEdgeId>,
-    /// The half-edges of the rim, here called bases: the twin has no face, or a face outside of the set.
+    /// The half-edges of the rim, here called bases. The twin of a base has no face, or a face outside of the
+    /// set.
     pub(super) bases: Vec<HalfEdgeId>,
     /// The index in `bases` of each base.
     index_of_base: BTreeMap<HalfEdgeId, usize>,

@@ -68,7 +68,7 @@ impl Mesh {
     ///
     /// All ids stay the same; the new faces and edges are numbered in the order of `ears`. New faces have the
     /// values of the face beside `h`; new edges have zero values. All new corners at a vertex have the values
-    /// of the same corner as in [`fill_hole`](Self::fill_hole).
+    /// that the corner at this vertex gets in [`fill_hole`](Self::fill_hole).
     ///
     /// Returns the triangles.
     ///

@@ -103,8 +103,8 @@ impl Mesh {
         Ok(ring)
     }
 
-    /// Sets the interpolated values of each element of `to` to those at `t` between the corresponding element of
-    /// `from` and the mean of all of `from`.
+    /// Sets the interpolated values of each element of `to`. They lie at `t` between the values of the
+    /// corresponding element of `from` and the mean of all elements of `from`.
     fn mix_with_mean<I: Id>(&mut self, from: &[I], t: f64, to: &[I]) {
         let &[.., last] = to else { return };
         // The last element stores the mean until it is set itself.

@@ -216,7 +216,7 @@ impl Mesh {
         }
     }
 
-    /// Makes `new` the half-edge of the face of `old`, if that was `old`.
+    /// If `old` is the stored half-edge of its face, stores `new` instead.
     #[inline]
     fn replace_first_of_face(&mut self, old: HalfEdgeId, new: HalfEdgeId) {
         if let Some(f) = self.face(old).filter(|&f| self.face_half_edge(f) == old) {
@@ -224,7 +224,7 @@ impl Mesh {
         }
     }
 
-    /// Makes `new` the half-edge of the origin of `old`, if that was `old`.
+    /// If `old` is the stored half-edge of its origin, stores `new` instead.
     #[inline]
     fn replace_first_of_vertex(&mut self, old: HalfEdgeId, new: HalfEdgeId) {
         let v = self.origin(old);

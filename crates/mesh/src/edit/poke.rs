@@ -47,8 +47,8 @@ impl Mesh {
         self.poke_face_at(f, self.face_center(f))
     }
 
-    /// Pokes a face like [`poke_face`](Self::poke_face), with the vertex at `position`, in scene units. The
-    /// attributes at the vertex are means too, and do not depend on `position`.
+    /// Pokes a face like [`poke_face`](Self::poke_face), with the vertex at `position`, in scene units. As
+    /// in `poke_face`, the attributes at the vertex are means. They do not depend on `position`.
     ///
     /// # Errors
     ///

@@ -66,7 +66,8 @@ impl Mesh {
             .map(|&h| (h, self.next(h), self.target(h)))
             .collect();
         for (h, next, target) in old {
-            // h ends where next starts, and so replaces it as the half-edge of that vertex.
+            // After the reversal, h leaves the vertex that `next` left before. So h replaces `next` as the
+            // half-edge of that vertex.
             if self.vertex_half_edge(target) == Some(next) {
                 self.set_vertex_half_edge(target, Some(h));
                 self.negate_normals(target);

@@ -89,7 +89,8 @@ impl Mesh {
         self.set_face(bm, self.face(ma));
         self.copy_values(ma, bm);
         self.mix_values(am, after_b, t, mb);
-        // The corner of ma is now at m, between the corner at b, which is now that of bm, and the corner at a.
+        // ma now stores the corner at m. Its values are interpolated between the corner at b, which bm now
+        // stores, and the corner at a.
         let at_a = self.next(ma);
         self.mix_values(bm, at_a, 1.0 - t, ma);
         self.set_next(am, mb);

@@ -12,10 +12,10 @@ impl Mesh {
     ///    a-----+           a/--f-+         g is new and has x and the half-edge b-a
     /// ```
     ///
-    /// `x` and `y` are half-edges of the face and denote the corners at their origins. The new edge runs
-    /// from the origin of `x` to the origin of `y`. Its first half and `y` are on the old face, its second
-    /// half and `x` on the new face. The corners of the new edge have the values of the corners at which they
-    /// are, the new face has the values of the old face, and the new edge has zero values.
+    /// `x` and `y` are half-edges of the face and denote the corners at their origins. The new edge runs from
+    /// the origin of `x` to the origin of `y`. Its first half and `y` are on the old face, its second half
+    /// and `x` on the new face. Each corner at an end of the new edge has the values of the old corner there.
+    /// The new face has the values of the old face, and the new edge has zero values.
     ///
     /// Returns the new edge.
     ///
@@ -97,8 +97,9 @@ impl Mesh {
         self.split_face(x, y)
     }
 
-    /// Joins the origins of `x` and `y`, half-edges of one face. The part of the face with `moved`
-    /// becomes a new face; the other part keeps the id of the face.
+    /// Adds an edge between the origins of `x` and `y`, which are half-edges of one face. The part
+    /// of the face that has the half-edge `moved` becomes a new face; the other part keeps the id
+    /// of the face.
     pub(super) fn insert_edge(
         &mut self,
         x: HalfEdgeId,

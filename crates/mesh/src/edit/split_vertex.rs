@@ -22,9 +22,9 @@ impl Mesh {
     /// be a hole; then the edge is on the boundary. V and E grow by 1. All existing ids stay the same.
     ///
     /// [`split_face`](Self::split_face) is the corresponding edit for faces. The inverse is
-    /// [`collapse_edge_to`](Self::collapse_edge_to) the old position. It is always allowed, unless two edges
-    /// joined v to the same vertex or a face visits v twice. To undo a collapse that removed triangles, call
-    /// `split_face` after this.
+    /// [`collapse_edge_to`](Self::collapse_edge_to) the old position. That collapse is always allowed,
+    /// unless two edges joined v to the same vertex or a face visits v twice. To undo a collapse that
+    /// removed triangles, call `split_face` after this.
     ///
     /// The new vertex is at `position` and has the attributes of v. On each side, both corners at the new edge
     /// have the values of the old corner. The edge has zero values.
@@ -95,8 +95,9 @@ impl Mesh {
             self.set_face(new, face);
         }
 
-        // If the half-edge of v has moved to w, it becomes that of w, and v gets vw. Otherwise w gets wv. Either
-        // is a boundary half-edge if the vertex is on the boundary.
+        // If the stored half-edge of v now leaves w, it becomes the stored half-edge of w, and vw becomes that
+        // of v. Otherwise v keeps its half-edge, and wv becomes that of w. In both cases, a vertex on the
+        // boundary has a boundary half-edge.
         let old = self.vertex_half_edge(v);
         let is_moved = old.is_some_and(|h| self.origin(h) == w);
         let first = if is_moved { old } else { Some(wv) };
@@ -203,7 +204,7 @@ mod tests {
         assert!(n_undone > 100, "{n_undone}");
     }
 
-    /// Undoes the collapse of edge `e` of `shape` in `mesh`: splits the merged vertex.
+    /// Undoes a collapse: splits the merged vertex. `mesh` is `shape` after the collapse of its edge `e`.
     fn undo_collapse(mesh: &mut Mesh, shape: &Mesh, e: EdgeId) {
         // h runs from v to the removed vertex.
         let [h, twin] = e.half_edges();
@@ -214,8 +215,8 @@ mod tests {
         };
         let (v, removed) = (shape.origin(h), shape.target(h));
         let triangles = [h, h.twin()].map(|h| shape.face(h).is_some_and(|f| shape.is_triangle(f)));
-        // The first and the last edge to be moved back to the removed vertex. Those of vanished triangles were
-        // merged with edges of v.
+        // The first and the last half-edge to move back to the removed vertex. If a triangle vanished, its
+        // edge at the removed vertex was merged with its edge at v, which is used instead.
         let [mut first, mut last] = [shape.next(h), shape.prev(h.twin()).twin()];
         if triangles[0] {
             first = shape.prev(h).twin();
@@ -247,7 +248,8 @@ mod tests {
             (vw, triangles[0], keep_left),
             (wv, triangles[1], keep_right),
         ] {
-            // The opposite corner comes after the new edge if the merged edge moved to the new vertex.
+            // If the merged edge moved to the new vertex, the opposite corner of the triangle comes after the
+            // new edge.
             let is_after = (h == vw) != keep;
             if is_triangle && is_after {
                 mesh.split_face(h, mesh.next(mesh.next(h))).unwrap();
@@ -346,7 +348,8 @@ mod tests {
 
     #[test]
     fn two_corners_of_one_face_are_refused() {
-        // Two faces that share two edges. After one of these is flipped, the second face visits vertex 2 twice.
+        // Two faces that share two edges. After a flip of one of these edges, the second face visits vertex 2
+        // twice.
         let polygons: [&[u32]; 2] = [&[0, 1, 2, 3], &[1, 0, 4, 3, 2, 5]];
         let (mut mesh, _) = Mesh::from_polygons(vec![DVec3::ZERO; 6], &polygons).unwrap();
         let e = mesh.find_half_edge(VertexId::new(0), VertexId::new(1));

@@ -34,9 +34,9 @@ impl Mesh {
     /// [`EditError::NotBoundary`] if `h` or `g` has a face, [`EditError::EdgeListedTwice`] if they are the
     /// same, [`EditError::SameFace`] if the same face is beside both edges of a pair that would be stitched,
     /// [`EditError::SelfLoop`] if two vertices that would be merged share an edge,
-    /// [`EditError::VisitsTwice`] if they share a face, [`EditError::DuplicateEdge`] if both are joined to
-    /// the same vertex by edges that would not be stitched, [`EditError::NoSuchHalfEdge`]. The mesh is
-    /// unchanged.
+    /// [`EditError::VisitsTwice`] if two such vertices share a face, [`EditError::DuplicateEdge`] if both
+    /// are joined to the same vertex by edges that would not be stitched, [`EditError::NoSuchHalfEdge`]. The
+    /// mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -58,7 +58,7 @@ impl Mesh {
         if h == g {
             return Err(EditError::EdgeListedTwice(h.edge()));
         }
-        // The vertices that are merged at each end: first that of h, then that of g.
+        // The two vertices to merge at each end: first the vertex of h, then the vertex of g.
         let at_origin = [self.origin(h), self.target(g)];
         let at_target = [self.target(h), self.origin(g)];
         let (before_h, after_h) = (self.prev(h), self.next(h));
@@ -138,10 +138,10 @@ impl Mesh {
         self.kill(from);
     }
 
-    /// Merges the two edges of a hole. The edge with the lower id remains.
+    /// Merges the edges of two half-edges without faces. The edge with the lower id remains.
     fn merge_edges(&mut self, [h, g]: Pair) -> EdgeId {
         let (kept, removed) = (h.min(g), h.max(g));
-        // The kept half-edge replaces the half-edge of the removed edge that has a face.
+        // The removed edge has a half-edge with a face. The kept half-edge takes the place of this half-edge.
         let old = removed.twin();
         let (before, after, face) = (self.prev(old), self.next(old), self.face(old));
         self.set_next(before, kept);
@@ -153,8 +153,8 @@ impl Mesh {
         kept.edge()
     }
 
-    /// Sets the half-edge of the origin of `h`: to its outgoing boundary half-edge if there is one, otherwise to
-    /// `h`.
+    /// Sets the stored half-edge of the origin of `h`. If the vertex has an outgoing boundary half-edge, that
+    /// half-edge is stored; otherwise `h`.
     fn reset_vertex_half_edge(&mut self, h: HalfEdgeId) {
         let v = self.origin(h);
         self.set_vertex_half_edge(v, Some(h));

@@ -157,8 +157,8 @@ numbers! {
     Length: Included(0.0), Unbounded;
     /// A length in scene units, above 0.
     PositiveLength: Excluded(0.0), Unbounded;
-    /// For how many levels of subdivision an edge or a vertex stays sharp: from 0 to 10. At 10 it stays sharp at
-    /// every level.
+    /// The number of subdivision levels for which an edge or a vertex stays sharp: from 0 to 10. With 10, the edge
+    /// or vertex stays sharp at every level.
     #[derive(Default)]
     Sharpness: Included(0.0), Included(10.0);
     /// The duration of an animation, in seconds: from 0.1 to 600.

@@ -11,42 +11,42 @@ selection! {
         "edges",
         inside: "Edges whose vertices all lie in a region or on its surface.",
         shares: "a vertex",
-        nearest: "The edges whose midpoints are nearest to a point. Ties go to the lower numbers."
+        nearest: "The edges whose midpoints are nearest to a point. Of equally near edges, those with the lower numbers."
     ) {
         /// Boundary edges: edges with a face on one side only.
         Boundary,
         /// The edge between two vertices, given by their numbers. Refused if no edge joins them.
         Between(u32, u32),
-        /// Edges whose two faces meet at more than an angle.
+        /// Edges at which the normals of the two faces differ by more than the angle `above`.
         Sharp {
             /// The angle between the normals of the two faces, in degrees, from 0 (flat) to 180. Boundary edges have
             /// no angle and are never sharp.
             above: AngleBetween,
         },
-        /// Edges whose two faces meet at less than an angle.
+        /// Edges at which the normals of the two faces differ by less than the angle `below`.
         Flat {
             /// The angle between the normals of the two faces, in degrees, from 0 (flat) to 180. Boundary edges have
             /// no angle and are never flat.
             below: AngleBetween,
         },
-        /// Edges longer than a length.
+        /// Edges longer than the length `than`.
         Longer {
             /// The length, in scene units.
             than: Length,
         },
-        /// Edges shorter than a length.
+        /// Edges shorter than the length `than`.
         Shorter {
             /// The length, in scene units.
             than: Length,
         },
         /// The edges of these faces.
         EdgesOf(FaceSelection),
-        /// Edges with at least one end in these vertices.
+        /// Edges with at least one end among these vertices.
         EdgesAround(VertexSelection),
-        /// Edges with both ends in these vertices.
+        /// Edges with both ends among these vertices.
         EdgesWithin(VertexSelection),
         /// These edges and the edge loops through them. A loop goes straight across vertices inside the mesh that
-        /// have four edges. From a boundary edge it goes along the boundary.
+        /// have four edges. A loop that starts at a boundary edge follows the boundary.
         EdgeLoop(Box<Self>),
         /// These edges and the edge rings through them. A ring goes from an edge to the opposite edge of each face
         /// with four corners.
@@ -58,7 +58,7 @@ selection! {
             /// The number of the last vertex.
             to: u32,
         },
-        /// The longest edges. Ties go to the lower numbers.
+        /// The longest edges. Of equally long edges, those with the lower numbers.
         Longest {
             /// The number of edges. If fewer are available, all are selected.
             #[serde(default = "super::one")]

@@ -73,7 +73,7 @@ impl Elements {
     ///
     /// # Errors
     ///
-    /// As [`Select::resolve`]: a named element, tag or material does not exist, or `Expect` found a different number
+    /// As [`Select::resolve`]: a given element, tag or material does not exist, or `Expect` found a different number
     /// of elements.
     pub fn resolve(&self, mesh: &Mesh, cx: &Context) -> Result<Selected, OpError> {
         Ok(match self {

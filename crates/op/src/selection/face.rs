@@ -11,8 +11,8 @@ selection! {
         "faces",
         inside: "Faces whose vertices all lie in a region or on its surface.",
         shares: "a vertex",
-        nearest: "The faces whose centers (the means of their vertices) are nearest to a point. Ties go to the lower \
-                  numbers."
+        nearest: "The faces whose centers (the means of their vertices) are nearest to a point. Of equally near \
+                  faces, those with the lower numbers."
     ) {
         /// Faces with at least one boundary edge.
         Boundary,
@@ -22,21 +22,21 @@ selection! {
         Degree(u32),
         /// Faces with the material of this name. Refused if the object has no material of this name.
         Material(String),
-        /// Faces with at least one corner in these vertices.
+        /// Faces with at least one corner among these vertices.
         FacesAround(Box<VertexSelection>),
         /// Faces with at least one of these edges.
         FacesBeside(Box<EdgeSelection>),
-        /// Faces whose normals point in a direction, up to an angle.
+        /// Faces whose normals differ from a direction by at most the angle `within`.
         Facing {
             /// The direction. Its length does not matter; a zero vector selects no faces.
             direction: Vector,
             /// The largest angle between the normal and the direction, in degrees.
             within: AngleBetween,
         },
-        /// These faces and all faces that can be reached from them across edges whose two faces meet at no more than
-        /// an angle.
+        /// These faces and all faces that can be reached from them by crossing only edges at which the normals of the
+        /// two faces differ by at most the angle `to_angle`.
         Expand {
-            /// The largest angle between the normals of two neighbouring faces, in degrees, from 0 (flat) to 180.
+            /// The largest angle between the normals of two neighboring faces, in degrees, from 0 (flat) to 180.
             to_angle: AngleBetween,
             /// The faces to start from.
             of: Box<Self>,

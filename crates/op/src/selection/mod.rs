@@ -1,8 +1,8 @@
 //! Selections: values that describe which vertices, edges or faces an operation works on.
 //!
-//! The three types share one algebra: `And`, `Or`, `Not`, `Grow`, `Shrink`, `Component`, choices (`Random`,
-//! `Nearest`, ...) from another selection, and `Expect`, which fails unless another selection has the expected
-//! number of elements. A selection is evaluated once, before the first edit.
+//! The three types share one algebra: `And`, `Or`, `Not`, `Grow`, `Shrink`, `Component`, choices from another
+//! selection (`Random`, `Nearest`, ...), and `Expect`, which fails unless another selection has the expected number
+//! of elements. A selection is evaluated once, before the first edit.
 
 /// Defines a selection type: the variants that all three types share, and the variants of this type.
 macro_rules! selection {
@@ -63,7 +63,7 @@ macro_rules! selection {
                 #[serde(default)]
                 of: Box<Self>,
             },
-            /// The same elements. Refused unless their number is exactly `count`.
+            /// All elements of the selection `of`. Refused unless their number is exactly `count`.
             Expect {
                 #[doc = concat!("The expected number of ", $elements, ".")]
                 count: u32,
@@ -150,7 +150,7 @@ pub trait Select: Sized + Sync {
     ///
     /// # Errors
     ///
-    /// [`Refusal::Missing`] if a named element, tag or material does not exist, or no path exists.
+    /// [`Refusal::Missing`] if a given element, tag or material does not exist, or no path exists.
     /// [`Refusal::Expectation`] if `Expect` found a different number of elements.
     fn resolve(&self, mesh: &Mesh, cx: &Context) -> Result<Vec<Self::Id>, OpError> {
         let mask = self.mask(mesh, cx)?;
@@ -335,7 +335,8 @@ fn center<S: Select>(mesh: &Mesh, id: S::Id) -> DVec3 {
     sum / n
 }
 
-/// Returns the `count` marked elements with the lowest keys. Ties go to the lower ids.
+/// Returns the `count` marked elements with the lowest keys. Of elements with equal keys, those with the lower
+/// ids come first.
 fn lowest<S: Select, K: PartialOrd>(
     mesh: &Mesh,
     count: u32,

@@ -8,7 +8,7 @@ use mesh::{Domain, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use crate::{OpError, Refusal};
 
 /// Returns the edges and the edge loops through them. A loop goes straight across vertices inside the mesh that have
-/// four edges. From a boundary edge it goes along the boundary.
+/// four edges. A loop that starts at a boundary edge follows the boundary.
 pub(super) fn edge_loops(mesh: &Mesh, edges: &[EdgeId]) -> Vec<bool> {
     follow(mesh, edges, |h| {
         if mesh.is_boundary_edge(h.edge()) {

@@ -1,9 +1,9 @@
-//! Checks attributes through a recipe: a step must have the attributes that it needs, and must not lose attributes
-//! unless `on_loss` allows it.
+//! Checks the attributes of meshes from step to step: the meshes must have the attributes that a step needs, and a step
+//! must not lose attributes unless `on_loss` allows it.
 //!
-//! The plan of each step tells which attributes it keeps, provides and drops. An attribute is lost if a mesh certainly
-//! has it before a step but not after the step. It is missing if no earlier step provides it and all attributes of the
-//! mesh are known.
+//! The plan of each step states which attributes the step keeps, provides and drops. An attribute is lost if a mesh
+//! certainly has it before a step but not after the step. An attribute is missing if all attributes of the mesh are
+//! known and it is not one of them.
 
 use std::collections::HashSet;
 
@@ -47,7 +47,7 @@ impl Attributes {
         found: &mut Vec<Diagnostic>,
     ) {
         for (object, had) in before {
-            // Removing a whole object is deliberate, so it is not reported as a loss.
+            // If the step removes the whole object, this is deliberate and is not reported as a loss.
             let Some(PlannedGeometry::Mesh(mesh)) = plan.object(object).map(|o| &o.geometry) else {
                 continue;
             };
@@ -71,9 +71,9 @@ impl Attributes {
         }
     }
 
-    /// Reports tags that a step selects by although no element can have them.
+    /// Reports each `Tagged(..)` in a step whose tag no element can have.
     pub(super) fn needs(&self, step: &RecipeStep, plan: &Plan, found: &mut Vec<Diagnostic>) {
-        // A step that must be refused may lack something.
+        // If the recipe expects a refusal, the missing tag may be the reason for the refusal.
         if plan.incomplete || step.refused.is_some() {
             return;
         }

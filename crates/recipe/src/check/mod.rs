@@ -77,7 +77,7 @@ pub fn check(recipe: &Recipe, files: &Files, budget: u64) -> Forecast {
             totals = Totals::default();
         }
         totals.add_objects(&plan);
-        // Reported once, at the first step that exceeds the budget.
+        // Only the first step that exceeds the budget is reported.
         if totals.bytes.min > budget && !over_budget {
             over_budget = true;
             if !found.iter().any(Diagnostic::is_error) {
@@ -133,7 +133,8 @@ fn plan_step(
         budget,
     };
     if step.refused.is_some() {
-        // The step must be refused when it runs, so it changes nothing, and problems are not errors.
+        // The recipe expects that the step is refused. A refused step changes nothing, so its plan is discarded, and
+        // problems are not errors.
         operation.plan(&mut plan.clone(), &cx);
         return;
     }
@@ -278,7 +279,7 @@ fn missing_file(files: &Files, path: &Path, span: Span) -> Option<Diagnostic> {
     (!files.store.is_file(path)).then(|| Diagnostic::error(span, message))
 }
 
-/// The totals over all meshes of a plan. If a step only adds objects, only these are added to the totals, so that
+/// The totals over all meshes of a plan. If a step only adds objects, only the new objects are counted, so that
 /// unchanged objects take no time.
 struct Totals {
     /// The number of objects that are counted.

@@ -15,7 +15,7 @@ pub struct AttributeDifference {
     pub difference: ColumnDifference,
 }
 
-/// How an attribute of one mesh differs from that of another.
+/// How an attribute of one mesh differs from the same attribute of another mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ColumnDifference {
     /// Every value is the same.
@@ -26,7 +26,7 @@ pub enum ColumnDifference {
     OnlySecond,
     /// The types of the values differ.
     Types([&'static str; 2]),
-    /// The rules for how edits treat the values differ.
+    /// The rules by which edits treat the values differ.
     Rules,
     /// The connectivity of the meshes differs, so that values cannot be compared.
     Unknown,
@@ -92,7 +92,7 @@ pub(super) fn differences(
     found
 }
 
-/// Compares two columns: the value of each element in `first` with that of the corresponding element in `second`.
+/// Compares two columns: the value of each element in `first` with the value of the corresponding element in `second`.
 fn values<I: Id>(a: &Column, b: &Column, first: &[I], second: &[I]) -> ColumnDifference {
     let (mut count, mut most, mut element) = (0, 0.0, None);
     for (&i, &j) in first.iter().zip(second) {

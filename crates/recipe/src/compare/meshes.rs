@@ -17,7 +17,8 @@ pub struct MeshDifference {
     pub connectivity: Connectivity,
     /// The vertices that moved. `None` if none moved or the connectivity differs.
     pub moved: Option<Moved>,
-    /// The attributes of both meshes: those of the first mesh, then those that only the second has, for each domain.
+    /// The attributes of both meshes. For each domain, the attributes of the first mesh come first, then the attributes
+    /// that only the second mesh has.
     pub attributes: Vec<AttributeDifference>,
     /// The distance between the surfaces. `None` if the meshes are identical or one has no faces.
     pub distance: Option<Distance>,

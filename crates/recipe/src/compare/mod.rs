@@ -1,7 +1,7 @@
 //! Compares two scenes.
 //!
-//! Objects with the same name are compared. If exactly one object remains in each scene, these two are also compared,
-//! because a file with a single mesh often gives it the name of the file.
+//! Objects with the same name are compared. If exactly one other object remains in each scene, these two objects are
+//! compared too: a mesh that is alone in a file often has the name of the file.
 
 mod attributes;
 mod meshes;

@@ -232,7 +232,7 @@ pub enum Expectation {
     Same {
         /// The mesh to compare with.
         r#as: OtherMesh,
-        /// The allowed distance between two vertices that are the same.
+        /// The allowed distance between two matching vertices.
         #[serde(default)]
         #[schemars(range(min = 0.0))]
         tolerance: f64,

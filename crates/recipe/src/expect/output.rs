@@ -1,8 +1,8 @@
 //! The expectation `Output`: compares a file that a step has written with a reference file beside the recipe (called
 //! the golden file in the code).
 //!
-//! Pictures are equal if their pixels are, mesh files if the objects read from them are, and all other files if their
-//! bytes are. Provenance that is recorded in a file is ignored.
+//! Two pictures are compared by their pixels, two mesh files by the objects that are read from them, and two other
+//! files by their bytes. Provenance that is recorded in a file is ignored.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -15,7 +15,7 @@ use super::subject::{ActualValue, Subject, Violation, fails_unless};
 /// The largest file, in bytes, that `test --update` copies over its reference file.
 const MAX_RECORDED: u64 = 64 << 20;
 
-/// Whether the extension is that of a picture whose pixels are compared.
+/// Whether the file is a picture whose pixels are compared, by the extension of the path.
 pub(super) fn is_picture(path: &str) -> bool {
     let extension = Path::new(path).extension().unwrap_or_default();
     ["png", "apng"]
@@ -126,8 +126,9 @@ fn with_written_file(
     Violation::unmet(format!("{}; the written file {why}", violation.message))
 }
 
-/// Whether a copy of the file, alone in a folder and under the name of the reference file, is read as the same
-/// objects. An OBJ file with a material library is not.
+/// Whether a copy of the written file would be read as the same objects if it had the name of the reference file and
+/// were alone in a folder. This is not the case for an OBJ file with a material library. True if the written file
+/// cannot be read as objects.
 fn stands_alone(written: &Path, golden: &Path, bytes: &[u8], subject: Subject) -> bool {
     let Ok(objects) = subject.reader.objects(written, subject.files) else {
         return true;
@@ -192,7 +193,8 @@ fn compare(written: &Path, golden: &Path, subject: Subject) -> Result<(), Violat
     }))
 }
 
-/// Returns the digests of the objects in two files. Names that objects take from their file are treated as equal.
+/// Returns the digests of the objects in two files. If two corresponding objects are both named after their file, their
+/// names are treated as equal.
 fn digests(
     (path, objects): (&Path, Vec<Object>),
     (other_path, mut others): (&Path, Vec<Object>),
@@ -250,7 +252,7 @@ mod tests {
         let one = without_stamp(svg("<metadata>meshwright 1, recipe 0a</metadata>"));
         assert_eq!(one, without_stamp(svg("<metadata>meshwright 2</metadata>")));
         assert_eq!(one, svg(""));
-        // Foreign metadata and unterminated metadata stay.
+        // Metadata of other programs and metadata without an end tag stay.
         for other in ["<metadata>by hand</metadata>", "<metadata>meshwright 1"] {
             assert_eq!(without_stamp(svg(other)), svg(other));
         }

@@ -17,8 +17,8 @@ impl<'m> PositionIndex<'m> {
         Self { mesh, by_x }
     }
 
-    /// Returns the `free` vertex nearest to `p`, if one lies within the tolerance. If several are equally near, returns
-    /// the one with the lowest id.
+    /// Returns the `free` vertex nearest to `p`, if there is one within the tolerance. If several vertices are equally
+    /// near, returns the vertex with the lowest id.
     fn nearest(
         &self,
         p: DVec3,
@@ -40,7 +40,7 @@ impl<'m> PositionIndex<'m> {
         rest.take_while(move |&v| x(v) <= p.x + tolerance)
     }
 
-    /// Whether a vertex lies within the tolerance of `p`.
+    /// Whether the distance of a vertex from `p` is within the tolerance.
     pub(super) fn any_near(&self, p: DVec3, tolerance: f64) -> bool {
         self.near(p, tolerance)
             .any(|v| self.mesh.position(v).distance(p) <= tolerance)
@@ -68,8 +68,8 @@ impl<'m> PositionIndex<'m> {
     }
 }
 
-/// Whether the faces of `other`, with their vertices mapped by `map`, are those of `mesh`. If `reversed`, the winding
-/// of the mapped faces is reversed first.
+/// Whether the faces of `other`, with their vertices mapped by `map`, are the faces of `mesh`. If `reversed`, the
+/// winding of the mapped faces is reversed first.
 pub(crate) fn same_faces(mesh: &Mesh, other: &Mesh, map: &[VertexId], reversed: bool) -> bool {
     let canonical = |mut corners: Vec<VertexId>| {
         let lowest = corners

@@ -42,9 +42,9 @@ pub trait Reader: Sync {
 pub struct Violation {
     /// The expected and the actual value, in one line.
     pub message: String,
-    /// The actual value, if replacing the expected value by it makes the expectation hold.
+    /// The actual value, if the expectation holds after the expected value is replaced by it.
     pub found: Option<ActualValue>,
-    /// Whether the expectation could not be checked. Then its `Not` does not hold either.
+    /// Whether the expectation could not be checked. If so, the `Not` of the expectation does not hold either.
     pub(super) is_unknown: bool,
 }
 
@@ -58,7 +58,7 @@ impl Violation {
         }
     }
 
-    /// A violation whose expected value can be replaced by the actual one.
+    /// A violation with the actual value, which can replace the expected value.
     pub(super) fn with_actual(message: String, found: ActualValue) -> Self {
         Self {
             found: Some(found),
@@ -129,7 +129,7 @@ pub struct Subject<'a> {
     pub files: &'a Files,
     /// Reads the files that the expectation refers to.
     pub reader: &'a dyn Reader,
-    /// Is told how far a check is, and can cancel it. The check then fails.
+    /// Receives the progress of a check, and can cancel the check. A cancelled check fails.
     pub progress: &'a dyn Progress,
 }
 
@@ -500,7 +500,8 @@ pub(super) fn check_number(
 }
 
 /// Fails with the first of the bounds `eq`, `min` and `max` that is violated. The violation has the actual value only
-/// if `eq` alone is violated, because only then recording that value makes the expectation hold.
+/// if `eq` is violated but `min` and `max` are not. Otherwise the expectation would still fail after the actual value
+/// is recorded.
 fn check_bounds<T: PartialOrd + Copy>(
     found: T,
     [eq, min, max]: [Option<T>; 3],

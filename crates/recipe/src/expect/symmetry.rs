@@ -27,7 +27,7 @@ pub(super) struct Motion {
 
 impl Motion {
     fn apply(&self, p: DVec3) -> DVec3 {
-        // Every image of an axis is an axis, so the sums are exact.
+        // The image of an axis is an axis or its opposite, so the sums are exact.
         p.x * self.axes[0] + p.y * self.axes[1] + p.z * self.axes[2]
     }
 }

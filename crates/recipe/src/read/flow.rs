@@ -6,9 +6,9 @@
 //! If(param: "smooth", steps: [..], otherwise: [..])      runs the steps if a parameter is true or has a value
 //! ```
 //!
-//! They are replaced by the inner steps while the recipe is read. A called recipe works on the current scene, reads
-//! from its own folder, and knows only its own parameters and ids. Its expectations are checked when its steps are
-//! done.
+//! Such a step is replaced by its inner steps while the recipe is read. A called recipe works on the current scene,
+//! reads files from its own folder, and can use only its own parameters and ids. Its expectations are checked after its
+//! steps.
 
 use std::path::Path;
 
@@ -44,7 +44,8 @@ impl Reader<'_, '_> {
     /// Replaces a step that contains steps by the inner steps.
     pub(super) fn flow(&mut self, kind: Kind, mut value: Value) -> Vec<Draft> {
         let is_envelope = matches!(value.kind, ValueKind::Struct(_));
-        // The inner steps are read, and their parameters substituted, one by one, like all steps.
+        // The inner steps are taken out of `value`: each of them is read, and its parameters are substituted, later,
+        // like all steps.
         let bodies = ["steps", "otherwise"].map(|field| {
             let run = if is_envelope {
                 value.field_mut("run")
@@ -121,7 +122,7 @@ impl Reader<'_, '_> {
         // Both branches are read, so that errors in the branch that is not taken are found too.
         let known = self.ids.len();
         let then = self.steps(then);
-        // Only one branch is taken, so both can have a step with the same id.
+        // Only one branch is taken, so a step in each branch can have the same id.
         let ids = self.ids.split_off(known);
         let otherwise = self.steps(otherwise);
         self.ids.extend(ids);
@@ -223,7 +224,8 @@ impl Reader<'_, '_> {
         drafts
     }
 
-    /// Returns the index of the text of a called recipe. `None`, with an error, if it cannot be read or calls itself.
+    /// Returns the index of the text of a called recipe. If the text cannot be read or calls itself, reports an error
+    /// and returns `None`.
     fn open_called(&mut self, path: &Path, span: Span) -> Option<usize> {
         let mut chain = vec![self.scope];
         while let Some((caller, _)) = self.shared.scopes[*chain.last()?].called {

@@ -155,7 +155,8 @@ fn canonical(store: &dyn Store, path: &Path) -> PathBuf {
 #[derive(Clone)]
 struct Draft {
     step: RecipeStep,
-    /// The ids, in this text, of the step and of the calls, repetitions and conditions whose last step it is.
+    /// The ids that end with this step: the id of the step, and the ids of the calls, repetitions and conditions whose
+    /// last step it is. Only ids of this text.
     ends: Vec<String>,
     /// The expectations that are checked after the step.
     then: Vec<RecipeExpectation>,
@@ -212,8 +213,8 @@ impl<'s, 'a> Reader<'s, 'a> {
         }
     }
 
-    /// Reads the text. `values` sets the parameters after they are declared. Returns the steps, and the expectations
-    /// for the end of the recipe.
+    /// Reads the text. `values` is called after the parameters are declared, to set their values. Returns the steps,
+    /// and the expectations for the end of the recipe.
     fn text(&mut self, values: impl FnOnce(&mut Self)) -> (Vec<Draft>, Vec<RecipeExpectation>) {
         let text = self.source.text.clone();
         let parsed = ron_tree::parse(&text);
@@ -248,7 +249,8 @@ impl<'s, 'a> Reader<'s, 'a> {
             .parameters
             .clone_from(&self.parameters);
         let mut drafts = self.steps(take_items(root.field_mut("steps")));
-        // An id has one step for each repetition, and no step if it is in a branch that is not taken.
+        // For each id, the indices of the steps that end it: one index for each repetition, and none if the id is in a
+        // branch that is not taken.
         let mut ends: HashMap<String, Vec<usize>> = HashMap::new();
         for (i, draft) in drafts.iter().enumerate() {
             for id in &draft.ends {
@@ -271,7 +273,8 @@ impl<'s, 'a> Reader<'s, 'a> {
         (drafts, last)
     }
 
-    /// Adds the diagnostics to those of the whole recipe, with their text and calls.
+    /// Adds the diagnostics of this text to those of the whole recipe, and sets the text and the calls of each
+    /// diagnostic.
     fn close(self) {
         let scopes = &self.shared.scopes;
         let located = (self.diagnostics.into_iter()).map(|d| located(d, self.scope, scopes));

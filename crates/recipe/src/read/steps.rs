@@ -48,7 +48,7 @@ impl Reader<'_, '_> {
             run = inner;
         }
         let Some((name, span)) = run.name() else {
-            // If an error was already reported, it may be the reason for the missing name.
+            // If an error was already reported, that error may be the reason for the missing name.
             if !run.has_errors() && self.diagnostics.len() == before {
                 let message = format!("expected an operation, found {}", run.describe());
                 self.error(run.span, message, "");
@@ -78,7 +78,7 @@ impl Reader<'_, '_> {
         // `check_shape` has reported invalid values.
         let refused = envelope("refused").and_then(|reason| Refusal::deserialize(reason).ok());
         let on_loss = envelope("on_loss").and_then(|on_loss| OnLoss::deserialize(on_loss).ok());
-        // The name seeds random choices, so an old name must give the same ones as the current name.
+        // The name seeds random choices. An old name is replaced by the current one, so that the choices are the same.
         let name = entry.as_ref().map_or(name, |entry| entry.name).to_owned();
         Draft::new(RecipeStep {
             step,
@@ -110,7 +110,8 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Returns a placeholder for a step that could not be read, with its id, so that the steps keep their indices.
+    /// Returns a placeholder for a step that could not be read. It keeps the indices of the other steps and the id of
+    /// the step.
     pub(super) fn broken_step(&mut self, written: Value) -> Draft {
         let run = written.field("run").unwrap_or(&written);
         let (name, span) = run.name().unwrap_or(("?", written.span));

@@ -45,8 +45,8 @@ pub trait CachedRun {
         time: Duration,
     ) -> RerunReason;
 
-    /// Loads the latest scene that is stored, from those after more than `from` and at most `to` steps. Returns the
-    /// number of steps before the scene, and the scene.
+    /// Loads the latest stored scene after more than `from` and at most `to` steps. Returns the number of steps before
+    /// this scene, and the scene.
     fn load_scene(&mut self, from: usize, to: usize) -> Option<(usize, Scene)>;
 
     /// Whether the step with this index (counted from 0) leaves the scene unchanged.
@@ -70,8 +70,8 @@ pub trait CachedRun {
     /// Writes what has been recorded about the last step to the cache.
     fn flush(&mut self);
 
-    /// Ends the run. Returns the problem that prevents the cache from storing anything, if any, and one line for each
-    /// result that was not stored or not found.
+    /// Ends the run. Returns the problem that prevents the cache from storing anything, if there is one, and one line
+    /// for each result that was not stored or could not be loaded.
     fn finish(self: Box<Self>) -> (Option<String>, Vec<String>);
 }
 
@@ -170,8 +170,8 @@ pub enum RerunReason {
     /// Its input files could not be determined: a path and the reason.
     #[error("its input files are unknown: {}: {}", .0.display(), .1)]
     Unknown(PathBuf, String),
-    /// The scene before it has no known identity: an earlier step with unknown input files left a scene with removed
-    /// elements.
+    /// The identity of the scene before the step is unknown, because an earlier step with unknown input files left
+    /// removed elements in the scene.
     #[error("an earlier step with unknown input files left removed elements in the scene")]
     NoState,
 }

@@ -26,7 +26,7 @@ pub trait Listener: Progress {
         false
     }
     /// Called with the scene after each step, if [`wants_scenes`](Self::wants_scenes). A clone of the scene shares its
-    /// meshes until the next step that changes one of them, which then copies it.
+    /// meshes with the run. While the clone exists, a step copies a shared mesh before it changes the mesh.
     fn scene_after(&self, _number: usize, _scene: &Scene) {}
     /// Called when a step fails or an expectation does not hold.
     fn failed(&self, _: &Failure) {}

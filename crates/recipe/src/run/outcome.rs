@@ -23,8 +23,8 @@ pub struct Outcome {
     pub cancelled: bool,
     /// The number of expectations that were checked.
     pub checked: usize,
-    /// The scene at the end. `None` if it was not loaded from the cache because it was not needed, or could not be
-    /// recomputed.
+    /// The scene at the end. `None` if the scene was not needed and therefore not loaded from the cache, or if it could
+    /// not be recomputed.
     pub scene: Option<Scene>,
     /// The digest of the scene at the end.
     pub digest: Digest,

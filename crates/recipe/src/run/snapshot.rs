@@ -5,8 +5,8 @@ use std::sync::{Arc, Weak};
 use mesh::Mesh;
 use scene::{Material, Scene};
 
-/// A snapshot of a scene, to be compared with a later state of the scene. It holds only weak references to meshes: a
-/// strong reference would make an operation copy each mesh before it changes it.
+/// A snapshot of a scene, to be compared with a later state of the scene. It holds only weak references to meshes:
+/// while a strong reference exists, an operation must copy the mesh before it changes the mesh.
 pub(super) struct SceneSnapshot(Vec<(String, Vec<Material>, Option<Weak<Mesh>>)>);
 
 impl SceneSnapshot {

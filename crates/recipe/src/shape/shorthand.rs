@@ -1,5 +1,5 @@
-//! Enumerations whose outer name can be omitted if the content fits only one variant. Their schema has the keyword
-//! `x-shorthand`. An example is [`op::Elements`].
+//! Checks enumerations in which the outer name can be omitted if the content fits only one variant. Their schema has
+//! the keyword `x-shorthand`. An example is [`op::Elements`].
 //!
 //! ```text
 //! Sharp(above: 30)   exists only for edges                ---> Edges(Sharp(above: 30))
@@ -70,7 +70,8 @@ impl Checker {
         }
     }
 
-    /// Reports the errors of a value that fits no variant: those for the variant that fits best.
+    /// Reports the errors of a value that fits no variant. The errors are those from the check against the variant that
+    /// fits best.
     fn take_closest(&mut self, value: &Value, trials: Vec<(&str, Schema, Self)>) {
         let variants = |schema: &Schema| -> Vec<String> {
             let choice = schema.choice().unwrap_or_default();
@@ -91,7 +92,8 @@ impl Checker {
                 Some(help),
             );
         }
-        // Prefers the variant that knows most of the names, then the fewest errors, then the first variant.
+        // The best variant knows most of the names. Among equal variants, the one with the fewest errors is best, and
+        // then the first one.
         let fit = |((_, _, trial), names): &((&str, Schema, Self), Vec<String>)| {
             (n_known(value, names), Reverse(trial.diagnostics.len()))
         };

@@ -15,8 +15,8 @@
 //!
 //! [`read_sweep`] reads the text, and [`Sweep::grid`] checks its values against the parameters that the recipe
 //! declares. Both report all errors at once. The cells are all combinations of the lists of `over`, in the order of the
-//! text; the last list changes fastest. The lists of `zip` are combined value by value, and change faster than those of
-//! `over`.
+//! text; the last list changes fastest. The lists of `zip` are combined value by value, and change faster than the
+//! lists of `over`.
 
 mod metric;
 mod values;
@@ -306,7 +306,7 @@ impl Sweep {
         })
     }
 
-    /// Every name is a parameter, and has values once.
+    /// Reports names that are not parameters of the recipe, and names that have values in several places.
     fn check_names(&self, parameters: &[Parameter], diagnostics: &mut Vec<Diagnostic>) {
         let mut seen: Vec<&Entry> = Vec::new();
         for entry in self.over.iter().chain(&self.zip).chain(&self.set) {

@@ -44,7 +44,7 @@ fn cells(fields: &str) -> Vec<Vec<String>> {
     grid(fields).cells.iter().map(cell).collect()
 }
 
-/// Returns all errors of a sweep: the text that each is about, and its message.
+/// Returns the spanned text and the message of each error of a sweep.
 fn wrong(fields: &str) -> Vec<(String, String)> {
     let source = sweep(fields);
     let reading = read_sweep(&source);

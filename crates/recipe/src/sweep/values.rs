@@ -21,7 +21,7 @@ enum Values {
         from: f64,
         /// The last number.
         to: f64,
-        /// The number of numbers, including the first and the last.
+        /// The number of values, including the first and the last.
         #[schemars(range(min = 1))]
         steps: u32,
     },

@@ -318,7 +318,7 @@ fn a_run_can_be_cancelled_at_any_call_and_nothing_is_written() {
     for at in 1..=calls {
         let (outcome, begun, done, heard, written) = cancelled(at);
         assert!(outcome.cancelled && !outcome.succeeded(), "{at}");
-        // No more calls follow the one that cancels.
+        // After the call that cancels, the listener receives no more calls.
         assert_eq!(heard, at);
         assert_eq!(begun, done + 1);
         assert_eq!(outcome.steps.len() as u64, done);

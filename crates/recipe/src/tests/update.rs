@@ -147,7 +147,7 @@ fn changes_have_their_lines_and_the_rest_of_the_text_stays() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Updating a recipe with randomly changed recorded numbers restores the original text.
+    /// If recorded numbers of a recipe are changed at random, updating the recipe restores the original text.
     #[test]
     fn changed_numbers_are_restored(
         columns in 1_u32..40,

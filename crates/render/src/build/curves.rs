@@ -83,8 +83,8 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Returns the color of lines. It is darker than that of a surface, so that lines are visible on white, unless the
-    /// style sets the color.
+    /// Returns the color of lines. If the style does not set the color, lines are darker than surfaces, so that they
+    /// are visible on white.
     fn line_color(&self, color: Color) -> [f32; 4] {
         let [r, g, b, a] = color.linear();
         if self.style.color.is_some() {

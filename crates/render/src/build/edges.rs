@@ -14,7 +14,8 @@ use crate::style::Ids;
 const ISOLATED_ALONE: f64 = 3.0;
 /// The diameter of isolated vertices in a mesh with edges, in pixels.
 const ISOLATED_BESIDE_EDGES: f64 = 1.8;
-/// The width of the border of highlighted vertices, both sides together, as a fraction of their diameter.
+/// The border of a highlighted vertex: the difference between the outer and the inner diameter, as a fraction of the
+/// inner diameter.
 const BORDER: f64 = 0.25;
 /// The maximum number of id labels of a mesh. More would cover each other.
 const MAX_IDS: usize = 2000;

@@ -127,7 +127,7 @@ pub const PALETTE: [Color; 6] = [
 /// `images` returns the bytes of an image file for its path in a material. If it returns `None`, or the bytes are not a
 /// PNG or JPEG file, the surface is drawn without this texture, and a message gives the path and the reason.
 ///
-/// Of materials, base color and alpha with their texture, roughness and emission are drawn.
+/// The drawing has these properties of materials: base color and alpha with their texture, roughness, and emission.
 ///
 /// # Errors
 ///

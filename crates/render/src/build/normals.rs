@@ -73,14 +73,14 @@ fn sharp_edges(mesh: &Mesh, areas: &[[f32; 3]], sharp: f64) -> Vec<bool> {
     })
 }
 
-/// Returns the sum of the area vectors of the faces around the origin of `h` that no sharp edge separates from its
-/// face.
+/// Returns the sum of the area vectors of the faces around the origin of `h` that no sharp edge separates from the face
+/// of `h`.
 fn of_corner(mesh: &Mesh, h: HalfEdgeId, areas: &[[f32; 3]], is_sharp: &[bool]) -> [f32; 3] {
     let Some(face) = mesh.face(h) else {
         return [0.0; 3];
     };
     let mut sum = areas[face.index()];
-    // Counter-clockwise, across the previous edge.
+    // Walks counter-clockwise around the vertex, across the previous edge of each face.
     let mut g = h;
     loop {
         let before = mesh.prev(g);
@@ -94,7 +94,7 @@ fn of_corner(mesh: &Mesh, h: HalfEdgeId, areas: &[[f32; 3]], is_sharp: &[bool]) 
             None => break,
         }
     }
-    // Clockwise, across the edge itself.
+    // Walks clockwise around the vertex, across the edge of each half-edge.
     g = h;
     while !is_sharp[g.edge().index()] {
         let Some(f) = mesh.face(g.twin()) else {

@@ -164,7 +164,7 @@ mod tests {
     #[test]
     fn a_checkerboard_of_opaque_and_transparent_squares_covers_half_of_the_picture() {
         for mode in MODES {
-            // Squares of 8 pixels with sharp edges.
+            // Squares of 8 x 8 pixels with sharp edges.
             let pixels = draw(
                 material(checkerboard(8, [WHITE, CLEAR]), mode, Filter::Nearest),
                 64,
@@ -177,7 +177,7 @@ mod tests {
                     "{mode:?}, pixel {i}"
                 );
             }
-            // Squares with blurred edges; as large as a pixel, smaller, and much smaller.
+            // Squares with sharp or blurred edges. From n = 64 on, a square is as small as a pixel or smaller.
             for n in [8, 50, 64, 100, 400, 1000] {
                 for filter in [Filter::Nearest, Filter::Linear] {
                     let found = coverage(&draw(

@@ -17,7 +17,7 @@ pub(super) struct Fit {
 }
 
 impl Fit {
-    /// Creates it from the parameters of the camera, for a picture of this size in pixels.
+    /// Creates a fit from the parameters of the camera, for a picture of this size in pixels.
     pub(super) fn new(
         from: Side,
         up: Up,
@@ -70,7 +70,7 @@ impl Fit {
         let directions: Vec<DVec3> = (directions.into_iter())
             .chain(axes.into_iter().flat_map(|axis| [axis, -axis]))
             .collect();
-        // Relative to the first point, so that coordinates far from the origin lose no precision.
+        // Positions are relative to the first point, so that coordinates far from the origin lose no precision.
         let mut first = None;
         let mut outermost: Vec<(f64, DVec3)> = Vec::new();
         points(&mut |p| {
@@ -97,7 +97,7 @@ impl Fit {
     /// Returns the view that shows all points.
     pub(super) fn view(&self, points: &impl Fn(&mut dyn FnMut(DVec3))) -> View {
         let (center, radius) = sphere(points);
-        // Relative to the center, so that coordinates far from the origin lose no precision.
+        // Positions are relative to the center, so that coordinates far from the origin lose no precision.
         let [x, y, z] = self.axes;
         let min_size = 1e-6 * radius;
         let (half, slant) = (self.half, self.slant());
@@ -127,7 +127,7 @@ impl Fit {
         let target = center + x * middle.x + y * middle.y;
         let distance = (extent / half).max_element();
         let (eye, scale, near) = match self.tangent {
-            // Seen edge-on, a flat scene has almost no extent: the camera must still be in front of it.
+            // A flat scene that is seen edge-on has almost no extent. The camera must still be in front of the scene.
             Some(tangent) => {
                 let eye = target + z * distance.max(front + 0.05 * radius);
                 (eye, tangent, 1e-3 * radius)
@@ -146,8 +146,9 @@ impl Fit {
     }
 }
 
-/// Returns center and radius of a sphere that contains all points. Its center is that of the bounding box. If there are
-/// no points, or all are nearly equal, the radius is 1, or 0.001 of the largest coordinate if that is larger.
+/// Returns center and radius of a sphere that contains all points. Its center is the center of the bounding
+/// box. If there are no points, or if all points are nearly equal, the radius is 1, or 0.001 times the largest
+/// coordinate if that is larger.
 pub(crate) fn sphere(points: &impl Fn(&mut dyn FnMut(DVec3))) -> (DVec3, f64) {
     let mut bounds: Option<[DVec3; 2]> = None;
     points(&mut |p| {
@@ -157,7 +158,7 @@ pub(crate) fn sphere(points: &impl Fn(&mut dyn FnMut(DVec3))) -> (DVec3, f64) {
     let Some([min, max]) = bounds else {
         return (DVec3::ZERO, 1.0);
     };
-    // Halved before they are added: the sum of two finite numbers can overflow.
+    // The numbers are halved before they are added, because the sum of two finite numbers can overflow.
     let center = 0.5 * min + 0.5 * max;
     let mut radius = 0.0;
     points(&mut |p| radius = p.distance_squared(center).max(radius));

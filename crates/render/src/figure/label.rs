@@ -46,7 +46,8 @@ pub fn text_width(text: &Text) -> f64 {
     line(DVec2::ZERO, text).width.into()
 }
 
-/// The maximum number of characters of a text that is measured, to bound the time. Longer texts fit into no image.
+/// The maximum number of characters of a text that is measured, which limits the time. No image is wide enough for
+/// longer texts.
 const MAX_CHARACTERS: usize = 4096;
 
 /// Shortens a text so that it fits into `width` pixels.

@@ -13,11 +13,11 @@ use crate::color::whole;
 pub enum Scale {
     /// A range of numbers, shown as a bar.
     Continuous {
-        /// The number of the first color.
+        /// The number that the first color stands for.
         low: f64,
-        /// The number of the last color.
+        /// The number that the last color stands for.
         high: f64,
-        /// Colors at equal steps from `low` to `high`.
+        /// The colors of numbers at equal steps from `low` to `high`.
         colors: Vec<Color>,
     },
     /// Named colors, shown as a list from top to bottom.
@@ -39,7 +39,7 @@ const LINE: Color = [0x6b, 0x72, 0x80, 255];
 /// Nearly opaque, so that the texts are readable over any picture.
 const BACKGROUND: Color = [255, 255, 255, 235];
 
-/// The distance from the texts to the edge, in pixels at scale 1.
+/// The distance from the texts to the edge of the legend, in pixels at scale 1.
 const PADDING: f64 = 12.0;
 
 /// The font size, in pixels at scale 1.
@@ -69,7 +69,7 @@ pub fn draw_legend(image: &mut Image, legend: &Legend, scale: f64) {
     draw(image, &svg, scale);
 }
 
-/// Returns a legend as a separate figure of the required size.
+/// Returns a figure that contains only the legend. The figure is as large as the legend.
 pub fn legend_figure(legend: &Legend) -> Svg {
     let size = legend_size(legend);
     let mut svg = Svg::new(size.x, size.y);
@@ -202,7 +202,7 @@ fn ticks(low: f64, high: f64) -> Vec<Tick> {
     } else {
         high / steps - low / steps
     };
-    // Between nearly equal ends, there are no other numbers that can be distinguished.
+    // If the ends are nearly equal, no other numbers between them can be distinguished.
     let largest = low.abs().max(high.abs());
     if rough <= largest * 1e-14 {
         return vec![Tick {
@@ -223,7 +223,7 @@ fn ticks(low: f64, high: f64) -> Vec<Tick> {
         (digit, exponent) = (1, exponent + 1);
     }
     let step = power(format!("{digit}e{exponent}"));
-    // A step is at least 1e-14 of the larger end, so that these numbers are exact integers.
+    // A step is at least 1e-14 times the larger end, so that these numbers are exact integers.
     #[expect(clippy::cast_possible_truncation, reason = "at most 1e15")]
     let [first, last] = [
         (low / step - 1e-9).ceil() as i64,
@@ -231,7 +231,7 @@ fn ticks(low: f64, high: f64) -> Vec<Tick> {
     ];
     (first..=last)
         .map(|i| {
-            // Parsed from its digits, so that 3 steps of 0.1 are exactly 0.3.
+            // The value is parsed from its digits, so that 3 steps of 0.1 are exactly 0.3.
             let value = power(format!("{}e{exponent}", i * digit));
             Tick {
                 value,

@@ -16,7 +16,8 @@ use ttf_parser::{Face, GlyphId, OutlineBuilder};
 use super::svg::{Anchor, Font, Text, number, printable};
 use crate::color::narrow;
 
-/// The embedded fonts, in the order in which missing characters are searched. `fonts/README.md` gives their sources.
+/// The embedded fonts, in the order in which they are searched for a missing character. `fonts/README.md` gives their
+/// sources.
 static FACES: LazyLock<[Typeface; 4]> = LazyLock::new(|| {
     [
         &include_bytes!("../../fonts/Inter-Regular.ttf")[..],
@@ -165,8 +166,8 @@ fn clusters(text: &Text) -> Vec<Cluster> {
     clusters
 }
 
-/// Whether a character has no width if no font has it: characters that join or separate other characters, or set their
-/// direction or variant.
+/// Whether a character that no font has is invisible and has no width. This is true for characters that join or
+/// separate other characters, or set the direction or variant of other characters.
 fn is_invisible(c: char) -> bool {
     matches!(c, '\u{ad}' | '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{206f}'
         | '\u{fe00}'..='\u{fe0f}' | '\u{feff}')
@@ -238,8 +239,8 @@ impl Typeface {
             .sum()
     }
 
-    /// Returns the offset of an accent on a letter that can have other accents: on the last of them if the font defines
-    /// this, else on the letter.
+    /// Returns the offset of an accent on a letter that can have other accents. If the font defines a position on the
+    /// last of these accents, the accent is placed there; otherwise it is placed on the letter.
     fn mark_offset(&self, letter: &Cluster, mark: GlyphId) -> [i32; 2] {
         let (base, _) = letter.glyphs[0];
         let (last, [x, y]) = letter.glyphs[letter.glyphs.len() - 1];

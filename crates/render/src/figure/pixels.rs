@@ -1,8 +1,8 @@
 //! Renders documents to pixels, or draws them over images.
 //!
 //! `tiny-skia` draws the shapes and the outlines of letters directly, without parsing the text of the document.
-//! Documents use only features that it draws without processor-dependent rounding: plain colors, which it blends in
-//! integers.
+//! Documents use only features that `tiny-skia` draws without processor-dependent rounding. For example, all colors are
+//! plain colors, which `tiny-skia` blends in integers.
 
 use glam::DVec2;
 use tiny_skia::{

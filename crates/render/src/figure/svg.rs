@@ -132,7 +132,7 @@ impl Run {
     }
 }
 
-/// The point of a text that is at its position.
+/// The point of a text that is placed at the position of the text.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum Anchor {
     /// The start of the baseline.
@@ -154,7 +154,7 @@ pub struct Text {
     /// The color and the width, in pixels, of an outline behind the letters, which makes them readable on any
     /// background.
     pub halo: Option<(Color, f64)>,
-    /// The point of the text that is at its position.
+    /// The point of the text that is placed at the position.
     pub anchor: Anchor,
 }
 

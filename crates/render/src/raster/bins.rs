@@ -21,7 +21,7 @@ use crate::{PictureError, View};
 const MAX_CHUNKS: usize = 32;
 /// The minimum number of items in a chunk, unless the chunk ends with its part.
 const MIN_CHUNK: usize = 1 << 15;
-/// Items that touch more tiles than this are never listed in each of them.
+/// An item that touches more tiles than this is never in the lists of these tiles.
 const MAX_LISTED_TILES: usize = 64;
 /// The lists of all tiles together have at most this number of entries for each item, plus `EXTRA_ENTRIES`.
 const ENTRIES_PER_ITEM: usize = 8;
@@ -32,7 +32,7 @@ const CLIPPED: u32 = 1 << 31;
 
 /// Items sorted by the tiles that they touch.
 pub(super) struct Bins {
-    /// The start of each tile's items in `items`, and the end of the last.
+    /// For each tile, the index of its first item in `items`; then the end of the items of the last tile.
     starts: Vec<u32>,
     items: Vec<u32>,
     /// The items that touch many tiles.
@@ -47,8 +47,8 @@ fn n_tiles([left, top, right, bottom]: TileRect) -> usize {
     (right - left) as usize * (bottom - top) as usize
 }
 
-/// Returns the limit on the number of tiles of listed items: an item that touches more tiles is not listed in each of
-/// them, so that the lists stay within their bounds.
+/// Returns the maximum number of tiles of an item that is in the lists of its tiles. An item that touches more tiles is
+/// kept in the list that all tiles read, so that the lists stay within their bounds.
 fn max_listed_tiles(items: &[(u32, TileRect)]) -> usize {
     let mut entries = [0; MAX_LISTED_TILES + 1];
     for &(_, rect) in items {
@@ -66,7 +66,7 @@ fn max_listed_tiles(items: &[(u32, TileRect)]) -> usize {
     (0..=MAX_LISTED_TILES).take_while(fits).last().unwrap_or(0)
 }
 
-/// Divides a part of `n` items into chunks, where all parts together have `all` items.
+/// Divides a part of `n` items into chunks. `all` is the number of items of all parts together.
 fn chunks(n: usize, all: usize) -> impl Iterator<Item = Range<usize>> {
     let size = all.div_ceil(MAX_CHUNKS).max(MIN_CHUNK);
     (0..n)
@@ -74,8 +74,8 @@ fn chunks(n: usize, all: usize) -> impl Iterator<Item = Range<usize>> {
         .map(move |first| first..(first + size).min(n))
 }
 
-/// Returns the maximum number of bytes that the lists take, including the temporary memory of sorting. `groups` are the
-/// numbers of items of groups that do not share chunks.
+/// Returns the maximum number of bytes that the lists take, including the temporary memory of sorting. `groups`
+/// are the numbers of items of several groups. Each chunk has items of one group only.
 pub(super) fn bytes(groups: impl Iterator<Item = usize> + Clone, frame: &Frame) -> u64 {
     let all: usize = groups.clone().sum();
     let n_chunks: usize = groups.map(|n| chunks(n, all).count()).sum();

@@ -1,4 +1,5 @@
-//! Draws lines over triangles: with constant width, round ends, and hidden where a triangle is in front of them.
+//! Draws lines over triangles. Lines have a constant width and round ends, and are hidden where a triangle is in front
+//! of them.
 //!
 //! The depth test of a sample compares line and surface at the nearest point on the axis of the line. For this, the
 //! plane of the triangle that is visible at the sample is extended to that point. A thick line on a slanted surface is
@@ -156,7 +157,8 @@ pub(super) fn draw(tile: &mut Tile, number: u32, projected: &ProjectedLine, shad
 pub(super) type Planes = Vec<Option<(u32, (u32, DVec3, DVec3))>>;
 
 impl ProjectedLine {
-    /// Whether the line at parameter `t` is in front of the triangle that is visible at a sample, given with its depth.
+    /// Whether the line at parameter `t` is in front of the triangle that is visible at a sample. The triangle is given
+    /// with its depth at the sample.
     fn is_visible(
         &self,
         line: &Line,
@@ -171,7 +173,8 @@ impl ProjectedLine {
         let [d0, d1] = self.depths;
         let depth = d0 + (d1 - d0) * t;
         let view = shader.view;
-        // Beside a line on it, a curved surface comes towards the camera by less than this.
+        // A line on a curved surface is visible: next to the line, the surface is nearer to the camera than the line by
+        // less than this length.
         let bias = view.pixel_size(depth) * (1.0 + self.radius);
         let limit = depth - view.depth_change(bias, depth);
         if f64::from(triangle_depth) >= limit {

@@ -1,8 +1,8 @@
-//! Ambient occlusion: the fraction of its surroundings that is visible from a point on the surface.
+//! Ambient occlusion: how much of the surroundings of a point on a surface is visible from that point.
 //!
 //! Depth maps are drawn from directions that are spread evenly over the sphere. Each map stores the nearest and the
-//! farthest depth, and thus serves two opposite directions. The openness of a point is the mean over all maps. It does
-//! not depend on the camera, and has no noise. Transparent surfaces do not occlude.
+//! farthest depth, and thus serves two opposite directions. The openness of a point is the mean over all maps. The
+//! openness does not depend on the camera and has no noise. Transparent surfaces do not occlude.
 
 use std::borrow::Cow;
 
@@ -42,14 +42,14 @@ pub(super) struct Occlusion {
 struct Map {
     /// The directions of columns, of rows, and of depth.
     axes: [Vec3; 3],
-    /// For each texel, the largest depth, and the largest depth in the opposite direction, which is the smallest depth
-    /// negated.
+    /// For each texel, the largest depth in the direction of the map and the largest depth in the opposite direction.
+    /// The latter is the negative of the smallest depth.
     depths: Vec<[f32; 2]>,
 }
 
 /// Returns one of the evenly spread directions of a hemisphere: Swinbank and Purser, "Fibonacci grids", 2006.
 fn direction(i: usize) -> DVec3 {
-    // The golden angle.
+    // Consecutive directions differ by the golden angle.
     let turn = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt()) * i as f64;
     let z = 1.0 - (i as f64 + 0.5) / MAPS as f64;
     let r = (1.0 - z * z).max(0.0).sqrt();
@@ -71,7 +71,7 @@ impl Occlusion {
         };
         let (center, radius) = crate::camera::sphere(&all_points);
         let side = side(size) as usize;
-        // One texel at each border stays empty.
+        // The sphere around the scene is `side - 2` texels wide, so that the texels at the border of a map stay empty.
         let texel = 2.0 * radius / (side - 2) as f64;
         let parts = drawing.parts.iter();
         let to_draw: Vec<_> = parts
@@ -117,8 +117,8 @@ impl Occlusion {
         })
     }
 
-    /// Returns the fraction of the surroundings, weighted by the cosine, that is visible from a point with this unit
-    /// normal: from 0 (none) to 1 (all).
+    /// Returns the fraction of the surroundings that is visible from a point with this unit normal, from 0 (none) to 1
+    /// (all). Each direction is weighted by the cosine of its angle to the normal.
     pub(super) fn openness(&self, p: DVec3, normal: DVec3) -> f32 {
         // The point is moved away from its surface, because the resolution of the maps is limited.
         let p = ((p - self.center) / self.texel + normal * 2.0).as_vec3();
@@ -160,14 +160,14 @@ impl Occlusion {
     }
 }
 
-/// Triangles with all edges shorter than this number of texels are drawn as their corners. All points of such a
+/// If all edges of a triangle are shorter than this number of texels, only its corners are drawn. All points of such a
 /// triangle are within half a texel of the nearest corner, so the corners cover all texels whose middles the triangle
 /// covers.
 const SMALL_EDGE: f64 = 0.85;
 
-/// Returns the triangles of a part that are drawn into maps, and whether its points are drawn too, for the triangles
-/// whose edges are all shorter than `length`. If the part has transparent surfaces, returns all triangles of its other
-/// surfaces.
+/// Returns the triangles of a part that are drawn into maps, and whether the points of the part are drawn too.
+/// Triangles whose edges are all shorter than `length` are left out; the points stand for them. If the part has
+/// transparent surfaces, returns all triangles of its opaque surfaces, and `false`.
 fn triangles_to_draw<'a>(part: &'a Part, length: f64) -> (Cow<'a, [[u32; 3]]>, bool) {
     let has_transparent = part.materials.iter().any(Surface::is_transparent);
     let is_drawn = |&i: &usize| {

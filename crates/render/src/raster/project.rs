@@ -1,8 +1,8 @@
 //! Projects points to a grid of 1/256 pixel, and clips triangles that reach behind the camera or far outside of the
 //! picture.
 //!
-//! After the projection, the edges of triangles are exact. Two triangles with a common edge have the same two grid
-//! points, so that each sample on the edge is in exactly one of them.
+//! After the projection, computations with the edges of triangles are exact. Two triangles with a common edge have the
+//! same two grid points, so that each sample on the edge is in exactly one of them.
 
 use glam::DVec3;
 

@@ -33,7 +33,7 @@ pub(super) struct Shader<'a> {
     occlusion: Option<Occlusion>,
     /// The first triangle and the first face of each part.
     firsts: Vec<[u32; 2]>,
-    /// Whether a surface is not opaque.
+    /// Whether the drawing has a surface that is not opaque.
     pub(super) has_transparency: bool,
     key: DVec3,
     fill: DVec3,
@@ -228,7 +228,7 @@ impl<'a> Shader<'a> {
         let Some(occlusion) = &self.occlusion else {
             return 1.0;
         };
-        // Points of the same pixel have nearly the same openness if they are on the same surface.
+        // Points of a pixel that are on the same surface have nearly the same openness.
         let near = last.filter(|k| {
             let pixel = self
                 .view
@@ -302,7 +302,8 @@ impl<'a> Shader<'a> {
         let key = narrow(n.dot(self.key).max(0.0));
         let fill = narrow(n.dot(self.fill).max(0.0));
         let sky = mix(GROUND, SKY, narrow(0.5 + 0.5 * n.y));
-        // The lights cast no shadows; instead, hollows are darker in direct light too, but less so.
+        // The lights cast no shadows. Instead, ambient occlusion darkens the direct light too, but less than the light
+        // from the sky.
         let direct = 0.4 + 0.6 * openness;
         let light: [f32; 3] = std::array::from_fn(|i| {
             color[i] * (sky[i] * openness + direct * (KEY_LIGHT[i] * key + FILL_LIGHT[i] * fill))

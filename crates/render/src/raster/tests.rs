@@ -91,8 +91,8 @@ fn samples_are_in_different_rows_and_columns() {
 
 #[test]
 fn triangles_that_fill_a_square_cover_every_sample_once() {
-    // A grid with moved points that is larger than the tile. The numbers of cells give triangles for both the 32-bit
-    // and the 64-bit arithmetic.
+    // The grid is larger than the tile, and its points are moved. The different numbers of cells give triangles for the
+    // 32-bit and for the 64-bit arithmetic.
     for (seed, cells) in [(1, 40), (2, 7), (3, 2)] {
         let mut seed = seed;
         let tile_size = GRID * i32::try_from(TILE).unwrap();
@@ -324,7 +324,7 @@ fn a_plane_is_lit_by_the_cosine_of_its_angle() {
     let size = [3, 3];
     for degrees in [-60.0_f64, -30.0, 0.0, 20.0, 45.0, 70.0] {
         let (sin, cos) = libm::sincos(degrees.to_radians());
-        // Rotated about the x axis, with the upper half away from the camera.
+        // The square is rotated about the x axis, so that its upper half is away from the camera.
         let up = DVec3::new(0.0, cos, -sin) * 50.0;
         let points = vec![
             -DVec3::X * 50.0 - up,
@@ -362,7 +362,8 @@ fn a_plane_is_lit_by_the_cosine_of_its_angle() {
 #[test]
 fn a_line_covers_the_same_area_in_every_direction() {
     let size = [200, 200];
-    // 45 degrees is left out: all border pixels have the same coverage, which 16 samples give to a few percent only.
+    // 45 degrees is left out. At this angle all border pixels have the same coverage, and 16 samples measure a coverage
+    // only to a few percent.
     for degrees in [0.0_f64, 17.0, 43.0, 80.0] {
         let (sin, cos) = libm::sincos(degrees.to_radians());
         let along = DVec3::new(cos, sin, 0.0) * 60.0;
@@ -616,8 +617,8 @@ fn degenerate_drawings_are_rendered() {
     let drawings = [
         Drawing::default(),
         dot,
-        // A triangle that is a point, one that is a line, one seen edge-on; then a very large one, a huge one, a very
-        // small one, and one far from the origin.
+        // A triangle that is a point, a triangle that is a line, and a triangle that is seen edge-on. Then a very large
+        // triangle, a huge one, a very small one, and one far from the origin.
         drawing(vec![part(vec![DVec3::ZERO; 3], vec![[0, 1, 2]], WHITE)]),
         drawing(vec![part(
             vec![p(0., 0., 0.), p(1., 0., 0.), p(2., 0., 0.)],

@@ -119,9 +119,9 @@ impl Star {
     /// Returns a tangent along the crease, and a tangent across it into the k faces of the sector. With θ =
     /// π/k, the second tangent is the left eigenvector with the weight sin(iθ) at inner spoke i and m (sin(iθ) +
     /// sin((i+1)θ)) at the opposite corners. The weights at the ends of the crease and at the center follow
-    /// from these. (The literature gives the eigenvector for k ≤ 3 and for other crease rules.) With six or
-    /// more triangles on one side the surface has no tangent plane there; the plane returned contains the
-    /// tangent of the crease.
+    /// from these. (The literature gives the eigenvector for k ≤ 3 and for other crease rules.) If the
+    /// sector has six or more triangles, the surface has no tangent plane there; the returned plane contains
+    /// the tangent of the crease.
     fn crease_tangents(&self, sector: Sector) -> [DVec3; 2] {
         let k = sector.n_faces;
         let [first, last] = [0, k].map(|i| self.spoke(sector, i));
@@ -131,7 +131,7 @@ impl Star {
         }
         let theta = PI / k as f64;
         let (sin, cos) = libm::sincos(theta);
-        // The sum of the sines.
+        // The sum of sin(iθ) over the inner spokes.
         let sines = (1.0 + cos) / sin;
         let (m, end) = if self.loop_weights.is_some() {
             (0.0, -cos * sines / (1.0 + 2.0 * cos))
@@ -180,17 +180,19 @@ impl Star {
         }
     }
 
-    /// Returns the plane into which the one-ring of a dart flattens.
+    /// Returns two vectors that span the plane to which the one-ring of a dart converges.
     fn dart_tangents(&self) -> [DVec3; 2] {
         let sector = Sector::of_face(self, 0);
         let [along, across] = self.corner_tangents(sector);
         let along = along.normalize_or_zero();
         let normal = along.cross(across).normalize_or_zero();
         let frame = DMat3::from_cols(along, normal.cross(along), normal);
-        // The one-ring shrinks by different factors in different directions, so that after some levels only the
-        // slowest direction would remain. Orthogonal iteration preserves all directions: after each level the
-        // columns x, y and z are made orthonormal. The product of the triangular matrices that undo this is
-        // stored as 1 b c / 0 1 e / 0 0 1, with the scales s and s q. Its first two rows converge to the plane.
+        // The one-ring shrinks by different factors in different directions. Without a correction, after some
+        // levels only the direction that shrinks most slowly would remain. Orthogonal iteration preserves all
+        // directions: after each level the columns x, y and z are made orthonormal. An upper triangular matrix
+        // converts the orthonormal columns back to the columns before. The product of these matrices over all
+        // levels is, up to a common factor, the matrix 1 b c / 0 1 e / 0 0 1 with its rows multiplied by 1, s and
+        // s q. The first two rows converge to vectors that span the plane.
         let mut star = self.clone();
         let to_frame = frame.transpose();
         for p in star.points() {
@@ -232,8 +234,8 @@ fn quad_eigenvalue(theta: f64) -> f64 {
     (5.0 + cos + half * (2.0 * (9.0 + cos)).sqrt()) / 16.0
 }
 
-/// Makes the columns of coordinates orthonormal (Gram-Schmidt), and returns the columns of the upper triangular
-/// matrix that undoes it.
+/// Makes the columns of coordinates orthonormal (Gram-Schmidt). Returns the columns of the upper triangular matrix
+/// that converts the orthonormal columns back to the original columns.
 fn orthonormalize(star: &mut Star) -> [DVec3; 3] {
     let mut columns = [DVec3::ZERO; 3];
     for j in 0..3 {

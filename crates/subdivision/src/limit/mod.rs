@@ -5,9 +5,9 @@
 //! are the left eigenvectors of the matrix that maps the one-ring to the one-ring of the next level (Halstead,
 //! Kass and DeRose, "Efficient, Fair Interpolation using Catmull-Clark Surfaces", 1993; Hoppe et al.,
 //! "Piecewise Smooth Surface Reconstruction", 1994; Biermann, Levin and Zorin, "Piecewise Smooth Subdivision
-//! Surfaces with Normal Control", 2000). If an element is semi-sharp, the one-ring is refined until its
-//! sharpness reaches 0. A dart, the end of a single sharp edge, has no closed form: its one-ring is refined
-//! until it converges.
+//! Surfaces with Normal Control", 2000). If an element is semi-sharp, the one-ring is refined until the
+//! sharpness of that element reaches 0. A dart, the end of a single sharp edge, has no closed form: its one-ring is
+//! refined until it converges.
 
 mod masks;
 mod star;
@@ -29,7 +29,8 @@ pub struct Limit {
     /// The limit position of each vertex.
     pub positions: Vec<DVec3>,
     /// Two vectors that span the tangent plane at each vertex, not normalized. Their cross product points
-    /// outside. At an inner crease they belong to one of its sides. They are zero for an isolated vertex.
+    /// outside. At an inner crease they span the tangent plane of one side of the crease. They are zero for an isolated
+    /// vertex.
     pub tangents: Vec<[DVec3; 2]>,
     /// The unit normal of each corner, by half-edge, and zero for half-edges without a face. `None` if no faces
     /// meet at a sharp inner edge, so that one normal for each vertex is enough.
@@ -37,7 +38,8 @@ pub struct Limit {
 }
 
 impl Limit {
-    /// Returns the unit normal at each vertex, computed from the tangents. Zero if they do not span a plane.
+    /// Returns the unit normal at each vertex, computed from the tangents. If the tangents do not span a plane, the
+    /// normal is zero.
     pub fn normals(&self) -> Vec<DVec3> {
         self.tangents.iter().map(normal).collect()
     }

@@ -10,11 +10,12 @@ use crate::sharpness::{Blend, INFINITE, SemiSharp, Sharpness, VertexRule, decrea
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Star {
     pub(crate) center: DVec3,
-    /// The neighbors, counter-clockwise; on the boundary from one boundary edge to the other.
+    /// The positions of the neighbors, in counter-clockwise order. At a boundary vertex, the first and the last
+    /// neighbor are the two neighbors along the boundary.
     pub(crate) spokes: Vec<DVec3>,
-    /// For Catmull-Clark the opposite corners: number i lies between spokes i and i + 1.
+    /// For Catmull-Clark, the positions of the opposite corners: corner i is in the quad between spokes i and i + 1.
     pub(crate) opposite: Vec<DVec3>,
-    /// Whether every two consecutive spokes have a face between them.
+    /// Whether the vertex is inside the mesh. Then a face also lies between the last spoke and the first spoke.
     pub(crate) is_inner: bool,
     /// The sharpness of the spokes.
     pub(crate) spoke_sharpness: Vec<f64>,
@@ -28,9 +29,9 @@ pub(crate) struct Star {
 }
 
 impl Star {
-    /// Replaces this star by the star of vertex `v`. `start` is the half-edge of the vertex, which is the
-    /// boundary one on the boundary. With Catmull-Clark, if not all faces are quads, reads the star of the next
-    /// level, which has the same limit.
+    /// Replaces this star by the star of vertex `v`. `start` is the half-edge of the vertex; for a boundary vertex,
+    /// `start` is a boundary half-edge. With Catmull-Clark, if not all faces around the vertex are quads, reads the
+    /// star of the next level, which has the same limit.
     pub(crate) fn read(
         &mut self,
         mesh: &Mesh,
@@ -91,8 +92,8 @@ impl Star {
         settled(self.vertex_sharpness) && self.spoke_sharpness.iter().all(|&s| settled(s))
     }
 
-    /// Returns the rule of the vertex. In a settled star it is the rule of all levels. Spokes are named by
-    /// their numbers.
+    /// Returns the rule of the vertex. In a settled star, the rule is the same on all levels. The rule
+    /// identifies spokes by their numbers.
     pub(crate) fn rule(&self) -> VertexRule<usize> {
         VertexRule::of(
             self.vertex_sharpness,
@@ -100,8 +101,9 @@ impl Star {
         )
     }
 
-    /// Replaces this star by the star of the next level. (If Chaikin's rule needs the sharpness at the other
-    /// end of an edge whose sharpness is below 1, that end is assumed to be the same as this end.)
+    /// Replaces this star by the star of the next level. (Chaikin's rule can need the sharpness
+    /// of the edges at the other end of an edge whose sharpness is below 1. The other end is assumed to have the
+    /// same sharpness as this end.)
     pub(crate) fn refine(&mut self) {
         self.face_points.clear();
         if self.loop_weights.is_none() {

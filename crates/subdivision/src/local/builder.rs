@@ -31,7 +31,8 @@ impl<'a> ConnectivityBuilder<'a> {
                 last = pieces.second(h);
                 let m = pieces.on_edge(h.edge());
                 new.origin[last.index()] = m;
-                // The second part of the first half, unless the second half is on the boundary.
+                // The half-edge of m is the second part of the first half-edge of the edge. If the second half-edge
+                // is on the boundary, its second part replaces the part of the first one.
                 if h.index().is_multiple_of(2) || mesh.face(h).is_none() {
                     new.vertex_half_edge[m.index()] = last;
                 }
@@ -76,7 +77,8 @@ impl<'a> ConnectivityBuilder<'a> {
         self.close(pieces.part(f, 0), start);
     }
 
-    /// Cuts a triangle with a hanging vertex in two: first the part at b, then the part at a.
+    /// Cuts a triangle with a hanging vertex in two: first the part at b, then the part at a (see the figure
+    /// in `pieces.rs`).
     pub(super) fn cut_in_two(&mut self, f: usize) {
         let pieces = self.pieces;
         let [side_bc, side_ca, side_ab] = pieces.three_sides(f);

@@ -1,4 +1,4 @@
-//! The connectivity of the next level where only some faces and edges are cut.
+//! The connectivity of the next level if only some faces and edges are cut.
 //!
 //! Elements are in the same order as if all faces were cut (see [`halves`](crate::halves),
 //! [`triangles`](crate::triangles) and [`quads`](crate::quads)): first the parts of edges in order of the
@@ -177,7 +177,7 @@ impl<'a> Pieces<'a> {
         FaceId::new(self.faces.first(f) + k)
     }
 
-    /// Returns the sides of a triangle. If it has a hanging vertex, the side with that vertex comes last.
+    /// Returns the sides of a triangle. If the triangle has a hanging vertex, the side with that vertex comes last.
     pub(super) fn three_sides(&self, f: usize) -> [Side; 3] {
         let start = self.mesh.face_half_edge(FaceId::new(f));
         let next = |h| self.mesh.next(h);

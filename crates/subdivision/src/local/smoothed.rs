@@ -8,7 +8,7 @@ use crate::masks::AnyMasks;
 use crate::parallel::fill;
 use crate::topology::Topology;
 
-/// The elements that are smoothed: those without a face that is not chosen.
+/// The vertices and edges that are smoothed, because all their faces are chosen.
 pub(super) struct SmoothedElements {
     /// For each vertex, whether all its faces are chosen.
     pub(super) vertices: Vec<bool>,

@@ -245,7 +245,7 @@ fn far_inside_the_chosen_faces_the_surface_equals_subdivision() {
     let faces: Vec<bool> = mesh.faces().map(|f| far(f) < 4.5).collect();
     let local = refined(&mesh, &faces, LOOP, 2);
     let whole = subdivide(&mesh, LOOP, 2, &NoProgress).unwrap();
-    // Old vertices keep their ids. Two or more rings inside the border, its effect is not visible.
+    // Old vertices keep their ids. The border does not affect vertices that are two or more rings away from it.
     let mut n = 0;
     for v in mesh.vertices().filter(|&v| mesh.position(v).length() < 2.0) {
         assert!(local.position(v).distance(whole.position(v)) < 1e-14, "{v}");

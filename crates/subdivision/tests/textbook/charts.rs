@@ -360,7 +360,7 @@ impl Vertex<'_> {
         let number = |k: usize| match (states[k], next[k]) {
             (State::Regular, _) => self.regular(values[k]),
             (_, State::Crease) => {
-                // A dependent value is as sharp as the other value.
+                // The rule of a dependent value has the weight of the other value.
                 let source = if states[k] == State::Dependent {
                     1 - k
                 } else {
@@ -385,7 +385,7 @@ impl Vertex<'_> {
         self.sharpness.fraction(self.v, &span.inner)
     }
 
-    /// Returns the value moved along the border of its faces.
+    /// Returns the new value of a value that moves along the border of its faces.
     fn crease(&self, value: usize) -> DVec2 {
         let charts = self.charts;
         let [first, last] = charts.span(self.v, value, self.adjacency).ends;
@@ -393,7 +393,7 @@ impl Vertex<'_> {
         0.75 * charts.values[value] + 0.125 * ends
     }
 
-    /// Returns the value moved as the position is.
+    /// Returns the new value of a value that moves as the position of its vertex does.
     fn regular(&self, value: usize) -> DVec2 {
         let Self {
             charts,

@@ -66,7 +66,7 @@ pub(crate) fn refine(mesh: &Polygons) -> Polygons {
             face.insert(0, outside[&(v, leads)]);
             face.push(outside[&(v, arrives)]);
         }
-        // Two corners do not make a face: their edges are merged.
+        // A polygon with two corners does not become a face: its two edges are merged.
         if face.len() > 2 {
             faces.push(face);
         }

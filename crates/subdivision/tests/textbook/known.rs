@@ -58,7 +58,7 @@ fn tetrahedron() -> Polygons {
     )
 }
 
-/// Returns a flat sheet of 6 x 6 squares, or with each square cut into two triangles.
+/// Returns a flat sheet of 6 x 6 squares. If `of_triangles`, each square is cut into two triangles.
 fn sheet(of_triangles: bool) -> Polygons {
     let positions = (0..49)
         .map(|i| DVec3::new(f64::from(i % 7), f64::from(i / 7), 0.0))
@@ -352,7 +352,7 @@ fn boundaries_are_splines_or_fixed() {
     assert_has(&doo_sabin, [1.0, 0.0, 0.0]);
     assert_has(&doo_sabin, [1.0, 1.0, 0.0]);
     assert_eq!((doo_sabin.positions.len(), doo_sabin.faces.len()), (12, 9));
-    // A corner of a triangle moves by 4/27 of both of its sides.
+    // Each corner of the triangle moves by 4/27 of the sum of its two sides.
     let triangle = Polygons::new(square.positions[..3].to_vec(), vec![vec![0, 1, 2]]);
     let fine = textbook(&triangle, Rules::of(Scheme::Sqrt3), 2);
     assert_has(&fine, [32.0 / 27.0, 16.0 / 27.0, 0.0]);

@@ -1,5 +1,5 @@
-//! A second, slow implementation of every scheme as in textbooks: on lists of polygons, without half-edges, one
-//! level after the other. The tests compare the crate with it.
+//! A second, slow implementation of every scheme, as textbooks describe it. It works on lists of polygons, without
+//! half-edges, and computes one level at a time. The tests compare the crate with this implementation.
 
 mod butterfly;
 mod charts;

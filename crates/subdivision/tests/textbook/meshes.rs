@@ -340,7 +340,7 @@ impl Pattern {
         };
         let mut mesh = mesh.clone();
         let adjacency = Adjacency::new(mesh.positions.len(), &mesh.faces);
-        // Adds noise to fractional values, so that no sum is within rounding of 1.
+        // Adds noise to fractional values. Otherwise a sum could be 1 up to rounding.
         let sharpness = |random: &mut Random| {
             let s: f64 = random.one_of(choice);
             if s.fract() == 0.0 {

@@ -174,7 +174,7 @@ fn three_squares_at_one_edge_are_split_and_counted() {
 
 #[test]
 fn squares_of_opposite_orientation_agree_after_welding() {
-    // Two neighbouring squares, the second of which has its corners in reverse order.
+    // Two neighboring squares, the second of which has its corners in reverse order.
     let squares = [0.0, 1.0].map(|x| {
         [(x, 0.0), (x + 1.0, 0.0), (x + 1.0, 1.0), (x, 1.0)].map(|(x, y)| DVec3::new(x, y, 0.0))
     });

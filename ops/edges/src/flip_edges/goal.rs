@@ -7,15 +7,16 @@
 //! ```
 //!
 //! It is lowest for the equilateral triangle and grows without bound as the area approaches 0. A flip is an improvement
-//! if the energy of the two new triangles is lower than the energy of the two old ones. The sum over a mesh is the trace
-//! of its cotangent Laplacian (Pinkall and Polthier, "Computing Discrete Minimal Surfaces and Their Conjugates", 1993):
-//! the sum, over all vertices, of the Dirichlet energy of the function that is 1 at the vertex and 0 at all other
-//! vertices. In the plane, a flip does not change the Dirichlet energy of linear functions. It changes the energy of all
-//! other functions by multiples of a form of rank one, whose sign tells whether the opposite corner is inside the circle
-//! through the other three corners (Rippa, "Minimal Roughness Property of the Delaunay Triangulation", 1990). So in the
-//! plane a flip reduces the energy exactly if the edge is not Delaunay, and flipping these edges ends with the Delaunay
-//! triangulation (Lawson, "Software for C1 Surface Interpolation", 1977). Four times the sum is the harmonic index of
-//! Musin, "Properties of the Delaunay Triangulation", 1997. The energy is also defined for surfaces in space.
+//! if the energy of the two new triangles is lower than the energy of the two old ones. The sum over a mesh is the
+//! trace of its cotangent Laplacian (Pinkall and Polthier, "Computing Discrete Minimal Surfaces and Their Conjugates",
+//! 1993): the sum, over all vertices, of the Dirichlet energy of the function that is 1 at the vertex and 0 at all
+//! other vertices. In the plane, a flip does not change the Dirichlet energy of linear functions. For all other
+//! functions, it changes the Dirichlet energy by a quadratic form of rank one. The sign of this form depends on whether
+//! the fourth corner is inside the circle through the other three corners (Rippa, "Minimal Roughness Property of the
+//! Delaunay Triangulation", 1990). So in the plane a flip reduces the energy exactly if the edge is not Delaunay, and
+//! flipping these edges ends with the Delaunay triangulation (Lawson, "Software for C1 Surface Interpolation", 1977).
+//! Four times the sum is the harmonic index of Musin, "Properties of the Delaunay Triangulation", 1997. The energy is
+//! also defined for surfaces in space.
 //!
 //! A flip that reduces the number of triangles without area is an improvement. If all four corners are collinear, both
 //! diagonals give triangles without area, and the shorter diagonal is better: this resolves groups of these triangles.
@@ -69,9 +70,9 @@ impl Goal {
     /// Whether flipping the edge between these triangles is an improvement.
     ///
     /// For both goals, the sequence of improving flips is finite, regardless of rounding. For `Valence`, the sum of
-    /// squares is an integer that decreases. For `Delaunay`, the computed energy of a triangle depends only on its three
-    /// vertices. Each flip reduces the number of triangles without area, or keeps it and reduces the exact sum of the
-    /// other energies, or keeps both and reduces the sum of the squared lengths of all edges.
+    /// squares is an integer that decreases. For `Delaunay`, the computed energy of a triangle depends only on its
+    /// three vertices. Each flip reduces the number of triangles without area, or keeps it and reduces the exact sum of
+    /// the other energies, or keeps both and reduces the sum of the squared lengths of all edges.
     pub(crate) fn is_improvement(&self, mesh: &Mesh, quad: &Quad) -> bool {
         match self {
             Self::Delaunay => {
@@ -85,7 +86,9 @@ impl Goal {
             }
             Self::Valence { excess } => {
                 let [a, b, c, d] = [quad.a, quad.b, quad.c, quad.d].map(|v| excess[v.index()]);
-                // The sum of (x - 1)² - x² = 1 - 2x for a and b and (x + 1)² - x² = 2x + 1 for c and d is below 0.
+                // The flip reduces the valences of a and b by 1 and increases those of c and d by 1. The square of an
+                // excess x changes by (x - 1)² - x² = 1 - 2x or by (x + 1)² - x² = 1 + 2x. The sum of the four changes
+                // is 4 - 2 (a + b - c - d), and the flip is an improvement if this sum is below 0.
                 a + b - c - d > 2
                     && quad.flipped().energies(mesh).iter().all(|x| x.is_finite())
                     && quad.flips_without_fold(mesh)
@@ -150,8 +153,8 @@ impl Quad {
             .distance_squared(mesh.position(self.b))
     }
 
-    /// Whether the normals of both new triangles point to the same side as the old pair. The sum of the two area vectors
-    /// is the same before and after a flip. In the plane, this is true exactly if the quad is convex.
+    /// Whether the normals of both new triangles point to the same side as the old pair. The sum of the two area
+    /// vectors is the same before and after a flip. In the plane, this is true exactly if the quad is convex.
     fn flips_without_fold(&self, mesh: &Mesh) -> bool {
         let [a, b, c, d] = [self.a, self.b, self.c, self.d].map(|v| mesh.position(v));
         let (left, right) = ((c - d).cross(a - d), (d - c).cross(b - c));
@@ -160,8 +163,8 @@ impl Quad {
     }
 }
 
-/// Returns the sum of the cotangents of the angles of a triangle. It is infinite if the triangle has no area, and NaN if
-/// the triangle is too small or too large to compute; a flip with NaN is never an improvement.
+/// Returns the sum of the cotangents of the angles of a triangle. It is infinite if the triangle has no area, and NaN
+/// if the triangle is too small or too large to compute; a flip with NaN is never an improvement.
 ///
 /// The corners are sorted by their numbers, so the result for the same three vertices is always exactly the same.
 fn energy(mesh: &Mesh, mut corners: [VertexId; 3]) -> f64 {

@@ -1,9 +1,10 @@
-//! Flips edges that improve a mesh, until no flip does.
+//! Flips edges as long as flips improve the mesh.
 //!
 //! A pass checks edges in order of their numbers. The first pass checks all edges. Each later pass checks only edges
-//! near vertices whose edges changed: only there can a flip have become an improvement or legal. (An edge between the
-//! opposite corners of another edge ends at both of these corners.) A pass without a flip is the last. Refused edges are
-//! checked again in every pass, so the refusals of the last pass are complete.
+//! near vertices whose edges changed: the result of the check cannot be different at other edges. (A flip is refused if
+//! an edge already joins the two opposite corners. If this edge is flipped away, the edges of both corners change.) A
+//! pass without a flip is the last. Refused edges are checked again in every pass, so the refusals of the last pass are
+//! complete.
 
 use mesh::{EdgeId, EditError, FaceId, Mesh, VertexId};
 use op::{Context, OpError, Report};
@@ -118,8 +119,8 @@ impl ChangedNeighborhood {
         }
     }
 
-    /// Returns the edges that end at the collected vertices, the edges opposite to them in a triangle, and `additional`,
-    /// in order of their numbers. Removes the collected vertices.
+    /// Returns the edges that end at the collected vertices, the edges opposite to them in a triangle, and
+    /// `additional`, in order of their numbers. Removes the collected vertices.
     fn take_edges(&mut self, mesh: &Mesh, additional: impl Iterator<Item = EdgeId>) -> Vec<EdgeId> {
         let mut edges = Vec::new();
         let mut collect = |e: EdgeId| {

@@ -1,7 +1,7 @@
 //! Finds pairs of boundary edges that coincide.
 //!
 //! Edges are sorted into a grid of cubic cells by their midpoints. If the ends of two edges are close together, so are
-//! their midpoints. An edge is therefore compared only with the edges in its cell and the 26 neighbouring cells.
+//! their midpoints. An edge is therefore compared only with the edges in its cell and the 26 neighboring cells.
 
 use mesh::{DVec3, HalfEdgeId, Mesh};
 use op::{Context, OpError};
@@ -76,7 +76,8 @@ impl Grid {
         let midpoints = || rims.iter().map(midpoint);
         let least = midpoints().reduce(DVec3::min).unwrap_or_default();
         let most = midpoints().reduce(DVec3::max).unwrap_or_default();
-        // Cells of twice the distance leave room for rounding. The second term limits the number of cells along an axis.
+        // Cells of twice the distance leave room for rounding. The second term limits the number of cells along an
+        // axis.
         let size = (2.0 * distance).max(1e-9 * (most - least).max_element());
         let mut grid = Self {
             least,
@@ -95,7 +96,7 @@ impl Grid {
         place.to_array().map(|x| x.floor().min(1e12) as i64)
     }
 
-    /// Returns the boundary half-edges that coincide with number `i`.
+    /// Returns the boundary half-edges that coincide with half-edge `i` of `rims`.
     fn matches(&self, rims: &[Rim], i: usize, distance: f64) -> Matches {
         let mut matches = Matches::None;
         let [x, y, z] = self.cell(midpoint(&rims[i]));

@@ -10,7 +10,7 @@ use crate::args::Shard;
 /// An input file of a batch.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Input {
-    /// The path, beginning as the pattern begins.
+    /// The path, with the same beginning as the pattern.
     pub(crate) path: String,
     /// The path relative to the folder in which the pattern starts.
     pub(crate) relative: PathBuf,
@@ -33,7 +33,7 @@ pub(crate) fn list(patterns: &[String]) -> anyhow::Result<Vec<Input>> {
     for pattern in patterns {
         let before = inputs.len();
         let path = Path::new(pattern);
-        // A file whose name looks like a pattern is taken as a file.
+        // If a file has the name `pattern`, the pattern is the path of this file.
         if path.is_file() {
             inputs.push(Input {
                 path: pattern.clone(),

@@ -88,7 +88,7 @@ enum Task {
     Keep(Row),
     /// Run the recipe, with this peak memory in bytes.
     Run(Box<Loaded>, u64),
-    /// Report a failure: the recipe cannot be run.
+    /// Report a failure, because the recipe cannot be run on this file.
     Fail(FileResult),
 }
 

@@ -26,7 +26,7 @@ pub(super) struct Cells<'a> {
     pub(super) keep: &'a [(Metric, Span)],
     /// Whether the recipe's expectations are checked.
     pub(super) expects: bool,
-    /// If a sheet is drawn: takes the scene of a cell and the peak memory of its run in bytes.
+    /// Receives the scene of each cell and the peak memory of its run in bytes; `None` if no sheet is drawn.
     pub(super) collect: Option<&'a (dyn Fn(Scene, u64) -> CellScene + Sync)>,
 }
 
@@ -50,14 +50,14 @@ pub(super) struct CellResult {
     pub(super) error: Option<String>,
     /// The scene for the sheet, if one is drawn and the cell succeeded.
     pub(super) scene: Option<CellScene>,
-    /// Whether Ctrl-C was pressed before the cell was finished.
+    /// Whether the cell was not run or not finished, because Ctrl-C was pressed.
     pub(super) is_not_run: bool,
 }
 
 /// The scene of a cell that succeeded, for the sheet.
 #[derive(Debug)]
 pub(super) struct CellScene {
-    /// What the camera and the colors must cover, or why the scene cannot be drawn.
+    /// The extent of the scene for the camera and the colors, or the reason why the scene cannot be drawn.
     pub(super) extent: Result<Extent, String>,
     /// The scene, if there is enough memory to keep it.
     pub(super) scene: Option<Scene>,

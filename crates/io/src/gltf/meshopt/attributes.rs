@@ -1,5 +1,5 @@
-//! Attributes: each byte of an element is stored as a difference from the byte of the previous element, in few
-//! bits.
+//! Attributes: each byte of an element is stored in few bits, as the difference from the same byte of the
+//! previous element.
 //!
 //! ```text
 //! 0xa0 or 0xa1 | block | block | ... | zeros | initial element | modes of the channels
@@ -16,9 +16,9 @@ use crate::fault::Fault;
 
 /// The number of elements whose differences are stored together.
 const GROUP: usize = 16;
-/// A block has at most this number of bytes ...
+/// The largest size of a block in bytes.
 const BLOCK_BYTES: usize = 8192;
-/// ... and at most this number of elements.
+/// The largest number of elements in a block.
 const BLOCK: usize = 256;
 
 /// The number of bits of a difference for each of the four kinds of groups.
@@ -135,7 +135,8 @@ fn groups(
     Ok(())
 }
 
-/// Decodes differences of 1, 2 or 4 bits. Differences with all bits set are followed by a byte with their value.
+/// Decodes differences of 1, 2 or 4 bits. If all bits of a difference are set, its value is stored in an
+/// additional byte.
 fn few_bits(input: &mut Input, bits: usize, group: &mut [u8; GROUP]) -> Result<(), Fault> {
     let packed = input.take(2 * bits)?;
     let (in_byte, all) = (8 / bits, (1 << bits) - 1);
@@ -164,8 +165,8 @@ fn channel(mode: u8) -> Result<Channel, String> {
 }
 
 impl Channel {
-    /// Adds differences up into bytes 4 * `c` to 4 * `c` + 4, exclusive, of each element of a block. `before` is
-    /// the previous element, and is set to the last element of the block.
+    /// Adds up the differences of channel `c`, and writes its four bytes of each element of a block. Before the
+    /// call, `before` is the previous element; afterwards, it is the last element of the block.
     fn sum(
         self,
         before: &mut [u8; 4],

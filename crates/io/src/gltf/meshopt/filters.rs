@@ -79,7 +79,7 @@ impl Filter {
     }
 }
 
-/// Applies `turn` to each N bytes, in parallel.
+/// Applies `convert` to each group of N bytes, in parallel.
 fn each<const N: usize>(bytes: &mut [u8], convert: impl Fn(&mut [u8; N]) + Sync) {
     parallel::consume(bytes.chunks_mut(BLOCK), |_, block| {
         block.as_chunks_mut().0.iter_mut().for_each(&convert);

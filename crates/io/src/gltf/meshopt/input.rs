@@ -9,11 +9,11 @@ pub(super) struct Input<'a> {
 }
 
 impl<'a> Input<'a> {
-    /// Starts after the first byte, and ends `tail` bytes before the end.
+    /// Creates an input that starts after the first byte of the stream and ends `tail` bytes before its end.
     ///
     /// # Errors
     ///
-    /// If the stream is too short for that.
+    /// If the stream is shorter than `tail + 1` bytes.
     pub(super) fn new(stream: &'a [u8], tail: usize) -> Result<Self, Fault> {
         let end = stream.len().checked_sub(tail).filter(|&end| end > 0);
         let end = end.ok_or_else(|| {

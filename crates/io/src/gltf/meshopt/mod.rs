@@ -90,8 +90,8 @@ pub(super) fn pointer(view: usize, extension: &str) -> String {
     format!("/bufferViews/{view}/extensions/{extension}")
 }
 
-/// For each buffer, whether it is never read, because it is declared as a fallback or is only used by the
-/// uncompressed ranges of compressed views.
+/// Returns for each buffer whether the reader never reads it. The reader does not read a buffer that is declared
+/// as a fallback, or that is only used by the uncompressed ranges of compressed views.
 pub(super) fn fallbacks(
     buffers: &[Value],
     views: &[View],

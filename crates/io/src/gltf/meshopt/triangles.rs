@@ -113,7 +113,7 @@ impl State<'_> {
         Ok([a, b, c])
     }
 
-    /// Decodes a triangle at one of the last edges.
+    /// Decodes a triangle that shares one of the last edges.
     fn beside(&mut self, edge: u8, third: u8) -> Result<[u32; 3], TriangleError> {
         let [a, b] = self.edges.get(edge).ok_or(TriangleError::Code)?;
         let c = match third {

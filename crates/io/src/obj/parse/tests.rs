@@ -185,7 +185,7 @@ fn a_file_of_another_format_is_refused() {
     assert!(parse(b"# nothing\n").is_ok());
 }
 
-/// Parses a file as a whole and without parts.
+/// Parses a file in order, without cutting it into parts.
 fn in_order(bytes: &[u8]) -> Result<ObjFile, Fault> {
     let file = join(vec![parse_whole(bytes)?]);
     match first_unknown(&file) {

@@ -146,8 +146,8 @@ fn meshes(a: &Mesh, b: &Mesh, soup: bool, all: &mut Differences) {
     }
 }
 
-/// How numbers differ. In 32 bits they are only approximately equal, because glTF stores 1 - v of texture
-/// coordinates.
+/// How numbers differ. Numbers that are rounded to 32 bits are compared only approximately, because glTF stores
+/// 1 - v for texture coordinates.
 fn rows_differ(a: &[Row], b: &[Row]) -> Option<Difference> {
     if a == b {
         return None;
@@ -316,7 +316,7 @@ impl Flat {
         self.faces = turned.into_iter().map(|t| t.0).collect();
     }
 
-    /// Moves corner values to vertices if they agree around each vertex and there are no such vertex values.
+    /// Moves corner values to vertices if they agree around each vertex and no vertex values have this name.
     fn agree(&mut self, name: &str) -> bool {
         let (from, to) = (key(Domain::Corner, name), key(Domain::Vertex, name));
         let (kind, rows) = &self.columns[&from];

@@ -56,7 +56,7 @@ fn with<T: Value>(
     one(mesh)
 }
 
-/// One object with the name of the file.
+/// One object, with the same name as the file.
 pub(super) fn one(mesh: Mesh) -> Vec<Object> {
     vec![Object::mesh("it", mesh)]
 }
@@ -493,7 +493,7 @@ fn other_geometry() -> Vec<Feature> {
     ]
 }
 
-/// Meshes of all kinds, each with the name of the file.
+/// Meshes of all kinds, each with the same name as the file.
 pub(super) fn shapes_of_all_kinds() -> Vec<Vec<Object>> {
     let mut deleted = shapes::cube();
     let f = deleted.faces().next().unwrap();

@@ -161,7 +161,7 @@ fn has_double_edges(objects: &[Object]) -> bool {
     ends.windows(2).any(|pair| pair[0] == pair[1])
 }
 
-/// The same cases in every run. `PROPTEST_RNG_SEED=2 PROPTEST_CASES=1000` runs different ones.
+/// Every run tests the same cases. `PROPTEST_RNG_SEED=2 PROPTEST_CASES=1000` runs different cases.
 fn cases() -> ProptestConfig {
     let config = ProptestConfig::default();
     match config.rng_seed {

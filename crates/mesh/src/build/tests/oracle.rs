@@ -34,14 +34,14 @@ impl Random {
 }
 
 /// Returns the expected result for polygons that keep their orientation: the arrays, and for each vertex
-/// the input vertex that it is or that it is a copy of.
+/// of the result its input vertex. The input vertex of a copy is the vertex that was split.
 fn expected(n_vertices: usize, polygons: &[Vec<u32>]) -> (Connectivity, Vec<usize>) {
     let is_valid = |p: &&Vec<u32>| {
         let unique: std::collections::BTreeSet<_> = p.iter().collect();
         p.len() >= 3 && unique.len() == p.len()
     };
     let polygons: Vec<&Vec<u32>> = polygons.iter().filter(is_valid).collect();
-    // A corner is a polygon and an index in it.
+    // A corner is a pair: a polygon, and the index of the corner in the polygon.
     let corners: Vec<(usize, usize)> = (0..polygons.len())
         .flat_map(|f| (0..polygons[f].len()).map(move |i| (f, i)))
         .collect();
@@ -69,7 +69,7 @@ fn expected(n_vertices: usize, polygons: &[Vec<u32>]) -> (Connectivity, Vec<usiz
         })
         .collect();
 
-    // Corners that share an edge at their vertex belong to one fan, which is named by its lowest corner.
+    // Corners at a vertex that share an edge belong to the same fan. A fan is identified by its lowest corner.
     let mut fan: Vec<usize> = (0..corners.len()).collect();
     loop {
         let before = fan.clone();
@@ -108,7 +108,7 @@ fn expected(n_vertices: usize, polygons: &[Vec<u32>]) -> (Connectivity, Vec<usiz
             first_sides.push(c);
         }
     }
-    // On the boundary, the next half-edge is the outgoing half-edge of the vertex without a face.
+    // A half-edge on the boundary is followed by the half-edge without a face that leaves its target.
     let mut boundary = BTreeMap::new();
     for &c in first_sides.iter().filter(|&&c| twin[c].is_none()) {
         boundary.insert(origin_of(next[c]), half_edge[c].twin());
@@ -158,7 +158,8 @@ fn both_builders_agree_on_random_polygons() {
 
 #[test]
 fn both_builders_agree_on_vertices_with_many_faces() {
-    // More corners at a vertex than are compared pairwise, and several sides at most edges.
+    // A vertex has so many corners here that the builder sorts them instead of comparing them in pairs. Most
+    // edges have several sides.
     let mut random = Random(2);
     for _ in 0..20 {
         let polygons = random.polygons(7, 150);
@@ -173,7 +174,7 @@ fn both_builders_agree_on_vertices_with_many_faces() {
 fn the_report_lists_exactly_the_non_manifold_edges() {
     let mut random = Random(3);
     for round in 0..300 {
-        // So few polygons that there are edges with one side, with two and with more.
+        // With few polygons, there are edges with one side, with two sides and with more sides.
         let polygons = random.polygons(5, if round % 3 == 0 { 100 } else { 10 });
         let polygons: Vec<_> = polygons.into_iter().filter(|p| p.len() == 3).collect();
         let mut counts: BTreeMap<[u32; 2], [usize; 2]> = BTreeMap::new();

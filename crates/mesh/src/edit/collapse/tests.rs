@@ -156,7 +156,7 @@ fn collapsing_a_boundary_edge_removes_its_triangle() {
 fn collapses_that_leave_no_faces_or_faces_back_to_back_are_refused() {
     let pillow = topology(3, &[&[0, 1, 2], &[0, 2, 1]]);
     let triangle = topology(3, &[&[0, 1, 2]]);
-    // Two squares back to back would be left, or two triangles.
+    // The collapse would leave two squares back to back, or two triangles back to back.
     let squares = topology(5, &[&[0, 1, 2], &[1, 0, 3], &[0, 2, 4, 3], &[1, 3, 4, 2]]);
     let tent = topology(4, &[&[0, 1, 2], &[1, 0, 2, 3], &[1, 3, 2]]);
     for mesh in [pillow, triangle, shapes::tetrahedron()] {
@@ -177,7 +177,8 @@ fn collapses_that_leave_no_faces_or_faces_back_to_back_are_refused() {
 
 #[test]
 fn a_common_neighbor_outside_the_triangles_is_refused() {
-    // The waist of two tetrahedra that are glued at a face, which is not in the mesh.
+    // Two tetrahedra are glued together at a face, and this face is not in the mesh. The edge is a side of this
+    // face.
     let mesh = topology(
         5,
         &[
@@ -195,7 +196,7 @@ fn a_common_neighbor_outside_the_triangles_is_refused() {
 
 #[test]
 fn a_common_neighbor_on_the_same_polygon_is_refused() {
-    // 2 is a neighbor of 1 on the square, and a neighbor of 0 outside of it.
+    // A side of the square joins 2 and 1. An edge outside of the square joins 2 and 0.
     let mesh = topology(
         5,
         &[
@@ -231,7 +232,8 @@ fn a_common_face_that_is_not_beside_the_edge_is_refused() {
 
 #[test]
 fn a_second_edge_between_the_ends_is_refused() {
-    // If both triangles have the same opposite corner, a split joins it to the new vertex by two edges.
+    // If both triangles have the same opposite corner, a split joins this corner to the new vertex by two
+    // edges.
     let mut mesh = topology(3, &[&[0, 1, 2], &[0, 2, 1]]);
     let m = mesh.split_edge(edge(&mesh, 0, 1), 0.5).unwrap();
     let half = edge(&mesh, 0, m.index());

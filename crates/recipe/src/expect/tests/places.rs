@@ -161,7 +161,7 @@ fn expectations_that_are_not_about_elements_have_no_places() {
     ] {
         assert!(places(&cube(), text).is_empty(), "{text}");
     }
-    // A selection that is refused has no elements.
+    // A refused selection has no elements.
     let text = "Count(of: Edges(Between(0, 99)), eq: 1)";
     assert!(places(&cube(), text).is_empty());
 }

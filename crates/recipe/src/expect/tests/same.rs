@@ -177,7 +177,8 @@ fn a_cube_has_24_rotations_and_48_motions() {
 
 #[test]
 fn a_tetrahedron_has_half_of_the_symmetries_of_a_cube() {
-    // The vertices of the tetrahedron are every second vertex of a cube: half of the cube's motions keep them.
+    // The vertices of the tetrahedron are every second vertex of a cube, so half of the motions of the cube map the
+    // tetrahedron onto itself.
     let tetrahedron = scene([("a", shapes::tetrahedron())]);
     holds_and_fails(
         &tetrahedron,
@@ -214,7 +215,7 @@ fn a_diagonal_on_each_face_breaks_the_symmetry_of_faces_but_not_of_vertices() {
         found.parse::<u64>().unwrap()
     };
     let (rotations, motions) = (count("CubeRotations"), count("CubeMotions"));
-    // The remaining motions are a subgroup, so their number divides that of the group.
+    // The remaining motions are a subgroup, so their number divides the number of motions of the group.
     assert!(rotations < 24 && 24 % rotations == 0, "{rotations}");
     assert!(motions < 48 && 48 % motions == 0, "{motions}");
     assert_eq!(

@@ -34,7 +34,7 @@ impl Frame {
         let points = panel.curve.points().iter().chain(before);
         let empty = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         let (low, high) = points.fold(empty, |(low, high), &p| (low.min(p), high.max(p)));
-        // Halved first: the sum and the difference of large numbers can overflow.
+        // The numbers are halved first, because the sum and the difference of large numbers can overflow.
         let center = low / 2.0 + high / 2.0;
         let half_box = high / 2.0 - low / 2.0;
         let half = half_box.max_element();

@@ -39,8 +39,8 @@ pub const MAX_CONSTRUCTED: usize = 64;
 /// The maximum number of panels of a figure.
 pub const MAX_PANELS: usize = 256;
 
-/// The maximum number of points of all panels of a figure. The levels of a curve of n control points have n (n + 1) /
-/// 2.
+/// The maximum number of points of all panels of a figure. The levels of a curve of n control points have
+/// n (n + 1) / 2 points.
 pub const MAX_POINTS: usize = 1 << 16;
 
 /// The maximum width of a figure, in pixels.

@@ -12,13 +12,15 @@ use crate::figure::svg::{Color, Font, Run, Svg, Text};
 /// The font size of names, in pixels at zoom 1.
 pub(super) const FONT_SIZE: f64 = 19.0;
 
-/// The maximum number of control points that all have names. Of more, only the first and the last have names.
+/// The maximum number of control points of a curve that all have names. If a curve has more control points, only the
+/// first and the last have names.
 const MAX_NAMED: usize = 12;
 
-/// The maximum degree of a curve whose levels have names. In small panels, they never have names.
+/// The maximum degree of a curve for which the points of the levels have names. In small panels, these points never
+/// have names.
 const MAX_DEGREE: usize = 3;
 
-/// Writes names and keeps track of those written.
+/// Writes names, and records which points have a name.
 struct NameWriter<'s> {
     svg: &'s mut Svg,
     placement: LabelPlacement,

@@ -34,12 +34,13 @@ pub(super) fn trace(curve: &Curve<DVec2>) -> Vec<Command> {
 /// Returns the cubic pieces of a curve, each without its first control point.
 fn pieces(curve: &Curve<DVec2>) -> Vec<[DVec2; 3]> {
     let mut pieces = Vec::new();
-    // A stack of the remaining intervals: their start and number of halvings.
+    // A stack of the remaining intervals. Each entry is the start of the interval and the number of halvings.
     let mut remaining = vec![(0.0, 0)];
     while let Some((t, halvings)) = remaining.pop() {
         let h = 1.0 / f64::from(1_u32 << halvings);
         let piece = hermite(curve, t, h);
-        // At least two halvings: many curves are symmetric, so that the three tested points can match by chance.
+        // An interval is halved at least twice. Many curves are symmetric, so that without this rule the three tested
+        // points could match by chance.
         if halvings >= 2 && (halvings == MAX_HALVINGS || is_near(curve, &piece, t, h)) {
             let [_, b, c, d] = piece;
             pieces.push([b, c, d]);

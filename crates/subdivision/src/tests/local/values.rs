@@ -62,7 +62,7 @@ fn creases_keep_their_length_and_decrease_only_between_chosen_faces() {
         CREASE,
         (0..mesh.n_edges()).map(|e| 1.0 + e as f64).collect(),
     );
-    // Each edge has a different sharpness. The parts with that sharpness have the length of the edge.
+    // Each edge has a different sharpness. Together, the parts with that sharpness are as long as the edge.
     let faces: Vec<bool> = (0..mesh.n_faces()).map(|f| f < 2).collect();
     let new = refined(&mesh, &faces, MIDPOINT, 3);
     let crease = new.get(CREASE).unwrap();

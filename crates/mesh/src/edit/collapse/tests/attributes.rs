@@ -123,7 +123,7 @@ fn a_collapse_undoes_a_split() {
             let mut mesh = shape.clone();
             let m = mesh.split_edge(e, 0.25).unwrap();
             let ends = shape.edge_vertices(e);
-            // m has the highest id, so the other end of either half remains.
+            // m has the highest id, so a collapse of either half of the edge keeps the other end of that half.
             for v in ends {
                 let mut mesh = mesh.clone();
                 let half = edge(&mesh, v.index(), m.index());
@@ -190,7 +190,8 @@ fn the_link_condition_also_works_for_ends_with_many_edges() {
     assert_eq!(open.defects(), []);
     assert_eq!(open.valence(v), 2 * n as usize);
 
-    // Merge a vertex of each rim, and fill both halves of the loop: then 0 and 1 have that vertex in common.
+    // Merge a vertex of one rim with a vertex of the other rim, and fill both halves of the loop. Then the
+    // merged vertex is a neighbor of both 0 and 1.
     let (x, y) = (rim[5], rim[n as usize + 5]);
     for v in polygons.iter_mut().flatten() {
         *v = if *v == y { x } else { *v };

@@ -326,18 +326,18 @@ impl View {
 
     /// Projects a point; `None` if it is behind the camera or nearer than the near plane.
     pub fn screen_point(&self, p: DVec3) -> Option<ScreenPoint> {
-        let v = self.to_camera(p);
+        let v = self.camera_space(p);
         (v.z >= self.near).then(|| self.project(v))
     }
 
     /// Converts a point to camera coordinates: to the right, upwards, and the distance from the camera.
-    pub(crate) fn to_camera(&self, p: DVec3) -> DVec3 {
+    pub(crate) fn camera_space(&self, p: DVec3) -> DVec3 {
         let [x, y, z] = self.axes;
         let p = p - self.eye;
         DVec3::new(p.dot(x), p.dot(y), -p.dot(z))
     }
 
-    /// Returns a number that is not negative if the point `v`, in [camera coordinates](Self::to_camera), is inside of a
+    /// Returns a number that is not negative if the point `v`, in [camera coordinates](Self::camera_space), is inside of a
     /// clipping plane. The number is linear in `v`.
     ///
     /// Plane 0 is the near plane. The other four planes are `far` pixels to the left, to the right, above and below the
@@ -354,7 +354,7 @@ impl View {
         }
     }
 
-    /// Projects a point in [camera coordinates](Self::to_camera) that is not behind the camera.
+    /// Projects a point in [camera coordinates](Self::camera_space) that is not behind the camera.
     pub(crate) fn project(&self, v: DVec3) -> ScreenPoint {
         let (scale, depth) = if self.is_perspective {
             (self.scale / v.z, -1.0 / v.z)

@@ -334,12 +334,11 @@ impl Picture {
     ) -> Result<Vec<u8>, PictureError> {
         let texts: Vec<(&str, &str)> = stamp.iter().map(|stamp| ("Software", *stamp)).collect();
         let Some(turn) = self.turntable else {
-            return match images {
-                [image] => image.to_png_with_progress(&texts, progress),
-                _ => {
-                    let message = format!("expected 1 image, found {}", images.len());
-                    Err(PictureError::Encode(message))
-                }
+            return if let [image] = images {
+                image.to_png_with_progress(&texts, progress)
+            } else {
+                let message = format!("expected 1 image, found {}", images.len());
+                Err(PictureError::Encode(message))
             };
         };
         let delay = 1000.0 * turn.seconds.get() / f64::from(turn.frames.get());

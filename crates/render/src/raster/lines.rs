@@ -48,7 +48,7 @@ pub(super) fn project(drawing: &Drawing, view: &View) -> Vec<Option<ProjectedLin
 
 /// Projects a line; `None` if it is behind the camera or has no width.
 fn project_line(line: &Line, view: &View) -> Option<ProjectedLine> {
-    let [a, b] = line.ends.map(|p| view.to_camera(p));
+    let [a, b] = line.ends.map(|p| view.camera_space(p));
     let [da, db] = [a, b].map(|v| view.clip_distance(0, 0.0, v));
     if da < 0.0 && db < 0.0 {
         return None;

@@ -71,7 +71,7 @@ impl GridPoint {
 /// Projects points.
 pub(super) fn project(view: &View, points: &[DVec3]) -> Vec<GridPoint> {
     map_indices(points.len(), |i| {
-        GridPoint::projected(view, view.to_camera(points[i]))
+        GridPoint::projected(view, view.camera_space(points[i]))
     })
 }
 
@@ -80,7 +80,7 @@ pub(super) fn project(view: &View, points: &[DVec3]) -> Vec<GridPoint> {
 /// Sutherland and Hodgman, "Reentrant Polygon Clipping", 1974. The point where an edge is cut does not depend on the
 /// order of its ends, so that both triangles beside the edge get the same point.
 pub(super) fn clipped(view: &View, corners: [DVec3; 3]) -> Vec<ProjectedTriangle> {
-    let mut polygon: Vec<DVec3> = corners.iter().map(|&p| view.to_camera(p)).collect();
+    let mut polygon: Vec<DVec3> = corners.iter().map(|&p| view.camera_space(p)).collect();
     for plane in 0..5 {
         let clip_distance = |v: DVec3| view.clip_distance(plane, FAR, v);
         let mut kept = Vec::with_capacity(polygon.len() + 1);

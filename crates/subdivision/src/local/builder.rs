@@ -109,7 +109,7 @@ impl<'a> ConnectivityBuilder<'a> {
             pieces.to_middle(sides[k], &mut self.ring);
             let n_to = self.ring.len();
             self.ring.push(across);
-            pieces.from_middle(before, &mut self.ring);
+            pieces.push_ring_from_middle(before, &mut self.ring);
             // Two parts of one half-edge have a hanging vertex between them.
             let start = match (n_to, self.ring.len() - n_to) {
                 (2, _) => 1,

@@ -212,7 +212,7 @@ impl<'a> Pieces<'a> {
     }
 
     /// Adds the half-edges from the middle of a side to its end.
-    pub(super) fn from_middle(&self, side: Side, ring: &mut Vec<HalfEdgeId>) {
+    pub(super) fn push_ring_from_middle(&self, side: Side, ring: &mut Vec<HalfEdgeId>) {
         if side.is_whole() {
             ring.push(self.second(side.to));
         } else {

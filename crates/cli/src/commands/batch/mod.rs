@@ -228,7 +228,7 @@ impl<'b> Chunk<'b> {
             }
             match result.row.state {
                 State::Failed => {
-                    failed::write(self.batch, self.files[*i], &result.row, &result.text)?
+                    failed::write(self.batch, self.files[*i], &result.row, &result.text)?;
                 }
                 State::Ok => failed::remove(self.batch, self.files[*i]),
                 State::Skipped => {}

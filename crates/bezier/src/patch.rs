@@ -90,7 +90,7 @@ impl Patch {
     /// Returns the unit normal at (`u`, `v`), in the direction of du x dv.
     ///
     /// If du x dv is zero, as at the pole of a surface of revolution, returns the limit of the normals
-    /// inside the patch; see the module [`normal`](crate::normal). Returns zero only if the patch has no
+    /// inside the patch; see the module [`normal`](mod@crate::normal). Returns zero only if the patch has no
     /// normal in the neighborhood of the point, because it is a curve or a point.
     pub fn normal(&self, u: f64, v: f64) -> DVec3 {
         self.normal_at(Weights::at(u), Weights::at(v), self.max_steps())

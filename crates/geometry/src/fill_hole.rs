@@ -36,7 +36,7 @@ const SHAPE_WEIGHT: f64 = 1e-6;
 /// closest to equilateral is used. To this end, a shape term is added to the area of each triangle. It is at
 /// most 1e-6 times the mean squared edge length of the hole.
 ///
-/// In larger holes, the corner whose neighbours are nearest to each other is cut off repeatedly, in time n log
+/// In larger holes, the corner whose neighbors are nearest to each other is cut off repeatedly, in time n log
 /// n. Corners that are straight or reflex, as seen along the mean normal, come last. In a hole that is far from
 /// convex, the triangles can overlap.
 ///
@@ -186,7 +186,7 @@ impl<'m> Hole<'m> {
         let mut is_cut = vec![false; n];
         while ears.len() < n - 3 {
             let Reverse((_, ear, p, q)) = queue.pop()?;
-            // An entry is out of date if a neighbour of its corner was cut off. It is skipped, because the
+            // An entry is out of date if a neighbor of its corner was cut off. It is skipped, because the
             // queue has a newer entry.
             let is_outdated = is_cut[ear] || before[ear] != p || next[ear] != q;
             if is_outdated || self.is_joined(p, q) {

@@ -1,4 +1,4 @@
-//! Algorithms over a [`Mesh`](mesh::Mesh) that go beyond one element and its neighbours.
+//! Algorithms over a [`Mesh`](mesh::Mesh) that go beyond one element and its neighbors.
 //!
 //! | module | what it does |
 //! | --- | --- |

@@ -154,7 +154,7 @@ impl Cutter {
         self.flat.extend(self.points.iter().map(project));
         self.earcut.earcut_slice(&self.flat, &[], &mut self.indices);
         let mut triangles = to_triangles(&self.indices);
-        // Ear clipping skips corners that are collinear with their neighbours or coincide with them.
+        // Ear clipping skips corners that are collinear with their neighbors or coincide with them.
         insert_skipped_corners(n, &mut triangles);
         triangles.sort_unstable();
         if !is_triangulation(n, &triangles) {

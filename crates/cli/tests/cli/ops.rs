@@ -45,7 +45,7 @@ fn selections_are_described_separately() {
         "EdgeLoop(..)",
         // A description of several lines is complete.
         "A loop goes\n",
-        "From a boundary edge it goes along the boundary.",
+        "A loop that starts at a boundary edge follows the boundary.",
         "VertexSelection: ",
     ]);
     let operation = folder.run("ops SplitEdges").stdout;

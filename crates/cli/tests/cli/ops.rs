@@ -100,10 +100,7 @@ fn an_unknown_operation_gets_a_suggestion() {
     );
     for (word, help) in [
         ("decimate", "did you mean `CollapseEdges`?"),
-        (
-            "merge_vertices",
-            "did you mean `Join`, `Weld` or `CollapseEdges`?",
-        ),
+        ("merge", "did you mean `Join`, `Weld`, `CollapseEdges`?"),
         ("Sphere", "did you mean `UvSphere`?"),
         ("xyzzy", "`meshwright ops` lists all operations"),
     ] {

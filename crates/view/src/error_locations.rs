@@ -158,7 +158,7 @@ struct Surroundings {
 impl Surroundings {
     fn new(scene: &Scene, locations: &[ErrorLocation]) -> Self {
         let mut surroundings = Self::default();
-        // The locations that are faces, by their first points.
+        // The locations that are faces. The key is the first point of the face.
         let mut face_locations: HashMap<[u64; 3], Vec<&ErrorLocation>> = HashMap::new();
         for location in locations {
             if let [first, _, _, ..] = location.points[..] {

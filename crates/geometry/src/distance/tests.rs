@@ -82,7 +82,7 @@ fn the_distance_of_parallel_sheets_does_not_depend_on_their_faces() {
 fn the_distance_of_concentric_spheres_is_the_difference_of_radii() {
     let sphere = |radius: f64, around| moved(shapes::uv_sphere(around, around / 2), |p| p * radius);
     let found = between(&sphere(1.0, 64), &sphere(1.5, 48), 1e-4);
-    // The chords of the polyhedra lie below the spheres.
+    // The edges of the polyhedra are chords of the spheres and lie inside them.
     assert!(
         found.largest() > 0.49 && found.at_most() < 0.505,
         "{found:?}"

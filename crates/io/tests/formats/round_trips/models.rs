@@ -1,4 +1,4 @@
-//! Scenes for round trips. Each has one feature that a format can or cannot store.
+//! Scenes for round trips. Each scene has one feature that some formats can store and others cannot.
 
 use std::sync::Arc;
 

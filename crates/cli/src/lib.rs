@@ -34,6 +34,7 @@ use engine::Engine;
 use op::Registry;
 
 use args::{Command, WrongUsage};
+use listener::is_interrupted;
 use output::{print_error, print_json};
 
 /// Runs the program with the operations of `registry` and returns its exit code.
@@ -91,17 +92,22 @@ pub fn run(registry: Registry) -> ExitCode {
     });
     match result.and_then(|succeeded| Ok(io::stdout().flush().map(|()| succeeded)?)) {
         Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::FAILURE,
+        Ok(false) => failure(1),
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
             print_error(&format!("error: {error:#}\n"));
-            ExitCode::from(if error.is::<WrongUsage>() {
+            failure(if error.is::<WrongUsage>() {
                 2
             } else {
                 code_of_errors.get()
             })
         }
     }
+}
+
+/// Returns the exit code of a failure: 130 if Ctrl-C caused it, as shells expect, or else `code`.
+fn failure(code: u8) -> ExitCode {
+    ExitCode::from(if is_interrupted() { 130 } else { code })
 }
 
 /// Whether the error is a broken pipe: the reader of the output, such as `head`, has closed it.

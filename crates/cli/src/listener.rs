@@ -16,7 +16,7 @@ pub(crate) fn catch_interrupts() {
     // If installing the handler fails, Ctrl-C still ends the program.
     let _ = ctrlc::set_handler(|| {
         if INTERRUPT.set() {
-            std::process::exit(1);
+            std::process::exit(130);
         }
     });
 }

@@ -330,7 +330,7 @@ fn ctrl_c_ends_a_batch_cleanly() {
         .status();
     assert!(kill.unwrap().success());
     let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(output.status.code(), Some(130));
     let stdout = String::from_utf8(output.stdout).unwrap();
     assert!(stdout.contains(" not processed: interrupted\n"), "{stdout}");
 

@@ -47,7 +47,7 @@ fn interrupted_after(wait: Duration) {
     let status = child.wait().unwrap();
 
     assert_eq!(stderr, "interrupted, no files were written\n");
-    assert_eq!(status.code(), Some(1));
+    assert_eq!(status.code(), Some(130));
     assert!(
         signal.elapsed() < Duration::from_secs(10),
         "{:?}",

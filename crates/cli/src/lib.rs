@@ -12,7 +12,6 @@
 //! Exit codes: 0 success, 1 failure, 2 wrong usage.
 
 mod args;
-mod backtrace;
 mod cache;
 mod capsule;
 mod commands;
@@ -43,7 +42,6 @@ use output::{print_error, print_json};
     reason = "the caller has no further use for the registry"
 )]
 pub fn run(registry: Registry) -> ExitCode {
-    backtrace::print_by_hook();
     if std::env::args_os().len() == 1 {
         print_error(args::help::FIRST_STEPS);
         return ExitCode::from(2);

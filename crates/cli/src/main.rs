@@ -1,7 +1,37 @@
 //! The program `meshwright` with the built-in operations.
 
+use std::backtrace::Backtrace;
+use std::env;
+use std::io::{self, Write};
+use std::panic;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
+    print_backtraces_in_a_hook();
     cli::run(ops_all::registry())
+}
+
+/// Prints the backtraces of panics, if `RUST_BACKTRACE` asks for them, in place of the standard library.
+///
+/// The standard library prints a backtrace if memory runs out, too. Printing takes a lock and needs memory, so a second
+/// failed allocation would wait for this lock forever.
+fn print_backtraces_in_a_hook() {
+    const VARIABLE: &str = "RUST_BACKTRACE";
+
+    if env::var_os(VARIABLE).is_none_or(|value| value == "0") {
+        return;
+    }
+    #[expect(
+        unsafe_code,
+        reason = "no safe way; a run that is out of memory could otherwise wait forever"
+    )]
+    // SAFETY: `main` has started no threads yet, so no other thread reads the environment.
+    unsafe {
+        env::set_var(VARIABLE, "0");
+    }
+    let print_message = panic::take_hook();
+    panic::set_hook(Box::new(move |panic| {
+        print_message(panic);
+        let _ = writeln!(io::stderr(), "{}", Backtrace::force_capture());
+    }));
 }

@@ -5,23 +5,26 @@ use op::Registry;
 use crate::recipe::Kind;
 use crate::shape::{listed, nearest};
 
-/// Returns the help text of an error about an unknown operation: at most three operations with a similar name, or else
-/// with a similar meaning, or else the command that lists all.
+/// Returns the help text of an error about an unknown operation: at most three operations, first those with a similar
+/// name, then those with a similar meaning, or else those that share a word of their name, or else the command that lists
+/// all.
 pub fn suggest_operations(name: &str, registry: &Registry) -> String {
     let entries = registry.entries();
     let known = entries.iter().map(|entry| entry.name);
-    let mut suggestions = nearest(name, known.chain(Kind::ALL.map(Kind::name)));
-    if suggestions.is_empty() {
-        let words = words(name);
-        let also_called =
-            (entries.iter()).filter(|e| words.iter().any(|w| e.words.contains(&w.as_str())));
-        let similar_name =
-            (entries.iter()).filter(|e| self::words(e.name).iter().any(|w| words.contains(w)));
-        for entry in also_called.chain(similar_name) {
-            if !suggestions.contains(&entry.name) {
-                suggestions.push(entry.name);
-            }
+    let known = known.chain(Kind::ALL.map(Kind::name));
+    let mut suggestions = nearest(name, known.clone());
+    let words = words(name);
+    for entry in entries {
+        let is_also_called = words
+            .iter()
+            .any(|word| entry.words.contains(&word.as_str()));
+        if is_also_called && !suggestions.contains(&entry.name) {
+            suggestions.push(entry.name);
         }
+    }
+    if suggestions.is_empty() {
+        let shares_word = |name: &str| self::words(name).iter().any(|word| words.contains(word));
+        suggestions.extend(known.filter(|name| shares_word(name)));
     }
     suggestions.truncate(3);
     if suggestions.is_empty() {

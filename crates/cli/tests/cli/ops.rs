@@ -96,10 +96,14 @@ fn an_unknown_operation_gets_a_suggestion() {
     let ended = Folder::new().run("ops SplitEdge").with_code(1);
     assert_eq!(
         ended.stderr,
-        "error: unknown operation `SplitEdge`: did you mean `SplitEdges`?\n"
+        "error: unknown operation `SplitEdge`: did you mean `SplitEdges`, `Separate`?\n"
     );
     for (word, help) in [
         ("decimate", "did you mean `CollapseEdges`?"),
+        (
+            "merge_vertices",
+            "did you mean `BevelVertices`, `Join`, `Weld`?",
+        ),
         ("merge", "did you mean `Join`, `Weld`, `CollapseEdges`?"),
         ("Sphere", "did you mean `UvSphere`?"),
         ("xyzzy", "`meshwright ops` lists all operations"),

@@ -111,12 +111,6 @@ pub(crate) fn table(rows: &[Vec<String>]) -> String {
     text
 }
 
-/// Returns a number with a noun, such as `2 steps`. The plural of the noun must end in s.
-pub(crate) fn counted(n: usize, what: &str) -> String {
-    let s = if n == 1 { "" } else { "s" };
-    format!("{n} {what}{s}")
-}
-
 /// Formats a number with its digits in groups of three, separated by spaces.
 pub(crate) fn group_digits(n: u64) -> String {
     let digits = n.to_string();

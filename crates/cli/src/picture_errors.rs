@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use op::{ErrorLocation, Progress};
-use recipe::{ActualValue, Failure, Listener, StepDone};
+use recipe::{ActualValue, Failure, Listener, StepDone, shape::counted};
 use render::{Image, difference};
 use scene::Scene;
 use view::draw_error_locations;
@@ -12,7 +12,7 @@ use view::sheet::{Cell, SheetStyle, sheet};
 
 use crate::args::PictureErrorsArgs;
 use crate::listener::{INTERRUPT, lock};
-use crate::output::{STAMP, counted, escape_control, print_error, write_atomically};
+use crate::output::{STAMP, escape_control, print_error, write_atomically};
 
 impl PictureErrorsArgs {
     /// Creates the pictures of a file's failures. `budget` is the memory for each, in bytes.

@@ -165,7 +165,7 @@ fn count(cursor: &mut Cursor, what: &str, numbers_each: usize) -> Result<usize, 
         .ok_or_else(|| expected(place, format!("the number of {what} (an integer)"), word))?;
     if !cursor.has_room(n, numbers_each) {
         return Err(place.error(format!(
-            "the file declares {n} {what} but is too short: only {} follow",
+            "expected {n} {what}, but the rest of the file has only {}",
             counted(cursor.remaining(), "byte")
         )));
     }

@@ -91,7 +91,6 @@ impl From<EditError> for Refusal {
             | EditError::SeveralCuts(..)
             | EditError::WrongCorner(_)
             | EditError::Adjacent(..)
-            | EditError::NoPath(_)
             | EditError::EdgeListedTwice(_)
             | EditError::FaceListedTwice(_)
             | EditError::ShortLoop(_)

@@ -87,7 +87,7 @@ impl Store for Disk {
 
     fn remove_folder(&self, folder: &Path) -> Result<(), StoreError> {
         // Tries a second time after an error: a folder that cannot be listed now may be listable a moment later.
-        remove_all(folder)
+        fs::remove_dir_all(folder)
             .or_else(|_| remove_all(folder))
             .map_err(|error| StoreError::new("write", folder, error))
     }
@@ -104,8 +104,8 @@ impl Store for Disk {
     }
 }
 
-/// Removes a folder with its content. Each folder is listed and closed before the next one is opened, so that one file
-/// descriptor is enough. Empty folders are not opened.
+/// Removes a folder with its content, like [`fs::remove_dir_all`], but with few file descriptors: each folder is listed and
+/// closed before the next one is opened, and empty folders are not opened.
 fn remove_all(folder: &Path) -> io::Result<()> {
     if fs::remove_dir(folder).is_ok() {
         return Ok(());

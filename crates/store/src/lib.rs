@@ -130,7 +130,8 @@ pub trait Store: Debug + Send + Sync {
         file.commit()
     }
 
-    /// The length of a regular file in bytes; `None` if there is no regular file at the path.
+    /// Returns the length of the file at the path, in bytes. `None` if the path does not exist or is not a regular
+    /// file.
     fn len(&self, path: &Path) -> Option<u64> {
         self.entry(path).filter(Entry::is_file).map(|file| file.len)
     }

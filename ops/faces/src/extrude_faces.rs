@@ -45,7 +45,7 @@ pub struct ExtrudeFaces {
     /// The faces to extrude.
     pub faces: FaceSelection,
     /// The distance or offset by which the faces move.
-    pub by: By,
+    pub by: ExtrudeBy,
     /// The factor by which each region is scaled about its center. More than 0.
     #[serde(default = "one")]
     pub scale: PositiveFactor,
@@ -62,7 +62,7 @@ pub struct ExtrudeFaces {
 /// The distance or offset by which faces move.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
-pub enum By {
+pub enum ExtrudeBy {
     /// The distance along the normal of each region, in scene units. A negative distance moves the faces inwards. The
     /// normal is the mean of the face normals, weighted by area.
     Distance(Distance),
@@ -77,8 +77,8 @@ const fn one() -> PositiveFactor {
 impl ExtrudeFaces {
     fn offset(&self, mesh: &Mesh, region: &Region) -> Result<DVec3, OpError> {
         match self.by {
-            By::Offset(offset) => Ok(offset.into()),
-            By::Distance(d) => match region.normal(mesh) {
+            ExtrudeBy::Offset(offset) => Ok(offset.into()),
+            ExtrudeBy::Distance(d) => match region.normal(mesh) {
                 Some(n) => Ok(d.get() * n),
                 None => Err(OpError::Parameter(format!(
                     "by: the region of face {} has no normal to move along: it is closed or has no area; \

@@ -11,7 +11,7 @@ use op::{MeshPlan, Range, Registry};
 
 pub use bevel_faces::BevelFaces;
 pub use delete_faces::DeleteFaces;
-pub use extrude_faces::{By, ExtrudeFaces};
+pub use extrude_faces::{ExtrudeBy, ExtrudeFaces};
 pub use inset_faces::InsetFaces;
 pub use poke_faces::PokeFaces;
 pub use split_faces::SplitFaces;

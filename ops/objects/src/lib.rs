@@ -13,7 +13,7 @@ pub use copy::Copy;
 pub use delete::Delete;
 pub use join::Join;
 pub use rename::Rename;
-pub use separate::{By, Separate};
+pub use separate::{Separate, SeparateBy};
 pub use transform::{About, Transform};
 
 /// Adds the operations of this group, in the order of the reference.

@@ -29,7 +29,7 @@ pub struct Separate {
     pub object: String,
     /// How the faces are grouped into parts.
     #[serde(default)]
-    pub by: By,
+    pub by: SeparateBy,
     /// The expected number of parts. The step is refused if the number differs. If omitted, the names of the parts are
     /// not known before the recipe runs, so the object names in later steps cannot be checked before the run.
     #[serde(default)]
@@ -39,7 +39,7 @@ pub struct Separate {
 /// How faces are grouped into parts.
 #[derive(Clone, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
-pub enum By {
+pub enum SeparateBy {
     /// One part for each connected component, in order of their lowest faces.
     #[default]
     Components,
@@ -122,7 +122,7 @@ impl Operation for Separate {
     }
 }
 
-impl By {
+impl SeparateBy {
     /// Returns the parts, each with at least one face.
     fn parts(&self, mesh: &Mesh) -> Result<Vec<Mesh>, OpError> {
         let part_of_face: Vec<usize> = match self {
@@ -167,7 +167,7 @@ impl Separate {
         part.vertices = whole.vertices.plus(whole.edges).or_less();
         part.edges = whole.edges.or_less();
         part.faces = whole.faces.or_less();
-        if self.by == By::Components {
+        if self.by == SeparateBy::Components {
             part.vertices = whole.vertices.or_less();
         }
         part

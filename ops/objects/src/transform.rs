@@ -87,7 +87,8 @@ impl Transform {
 
     /// Changes one object. The report counts its points.
     fn change(&self, name: &str, geometry: &mut Geometry, map: &Map) -> Result<Report, OpError> {
-        let too_large = || OpError::overflow("Transform", "scale, rotate and move");
+        let too_large =
+            || OpError::overflow(&format!("Transform of `{name}`"), "scale, rotate and move");
         match geometry {
             Geometry::Mesh(mesh) => {
                 let center = self.center(mesh.positions().iter().copied());

@@ -102,28 +102,29 @@ fn an_edited_record_is_rejected_even_with_a_new_digest() {
     }
 }
 
-#[cfg(unix)]
-#[test]
-fn links_to_devices_are_not_read() {
+/// Runs the recipe again after each file of the cache has been removed and `replace` has been called with its path.
+fn run_with_replaced_files(replace: impl Fn(&Path)) -> Place {
     let place = Place::new();
     place.run(&recipe());
     for path in all_files(&place.path("cache")) {
         fs::remove_file(&path).unwrap();
-        std::os::unix::fs::symlink("/dev/zero", &path).unwrap();
+        replace(&path);
     }
     place.run(&recipe());
+    place
+}
+
+#[cfg(unix)]
+#[test]
+fn links_to_devices_are_not_read() {
+    let place =
+        run_with_replaced_files(|path| std::os::unix::fs::symlink("/dev/zero", path).unwrap());
     place.runs_nothing(&recipe());
 }
 
 #[test]
 fn folders_in_place_of_files_are_ignored() {
-    let place = Place::new();
-    place.run(&recipe());
-    for path in all_files(&place.path("cache")) {
-        fs::remove_file(&path).unwrap();
-        fs::create_dir(&path).unwrap();
-    }
-    place.run(&recipe());
+    run_with_replaced_files(|path| fs::create_dir(path).unwrap());
 }
 
 #[test]

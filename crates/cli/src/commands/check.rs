@@ -2,15 +2,14 @@
 
 use engine::Engine;
 use op::Range;
-use recipe::mebibytes;
+use recipe::{mebibytes, shape::counted};
 use serde_json::json;
 
 use super::run::report_errors;
 use crate::args::{CheckArgs, Format};
 use crate::loading::load;
 use crate::output::{
-    counted, explain, group_digits, header_row, print, print_diagnostics, print_json,
-    problems_json, table,
+    explain, group_digits, header_row, print, print_diagnostics, print_json, problems_json, table,
 };
 
 pub(crate) fn run(args: &CheckArgs, engine: &Engine) -> anyhow::Result<bool> {

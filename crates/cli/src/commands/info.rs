@@ -7,12 +7,13 @@ use mesh::{Elements, Mesh, VertexId};
 use mesh_io::{Note, NoteKind};
 use op::ErrorLocation;
 use ops_pictures::Picture;
+use recipe::shape::counted;
 use scene::{Geometry, Object, Scene};
 use serde_json::json;
 
 use crate::args::{Format, InfoArgs};
 use crate::commands::picture::draw_scenes;
-use crate::output::{counted, group_digits, print, print_json};
+use crate::output::{group_digits, print, print_json};
 use crate::scenes::{SceneAtStep, read_file};
 use crate::terminal_picture;
 

@@ -3,7 +3,7 @@
 use ::cache::Cache;
 use anyhow::Context as _;
 use engine::{Engine, Loaded, Run};
-use recipe::Outcome;
+use recipe::{Outcome, shape::counted};
 
 use crate::args::{Format, RunArgs};
 use crate::cache;
@@ -12,8 +12,8 @@ use crate::events::Events;
 use crate::listener::{Terminal, catch_interrupts};
 use crate::loading::load;
 use crate::output::{
-    counted, explain, explain_steps, print, print_diagnostics, print_error, print_json,
-    problems_json, step_notes, step_table,
+    explain, explain_steps, print, print_diagnostics, print_error, print_json, problems_json,
+    step_notes, step_table,
 };
 use crate::picture_errors::{PictureListener, Pictures};
 

@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use op::Registry;
-use recipe::Source;
 use recipe::upgrade::upgrade;
+use recipe::{Source, shape::counted};
 
 use crate::args::UpgradeArgs;
 use crate::loading::recipes;
-use crate::output::{counted, print, print_error};
+use crate::output::{print, print_error};
 
 pub(crate) fn run(args: &UpgradeArgs, registry: &Registry) -> anyhow::Result<bool> {
     let recipes = recipes(&args.recipes)?;

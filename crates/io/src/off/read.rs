@@ -114,7 +114,7 @@ fn check_room(cursor: &Cursor, n: usize, words: usize, what: &str) -> Result<(),
         return Ok(());
     }
     let message = format!(
-        "expected {n} {what}, but only {} follow",
+        "expected {n} {what}, but the rest of the file has only {}",
         counted(cursor.remaining(), "byte")
     );
     Err(cursor.place().error(message))

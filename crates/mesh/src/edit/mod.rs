@@ -113,9 +113,6 @@ pub enum EditError {
     /// The edit needs whole components, and this face shares an edge with a face that was not listed.
     #[error("{0} shares an edge with a face that was not listed")]
     PartOfComponent(FaceId),
-    /// The edges do not form the path, loop or region that the edit needs; this edge does not fit.
-    #[error("{0} does not continue the path")]
-    NoPath(EdgeId),
     /// The edge was listed twice.
     #[error("{0} was listed twice")]
     EdgeListedTwice(EdgeId),
@@ -159,7 +156,6 @@ impl EditError {
             | Self::Vanishes(e)
             | Self::JoinsBoundaries(e)
             | Self::Seam(e)
-            | Self::NoPath(e)
             | Self::EdgeListedTwice(e)
             | Self::SelfLoop(e) => vec![e.into()],
             Self::NoSuchFace(f)

@@ -373,8 +373,8 @@ fn opening(value: &Value) -> Span {
     }
 }
 
-/// Returns a number with its noun, such as `1 value` or `2 values`.
-pub(crate) fn counted(count: usize, thing: &str) -> String {
+/// Returns a number with its noun, such as "1 value" or "2 values". The plural of the noun must end in s.
+pub fn counted(count: usize, thing: &str) -> String {
     format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
 }
 

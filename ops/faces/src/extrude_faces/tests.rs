@@ -192,7 +192,7 @@ fn an_attribute_that_is_not_a_tag_is_not_overwritten() {
 #[test]
 fn coordinates_that_overflow_are_refused() {
     let far = ExtrudeFaces {
-        by: By::Distance(Distance::literal(f64::MAX)),
+        by: ExtrudeBy::Distance(Distance::literal(f64::MAX)),
         scale: PositiveFactor::literal(1e300),
         ..parse("(faces: Faces([0]), by: Distance(1))")
     };

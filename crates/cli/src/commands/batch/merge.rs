@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use anyhow::{bail, ensure};
+use recipe::shape::counted;
 
 use super::row::{Header, Report, Row, State};
 use crate::args::BatchArgs;
-use crate::output::{counted, escape_control, print, print_error};
+use crate::output::{escape_control, print, print_error};
 
 pub(super) fn run(args: &BatchArgs) -> anyhow::Result<bool> {
     let Some(target) = &args.report else {

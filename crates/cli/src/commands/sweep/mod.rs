@@ -31,6 +31,7 @@ use anyhow::ensure;
 use engine::Engine;
 use recipe::{
     Diagnostic, Grid, Measured, Metric, OtherMesh, Setting, Severity, Source, Sweep, read_sweep,
+    shape::counted,
 };
 use scene::Scene;
 use serde_json::{Value as Json, json};
@@ -43,8 +44,7 @@ use crate::listener::catch_interrupts;
 use crate::loading::load_text;
 use crate::many::{CHECKED_AHEAD, csv_line, run_in_order};
 use crate::output::{
-    counted, escape_control, print, print_diagnostics_in, print_error, print_json, table,
-    write_atomically,
+    escape_control, print, print_diagnostics_in, print_error, print_json, table, write_atomically,
 };
 use cell::{CellResult, Cells};
 use engine::Loaded;

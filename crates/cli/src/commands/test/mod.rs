@@ -31,7 +31,7 @@ use std::time::{Duration, Instant};
 use ::cache::Cache;
 use anyhow::ensure;
 use engine::{Engine, Loaded, Run};
-use recipe::Diagnostic;
+use recipe::{Diagnostic, shape::counted};
 use serde_json::{Value as Json, json};
 
 use super::test_update::update_recorded_values;
@@ -41,7 +41,7 @@ use crate::listener::{INTERRUPT, catch_interrupts};
 use crate::loading::{RecipeFile, load_text, recipes};
 use crate::many::{JobResult, error_message, run_all, run_in_order};
 use crate::output::{
-    counted, print, print_diagnostics, print_error, print_json, problems_json, write_atomically,
+    print, print_diagnostics, print_error, print_json, problems_json, write_atomically,
 };
 use crate::picture_errors::{PictureListener, Pictures};
 

@@ -158,8 +158,8 @@ fn both_builders_agree_on_random_polygons() {
 
 #[test]
 fn both_builders_agree_on_vertices_with_many_faces() {
-    // A vertex has so many corners here that the builder sorts them instead of comparing them in pairs. Most
-    // edges have several sides.
+    // Each vertex has many corners, so the builder sorts them and does not compare them in pairs. Most edges have
+    // several sides.
     let mut random = Random(2);
     for _ in 0..20 {
         let polygons = random.polygons(7, 150);

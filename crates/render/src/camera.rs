@@ -107,7 +107,17 @@ impl Camera {
                 projection,
                 margin,
                 steady,
-            } => Ok(Fit::new(from, up, projection, margin, steady, size)?.extreme_points(points)),
+            } => {
+                let ups = match up {
+                    Up::Auto => vec![Up::Y, Up::Z],
+                    up => vec![up],
+                };
+                let fits = ups
+                    .into_iter()
+                    .map(|up| Fit::new(from, up, projection, margin, steady, size));
+                let extreme = fits.map(|fit| Ok(fit?.extreme_points(points)));
+                Ok(extreme.collect::<Result<Vec<_>, PictureError>>()?.concat())
+            }
             Self::LookAt { .. } => self.check().map(|()| Vec::new()),
         }
     }
@@ -166,6 +176,8 @@ pub enum Up {
     Y,
     /// The z axis, as in most CAD programs.
     Z,
+    /// The z axis if the scene stands on the plane z = 0 but not on the plane y = 0; else the y axis.
+    Auto,
 }
 
 /// The projection of a camera.
@@ -196,10 +208,30 @@ const DEFAULT_ANGLE: f64 = 25.0;
 const ORTHOGRAPHIC_ANGLE: f64 = 30.0;
 
 impl Up {
+    /// Replaces `Auto` by the axis that points upwards in a scene with these points.
+    fn resolved(self, points: &impl Fn(&mut dyn FnMut(DVec3))) -> Self {
+        /// The largest distance of the lowest point from the plane, as a fraction of the size of the scene.
+        const TOLERANCE: f64 = 1e-3;
+        if self != Self::Auto {
+            return self;
+        }
+        let [mut min, mut max] = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+        points(&mut |p| (min, max) = (min.min(p), max.max(p)));
+        let tolerance = TOLERANCE * (max - min).max_element();
+        let stands = |axis: usize| min[axis].abs() <= tolerance && max[axis] > tolerance;
+        if stands(2) && !stands(1) {
+            Self::Z
+        } else {
+            Self::Y
+        }
+    }
+
     /// Returns the directions to the right, upwards and to the front.
+    ///
+    /// `Auto` must have been replaced by [`resolved`](Self::resolved); it is treated like `Y`.
     fn axes(self) -> [DVec3; 3] {
         match self {
-            Self::Y => [DVec3::X, DVec3::Y, DVec3::Z],
+            Self::Y | Self::Auto => [DVec3::X, DVec3::Y, DVec3::Z],
             Self::Z => [DVec3::X, DVec3::Z, DVec3::NEG_Y],
         }
     }
@@ -280,13 +312,19 @@ impl View {
                 projection,
                 margin,
                 steady,
-            } => Ok(Fit::new(from, up, projection, margin, steady, size)?.view(points)),
+            } => {
+                let up = up.resolved(points);
+                Ok(Fit::new(from, up, projection, margin, steady, size)?.view(points))
+            }
             Camera::LookAt {
                 from,
                 to,
                 up,
                 projection,
-            } => Self::look_at(from.into(), to.into(), up, projection, size),
+            } => {
+                let up = up.resolved(points);
+                Self::look_at(from.into(), to.into(), up, projection, size)
+            }
         }
     }
 

@@ -80,7 +80,7 @@ pub struct Style {
     pub color: Option<Color>,
     /// The color of the back of faces, which is visible where a mesh is open or inside out.
     pub back: Option<Color>,
-    /// Draws the edges of meshes. They are thinner where they are only a few pixels apart, so that they do not cover
+    /// Draws the edges of meshes, and grids on Bezier patches. Lines are thinner where they are only a few pixels apart, so that they do not cover
     /// the surface.
     pub wireframe: Option<Lines>,
     /// Draws the boundary edges of meshes.

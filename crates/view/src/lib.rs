@@ -9,6 +9,7 @@
 
 #![forbid(unsafe_code)]
 
+mod changes;
 mod error_locations;
 mod highlight;
 mod numbers;
@@ -16,6 +17,7 @@ pub mod sheet;
 mod shot;
 mod viewpoint;
 
+pub use changes::changed_faces;
 pub use error_locations::draw_error_locations;
 pub use highlight::{HIGHLIGHT_COLOR, highlight};
 pub use numbers::{ColorBy, Numbers, Quantity, existing_attributes, missing_attribute};

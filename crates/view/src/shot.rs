@@ -3,7 +3,7 @@
 use glam::DVec3;
 use progress::Progress;
 use render::figure::label::{Label, draw_labels};
-use render::figure::legend::{Legend, draw_legend};
+use render::figure::legend::{Corner, Legend, covered_pixels, draw_legend};
 use render::{
     Camera, Drawing, Image, Overlays, PictureError, Style, View, build, bytes_needed, render,
 };
@@ -156,7 +156,7 @@ impl Shot<'_> {
         }
         let total = u64::from(self.frames) * (self.cameras.len() * subjects.len()) as u64;
         let mut done = 0;
-        let mut frames = Vec::new();
+        let mut all_views = Vec::new();
         for frame in 0..self.frames {
             let turn = 360.0 * f64::from(frame) / f64::from(self.frames);
             let mut views = Vec::new();
@@ -177,16 +177,41 @@ impl Shot<'_> {
                         done,
                         total,
                     };
-                    views.push((self.view(subject, &view, &progress)?, subject.caption));
+                    views.push((self.view(subject, &view, &progress)?, subject));
                     done += 1;
                 }
             }
-            frames.push(self.side_by_side(views, subjects.len())?);
+            all_views.push(views);
         }
-        Ok(frames)
+        self.draw_legends(&mut all_views);
+        (all_views.into_iter())
+            .map(|views| self.side_by_side(views, subjects.len()))
+            .collect()
     }
 
-    /// Draws one view, with labels and legend.
+    /// Draws the legends, all in the same corner: the one in which they cover the fewest pixels of the scenes.
+    fn draw_legends(&self, all_views: &mut [Vec<(Image, &Subject)>]) {
+        let scale = (f64::from(self.size[1]) / 720.0).clamp(0.5, 8.0);
+        let background = self.style.background.srgb();
+        let mut images = Vec::new();
+        for (image, subject) in all_views.iter_mut().flatten() {
+            if let Some(legend) = subject.scale.as_ref().and_then(ColorScale::legend) {
+                images.push((image, legend));
+            }
+        }
+        let covered = |corner: &Corner| -> usize {
+            (images.iter())
+                .map(|(image, legend)| covered_pixels(image, legend, *corner, scale, background))
+                .sum()
+        };
+        // The first of several equal minima.
+        let corner = Corner::ALL.into_iter().min_by_key(covered);
+        for (image, legend) in images {
+            draw_legend(image, &legend, corner.unwrap_or_default(), scale);
+        }
+    }
+
+    /// Draws one view, with labels.
     fn view(
         &self,
         subject: &Subject,
@@ -201,24 +226,23 @@ impl Shot<'_> {
             .map(|(label, placed)| Label::new(placed.at, &*label.text, FONT_SIZE, TEXT_COLOR))
             .collect();
         draw_labels(&mut image, &labels);
-        if let Some(legend) = subject.scale.as_ref().and_then(ColorScale::legend) {
-            let scale = (f64::from(self.size[1]) / 720.0).clamp(0.5, 8.0);
-            draw_legend(&mut image, &legend, scale);
-        }
         Ok(image)
     }
 
     /// Places views in rows, on the background of the style.
     fn side_by_side(
         &self,
-        mut views: Vec<(Image, &str)>,
+        mut views: Vec<(Image, &Subject)>,
         n_scenes: usize,
     ) -> Result<Image, PictureError> {
-        if let [(_, "")] = views[..] {
+        if let [(_, Subject { caption: "", .. })] = views[..] {
             return Ok(views.remove(0).0);
         }
         let cells: Vec<Cell> = (views.iter())
-            .map(|(image, caption)| Cell { image, caption })
+            .map(|(image, subject)| Cell {
+                image,
+                caption: subject.caption,
+            })
             .collect();
         let default = if n_scenes > 1 {
             n_scenes
@@ -228,11 +252,18 @@ impl Shot<'_> {
         let style = SheetStyle {
             columns: self.columns.map_or(default, |n| n as usize),
             gap: 0,
+            font_size: caption_size(self.size),
             background: self.style.background.srgb(),
             ..SheetStyle::default()
         };
         sheet(&cells, &style, self.budget)
     }
+}
+
+/// Returns the font size of captions below views of this size, in pixels: 14 for views that are up to 480 pixels high, and
+/// proportional to the height of larger ones.
+fn caption_size([_, height]: [u32; 2]) -> u32 {
+    (height.saturating_mul(7) / 240).max(SheetStyle::default().font_size)
 }
 
 /// The progress of one of several views.

@@ -22,7 +22,7 @@ pub(crate) struct DrawArgs {
     /// Use a camera without perspective
     #[arg(long)]
     pub(crate) orthographic: bool,
-    /// Point the z axis upwards instead of the y axis
+    /// Point the z axis upwards; defaults to the y axis, unless the model stands on the plane z = 0
     #[arg(long)]
     pub(crate) z_up: bool,
     /// Shading: Flat, Smooth, Phong, Matcap or Plain

@@ -1,16 +1,18 @@
 //! `meshwright picture`: draws files or the results of recipes.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use anyhow::Context as _;
-use op::{Context, Files};
+use mesh::Domain;
+use op::{Context, Elements, FaceSelection, Files, TagName};
 use ops_pictures::Picture;
 use recipe::Source;
 use render::Image;
 use ron_tree::string_literal;
-use scene::Scene;
-use view::Quantity;
+use scene::{Geometry, Object, Scene};
 use view::sheet::{Cell, SheetStyle, sheet};
+use view::{Quantity, changed_faces};
 
 use crate::args::{DrawArgs, PictureArgs, WrongUsage};
 use crate::commands::batch::inputs;
@@ -111,15 +113,17 @@ fn fields(args: &DrawArgs, out: &Path, default_size: [u32; 2], further: Vec<Stri
     let [width, height] = args.size.unwrap_or(default_size);
     fields.push(format!("size: ({width}, {height})"));
     let field_if = |is_given: bool, field: &str| is_given.then(|| field.to_owned());
+    let up = if args.z_up { "up: Z" } else { "up: Auto" };
     let projection = field_if(args.orthographic, "projection: Orthographic");
-    let more = projection.into_iter().chain(field_if(args.z_up, "up: Z"));
+    let more = projection.into_iter().chain([up.to_owned()]);
+    let has_own_camera = (args.with.iter()).any(|w| w.contains("camera:") || w.contains("views:"));
     let camera = |from: Option<&String>| {
         let from = from.map(|from| format!("from: {from}"));
         let fields: Vec<String> = from.into_iter().chain(more.clone()).collect();
         format!("Fit({})", fields.join(", "))
     };
     match &args.from[..] {
-        [] if !args.orthographic && !args.z_up => {}
+        [] if has_own_camera && !args.orthographic && !args.z_up => {}
         [] | [_] => fields.push(format!("camera: {}", camera(args.from.first()))),
         sides => {
             let cameras: Vec<String> = sides.iter().map(|from| camera(Some(from))).collect();
@@ -154,7 +158,7 @@ fn draw(
     };
     let stop = |after, before| Stop { after, before };
     let (change, before) = (args.change.as_deref(), args.before.as_deref());
-    let scenes_at_steps = match change {
+    let mut scenes_at_steps = match change {
         None => vec![(scene(stop(args.after.as_deref(), before))?, "")],
         Some(_) => vec![
             (scene(stop(None, change))?, "before"),
@@ -163,7 +167,46 @@ fn draw(
     };
     let scenes: Vec<&Scene> = scenes_at_steps.iter().map(|(at, _)| &at.scene).collect();
     check_names(&args.draw.on, &scenes)?;
-    draw_scenes(picture, path, &scenes_at_steps, &args.draw.on)
+    let mut picture = picture.clone();
+    if let [(before, _), (after, _)] = &mut scenes_at_steps[..]
+        && picture.highlight.is_none()
+    {
+        picture.highlight = highlight_changes(&mut before.scene, &mut after.scene);
+    }
+    draw_scenes(&picture, path, &scenes_at_steps, &args.draw.on)
+}
+
+/// Tags the faces in which two scenes differ, and returns a selection of them. Returns `None` if no faces differ, or
+/// most of them, as after a subdivision.
+fn highlight_changes(before: &mut Scene, after: &mut Scene) -> Option<Elements> {
+    const TAG: &str = "changed by the step";
+    let tag = TagName::try_from(TAG.to_owned()).ok()?;
+    let tagged = |scene: &Scene, other: &Scene| -> Vec<(String, Vec<bool>)> {
+        (scene.objects().iter())
+            .filter_map(|object| {
+                let other = other.object(&object.name).and_then(Object::as_mesh);
+                let changed = changed_faces(object.as_mesh()?, other.map(AsRef::as_ref));
+                Some((object.name.clone(), changed))
+            })
+            .collect()
+    };
+    let all = [tagged(before, after), tagged(after, before)];
+    let (mut n_changed, mut n_faces) = (0, 0);
+    for (_, changed) in all.iter().flatten() {
+        n_changed += changed.iter().filter(|&&changed| changed).count();
+        n_faces += changed.len();
+    }
+    if n_changed == 0 || 2 * n_changed > n_faces {
+        return None;
+    }
+    for (scene, objects) in [before, after].into_iter().zip(all) {
+        for (name, changed) in objects {
+            if let Some((Geometry::Mesh(mesh), _)) = scene.parts_mut(&name) {
+                tag.write(Arc::make_mut(mesh), Domain::Face, changed);
+            }
+        }
+    }
+    Some(Elements::Faces(FaceSelection::Tagged(TAG.to_owned())))
 }
 
 /// Checks that each name is the name of an object in one of the scenes.

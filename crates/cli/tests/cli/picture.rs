@@ -62,6 +62,28 @@ fn a_step_is_shown_before_and_after() {
 }
 
 #[test]
+fn changed_faces_are_highlighted() {
+    let recipe = r#"(recipe: 1, steps: [
+        Cube(name: "cube"),
+        (id: "one", run: PokeFaces(faces: Nearest(to: (0, 0, 5)))),
+        (id: "all", run: PokeFaces()),
+        (id: "none", run: VertexNormals()),
+    ])"#;
+    let folder = Folder::new().with("r.ron", recipe);
+    let has_orange = |options: &str| {
+        let command = format!("picture r.ron --size 80x60 --shading Plain -o out.png {options}");
+        folder.run(&command).with_code(0);
+        let bytes = std::fs::read(folder.path("out.png")).unwrap();
+        let image = render::Image::from_png(&bytes).unwrap();
+        image.pixels.iter().any(|p| p[0] > 180 && p[2] < 60)
+    };
+    assert!(has_orange("--change one"));
+    assert!(!has_orange("--change all"));
+    assert!(!has_orange("--change none"));
+    assert!(!has_orange("--after one"));
+}
+
+#[test]
 fn several_files_are_drawn_on_a_sheet() {
     let folder = cube().with("b.obj", CUBE).with("broken.obj", "f 1 2 3\n");
     folder

@@ -1,6 +1,8 @@
 //! Bezier patches, curves, polylines, and strokes of overlays.
 
-use bezier::{Curve, Faces, Patch};
+use std::collections::BTreeMap;
+
+use bezier::{Curve, Faces, Patch, Tessellation};
 use glam::{DVec2, DVec3};
 
 use super::mesh_part::rgb;
@@ -10,6 +12,7 @@ use crate::PictureError;
 use crate::color::Color;
 use crate::drawing::{Channel, NO_FACE, Part, Surface};
 use crate::figure::construction;
+use crate::style::Lines;
 
 /// The number of cells along each side of a patch.
 const CELLS: u32 = 24;
@@ -19,21 +22,27 @@ const SEGMENTS: u32 = 200;
 const SINGLE_POINT: f64 = 3.0;
 
 impl Builder<'_, '_> {
-    /// Adds Bezier patches, and their control nets if the style has them.
+    /// Adds Bezier patches, and the grids of their cells and their control nets if the style has them.
     pub(super) fn patches(&mut self, patches: &[Patch], color: Color) -> Result<(), PictureError> {
-        let surface = bezier::tessellate(patches, CELLS, Faces::Triangles)
+        let surface = bezier::tessellate(patches, CELLS, Faces::Quads)
             .map_err(|e| PictureError::Style(format!("the patches cannot be drawn: {e}")))?;
-        let triangles: Vec<[u32; 3]> = surface
-            .faces()
-            .filter_map(|corners| corners.try_into().ok())
-            .collect();
-        let n_faces = u32::try_from(triangles.len()).unwrap_or(u32::MAX);
+        let (mut triangles, mut faces) = (Vec::new(), Vec::new());
+        for (f, corners) in (0..).zip(surface.faces()) {
+            for pair in corners[1..].windows(2) {
+                triangles.push([corners[0], pair[0], pair[1]]);
+                faces.push(f);
+            }
+        }
+        let n_faces = u32::try_from(surface.faces().count()).unwrap_or(u32::MAX);
+        if let Some(lines) = self.style.wireframe {
+            self.grid(&surface, &lines);
+        }
         let normals = Channel::Point(narrowed(&surface.normals).into());
         self.drawing.parts.push(Part {
             points: surface.positions.into(),
             triangles,
             corners: Vec::new(),
-            faces: Vec::new(),
+            faces,
             n_faces,
             normals,
             colors: Channel::All(rgb(color.linear())),
@@ -52,6 +61,27 @@ impl Builder<'_, '_> {
             }
         }
         Ok(())
+    }
+
+    /// Adds the edges of a surface. Its faces are the next ones to be added.
+    fn grid(&mut self, surface: &Tessellation, lines: &Lines) {
+        let mut edges: BTreeMap<[u32; 2], [u32; 2]> = BTreeMap::new();
+        for (f, corners) in (self.n_faces..).zip(surface.faces()) {
+            for (i, &p) in corners.iter().enumerate() {
+                let q = corners[(i + 1) % corners.len()];
+                let faces = edges.entry([p.min(q), p.max(q)]).or_insert([f, NO_FACE]);
+                if faces[0] != f {
+                    faces[1] = f;
+                }
+            }
+        }
+        for (ends, faces) in edges {
+            let ends = ends.map(|p| surface.positions[p as usize]);
+            self.line(ends, lines.width, lines.color.linear(), faces, lines.hidden);
+            if let Some(line) = self.drawing.lines.last_mut() {
+                line.spacing = ends[0].distance(ends[1]);
+            }
+        }
     }
 
     /// Adds a curve, and its control polygon if the style has it.
@@ -146,11 +176,12 @@ fn are_levels(lines: &[Vec<DVec3>]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use bezier::Curve;
+    use bezier::{Curve, Patch};
     use glam::{DVec2, DVec3};
     use scene::{Geometry, Object, Scene};
 
-    use crate::{Color, Drawing, Overlays, Style, build};
+    use super::{CELLS, NO_FACE};
+    use crate::{Color, Drawing, Lines, Overlays, Style, build};
 
     fn polylines(lines: Vec<Vec<DVec3>>) -> Scene {
         let mut scene = Scene::new();
@@ -162,6 +193,35 @@ mod tests {
     fn build_drawing<'s>(scene: &'s Scene, style: &Style) -> Drawing<'s> {
         let (drawing, _) = build(scene, style, &Overlays::default(), &mut |_| None).unwrap();
         drawing
+    }
+
+    #[test]
+    fn a_wireframe_shows_the_cells_of_patches() {
+        let points = std::array::from_fn(|j| {
+            std::array::from_fn(|i| DVec3::new(f64::from(i as u8), f64::from(j as u8), 0.0))
+        });
+        let patches = Geometry::Patches(vec![Patch::new(points).unwrap()]);
+        let mut scene = Scene::new();
+        scene.insert(Object::new("sheet", patches)).unwrap();
+        assert!(build_drawing(&scene, &Style::default()).lines.is_empty());
+        let style = Style {
+            wireframe: Some(Lines::default()),
+            ..Style::default()
+        };
+        let drawing = build_drawing(&scene, &style);
+        let n = CELLS as usize;
+        assert_eq!(drawing.lines.len(), 2 * n * (n + 1));
+        assert_eq!(drawing.n_triangles(), 2 * n * n);
+        // Each line is a side of its faces.
+        for line in &drawing.lines {
+            let part = &drawing.parts[0];
+            for face in line.faces.into_iter().filter(|&f| f != NO_FACE) {
+                let triangles =
+                    (0..part.triangles.len()).filter(|&t| part.face(t) == face as usize);
+                let corners: Vec<DVec3> = triangles.flat_map(|t| part.corners_at(t)).collect();
+                assert!(line.ends.iter().all(|end| corners.contains(end)));
+            }
+        }
     }
 
     #[test]

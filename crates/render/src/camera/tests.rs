@@ -212,3 +212,38 @@ fn the_extreme_points_of_all_parts_give_the_same_view_as_all_points() {
         fit(Side::Front, Up::Y, Projection::default(), 0.1, true).extreme_points(&|_| {}, size);
     assert_eq!(none.unwrap(), []);
 }
+
+#[test]
+fn auto_is_the_axis_on_whose_plane_the_scene_stands() {
+    let axis = |low: [f64; 3], high: [f64; 3]| {
+        let points = [DVec3::from(low), DVec3::from(high)];
+        Up::Auto.resolved(&|f: &mut dyn FnMut(DVec3)| points.into_iter().for_each(f))
+    };
+    assert_eq!(axis([-1.0, -1.0, 0.0], [1.0, 1.0, 3.0]), Up::Z);
+    assert_eq!(axis([-1.0, 0.0, -1.0], [1.0, 3.0, 1.0]), Up::Y);
+    // On both planes, on none, and flat.
+    assert_eq!(axis([0.0; 3], [1.0; 3]), Up::Y);
+    assert_eq!(axis([-1.0; 3], [1.0; 3]), Up::Y);
+    assert_eq!(axis([-1.0, -1.0, 0.0], [1.0, 1.0, 0.0]), Up::Y);
+    assert_eq!(Up::Auto.resolved(&|_| {}), Up::Y);
+}
+
+#[test]
+fn the_view_of_auto_is_that_of_its_axis() {
+    let size = [200, 100];
+    let standing = |each: &mut dyn FnMut(DVec3)| {
+        for p in [[-1.0, -1.0, 0.0], [1.0, 1.0, 3.0], [1.0, -1.0, 0.0]] {
+            each(p.into());
+        }
+    };
+    let camera = |up| fit(Side::ThreeQuarter, up, Projection::default(), 0.05, false);
+    let extreme = camera(Up::Auto).extreme_points(&standing, size).unwrap();
+    let auto = View::new(
+        &camera(Up::Auto),
+        &|f| extreme.iter().copied().for_each(f),
+        size,
+    );
+    let z = View::new(&camera(Up::Z), &standing, size);
+    let at = |view: Result<View, _>| view.unwrap().screen_point(DVec3::ONE).unwrap().at;
+    assert!(at(auto).distance(at(z)) < 1e-9);
+}

@@ -54,19 +54,76 @@ const ROW: f64 = 21.0;
 /// The maximum number of entries of a list.
 const MAX_ENTRIES: usize = 24;
 
-/// Draws a legend into the upper right corner of an image.
+/// A corner of an image, in which a legend is drawn.
+#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
+pub enum Corner {
+    /// Upper right.
+    #[default]
+    UpperRight,
+    /// Upper left.
+    UpperLeft,
+    /// Lower right.
+    LowerRight,
+    /// Lower left.
+    LowerLeft,
+}
+
+impl Corner {
+    /// All corners, the preferred ones first.
+    pub const ALL: [Self; 4] = [
+        Self::UpperRight,
+        Self::UpperLeft,
+        Self::LowerRight,
+        Self::LowerLeft,
+    ];
+}
+
+/// Draws a legend into a corner of an image.
 ///
 /// At scale 1, a legend has about 100 x 200 pixels. A list shows at most 24 entries and the number of the remaining
 /// ones. Parts outside of the image are cut off.
-pub fn draw_legend(image: &mut Image, legend: &Legend, scale: f64) {
+pub fn draw_legend(image: &mut Image, legend: &Legend, corner: Corner, scale: f64) {
     let image_size = DVec2::new(f64::from(image.width), f64::from(image.height)) / scale;
-    let size = legend_size(legend);
-    let gap = 10.0;
-    let space = (image_size - size - DVec2::splat(gap)).max(DVec2::ZERO);
-    let corner = DVec2::new(space.x, space.y.min(gap));
+    let [at, size] = placed(legend, corner, image_size);
     let mut svg = Svg::new(image_size.x, image_size.y);
-    write(&mut svg, legend, corner.round(), size);
+    write(&mut svg, legend, at, size);
     draw(image, &svg, scale);
+}
+
+/// Returns the number of pixels that a legend in a corner of an image would cover and that do not have the color of the
+/// background.
+pub fn covered_pixels(
+    image: &Image,
+    legend: &Legend,
+    corner: Corner,
+    scale: f64,
+    background: Color,
+) -> usize {
+    let image_size = DVec2::new(f64::from(image.width), f64::from(image.height));
+    let [at, size] = placed(legend, corner, image_size / scale);
+    let start = at * scale;
+    let end = ((at + size) * scale).min(image_size);
+    let row_len = image.width as usize;
+    let rows = whole(start.y.floor())..whole(end.y.ceil());
+    let columns = whole(start.x.floor())..whole(end.x.ceil());
+    rows.map(|y| &image.pixels[y * row_len..][columns.clone()])
+        .map(|row| row.iter().filter(|&&pixel| pixel != background).count())
+        .sum()
+}
+
+/// Returns the upper left corner and the size of a legend in an image of this size, in pixels at scale 1.
+fn placed(legend: &Legend, corner: Corner, image_size: DVec2) -> [DVec2; 2] {
+    const GAP: f64 = 10.0;
+    let size = legend_size(legend);
+    let far = (image_size - size - DVec2::splat(GAP)).max(DVec2::ZERO);
+    let near = far.min(DVec2::splat(GAP));
+    let at = match corner {
+        Corner::UpperRight => DVec2::new(far.x, near.y),
+        Corner::UpperLeft => near,
+        Corner::LowerRight => far,
+        Corner::LowerLeft => DVec2::new(near.x, far.y),
+    };
+    [at.round(), size]
 }
 
 /// Returns a figure that contains only the legend. The figure is as large as the legend.
@@ -353,7 +410,7 @@ mod tests {
     )]
     fn the_bar_shows_its_colors_from_bottom_to_top() {
         let mut image = Image::filled(300, 300, [0, 255, 0, 255]).unwrap();
-        draw_legend(&mut image, &bar(), 1.0);
+        draw_legend(&mut image, &bar(), Corner::UpperRight, 1.0);
         let left = 300 - 10 - legend_size(&bar()).x as usize;
         let column = |x: usize| (0..300).map(move |y| y * 300 + x);
         let reds: Vec<u8> = column(left + 20)
@@ -375,7 +432,7 @@ mod tests {
         for legend in [bar(), list(0), list(3), list(100)] {
             for side in [1, 20, 400] {
                 let mut image = Image::filled(side, side, [0, 0, 0, 255]).unwrap();
-                draw_legend(&mut image, &legend, 1.0);
+                draw_legend(&mut image, &legend, Corner::UpperRight, 1.0);
             }
         }
         let labels = labels(&list(100).scale);

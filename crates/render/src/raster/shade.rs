@@ -313,8 +313,8 @@ impl<'a> Shader<'a> {
         }
         // Blinn, "Models of Light Reflection for Computer Synthesized Pictures", 1977.
         let roughness = surface.map_or(1.0, |s| s.roughness).clamp(0.0, 1.0);
-        let exponent = 24.0 + 200.0 * (1.0 - roughness);
-        let strength = 0.22 + 0.4 * (1.0 - roughness);
+        let exponent = 40.0 + 200.0 * (1.0 - roughness);
+        let strength = 0.45 + 0.4 * (1.0 - roughness);
         let half = (self.key + relative_to_camera(to_eye)).normalize_or_zero();
         let glint = libm::powf(narrow(n.dot(half).max(0.0)), exponent) * strength * direct;
         light.map(|c| c + glint)

@@ -11,7 +11,7 @@ use bezier::{Curve, DVec2};
 use render::Image;
 use render::figure::construction::{Layout, Panel, construction};
 use render::figure::label::{Label, draw_labels};
-use render::figure::legend::{Legend, Scale, draw_legend};
+use render::figure::legend::{Corner, Legend, Scale, covered_pixels, draw_legend};
 use render::figure::pixels;
 
 const WHITE: [u8; 4] = [255; 4];
@@ -68,6 +68,31 @@ fn a_construction() {
 }
 
 #[test]
+fn a_legend_covers_its_corner_only() {
+    let bar = Legend {
+        title: "area".into(),
+        scale: Scale::Discrete(vec![("a".to_owned(), BLACK)]),
+    };
+    let mut plain = Image::filled(300, 200, WHITE).unwrap();
+    // A model in the upper right corner.
+    for y in 0..60 {
+        plain.pixels[y * 300 + 240..(y + 1) * 300].fill(BLACK);
+    }
+    for corner in Corner::ALL {
+        let covered = covered_pixels(&plain, &bar, corner, 1.0, WHITE);
+        assert_eq!(covered > 0, corner == Corner::UpperRight, "{corner:?}");
+        let mut image = plain.clone();
+        draw_legend(&mut image, &bar, corner, 1.0);
+        let changed = (0..image.pixels.len()).filter(|&i| image.pixels[i] != plain.pixels[i]);
+        for (x, y) in changed.map(|i| (i % 300, i / 300)) {
+            let is_right = matches!(corner, Corner::UpperRight | Corner::LowerRight);
+            let is_low = matches!(corner, Corner::LowerLeft | Corner::LowerRight);
+            assert_eq!((x >= 150, y >= 100), (is_right, is_low), "{corner:?}");
+        }
+    }
+}
+
+#[test]
 fn legends_and_labels() {
     let mut image = Image::filled(240, 240, [180, 190, 200, 255]).unwrap();
     let bar = Legend {
@@ -78,14 +103,14 @@ fn legends_and_labels() {
             colors: (0..=255).map(|i| [i, 128, 255 - i, 255]).collect(),
         },
     };
-    draw_legend(&mut image, &bar, 1.0);
+    draw_legend(&mut image, &bar, Corner::UpperRight, 1.0);
     let entry = |name: &str, red| (name.to_owned(), [red, 80, 60, 255]);
     let list = Legend {
         title: String::new(),
         scale: Scale::Discrete(vec![entry("Größe", 0), entry("нос", 250)]),
     };
     let mut below = Image::filled(140, 110, [180, 190, 200, 255]).unwrap();
-    draw_legend(&mut below, &list, 1.5);
+    draw_legend(&mut below, &list, Corner::UpperRight, 1.5);
     image.place(&below, [0, 130]);
     let label = |x, text: &str| Label::new(DVec2::new(x, 40.0), text, 13.0, BLACK);
     draw_labels(&mut image, &[label(30.0, "17"), label(70.5, "f3")]);

@@ -1,5 +1,6 @@
-//! The input files of a batch: expands patterns to a sorted list, and divides the list into parts.
+//! The input files of a batch: expands patterns to a list, and divides the list into parts.
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, anyhow, bail, ensure};
@@ -27,7 +28,8 @@ impl Input {
     }
 }
 
-/// Lists the files that the patterns match, sorted by path, without duplicates.
+/// Lists the files that the patterns match, without duplicates. The files of each pattern are sorted by path, and follow
+/// those of the pattern before.
 pub(crate) fn list(patterns: &[String]) -> anyhow::Result<Vec<Input>> {
     let mut inputs = Vec::new();
     for pattern in patterns {
@@ -47,9 +49,10 @@ pub(crate) fn list(patterns: &[String]) -> anyhow::Result<Vec<Input>> {
             search(pattern, &mut inputs)?;
         }
         ensure!(inputs.len() > before, "no file matches {pattern}");
+        inputs[before..].sort_by(|a, b| a.path.cmp(&b.path));
     }
-    inputs.sort_by(|a, b| a.path.cmp(&b.path));
-    inputs.dedup_by(|a, b| a.path == b.path);
+    let mut paths = HashSet::new();
+    inputs.retain(|input| paths.insert(input.path.clone()));
     Ok(inputs)
 }
 
@@ -116,6 +119,18 @@ fn split(pattern: &str) -> (&str, &str) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn files_are_listed_in_the_order_of_their_patterns() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name).display().to_string();
+        for name in ["a.obj", "b.obj", "c.ply", "d.ply"] {
+            std::fs::write(path(name), "").unwrap();
+        }
+        let listed = list(&[path("b.obj"), path("*.ply"), path("*.obj")]).unwrap();
+        let paths: Vec<String> = listed.into_iter().map(|input| input.path).collect();
+        assert_eq!(paths, ["b.obj", "c.ply", "d.ply", "a.obj"].map(path));
+    }
 
     #[test]
     fn a_pattern_is_split_after_its_folder() {

@@ -1,7 +1,7 @@
 //! `meshwright batch`: runs one recipe on many files, several at the same time.
 //!
 //! ```text
-//! patterns -> sorted list -> collisions? -> this part -> done before? -> check -> run -> rows
+//! patterns -> list -> collisions? -> this part -> done before? -> check -> run -> rows
 //!                                                             ^                     |
 //!                                                             +------ journal <-----+
 //! ```

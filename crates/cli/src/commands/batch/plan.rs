@@ -44,6 +44,8 @@ impl<'a> Batch<'a> {
             report_errors(&loaded, false)?;
             return Ok(None);
         }
+        let mut inputs = inputs::list(&args.inputs)?;
+        inputs.sort_by(|a, b| a.path.cmp(&b.path));
         let param = parameter(args, loaded.recipe.parameters())?;
         let batch = Self {
             args,
@@ -52,7 +54,7 @@ impl<'a> Batch<'a> {
             engine,
             source,
             digest: digest(&loaded),
-            inputs: inputs::list(&args.inputs)?,
+            inputs,
         };
         batch.check_outputs()?;
         Ok(Some(batch))

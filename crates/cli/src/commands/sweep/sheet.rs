@@ -16,7 +16,7 @@ use op::{Context, Files};
 use ops_pictures::Picture;
 use recipe::{Axis, Metric};
 use render::figure::label::wrapped;
-use render::figure::legend::{Legend, draw_legend, legend_figure};
+use render::figure::legend::{Corner, Legend, draw_legend, legend_figure};
 use render::figure::{Color, Font};
 use render::{Image, PictureError};
 use scene::Scene;
@@ -275,7 +275,7 @@ fn with_legend(sheet: &Image, legend: &Legend, background: Color) -> Result<Imag
     for (to, from) in rows.zip(sheet.pixels.chunks_exact(sheet.width as usize)) {
         to[..from.len()].copy_from_slice(from);
     }
-    draw_legend(&mut wide, legend, 1.0);
+    draw_legend(&mut wide, legend, Corner::UpperRight, 1.0);
     Ok(wide)
 }
 

@@ -72,7 +72,7 @@ fn measured(folder: &Path, threads: usize) -> [f64; 3] {
         .expect("a shell");
     let wall = begin.elapsed().as_secs_f64();
     assert!(output.status.success(), "{output:?}");
-    // The second line is about children: `0m1.250s 0m0.120s`.
+    // The second line of the output of `times` has the user and system time of child processes: `0m1.250s 0m0.120s`.
     let text = String::from_utf8(output.stdout).expect("text");
     let seconds = |word: &str| {
         let (minutes, rest) = word.split_once('m')?;

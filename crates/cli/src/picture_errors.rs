@@ -125,7 +125,9 @@ impl Pictures {
     pub(crate) fn warn(&self) {
         let drawn = lock(&self.drawn);
         for problem in &drawn.problems {
-            print_error(&format!("warning: cannot draw a failure: {problem}\n"));
+            print_error(&format!(
+                "warning: cannot make a picture of a failure: {problem}\n"
+            ));
         }
         if drawn.further > 0 {
             let n = drawn.further;
@@ -136,8 +138,8 @@ impl Pictures {
         }
     }
 
-    /// Draws the expected image, the actual image and their difference side by side. Returns `None` if the files are not
-    /// PNG images.
+    /// Draws the expected image, the actual image and their difference side by side. Returns `None` if the files are
+    /// not PNG images.
     fn of_difference(&self, found: &ActualValue) -> anyhow::Result<Option<Image>> {
         let ActualValue::File {
             golden,

@@ -8,7 +8,7 @@
 //! | [`distance`] | the distance between two surfaces |
 //! | [`merge_vertices`], [`parts`] | merging vertices, splitting a mesh into parts |
 //! | [`triangulate`], [`fill_hole_triangles`] | triangulation of faces and holes |
-//! | [`bisect`], [`bevel`] | cutting along a plane, bevelling |
+//! | [`bisect`], [`bevel`] | cutting along a plane, beveling |
 
 pub mod bevel;
 mod bisect;

@@ -106,7 +106,8 @@ pub(crate) fn percent_encoded(name: &str) -> String {
 pub struct FileDependency {
     /// The path of the file.
     pub path: PathBuf,
-    /// True if the content of the file matters, even if the file is missing; false if only its existence matters.
+    /// True if the program read the file or tried to (it may be missing); false if it only checked whether the file
+    /// exists.
     pub is_read: bool,
 }
 

@@ -88,8 +88,8 @@ fn domain_lengths(mesh: &Mesh) -> [usize; 4] {
     Domain::ALL.map(|domain| mesh.domain_len(domain))
 }
 
-/// Appends the columns of all meshes. The material indices of each object are shifted by the number of materials
-/// before it. If `tags` is set, faces get the tag of their object.
+/// Returns the attribute columns of all meshes, joined in the order of the objects. The material indices of each object
+/// are shifted by the number of materials before it. If `tags` is set, faces get the tag of their object.
 fn appended(
     objects: &[Object],
     meshes: &[Cow<Mesh>],

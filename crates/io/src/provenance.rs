@@ -12,7 +12,7 @@ use crate::{Format, ReadError, gltf, mws};
 const HEAD: u64 = 1 << 20;
 
 /// Reads the provenance that a file stores; `None` if the file stores none or its format cannot store it. MTL
-/// files, and the PNG and SVG pictures that the program writes, are recognised too.
+/// files, and the PNG and SVG pictures that the program writes, are recognized too.
 ///
 /// In STL, provenance is cut to about 60 bytes.
 ///

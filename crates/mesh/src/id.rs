@@ -23,7 +23,7 @@ pub trait Id:
     /// If `index` is not below 2³² − 1. Builders check sizes first, so a panic is a bug in this crate.
     fn new(index: usize) -> Self;
 
-    /// Returns the index of the element in its arrays.
+    /// Returns the index of the element in the arrays of the mesh.
     fn index(self) -> usize;
 }
 
@@ -51,7 +51,7 @@ macro_rules! id {
                 Self(index as u32)
             }
 
-            /// Returns the index of the element in its arrays.
+            /// Returns the index of the element in the arrays of the mesh.
             #[inline]
             pub const fn index(self) -> usize {
                 self.0 as usize

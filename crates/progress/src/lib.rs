@@ -18,7 +18,7 @@
 
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
-/// A listener that receives the progress of a computation and can cancel it.
+/// A listener that receives progress reports of a computation and can cancel it.
 pub trait Progress: Sync {
     /// Called when `done` of the `total` parts of a computation are finished. `task` describes the
     /// computation in a few words. Returns whether the computation should continue.

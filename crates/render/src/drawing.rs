@@ -37,8 +37,8 @@ pub struct Part<'a> {
     pub normals: Channel<'a>,
     /// Linear red, green and blue of the front, from 0 to 1. Multiplied with the color of the material.
     pub colors: Channel<'a>,
-    /// Highlight colors of faces, which cover every other color on both sides in proportion to their alpha. Empty, or
-    /// one for each face.
+    /// Highlight colors of faces. They are blended over all other colors, on both sides, by their alpha. Empty, or one
+    /// for each face.
     pub highlights: Vec<[f32; 4]>,
     /// The materials.
     pub materials: Vec<Surface>,

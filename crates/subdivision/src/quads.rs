@@ -153,7 +153,7 @@ impl CornerTable {
         for f in mesh.faces() {
             for h in mesh.face_half_edges(f) {
                 corner[h.index()] = u32::try_from(half_edge.len())
-                    .expect("there are fewer corners than half-edges");
+                    .expect("there are at most as many corners as half-edges");
                 half_edge.push(h);
             }
         }

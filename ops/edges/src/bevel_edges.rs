@@ -15,7 +15,7 @@ use op::prelude::*;
 ///
 /// A selected edge and both of its ends are removed. Each other edge at these ends is cut at a fraction of the length
 /// that it had before the step, and a new face joins the cuts. The face has four corners if three edges met at each
-/// end. Edges are bevelled in order of their numbers, in the mesh as edited so far: an edge that an earlier bevel has
+/// end. Edges are beveled in order of their numbers, in the mesh as edited so far: an edge that an earlier bevel has
 /// cut starts at the cut. If an edge is cut at both ends, the fraction must be below 0.5.
 ///
 /// The ends of the edges are removed, and later vertices are renumbered. New vertices are numbered last, in order of
@@ -23,7 +23,8 @@ use op::prelude::*;
 /// edges.
 ///
 /// Values at the cuts are interpolated between the ends of the edge, so textures do not change. A new face has the
-/// values (material, tags) of a face beside the edge. New edges have no values. Normals are dropped.
+/// values (material, tags) of one of the two faces beside the edge. Which one is not specified, but it is the same in
+/// every run. New edges have zero values (no crease, no tags). Normals are dropped.
 ///
 /// An edge is refused if it or one of its ends is on the boundary, if an end has fewer than three edges, if its ends
 /// are also joined by another edge, or if earlier cuts leave too little of an edge at one of its ends.
@@ -100,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn bevelling_four_parallel_edges_gives_a_prism() {
+    fn beveling_four_parallel_edges_gives_a_prism() {
         let upright = "Or([Between(0, 4), Between(1, 5), Between(2, 6), Between(3, 7)])";
         let step = parse(&format!(
             "(edges: Expect(count: 4, of: {upright}), fraction: 0.25)"

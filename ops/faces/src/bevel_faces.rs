@@ -10,11 +10,11 @@ use op::prelude::*;
 
 /// Shrinks and raises faces, and surrounds each with a ring of faces.
 ///
-/// Works like `InsetFaces`, and also moves the inner face along its normal. Each face is bevelled separately, even if
+/// Works like `InsetFaces`, and also moves the inner face along its normal. Each face is beveled separately, even if
 /// selected faces share edges. The inner face keeps the number of the face, and existing vertices do not move. A face
-/// with n corners adds n vertices, 2 n edges and n faces with four corners. New vertices and faces are numbered last: in
-/// order of the selected faces, and counter-clockwise around each face from its first corner. A face without area has no
-/// normal, and its inner face is not raised.
+/// with n corners adds n vertices, 2 n edges and n faces with four corners. New vertices and faces are numbered last:
+/// in order of the selected faces, and counter-clockwise around each face from its first corner. A face without area
+/// has no normal, and its inner face is not raised.
 ///
 /// Values at the new corners and vertices are interpolated between the outer corner and the mean of the face. The ring
 /// has the values of the face (material, tags), and the inner edges have the values of the outer edges. Normals are

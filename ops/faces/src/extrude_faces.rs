@@ -38,7 +38,7 @@ use region::Region;
 /// A side face has the values of the adjacent moved face (material, tags). Its corners have the values of the corners
 /// of that face, so textures have no seam there, but each side face only shows the line of the texture along its edge.
 /// The new edges of the rim have the values of the old ones (creases, tags), and the edges between the old and the new
-/// rim have no values. Normals are dropped.
+/// rim have zero values (no crease, no tags). Normals are dropped.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExtrudeFaces {

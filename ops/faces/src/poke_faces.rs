@@ -16,7 +16,7 @@ use op::prelude::*;
 /// number of the face; the other triangles and the new vertices and edges are numbered last, in order of the faces. The
 /// vertex is at the mean of the corners, moved along the normal of the face by `distance`. Its vertex and corner values
 /// are also means where the type of the attribute allows it. The triangles have the values of their face, and the new
-/// edges have no values. If `distance` is not 0, normals are dropped.
+/// edges have zero values (no crease, no tags). If `distance` is not 0, normals are dropped.
 ///
 /// A face is refused only if the position of the new vertex would not be finite, or if the mesh already has the largest
 /// supported number of elements.

@@ -18,9 +18,9 @@ use pairs::Pairs;
 
 /// Joins boundary edges that coincide.
 ///
-/// Two boundary edges form a pair if the distance between their corresponding ends is at most `distance`, and no third
-/// boundary edge is within this distance of either edge. Choose a distance below the lengths of the edges. If more than
-/// two edges coincide, none of them are joined, and they are refused (`NonManifold`). Unlike `Weld`, this operation
+/// Two boundary edges coincide if both pairs of corresponding ends are at most `distance` apart. Two edges that
+/// coincide only with each other form a pair. Choose a distance below the lengths of the edges. An edge that coincides
+/// with several edges is refused (`NonManifold`), and none of these edges are joined. Unlike `Weld`, this operation
 /// never merges vertices inside the surface or vertices whose edges do not coincide.
 ///
 /// Of each pair of vertices or edges, the one with the lower number keeps its position and its values. The other one is

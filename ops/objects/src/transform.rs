@@ -79,7 +79,8 @@ impl Transform {
                     let [min, max] = bounds.unwrap_or([p, p]);
                     Some([min.min(p), max.max(p)])
                 });
-                // Halves before adding: the sum of two large finite numbers can be infinite.
+                // Each number is halved before the addition, because the sum of two large finite numbers can be
+                // infinite.
                 bounds.map_or(DVec3::ZERO, |[min, max]| 0.5 * min + 0.5 * max)
             }
         }

@@ -1,4 +1,4 @@
-//! Catmull-Clark subdivision: splits every face into quads and smooths.
+//! Catmull-Clark subdivision: splits every face into quads and smooths the surface.
 //!
 //! ```text
 //!    d ----------- c          d ---- . ---- c
@@ -36,7 +36,7 @@ use subdivision::{Boundary, Creasing, FaceVarying, Rules, Scheme};
 
 use crate::step::{Step, Until};
 
-/// Splits every face into quads and smooths, for a number of levels.
+/// Splits every face into quads and smooths the surface, for a number of levels.
 ///
 /// A level creates a quad at each corner of each face. It turns V vertices, E edges and F faces with C corners in
 /// total into V + E + F vertices, 2 E + C edges and C quads, so V - E + F does not change. Old vertices keep

@@ -42,11 +42,11 @@ use crate::step::{Step, Until};
 /// vertices are kept, after all other vertices. They do not become faces, and neither do inner vertices of
 /// valence 2.
 ///
-/// Vertex attributes are smoothed with the weights of the positions. Corner values are smoothed within one old
-/// face, so at a seam the faces of edges and vertices have corner values of several old faces, and texture
-/// coordinates are torn there. A face inside an old face copies its values; the face of an edge or a vertex
-/// copies those of an adjacent face. The two edges along an old edge copy its values; other edges have no values.
-/// Normals are dropped, because they would be wrong.
+/// Vertex attributes are smoothed with the weights of the positions. Corner values are smoothed within one old face.
+/// The new faces of edges and vertices have corner values of several old faces; at a seam, this distorts textures. A
+/// face inside an old face copies its values; the face of an edge or a vertex copies those of an adjacent face. The two
+/// edges along an old edge copy its values; other edges have zero values (no crease, no tags). Normals are dropped,
+/// because they would be wrong.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DooSabin {

@@ -1,4 +1,4 @@
-//! Sqrt3 subdivision: splits every triangle into three, flips the old edges, and smooths.
+//! Sqrt3 subdivision: splits every triangle into three, flips the old edges, and smooths the surface.
 //!
 //! ```text
 //!            c                        c
@@ -37,7 +37,7 @@ use subdivision::{Rules, Scheme};
 
 use crate::step::{Step, Until};
 
-/// Splits every triangle into three, flips the old edges, and smooths, for a number of levels.
+/// Splits every triangle into three, flips the old edges, and smooths the surface, for a number of levels.
 ///
 /// A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles.
 /// Every second level adds one more vertex and one more edge for each boundary edge. V - E + F does not change.
@@ -45,10 +45,11 @@ use crate::step::{Step, Until};
 /// must be triangles. Levels are counted from the start of the step: one step of two levels cuts the boundary
 /// edges, but two steps of one level leave the boundary unchanged.
 ///
-/// Vertex attributes are smoothed with the weights of the positions. Corner values are linear within one old
-/// triangle. A triangle at a flipped edge lies in two old triangles, so its texture coordinates are torn if the
-/// old edge was a seam. New triangles copy the values of their old triangle. Parts of a boundary edge copy the
-/// values of the edge; other edges have no values. Normals are dropped, because they would be wrong.
+/// Vertex attributes are smoothed with the weights of the positions. Corner values are linear within one old triangle.
+/// A triangle at a flipped edge lies in two old triangles. If the old edge was a seam, the triangle has texture
+/// coordinates of both sides, which distorts textures. New triangles copy the values of their old triangle. Parts of a
+/// boundary edge copy the values of the edge; other edges have zero values (no crease, no tags). Normals are dropped,
+/// because they would be wrong.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sqrt3 {

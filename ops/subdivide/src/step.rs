@@ -292,9 +292,13 @@ fn loss_notes(mesh: &Mesh, scheme: Scheme) -> Vec<String> {
     if matches!(scheme, Scheme::Sqrt3 | Scheme::DooSabin) {
         let seams = mesh.edges().filter(|&e| mesh.is_seam(e)).count();
         if seams > 0 {
-            let edges = if seams == 1 { "edge has" } else { "edges have" };
+            let edges = if seams == 1 {
+                "edge: new faces across it"
+            } else {
+                "edges: new faces across them"
+            };
             notes.push(format!(
-                "{seams} seam {edges} torn corner values, because new faces lie across old edges"
+                "{seams} seam {edges} mix corner values of both sides, which distorts textures"
             ));
         }
     }

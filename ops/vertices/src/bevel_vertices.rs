@@ -22,7 +22,8 @@ use op::prelude::*;
 /// order of the vertices.
 ///
 /// Values at the cuts are interpolated between the ends of the edge, so textures do not change. A new face has the
-/// values (material, tags) of a face that was at the vertex. New edges have no values. Normals are dropped.
+/// values (material, tags) of one of the faces at the vertex. Which one is not specified, but it is the same in every
+/// run. New edges have zero values (no crease, no tags). Normals are dropped.
 ///
 /// A vertex is refused if it is on the boundary, if it has fewer than three edges, or if earlier cuts leave too little
 /// of one of its edges.
@@ -47,7 +48,7 @@ impl MeshOperation for BevelVertices {
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let done = self.on_refusal.done(self.vertices.count(plan));
         if done.max > 0 {
-            // An edge is cut at most at both ends, and a bevelled vertex has at least three edges.
+            // An edge is cut at most at both ends, and a beveled vertex has at least three edges.
             let cuts = Range::between(done.by(3).min, plan.edges.by(2).max);
             // A new face has as many corners as its vertex had edges; an old face gains at most one for each corner.
             let gained = plan.degrees.by(2).max;
@@ -123,7 +124,7 @@ mod tests {
             matches!(refused, Err(OpError::Refused { .. })),
             "{refused:?}"
         );
-        // Four corners of the cube that share no edge can be bevelled; then no other corner has space left.
+        // Four corners of the cube that share no edge can be beveled; then no other corner has space left.
         let step = parse("(vertices: All, fraction: 0.5, on_refusal: Skip)");
         let (mesh, report) = try_applied(&step, shapes::cube()).unwrap();
         assert_eq!(report.changed, 4);

@@ -14,13 +14,13 @@ const PICTURE: &str = include_str!("new_op/picture.ron.txt");
 const MAIN: &str = include_str!("new_op/main.rs.txt");
 const MANIFEST: &str = include_str!("new_op/Cargo.toml.txt");
 
-/// Module names that the sample cannot have: crates that it uses, and keywords.
+/// Module names that a new operation cannot have: crates that the generated source uses, and keywords.
 const RESERVED_MODULES: &str = "abstract alloc as async await become box break cli const continue core crate do \
     dyn else enum extern false final fn for gen if impl in let lib loop macro main match mesh mod move mut op \
     ops_all override priv proc_macro pub ref return schemars self serde static std struct super test \
     trait true try type typeof unsafe unsized use virtual where while yield";
 
-/// Types that the sample uses.
+/// Types that the generated source uses.
 const RESERVED_TYPES: &str = "Context DVec3 Deserialize JsonSchema Mesh MeshOperation MeshPlan OpError PlanContext \
     Problem Report Result Select Serialize Vec Vector VertexSelection";
 
@@ -148,11 +148,11 @@ fn module_name(name: &str) -> anyhow::Result<String> {
     let contains = |words: &str, word: &str| words.split(' ').any(|w| w == word);
     ensure!(
         !contains(RESERVED_MODULES, &snake),
-        "the name `{name}` cannot be used: its module `{snake}` would have the name of a keyword or of a crate that the sample uses"
+        "the name `{name}` cannot be used: its module `{snake}` would have the name of a keyword or of a crate that the generated source uses"
     );
     ensure!(
         !contains(RESERVED_TYPES, name),
-        "the name `{name}` cannot be used: the sample uses another type of this name"
+        "the name `{name}` cannot be used: the generated source uses another type of this name"
     );
     Ok(snake)
 }

@@ -1,4 +1,4 @@
-//! Systems that fail: no free file descriptors, and programs that are killed.
+//! Runs under bad conditions: without free file descriptors, and killed while running.
 #![cfg(unix)]
 
 use std::process::{Command, Stdio};

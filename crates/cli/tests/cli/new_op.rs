@@ -277,7 +277,7 @@ fn invalid_names_are_refused_and_change_no_files() {
     folder
         .run("new-op Report")
         .with_code(1)
-        .complains(&["error: the name `Report` cannot be used: the sample uses"]);
+        .complains(&["error: the name `Report` cannot be used: the generated source uses"]);
     assert_eq!(content(&folder.path(".")), before);
 }
 

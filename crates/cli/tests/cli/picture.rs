@@ -243,7 +243,9 @@ fn a_picture_of_a_failure_that_cannot_be_written_is_a_warning() {
         .run("info fan.obj --picture-errors=e")
         .with_code(0)
         .prints(&["non-manifold edge"])
-        .complains(&["warning: cannot draw a failure: cannot write e/fan-error-1.png"]);
+        .complains(&[
+            "warning: cannot make a picture of a failure: cannot write e/fan-error-1.png",
+        ]);
 }
 
 #[test]

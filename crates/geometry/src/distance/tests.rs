@@ -26,7 +26,8 @@ fn between(a: &Mesh, b: &Mesh, tolerance: f64) -> Distance {
     found
 }
 
-/// Returns the largest distance from sample points of `a`, `rows` + 1 along each side of each triangle, to `b`.
+/// Returns the largest distance of the sample points of `a` from `b`. The samples are a grid on each triangle of `a`,
+/// with `rows` + 1 points along each side.
 fn sampled_distance(a: &Mesh, b: &Mesh, rows: u32) -> f64 {
     let mut largest = 0.0_f64;
     let triangles: Vec<[DVec3; 3]> = b.faces().flat_map(|f| fan(b, f)).map(|t| t.at).collect();

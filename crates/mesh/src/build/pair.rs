@@ -27,8 +27,8 @@ pub(super) struct PairedSides {
     pub(super) has_inconsistent_edge: bool,
 }
 
-/// An outgoing half-edge of a vertex: the side of a corner, the boundary half-edge that is the twin of such a
-/// side, or none. Encoded as twice the corner, plus one for the boundary.
+/// An outgoing half-edge of a vertex: the side that starts at a corner, the boundary half-edge that is the twin of
+/// such a side, or none. Encoded as twice the corner, plus one for the boundary.
 #[derive(Clone, Copy, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(transparent)]
 pub(super) struct Outgoing(u32);
@@ -36,12 +36,12 @@ pub(super) struct Outgoing(u32);
 impl Outgoing {
     const NONE: Self = Self(NONE);
 
-    /// Returns the side of corner `c`.
+    /// Returns the side that starts at corner `c`.
     pub(super) fn along_side(c: u32) -> Self {
         Self(2 * c)
     }
 
-    /// Returns the boundary half-edge that is the twin of the side of corner `c`.
+    /// Returns the boundary half-edge that is the twin of the side that starts at corner `c`.
     pub(super) fn along_boundary(c: u32) -> Self {
         Self(2 * c + 1)
     }

@@ -20,7 +20,7 @@ impl Mesh {
     /// grow by n - 1, n and 1. Each face at v gains one corner for each of its corners at v.
     ///
     /// At a cut, vertex attributes are interpolated between v and the other end of the edge, and corner
-    /// attributes within their face, so that both sides of a seam keep their values. Attributes that are
+    /// attributes within their face, on each side of a seam separately. Attributes that are
     /// not interpolated are copied from v. The new face has the values of the face to the left of the first
     /// edge. At each cut, the corner of the new face has the values of the corner in the face to the left
     /// of the cut edge. New edges have zero values.

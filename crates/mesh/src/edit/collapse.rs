@@ -23,7 +23,7 @@ impl Mesh {
     ///
     /// Vertex attributes of v are interpolated between the two ends; attributes that are not interpolated
     /// stay as they are at v. The corners at v of the faces beside `e` are interpolated within their face,
-    /// so that both sides of a seam keep their values. Each corner of another face at an end of `e` is
+    /// on each side of a seam separately. Each corner of another face at an end of `e` is
     /// compared with the corners of the faces beside `e` at the same end, for each attribute. If it has the
     /// same value as one of these corners, it gets the new value of that corner. Otherwise it keeps its
     /// value. When two edges become one, the larger number is kept, so that creases stay, and a tag is set

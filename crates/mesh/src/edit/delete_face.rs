@@ -178,7 +178,7 @@ mod tests {
 
     #[test]
     fn a_face_that_would_pinch_a_vertex_is_refused() {
-        // The middle of a 3 x 3 grid is a hole that shares a vertex with the face at each corner.
+        // The middle of a 3 x 3 grid is a hole that shares only a vertex with the face at each corner.
         let mut mesh = shapes::grid(3, 3);
         mesh.delete_face(FaceId::new(4)).unwrap();
         let before = mesh.clone();

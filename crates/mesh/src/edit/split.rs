@@ -20,7 +20,7 @@ impl Mesh {
     /// V - E + F stays the same.
     ///
     /// Vertex attributes at m are interpolated between a and b, and corner attributes at m within their face,
-    /// so that both sides of a seam keep their values. m-b has the edge values of `e`. The new faces have the
+    /// on each side of a seam separately. m-b has the edge values of `e`. The new faces have the
     /// values of f and g.
     ///
     /// If both triangles have the same opposite vertex (c is d), two edges join m and c.

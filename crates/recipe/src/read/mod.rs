@@ -125,7 +125,7 @@ pub(crate) fn wrong_version(root: &Value, kind: &str, expected: i128) -> Option<
     let found = number.to_int().filter(|&found| found != expected)?;
     let message = format!("this {kind} has version {found}, expected {expected}");
     let help = if found > expected {
-        "a newer meshwright can read it"
+        "a newer meshwright may be able to read it"
     } else {
         "write 1"
     };

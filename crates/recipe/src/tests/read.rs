@@ -99,7 +99,7 @@ fn a_recipe_with_a_different_version_gives_one_error() {
         "(recipe: 2, stages: {\"new\": Things})",
         "2",
         "this recipe has version 2, expected 1",
-        "a newer meshwright can read it",
+        "a newer meshwright may be able to read it",
     );
     has_one_error(
         "(recipe: 0, steps: [])",

@@ -104,8 +104,8 @@ impl Frame {
     }
 }
 
-/// Returns the maximum number of bytes of memory that [`render`] needs for a picture of this size, in addition to the
-/// drawing. Rendering can need more if many triangles must be clipped because they surround the camera.
+/// Returns an estimate of the memory that [`render`] needs for a picture of this size, in bytes, in addition to the
+/// drawing. It is an upper bound unless many triangles must be clipped because they surround the camera.
 pub fn bytes_needed(drawing: &Drawing, [width, height]: [u32; 2], look: &Look) -> u64 {
     // Too large sizes are refused later; here they must not overflow.
     let [width, height] = [width, height].map(|side| side.min(1 << 20));

@@ -149,7 +149,7 @@ fn a_length_that_exceeds_the_memory_is_refused() {
         Scene::decode(&bytes, usize::MAX, &mut NoArrays),
         Err(DecodeError::Truncated)
     );
-    // The first array of a mesh.
+    // The same if the length of the first array of a mesh is too large.
     let mut scene = Scene::new();
     scene.insert(Object::mesh("a", shapes::cube())).unwrap();
     let (mut rest, mut arrays) = encoded_with_separate_arrays(&scene, 1);

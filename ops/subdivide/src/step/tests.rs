@@ -205,7 +205,7 @@ fn invalid_parameters_are_reported_by_the_plan_and_by_the_step() {
 }
 
 #[test]
-fn torn_seams_and_lost_values_are_reported() {
+fn distorted_seams_and_lost_values_are_reported() {
     let mut mesh = shapes::octahedron();
     mesh.set(UV, (0..24).map(|i| DVec2::splat(f64::from(i))).collect());
     mesh.set(CREASE, vec![1.0; 12]);
@@ -213,7 +213,9 @@ fn torn_seams_and_lost_values_are_reported() {
     assert_eq!(notes(Scheme::Sqrt3).len(), 2);
     assert_eq!(
         notes(Scheme::DooSabin),
-        ["12 seam edges have torn corner values, because new faces lie across old edges"]
+        [
+            "12 seam edges: new faces across them mix corner values of both sides, which distorts textures"
+        ]
     );
     assert_eq!(notes(Scheme::CatmullClark), Vec::<String>::new());
 }

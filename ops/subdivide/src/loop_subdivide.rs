@@ -98,7 +98,7 @@ impl LoopSubdivide {
 impl MeshOperation for LoopSubdivide {
     const NAME: &'static str = "LoopSubdivide";
     const VERSION: u32 = 2;
-    const SUMMARY: &'static str = "Split every triangle into four and smooth";
+    const SUMMARY: &'static str = "Split every triangle into four and smooth the surface";
     const EXAMPLE: &'static str = "LoopSubdivide(levels: 0)";
     const WORDS: &'static [&'static str] = &["smooth", "subdivide", "subdivision", "loop"];
 

@@ -62,7 +62,8 @@ impl Butterfly {
 
 impl MeshOperation for Butterfly {
     const NAME: &'static str = "Butterfly";
-    const SUMMARY: &'static str = "Split every triangle into four and smooth the surface, but keep the old vertices";
+    const SUMMARY: &'static str =
+        "Split every triangle into four and smooth the surface, but keep the old vertices";
     const EXAMPLE: &'static str = "Butterfly(levels: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {

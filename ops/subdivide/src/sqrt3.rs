@@ -74,7 +74,8 @@ impl Sqrt3 {
 
 impl MeshOperation for Sqrt3 {
     const NAME: &'static str = "Sqrt3";
-    const SUMMARY: &'static str = "Split every triangle into three, flip the old edges, and smooth the surface";
+    const SUMMARY: &'static str =
+        "Split every triangle into three, flip the old edges, and smooth the surface";
     const EXAMPLE: &'static str = "Sqrt3(levels: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {

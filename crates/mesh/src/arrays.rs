@@ -78,7 +78,7 @@ impl PartialEq for Mesh {
 impl Mesh {
     /// Creates a mesh from these arrays, without attributes. All elements are alive.
     ///
-    /// This is for operations that compute a whole mesh in closed form. The caller must ensure the
+    /// This is for operations that compute the arrays of a whole mesh themselves. The caller must ensure the
     /// invariants; [`try_from_arrays`](Self::try_from_arrays) checks them.
     ///
     /// # Panics
@@ -292,14 +292,16 @@ impl Mesh {
         }
     }
 
-    /// Returns the values of an attribute by element index, if the mesh has the attribute with this type.
+    /// Returns the values of an attribute by element index; `None` if the mesh has no attribute with this name,
+    /// domain and type.
     pub fn get<I: Id, T: Value>(&self, attribute: Attribute<I, T>) -> Option<&[T]> {
         self.attributes
             .column(I::DOMAIN, attribute.name)
             .and_then(|c| T::of(&c.values))
     }
 
-    /// Returns the values of an attribute mutably. An open [journal](Self::begin) copies all of them first.
+    /// Returns the values of an attribute mutably, or `None` as [`get`](Self::get) does. An open
+    /// [journal](Self::begin) copies all of them first.
     pub fn get_mut<I: Id, T: Value>(&mut self, attribute: Attribute<I, T>) -> Option<&mut [T]> {
         let column = self.attributes.column_mut(I::DOMAIN, attribute.name)?;
         if let Some(journal) = &mut self.journal {
@@ -308,7 +310,7 @@ impl Mesh {
         T::of_mut(&mut column.values)
     }
 
-    /// Sets an attribute of the mesh, and replaces one of the same name and domain.
+    /// Sets an attribute of the mesh. It replaces an attribute of the same name and domain.
     ///
     /// # Panics
     ///
@@ -325,7 +327,7 @@ impl Mesh {
         );
     }
 
-    /// Inserts a column, and replaces one of the same name and domain.
+    /// Inserts a column. It replaces a column of the same name and domain.
     ///
     /// # Panics
     ///
@@ -341,7 +343,7 @@ impl Mesh {
         self.attributes.insert(domain, column);
     }
 
-    /// Removes a column and returns it.
+    /// Removes a column and returns it; `None` if there is no such column.
     pub fn remove_column(&mut self, domain: Domain, name: &str) -> Option<Column> {
         let removed = self.attributes.remove(domain, name);
         if let (Some(journal), Some(column)) = (&mut self.journal, &removed) {
@@ -350,13 +352,13 @@ impl Mesh {
         removed
     }
 
-    /// Removes the normals of vertices and corners, which are wrong after the shape has changed.
+    /// Removes [`VERTEX_NORMAL`] and [`CORNER_NORMAL`], which are wrong after the shape has changed.
     pub fn remove_normals(&mut self) {
         self.remove_column(Domain::Vertex, VERTEX_NORMAL.name);
         self.remove_column(Domain::Corner, CORNER_NORMAL.name);
     }
 
-    /// Returns the flags of a tag by element index.
+    /// Returns the flags of a tag by element index; `None` if the mesh has no tag of this name in this domain.
     pub fn tag(&self, domain: Domain, name: &str) -> Option<&[bool]> {
         match &self.attributes.column(domain, name)?.values {
             Values::Tag(marks) => Some(marks),

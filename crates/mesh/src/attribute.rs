@@ -24,9 +24,9 @@ pub use values::{Value, Values};
 pub const UV: Attribute<HalfEdgeId, DVec2> = Attribute::new("uv", Rule::Interpolate);
 /// Unit normals of vertices.
 pub const VERTEX_NORMAL: Attribute<VertexId, DVec3> = Attribute::new("normal", Rule::Normal);
-/// Unit normals of corners: normals that differ between the faces around a vertex.
+/// Unit normals of corners, which can differ between the faces around a vertex.
 pub const CORNER_NORMAL: Attribute<HalfEdgeId, DVec3> = Attribute::new("normal", Rule::Normal);
-/// Unit tangents of vertices, along one direction of the surface.
+/// Unit vectors at vertices that are tangent to the surface. The direction in the tangent plane is arbitrary.
 pub const TANGENT: Attribute<VertexId, DVec3> = Attribute::new("tangent", Rule::Normal);
 /// Red, green, blue and alpha of vertices, from 0 to 1.
 pub const COLOR: Attribute<VertexId, DVec4> = Attribute::new("color", Rule::Interpolate);
@@ -39,13 +39,15 @@ pub const CREASE: Attribute<EdgeId, f64> = Attribute::new("crease", Rule::Copy);
 /// The sharpness of a vertex, from 0 (smooth) to 10 (infinitely sharp).
 pub const VERTEX_SHARPNESS: Attribute<VertexId, f64> = Attribute::new("corner", Rule::Copy);
 
-/// What an edit does with the values of a column.
+/// What an edit or an operation does with the values of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {
-    /// A new element gets the weighted mean of the values of its source elements.
+    /// A new element gets the weighted mean of the values of its source elements. Whole numbers and tags have no
+    /// mean: they get the value with the largest weight.
     Interpolate,
-    /// A unit vector. It is interpolated, then scaled to length 1. Transforms rotate it. Operations
-    /// that move vertices in any other way drop the column, because the normals would be wrong.
+    /// The values are unit vectors. They are interpolated, then scaled to length 1. Transforms rotate them.
+    /// Subdivision drops the column, because the vectors would be wrong. Many other operations remove the normals for
+    /// the same reason; see [`Mesh::remove_normals`](crate::Mesh::remove_normals).
     Normal,
     /// A new element gets the value of the element that it was a part of. If there was none, it gets
     /// the zero value. For example, both parts of a split edge keep the tags of the edge; a new edge

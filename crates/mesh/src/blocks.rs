@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-/// The number of elements that one task adds. Fixed, because the order of the additions determines
-/// the last bits of a sum.
+/// The number of terms that one task adds. It is fixed, because the order of the additions determines the last bits
+/// of a sum.
 pub const BLOCK: usize = 4096;
 
 /// Returns the sum of `term(i)` for i from 0 to n - 1. Blocks of [`BLOCK`] terms are summed in
@@ -16,7 +16,8 @@ where
     fold(n, T::default(), term, |a, b| a + b)
 }
 
-/// Folds like [`sum`], with the operation `join` instead of addition and `start` instead of zero.
+/// Folds like [`sum`], with the operation `join` instead of addition and `start` instead of zero. Every block starts
+/// with `start`, so joining a value with `start` must not change the value.
 pub fn fold<T: Copy + Send + Sync>(
     n: usize,
     start: T,

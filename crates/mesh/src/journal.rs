@@ -5,14 +5,14 @@
 //! reverted later, and then be redone. Memory and time are proportional to the change, not to the mesh.
 //! While no journal is open, a write costs one additional comparison.
 //!
-//! Levels nest: an inner `rollback` undoes the edits since the inner `begin`; an inner `commit` leaves
-//! them to the outer level.
+//! Calls can be nested: each `begin` opens a level, which the matching `commit` or `rollback` ends. An inner
+//! `rollback` undoes the edits since the inner `begin`; an inner `commit` leaves them to the outer level.
 //!
-//! The journal is a stack of entries. Elements that were added after the level was opened need no
-//! entries: an undo truncates the arrays to their old lengths. An undo records the values that it
-//! overwrites in the same way. This record is the change that redoes the edits. Entries that would take
-//! more memory than the mesh are replaced by one copy of the mesh, and a level that has a copy needs no
-//! further entries. So a journal never takes more than about twice the memory of its mesh.
+//! The journal is a stack of entries. Elements that were added after the innermost level was opened need no entries:
+//! an undo truncates the arrays to their old lengths. An undo records the values that it overwrites in the same way.
+//! This record is the change that redoes the edits. Entries that would take more memory than the mesh are replaced by
+//! one copy of the mesh, and a level that has a copy needs no further entries. So a journal never takes more than
+//! about twice the memory of its mesh.
 
 use bytemuck::cast_slice_mut;
 use glam::DVec3;
@@ -36,7 +36,7 @@ impl Change {
             .all(|entry| matches!(entry, Entry::Level(_)))
     }
 
-    /// Returns the size of the change in bytes, without the whole arrays that it contains.
+    /// Returns the size of the change in bytes, without the copies of whole arrays that it can contain.
     pub fn bytes(&self) -> usize {
         size_of_val(self.entries.as_slice()) + self.values.len()
     }
@@ -247,8 +247,8 @@ impl Mesh {
         }
     }
 
-    /// Keeps all changes since the matching [`begin`](Self::begin). If this was the outermost level,
-    /// returns the change, which can be [reverted](Self::revert) later.
+    /// Keeps all changes since the matching [`begin`](Self::begin). If this was the outermost level, returns the
+    /// change, which can be [reverted](Self::revert) later; otherwise `None`.
     ///
     /// # Panics
     ///

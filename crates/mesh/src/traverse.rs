@@ -115,7 +115,7 @@ impl Mesh {
     }
 
     /// Whether the origins of `x` and `y` share an edge. Walks around both vertices at the same time, so
-    /// the cost is that of the vertex with fewer edges.
+    /// the time is proportional to the smaller valence of the two.
     #[inline]
     pub(crate) fn share_an_edge(&self, x: HalfEdgeId, y: HalfEdgeId) -> bool {
         let (v, w) = (self.origin(x), self.origin(y));

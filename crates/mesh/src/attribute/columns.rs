@@ -63,7 +63,7 @@ impl Attributes {
             .flat_map(|d| self.of(d).iter().map(move |c| (d, c)))
     }
 
-    /// Returns the column with this domain and name.
+    /// Returns the column with this domain and name, if there is one.
     pub fn column(&self, domain: Domain, name: &str) -> Option<&Column> {
         self.find(domain, name).ok().map(|i| &self.of(domain)[i])
     }
@@ -83,8 +83,8 @@ impl Attributes {
         index.map(|i| &mut self.columns[domain as usize][i])
     }
 
-    /// Inserts a column into a domain, and replaces a column of the same name. The length of the
-    /// column must be the number of elements of this domain in the mesh that gets these attributes.
+    /// Inserts a column into a domain. It replaces a column of the same name. The length of the column must be the
+    /// number of elements of this domain in the mesh that gets these attributes.
     pub fn insert(&mut self, domain: Domain, column: Column) {
         let index = self.find(domain, &column.name);
         let columns = &mut self.columns[domain as usize];
@@ -94,7 +94,7 @@ impl Attributes {
         }
     }
 
-    /// Removes a column and returns it.
+    /// Removes a column and returns it; `None` if there is no such column.
     pub fn remove(&mut self, domain: Domain, name: &str) -> Option<Column> {
         let index = self.find(domain, name).ok();
         index.map(|i| self.columns[domain as usize].remove(i))
@@ -120,10 +120,10 @@ impl Attributes {
         }
     }
 
-    /// Appends the values of `other`. `lens` are the element counts of this mesh by domain, and
-    /// `other_lens` those of the other mesh. A column that exists in only one of the two gets zero values
-    /// for the elements of the other. If two columns have the same name but different types, the
-    /// column of `other` is skipped, and its domain and name are returned.
+    /// Appends the values of `other`. `lens` are, by domain, the element counts of the mesh that `self` belongs to,
+    /// and `other_lens` those of the mesh that `other` belongs to. A column that only one of the two has gets zero
+    /// values for the elements of the other mesh. If two columns have the same name but different types, the column
+    /// of `other` is skipped, and its domain and name are returned.
     pub fn append(
         &mut self,
         lens: [usize; 4],
@@ -174,7 +174,7 @@ impl Attributes {
             .any(|c| !c.values.are_equal(a.index(), b.index()))
     }
 
-    /// Removes the columns whose rule is [`Rule::Drop`]. Everything that changes connectivity must call this.
+    /// Removes the columns whose rule is [`Rule::Drop`]. Every function that changes connectivity must call this.
     pub fn drop_by_rule(&mut self) {
         for columns in &mut self.columns {
             columns.retain(|c| c.rule != Rule::Drop);
@@ -193,7 +193,8 @@ impl Column {
         }
     }
 
-    /// Sets the value of element `to`, which lies between `a` and `b` at `t`, if the rule interpolates.
+    /// Sets the value of element `to` to the weighted mean of the values of `a` and `b`, where `t` is the weight of
+    /// `b`. Does nothing if the rule does not interpolate.
     #[inline]
     pub(crate) fn mix<I: Id>(&mut self, a: I, b: I, t: f64, to: I) {
         if matches!(self.rule, Rule::Interpolate | Rule::Normal) {
@@ -202,7 +203,8 @@ impl Column {
         }
     }
 
-    /// Sets the value of element `to` to the mean of the values of `from`, if the rule interpolates.
+    /// Sets the value of element `to` to the mean of the values of `from`. Does nothing if the rule does not
+    /// interpolate.
     pub(crate) fn average<I: Id>(&mut self, from: &[I], to: I) {
         if matches!(self.rule, Rule::Interpolate | Rule::Normal) {
             let weight = 1.0 / from.len().max(1) as f64;

@@ -179,7 +179,7 @@ impl Mesh {
 }
 
 /// Builds a mesh from polygons: polygon i has the corners `corners[offsets[i]..offsets[i + 1]]`,
-/// indices of `positions`, counter-clockwise.
+/// which are indices into `positions`, counter-clockwise.
 ///
 /// # Errors
 ///

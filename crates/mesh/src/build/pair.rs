@@ -15,7 +15,7 @@ use crate::{HalfEdgeId, VertexId};
 pub(super) struct PairedSides {
     /// For each side, the other side of its edge, or `NONE` on the boundary.
     pub(super) twin: Vec<u32>,
-    /// For each vertex, its outgoing half-edge.
+    /// For each vertex, the outgoing half-edge that the mesh will store for it.
     pub(super) outgoing: Vec<Outgoing>,
     /// The vertices that have more than one fan, in order. The `outgoing` of such a vertex can belong to any of
     /// its fans.

@@ -22,8 +22,8 @@ impl Mesh {
     /// At a cut, vertex attributes are interpolated between v and the other end of the edge, and corner
     /// attributes within their face, on each side of a seam separately. Attributes that are
     /// not interpolated are copied from v. The new face has the values of the face to the left of the first
-    /// edge. At each cut, the corner of the new face has the values of the corner in the face to the left
-    /// of the cut edge. New edges have zero values.
+    /// edge. At each cut, the corner of the new face has the values of the corner in the face to the left of the cut
+    /// edge, as seen from v. New edges have zero values.
     ///
     /// Returns the new face.
     ///

@@ -7,8 +7,8 @@ impl Mesh {
     ///
     /// ```text
     ///    --d <-g-- c--          --d --- c--         a is joined to d, the target of g, and b to c.
-    ///                     -->     |  f  |           f, between h and g, is the first face;
-    ///    --a --h-> b--          --a --- b--         the other faces follow from b on
+    ///                     -->     |  f  |           f, between h and g, is the first face
+    ///    --a --h-> b--          --a --- b--
     /// ```
     ///
     /// The holes can belong to one component of the mesh, which gets a handle, or to two components, which
@@ -17,12 +17,12 @@ impl Mesh {
     /// the loops are rotated against each other, the band is twisted: choose `h` and `g` so that they face
     /// each other.
     ///
-    /// All existing ids stay the same. New edges and faces are numbered along the longer loop (that of `h` if
-    /// both have the same length), starting with a-d and f. A new face has the values of the face beside its
-    /// edge of the longer loop. A new corner is at a vertex of one of the loops. Its face has an edge of this
-    /// loop, and the corner gets the values of the existing corner at the same vertex in the face on the other
-    /// side of this edge. Only a triangle has no edge of the shorter loop. Its corner at that loop uses the
-    /// edge of the last quad before it. New edges have zero values.
+    /// All existing ids stay the same. New edges and faces are numbered along the longer loop (that of `h` if both
+    /// have the same length). The first face is f. The first edge is a-d, or b-c if the loop of `g` is longer. A new
+    /// face has the values of the face beside its edge of the longer loop. A new corner is at a vertex of one of the
+    /// loops. Its face has an edge of this loop, and the corner gets the values of the existing corner at the same
+    /// vertex in the face on the other side of this edge. Only a triangle has no edge of the shorter loop. Its corner
+    /// at that loop uses the edge of the last quad before it. New edges have zero values.
     ///
     /// Returns the new faces.
     ///

@@ -49,8 +49,8 @@ impl Mesh {
     ///   only faces left at the merged vertex would be two faces back to back, as for a tetrahedron.
     /// - [`EditError::SameFace`] if one face is on both sides of `e`, or if two edges would become one and
     ///   this edge would have the same face on both sides. [`EditError::SameOpposite`] if two triangles
-    ///   beside `e` share a second edge. In both cases a collapse would be possible, but only other edits
-    ///   produce such edges.
+    ///   beside `e` share a second edge. In both cases a collapse would be possible, but it is not implemented,
+    ///   because such edges are rare.
     /// - [`EditError::NoSuchEdge`].
     ///
     /// The mesh is unchanged.
@@ -275,7 +275,7 @@ impl Mesh {
     /// Moves the outgoing half-edges of the origin of `h` to `v`, the target of `h`.
     fn move_half_edges(&mut self, h: HalfEdgeId, v: VertexId) {
         let removed = self.origin(h);
-        // On the boundary, the half-edge of v must be the boundary one.
+        // If v is on the boundary, its stored half-edge must be the one without a face.
         let hole = [h, h.twin()].into_iter().find(|&h| self.face(h).is_none());
         if let Some(hole) = hole {
             self.set_vertex_half_edge(v, Some(self.next(hole)));

@@ -130,7 +130,7 @@ impl Mesh {
         edges
     }
 
-    /// Returns the outgoing half-edges of `v`, clockwise from the boundary, or from a cut if `v` is inside.
+    /// Returns the outgoing half-edges of `v`, clockwise from the boundary, or from a cut edge if `v` is inside.
     fn fan_from_gap(&self, v: VertexId, is_cut: impl Fn(HalfEdgeId) -> bool) -> Vec<HalfEdgeId> {
         let mut fan: Vec<HalfEdgeId> = self.vertex_half_edges(v).collect();
         if !self.is_boundary_vertex(v) {
@@ -140,7 +140,7 @@ impl Mesh {
         fan
     }
 
-    /// Adds an edge that gets the face of the second half of `e`. The halves without a face are not linked yet.
+    /// Adds an edge that gets the face of the second half of `e`. The halves without a face have no `next` yet.
     fn duplicate_edge(&mut self, e: EdgeId) -> EdgeId {
         let [_, old] = e.half_edges();
         let (before, after, face) = (self.prev(old), self.next(old), self.face(old));
@@ -157,7 +157,7 @@ impl Mesh {
     }
 }
 
-/// Returns the parts of a fan after its cut edges were duplicated. The fan must start at a gap.
+/// Returns the parts of a fan after its cut edges were duplicated. The fan must start at the boundary or at a cut.
 fn parts(fan: &[HalfEdgeId], copy_of: impl Fn(HalfEdgeId) -> Option<EdgeId>) -> Vec<Part> {
     // Returns two outgoing half-edges at the cut of h: the last half-edge of the part before the cut
     // (clockwise), and the first half-edge of the part after the cut, which is on the boundary.

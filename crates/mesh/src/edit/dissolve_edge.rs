@@ -38,8 +38,8 @@ impl Mesh {
         self.dissolve_edge_with(e, Seams::Refuse)
     }
 
-    /// Removes an edge like [`dissolve_edge`](Self::dissolve_edge), with a choice for seams. If a seam is
-    /// dropped, the corners at the ends of the edge keep the values of the remaining face.
+    /// Removes an edge like [`dissolve_edge`](Self::dissolve_edge); `seams` decides whether a seam is refused or
+    /// dropped. If it is dropped, the corners at the ends of the edge keep the values of the remaining face.
     ///
     /// # Errors
     ///
@@ -53,7 +53,7 @@ impl Mesh {
         if f == g {
             return Err(EditError::SameFace(e));
         }
-        // f is the remaining face, and ab the half-edge on it.
+        // f is the remaining face, and ab the half of e on f.
         let ([ab, ba], [f, g]) = if f < g {
             (sides, [f, g])
         } else {

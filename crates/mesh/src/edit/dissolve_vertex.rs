@@ -25,7 +25,7 @@ impl Mesh {
     ///
     /// When faces are merged, the one with the lowest id remains, with its values; the same applies to edges.
     /// `v` and its other edges die. V - E + F stays the same. All other ids and values stay the same. This is
-    /// the inverse of [`poke_face`](Self::poke_face), and of [`split_edge`](Self::split_edge) if that cut no
+    /// the inverse of [`poke_face`](Self::poke_face), and of [`split_edge`](Self::split_edge) if the split cut no
     /// triangles.
     ///
     /// Returns the merged face. If `v` has two edges, returns the face with the lower id beside them.
@@ -59,8 +59,8 @@ impl Mesh {
         self.dissolve_vertex_with(v, Seams::Refuse)
     }
 
-    /// Removes a vertex like [`dissolve_vertex`](Self::dissolve_vertex), with a choice for seams. If a seam is
-    /// dropped, the corner at the other end of the edge keeps its value in the face that is
+    /// Removes a vertex like [`dissolve_vertex`](Self::dissolve_vertex); `seams` decides whether a seam is refused or
+    /// dropped. If it is dropped, the corner at the other end of the edge keeps its value in the face that is
     /// counter-clockwise of the edge around `v`.
     ///
     /// # Errors

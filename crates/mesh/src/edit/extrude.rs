@@ -39,7 +39,7 @@ impl Mesh {
     /// at v and v' have the values that the corner of f had at v, so that there is no seam between f and the
     /// side face. Normals do not change.
     ///
-    /// Returns the side faces, in order of the rim.
+    /// Returns the side faces, in the order of their half-edges h.
     ///
     /// # Errors
     ///
@@ -141,8 +141,8 @@ impl Mesh {
 pub(super) struct Rim {
     /// All half-edges of the faces, in order.
     half_edges: Vec<HalfEdgeId>,
-    /// The half-edges of the rim, here called bases. The twin of a base has no face, or a face outside of the
-    /// set.
+    /// The half-edges of the rim, in the order of `half_edges`. They are called bases here. The twin of a base has no
+    /// face, or a face outside of the set.
     pub(super) bases: Vec<HalfEdgeId>,
     /// The index in `bases` of each base.
     index_of_base: BTreeMap<HalfEdgeId, usize>,

@@ -21,8 +21,8 @@ impl Mesh {
     /// its front and the new face as its back. No vertices or edges are added, and all ids stay the same.
     ///
     /// The new face has the values of the face beside `h`. Each corner has the values of the corner at the
-    /// same vertex in the face on the other side of the edge that leaves the corner. So no seam is added
-    /// along an edge if its ends have no seams.
+    /// same vertex in the face on the other side of the edge that leaves the corner. So an edge of the hole becomes a
+    /// seam only if the corners at one of its ends already had different values.
     ///
     /// Returns the new face.
     ///
@@ -120,7 +120,7 @@ impl Mesh {
         Ok(triangles)
     }
 
-    /// Returns the half-edges around the hole of `h`, starting with `h`.
+    /// Returns the half-edges around the hole of `h`, starting with `h`, after checking that the hole can be filled.
     ///
     /// # Errors
     ///

@@ -52,7 +52,7 @@ impl Mesh {
         self.flip_edge_with(e, Seams::Refuse)
     }
 
-    /// Flips an edge like [`flip_edge`](Self::flip_edge), with a choice for seams.
+    /// Flips an edge like [`flip_edge`](Self::flip_edge); `seams` decides whether a seam is refused or dropped.
     ///
     /// # Errors
     ///
@@ -167,7 +167,7 @@ mod tests {
         mesh.set(UV, uvs);
         let before = mesh.clone();
         for e in before.edges() {
-            // On an icosahedron, opposite vertices never share an edge.
+            // On an icosahedron, the two vertices opposite an edge never share an edge.
             for _ in 0..4 {
                 mesh.flip_edge(e).unwrap();
                 assert_eq!(mesh.defects(), []);

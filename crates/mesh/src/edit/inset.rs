@@ -30,7 +30,7 @@ impl Mesh {
     /// corner. Inner edges have the values of the outer edges, the edges v-v' have zero values, and the faces
     /// of the ring have the values of `f`.
     ///
-    /// Returns the faces of the ring, in that order.
+    /// Returns the faces of the ring, in the order of the half-edges h.
     ///
     /// # Errors
     ///

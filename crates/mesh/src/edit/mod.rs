@@ -48,7 +48,7 @@ pub enum EditError {
     /// The edit needs a face on both sides.
     #[error("{0} is on the boundary")]
     Boundary(EdgeId),
-    /// The edit needs an edge with a face on only one side.
+    /// The edit needs a half-edge without a face, but the given half-edge of this edge has one.
     #[error("{0} is not on the boundary")]
     NotBoundary(EdgeId),
     /// The edit needs a vertex inside the surface.
@@ -197,8 +197,8 @@ impl Mesh {
         require(self.face(h).is_none(), EditError::NotBoundary(h.edge()))
     }
 
-    /// Checks that there are ids for this many additional half-edges. An edit adds fewer vertices and faces
-    /// than half-edges.
+    /// Checks that there are ids for this many additional half-edges. An edit adds fewer vertices than half-edges,
+    /// and fewer faces than half-edges.
     fn check_room(&self, half_edges: usize) -> Result<(), EditError> {
         let n = self.connectivity.next.len().max(self.positions.len()) + half_edges;
         require(n < u32::MAX as usize, EditError::Full)

@@ -1,4 +1,4 @@
-//! A second builder, slow and simple. The real builder must produce the same result for any polygons.
+//! A second builder, slow and simple. The builder of the crate must produce the same result for any polygons.
 
 use std::collections::BTreeMap;
 

@@ -3,7 +3,7 @@ use crate::edit::testing::checked_edit;
 use crate::{MATERIAL, UV, VertexId, shapes};
 use glam::{DVec2, DVec3};
 
-/// Returns two regular polygons that face away from each other: one with `n` corners at z = 1, one with `m`
+/// Returns a mesh of two regular polygons that face away from each other: one with `n` corners at z = 1, one with `m`
 /// corners at z = -1.
 fn two_disks(n: u32, m: u32) -> Mesh {
     let top = shapes::cylinder(n, false);

@@ -1,9 +1,9 @@
-//! Fractions for bevels that can cut an edge from both ends.
+//! Converts the fractions of bevels, which can cut an edge from both ends.
 
 use mesh::{EdgeId, FaceId, Mesh};
 
-/// The remaining lengths of edges that bevels cut. A fraction of the length that an edge had before the step
-/// is converted to a fraction of its current length. So the result does not depend on which end of an edge is
+/// The remaining lengths of edges that several bevels cut. A fraction of the length that an edge had before all of
+/// them is converted to a fraction of its current length. So the result does not depend on which end of an edge is
 /// cut first.
 ///
 /// ```text
@@ -17,14 +17,14 @@ pub struct Cuts {
 }
 
 impl Cuts {
-    /// Converts `fraction` of the length that `e` had before the step to a fraction of its current length. The
+    /// Converts `fraction` of the length that `e` had before all bevels to a fraction of its current length. The
     /// result is 1 or more if the current length is too short.
     pub fn fraction(&self, e: EdgeId, fraction: f64) -> f64 {
         fraction / self.remaining.get(e.index()).unwrap_or(&1.0)
     }
 
-    /// Records that a bevel of a vertex or an edge made the face `new` and cut `fraction` off the edges that
-    /// end at its corners.
+    /// Records that a bevel of a vertex or an edge made the face `new`, and that it cut `fraction` of their original
+    /// lengths off the edges that end at the corners of this face.
     pub fn cut(&mut self, mesh: &Mesh, new: FaceId, fraction: f64) {
         for h in mesh.face_half_edges(new) {
             let e = mesh.next(h.twin()).edge();

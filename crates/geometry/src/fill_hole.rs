@@ -1,4 +1,5 @@
-//! Fills a hole with triangles, computed as a sequence of ears to cut off.
+//! Fills a hole with triangles, computed as a sequence of ears to cut off. An ear is a vertex of the hole that is cut
+//! off by a triangle with its two neighbors p and q.
 //!
 //! ```text
 //!      p --- ear               p
@@ -16,7 +17,7 @@ use mesh::{DVec3, EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 /// third power of the number of edges; for this many edges it is about a tenth of a second.
 const MAX_EXACT_EDGES: usize = 500;
 
-/// The weight of the shape of a triangle relative to its area, as a multiple of the mean squared edge length of
+/// The largest cost that the shape of a triangle adds to its area, as a fraction of the mean squared edge length of
 /// the hole.
 const SHAPE_WEIGHT: f64 = 1e-6;
 
@@ -210,7 +211,8 @@ impl<'m> Hole<'m> {
         sides.map(|s| (s[0] - first).cross(s[1] - first)).sum()
     }
 
-    /// Returns the error that names the first existing edge between two vertices of the hole.
+    /// Returns the error that names the first existing edge between two vertices that are not neighbors around the
+    /// hole.
     fn duplicate(&self) -> EditError {
         let n = self.points.len();
         let pairs = (0..n).flat_map(|i| (i + 2..n).map(move |k| (i, k)));

@@ -1,6 +1,6 @@
 //! Algorithms over a [`Mesh`](mesh::Mesh) that go beyond one element and its neighbors.
 //!
-//! | module | what it does |
+//! | items | contents |
 //! | --- | --- |
 //! | [`shapes`] | simple meshes |
 //! | [`area`], [`volume`], [`bounds`], [`genus`], [`components`] | measures of whole meshes |

@@ -125,7 +125,7 @@ pub fn icosahedron() -> Mesh {
     )
 }
 
-/// Makes a flat sheet of `columns` x `rows` unit squares. Rows are numbered from -y to +y.
+/// Makes a flat sheet of `columns` x `rows` unit squares. Vertices and faces are numbered row by row, from -y to +y.
 ///
 /// # Panics
 ///

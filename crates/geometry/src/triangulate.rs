@@ -9,8 +9,8 @@
 //! ```
 //!
 //! A quadrilateral is cut along its shorter diagonal. A larger polygon is cut by ear clipping, then its
-//! diagonals are flipped until it is a constrained Delaunay triangulation. If that fails, it becomes a fan. See
-//! [`Cutter`] for the details.
+//! diagonals are flipped until it is a constrained Delaunay triangulation. If ear clipping fails, the polygon becomes
+//! a fan. See [`Cutter`] for the details.
 //!
 //! Corners are numbered from 0 along the face. The corners of a triangle are in ascending order, which has the
 //! orientation of the face.
@@ -19,10 +19,11 @@ use earcut::{Earcut, Refiner};
 
 use mesh::{DVec3, FaceId, Mesh};
 
-/// Three corners of a face, in ascending order.
+/// The numbers of three corners of a face, in ascending order.
 pub type Triangle = [u32; 3];
 
-/// Lengths, areas and turns whose relative difference is below this are treated as equal.
+/// Squared lengths whose relative difference is at most this are treated as equal. An area that is smaller than this,
+/// relative to the size of the face, is treated as 0.
 const TOLERANCE: f64 = 1e-12;
 /// The largest number of corners for which a face is cut by ear clipping, which uses 32-bit indices. A face
 /// with more corners becomes a fan.
@@ -44,13 +45,13 @@ pub enum Cut {
     Polygon {
         /// The triangles, sorted.
         triangles: Vec<Triangle>,
-        /// Whether the triangles are a fan because ear clipping failed.
+        /// Whether the triangles are a fan because ear clipping failed or was not tried.
         is_fan: bool,
     },
 }
 
 impl Cut {
-    /// The number of new edges, which is also the number of additional faces.
+    /// Returns the number of new edges, which is also the number of additional faces.
     pub fn n_diagonals(&self) -> usize {
         match self {
             Self::Keep => 0,
@@ -59,12 +60,12 @@ impl Cut {
         }
     }
 
-    /// Whether the triangles are a fan because ear clipping failed.
+    /// Whether the triangles are a fan because ear clipping failed or was not tried.
     pub fn is_fan(&self) -> bool {
         matches!(self, Self::Polygon { is_fan: true, .. })
     }
 
-    /// The triangles, sorted. Empty if the face is not cut.
+    /// Returns the triangles, sorted; none if the face is not cut.
     pub fn triangles(&self) -> &[Triangle] {
         match self {
             Self::Keep => &[],
@@ -98,8 +99,9 @@ impl Cut {
 ///
 /// A larger face is projected along its normal and cut by ear clipping (Held, "FIST: Fast Industrial-Strength
 /// Triangulation of Polygons", 2001, as implemented by the crate `earcut`). Then diagonals are flipped until it
-/// is a constrained Delaunay triangulation. Ear clipping can fail if the face has no area or its sides cross.
-/// Then the face becomes a fan around its lowest vertex.
+/// is a constrained Delaunay triangulation. Ear clipping can fail if the face has no area or its sides cross; it is
+/// not tried for faces with more than ten million corners. In these cases the face becomes a fan around its lowest
+/// vertex.
 ///
 /// # Examples
 ///

@@ -29,8 +29,8 @@ impl Corner {
     }
 }
 
-/// Returns chords that cut the polygon so that each part has corners on one side of the line only. The polygon
-/// must have corners on both sides of the line. `normal` is the normal of the polygon.
+/// Returns chords that cut the polygon so that no part has corners on both sides of the line. The polygon must have
+/// corners on both sides of the line. `normal` is the normal of the polygon.
 ///
 /// If the corners on the line do not give consistent inside intervals, each part to the left of the line is cut
 /// off separately.
@@ -133,7 +133,7 @@ fn sees_inside(before: &Corner, corner: &Corner, after: &Corner, normal: DVec3) 
     [contains(2) || contains(6), contains(4)]
 }
 
-/// Returns a chord for each chain of corners to the left of the line.
+/// Returns, for each chain of corners to the left of the line, the chord that cuts it off.
 fn left_chords(corners: &[Corner]) -> Vec<[u32; 2]> {
     let n = corners.len();
     let is_left = |i: usize| corners[i % n].height > 0.0;

@@ -44,10 +44,10 @@ pub struct Bisection {
 /// vertex is decided once, for all its edges and faces. A crossing point does not depend on the direction of
 /// its edge.
 ///
-/// What happens to ids: when an edge is split, the part at the origin of its first half keeps the id of the
-/// edge. The other parts and the crossing points are new, in order of the edges. The new edges on the plane
-/// come after them, face by face. When a face is cut, the part with its first corner keeps the id of the
-/// face; the other parts are new.
+/// Ids change as follows. When an edge is split, the part at the origin of its first half keeps the id of the edge.
+/// The other parts and the crossing points are new, in order of the edges. The new edges on the plane come after
+/// them, face by face. When a face is cut, the part with its first corner keeps the id of the face; the other parts
+/// are new.
 ///
 /// Values are interpolated at crossing points. Corner values are interpolated within their face, so that seams
 /// are kept. Parts of an edge or a face copy its values, and new edges on the plane have zero values.
@@ -127,7 +127,7 @@ fn split_across(mesh: &mut Mesh, heights: &mut Vec<f64>) -> Result<(), EditError
     for e in crossing {
         let [a, b] = mesh.edge_vertices(e);
         let [low, high] = [a, b].map(|v| heights[v.index()]);
-        // The weights are the same bits if a and b are swapped.
+        // The weights have the same bits if a and b are swapped.
         let (weight_a, weight_b) = (high / (high - low), low / (low - high));
         let p = weight_a * mesh.position(a) + weight_b * mesh.position(b);
         let new = mesh.insert_vertex(e, weight_b)?;
@@ -138,7 +138,7 @@ fn split_across(mesh: &mut Mesh, heights: &mut Vec<f64>) -> Result<(), EditError
     Ok(())
 }
 
-/// Cuts face `f` if it has corners on both sides.
+/// Cuts face `f` along the plane if it has corners on both sides of the plane.
 fn cut_across(mesh: &mut Mesh, f: FaceId, normal: DVec3, heights: &[f64]) -> Result<(), EditError> {
     let height = |h: HalfEdgeId| heights[mesh.origin(h).index()];
     let around = mesh.face_half_edges(f);
@@ -163,7 +163,7 @@ fn cut_across(mesh: &mut Mesh, f: FaceId, normal: DVec3, heights: &[f64]) -> Res
     mesh.cut_face(f, &chords).map(drop)
 }
 
-/// Collects the edges on the plane and the faces on both sides, after all faces are cut.
+/// Returns the edges on the plane and the faces on both sides, after all faces were cut.
 fn sides(mesh: &Mesh, normal: DVec3, heights: &[f64]) -> Bisection {
     let height = |v: VertexId| heights[v.index()];
     let mut bisection = Bisection::default();
@@ -181,7 +181,7 @@ fn sides(mesh: &Mesh, normal: DVec3, heights: &[f64]) -> Bisection {
     bisection
 }
 
-/// Returns the unit vector in the direction of a vector that is not zero.
+/// Returns the unit vector in the direction of a vector. Fails if the vector is zero or not finite.
 fn direction(vector: DVec3) -> Result<DVec3, EditError> {
     let largest = vector.abs().max_element();
     if let Some(&bad) = vector.to_array().iter().find(|x| !x.is_finite()) {

@@ -71,10 +71,10 @@ pub struct SurfacePoint {
 /// The default tolerance, as a fraction of the diagonal of the bounding box of both surfaces.
 pub const TOLERANCE: f64 = 1e-5;
 
-/// What progress reports say.
+/// The name of this work in progress reports.
 const WHAT: &str = "measure the distance";
 
-/// Asks whether to go on. Called at least every few milliseconds.
+/// Asks the progress listener whether to continue. Called at least every few milliseconds.
 type Ask<'a> = dyn Fn() -> Result<(), Cancelled> + Sync + 'a;
 
 impl Distance {
@@ -87,11 +87,11 @@ impl Distance {
         found.expect("never cancelled")
     }
 
-    /// The same as [`between`](Self::between), but reports progress.
+    /// Measures the distance like [`between`](Self::between), and reports progress.
     ///
     /// # Errors
     ///
-    /// [`Cancelled`] if the listener asks to stop.
+    /// [`Cancelled`] if `progress` asks to stop.
     pub fn between_with(
         a: &Mesh,
         b: &Mesh,
@@ -161,7 +161,8 @@ impl std::fmt::Display for SurfacePoint {
 /// The approximate number of samples for the mean distance of a surface with few large triangles.
 const SAMPLES: f64 = 50_000.0;
 
-/// The number of elements measured by one task. It is fixed, because sums are added block by block.
+/// The number of vertices or faces that one task measures. It is fixed, so that sums do not depend on the number of
+/// threads.
 const BLOCK: usize = 1024;
 
 /// The result of one task.
@@ -172,9 +173,9 @@ struct Block {
     /// An upper bound of the distances of all points that are not in one of the `pieces`.
     ceiling: f64,
     farthest: Option<Farthest>,
-    /// The sum of the areas.
+    /// The sum of the areas of the triangles.
     area: f64,
-    /// The sum of area times mean distance.
+    /// The sum, over the triangles, of area times mean distance.
     weighted: f64,
 }
 

@@ -126,7 +126,7 @@ impl Piece {
         self.corners.iter().map(distance).fold(0.0, f64::max)
     }
 
-    /// Whether cutting the piece can lower its bound. Cutting does not help if the distance of a corner is
+    /// Whether cutting the piece can lower its bound enough. Cutting does not help if the distance of a corner is
     /// inexact and the bound exceeds the largest corner distance by at most `tolerance`.
     fn can_improve(&self, tolerance: f64) -> bool {
         let hits = self.corners.map(|s| s.hit);
@@ -160,7 +160,7 @@ impl Piece {
         self.upper = self.upper.min(self.to_triangle(to, middle.hit.triangle));
     }
 
-    /// Returns a sample inside the piece as a candidate for the furthest sample.
+    /// Returns `sample`, which lies in the piece, as a candidate for the furthest sample.
     pub(super) fn at(&self, sample: Sample) -> Farthest {
         Farthest {
             on: Element::Face(self.face),
@@ -204,7 +204,7 @@ pub(super) fn refine(
     // A round has only as many pieces as the remaining visits allow. The earlier searches show how many visits
     // a search takes.
     let visits = pieces.iter().map(|p| u64::from(p.corners[0].hit.visits));
-    // Cutting a piece takes about five searches.
+    // Cutting a piece takes at most three searches. The factor 5 leaves a margin.
     let per_piece = 5 * (visits.sum::<u64>() / (pieces.len() as u64).max(1)).max(1);
     let affordable = |visits: u64, per_piece: u64| {
         usize::try_from(visits / per_piece).map_or(MAX_PIECES, |n| n.clamp(1, MAX_PIECES))

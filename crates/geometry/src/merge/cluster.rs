@@ -24,8 +24,8 @@ const LEAF: usize = 8;
 /// Boxes with at most this many points are not processed in a separate task.
 const TASK: usize = 8192;
 
-/// Returns for each point the lowest number in its cluster. A cluster is a set of points that are connected by
-/// steps of at most `distance`, which must be finite and not negative.
+/// Returns for each point the lowest index of the points in its cluster. A cluster is a set of points that are
+/// connected by steps of at most `distance`, which must be finite and not negative.
 ///
 /// Two points are one step apart if the rounded length of their difference is at most `distance`. Positions
 /// must be finite, and there must be fewer than 2³² of them.
@@ -85,7 +85,7 @@ fn sort_into_tree(points: &mut [Point]) {
     run_both(n, || sort_into_tree(low), || sort_into_tree(high));
 }
 
-/// Runs both halves of some work on `n` points, in parallel if `n` is large enough.
+/// Runs both halves of some work on `n` points, in parallel if there are more than [`TASK`] points.
 fn run_both<T: Send>(
     n: usize,
     low: impl FnOnce() -> T + Send,
@@ -98,7 +98,7 @@ fn run_both<T: Send>(
     }
 }
 
-/// Returns the bounding box.
+/// Returns the minimum and the maximum of the coordinates of points.
 fn bounds(points: &[Point]) -> (DVec3, DVec3) {
     let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     points

@@ -20,7 +20,7 @@ pub(crate) struct AttributeSources<'a> {
     pub(crate) finer: &'a Mesh,
     pub(crate) topology: &'a dyn Topology,
     pub(crate) masks: &'a dyn AnyMasks,
-    /// How sharpness decreases. `None` copies sharpness unchanged.
+    /// Computes how sharpness decreases. If `None`, sharpness is copied unchanged.
     pub(crate) sharpness: Option<Sharpness<'a>>,
     pub(crate) rules: Rules,
 }
@@ -37,10 +37,11 @@ impl AttributeSources<'_> {
     ///   old vertices, and new vertices have zero.
     /// - Corners: [`Rule::Interpolate`] smooths each piece between seams separately, as [`FaceVarying`] says.
     ///   [`Rule::Copy`] works as for vertices.
-    /// - Edges: parts of an old edge copy its value, other edges have zero.
+    /// - Edges: parts of an old edge copy its value, other new edges have zero.
     /// - Faces: parts of an old face copy its value.
     ///
-    /// Columns with [`Rule::Normal`] or [`Rule::Drop`] are dropped. If `sharpness` is given, sharpness decreases.
+    /// Columns with [`Rule::Normal`] or [`Rule::Drop`] are dropped. If `sharpness` is given, the sharpness of edges
+    /// and vertices decreases.
     pub(crate) fn attributes(&self, meter: &Meter) -> Result<Attributes, Cancelled> {
         let mut new = Attributes::default();
         let columns = self.mesh.attributes().iter();

@@ -129,7 +129,7 @@ impl<'a> DooSabin<'a> {
         HalfEdgeId::new(2 * (self.first_join() + self.outer.below(h.index())))
     }
 
-    /// The number of the first of the edges join(h).
+    /// Returns the number of the first of the edges join(h).
     fn first_join(&self) -> usize {
         4 * self.n_edges - self.doubled.len()
     }

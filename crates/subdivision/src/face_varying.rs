@@ -54,9 +54,9 @@ enum State {
     Crease,
 }
 
-/// The corners around a vertex that have the same value.
+/// A piece: the corners around a vertex that have the same value.
 struct Piece {
-    /// The first and the last corner, counter-clockwise.
+    /// The half-edges of the first and the last corner, counter-clockwise.
     ends: [HalfEdgeId; 2],
     size: usize,
     /// The outgoing half-edges of the edges inside the piece.

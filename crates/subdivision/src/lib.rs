@@ -47,9 +47,10 @@
 //!        0     1     2     3     4     5     6     7     8   level
 //! ```
 //!
-//! `+` is a torus of regular valence: the distance is quadratic in the edge length, so each level divides it by
-//! 4. `o` is an icosahedron: around its vertices of valence 5, each level scales the surface, and eventually
-//! the distance too, by the subdominant eigenvalue 3/8 + cos(2π/5)/4 = 0.452.
+//! `+` is a torus of regular valence, `o` is an icosahedron, and `*` is both at once. On the torus, the distance is
+//! quadratic in the edge length, so each level divides it by four. Around the vertices of valence 5 of the
+//! icosahedron, each level scales the surface, and eventually the distance too, by the subdominant eigenvalue
+//! 3/8 + cos(2π/5)/4 = 0.452.
 //!
 //! # Examples
 //!

@@ -87,16 +87,16 @@ pub(crate) struct Link(
 
 /// Computes the elements of a new mesh one at a time.
 pub(crate) trait Links: Sync {
-    /// The numbers of vertices, edges and faces.
+    /// Returns the numbers of vertices, edges and faces.
     fn counts(&self) -> [usize; 3];
 
-    /// The two halves of edge `i`.
+    /// Returns the two halves of edge `i`.
     fn edge(&self, i: usize) -> [Link; 2];
 
-    /// The half-edge of vertex `i`; [`HalfEdgeId::NONE`] if it is isolated.
+    /// Returns the half-edge of vertex `i`; [`HalfEdgeId::NONE`] if the vertex is isolated.
     fn vertex(&self, i: usize) -> HalfEdgeId;
 
-    /// The half-edge of face `i`.
+    /// Returns the half-edge of face `i`.
     fn face(&self, i: usize) -> HalfEdgeId;
 }
 

@@ -54,8 +54,8 @@ use smoothed::{LocalMasks, SmoothedElements};
 
 /// Subdivides some of the faces of a mesh `levels` times. Each level refines the parts of the chosen faces.
 ///
-/// `faces` has one flag for each face, which is true if the face is chosen. Supports Loop, Catmull-Clark and
-/// Midpoint subdivision.
+/// `faces` has one flag for each face, which is true if the face is chosen. Supports Loop, Catmull-Clark and midpoint
+/// subdivision.
 ///
 /// Around the chosen faces, triangles are cut in four or in two so that no vertex lies inside an edge. If the
 /// scheme makes quads, the neighbors of chosen faces get additional corners instead. The surface outside of the
@@ -64,11 +64,11 @@ use smoothed::{LocalMasks, SmoothedElements};
 /// chosen; otherwise it lies in the middle of the edge. If all faces are chosen, the result is the same as that of
 /// [`subdivide`](crate::subdivide).
 ///
-/// What happens to ids: old vertices keep their ids. Each level appends the new vertices on edges, in order of
-/// the edges, then the new vertices in faces, in order of the faces. Edges and faces are renumbered. The parts
-/// of an edge are consecutive, from the origin of its first half to the target, and the parts of a face are
-/// consecutive too. New edges inside faces come after the parts of old edges, in order of the faces. A mesh
-/// with dead elements is compacted first.
+/// Ids change as follows. Old vertices keep their ids. Each level appends the new vertices on edges, in order of the
+/// edges, then the new vertices in faces, in order of the faces. Edges and faces are renumbered. The parts of an edge
+/// are consecutive, from the origin of its first half to the target, and the parts of a face are consecutive too. New
+/// edges inside faces come after the parts of old edges, in order of the faces. A mesh with dead elements is
+/// compacted first.
 ///
 /// Vertex attributes are blended with the weights of the positions. Where positions are smoothed, corner values
 /// are smoothed as [`Rules::face_varying`] says. Elsewhere each corner value is a mean of values of its own
@@ -76,8 +76,8 @@ use smoothed::{LocalMasks, SmoothedElements};
 /// edges inside faces have zero. Sharpness decreases where positions are smoothed and is kept elsewhere.
 /// Normals are dropped.
 ///
-/// If the result is refined again, triangles that were cut in two are treated as ordinary triangles. So angles
-/// can be halved once for each call, but not for each level.
+/// If the result is refined again, triangles that were cut in two are treated as ordinary triangles. So each call can
+/// halve angles once, however many levels it computes.
 ///
 /// The mesh stays unchanged if `levels` is 0 or no face is chosen.
 ///
@@ -86,8 +86,8 @@ use smoothed::{LocalMasks, SmoothedElements};
 /// [`SubdivisionError::WholeMesh`] for Butterfly, Sqrt3 and Doo-Sabin, [`SubdivisionError::FlagCount`] unless
 /// `faces` has one flag for each face, [`SubdivisionError::NotTriangle`] if the scheme needs triangles and a
 /// face has more corners, [`SubdivisionError::TooLarge`] if a level would have more elements than ids can
-/// number or take more than `budget` bytes, [`SubdivisionError::Cancelled`] if the progress listener asks to
-/// stop.
+/// number or take more than `budget` bytes, [`SubdivisionError::TooFar`] if a coordinate is too large,
+/// [`SubdivisionError::Cancelled`] if the progress listener asks to stop.
 pub fn refine_faces(
     mesh: &Mesh,
     faces: &[bool],

@@ -39,10 +39,10 @@ pub(crate) trait Masks: Sync {
 
 /// The object-safe form of [`Masks`], for code that is compiled once for all schemes.
 pub(crate) trait AnyMasks: Sync {
-    /// As [`Masks::mask`].
+    /// Does the same as [`Masks::mask`].
     fn mask(&self, i: usize, add: &mut dyn FnMut(usize, f64));
 
-    /// As [`Masks::values`].
+    /// Does the same as [`Masks::values`].
     fn values(&self, n: usize, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, Cancelled>;
 }
 

@@ -29,7 +29,7 @@ pub struct SparseMatrix {
 }
 
 impl SparseMatrix {
-    /// The number of rows.
+    /// Returns the number of rows.
     pub fn n_rows(&self) -> usize {
         self.offsets.len() - 1
     }
@@ -49,7 +49,7 @@ impl SparseMatrix {
     ///
     /// # Panics
     ///
-    /// Can panic if `values` has fewer entries than the matrix has columns.
+    /// May panic if `values` has fewer entries than the matrix has columns.
     pub fn apply<T>(&self, values: &[T]) -> Vec<T>
     where
         T: mesh::Value + std::ops::Add<Output = T> + std::ops::Mul<f64, Output = T>,

@@ -22,9 +22,9 @@
 //! half-edge h of its face.
 //!
 //! In a mesh of quads the corners of face f are 4f to 4f + 3, and the corner of a half-edge follows from its
-//! position in the face. Otherwise the corner numbers are computed in advance. This happens on the first level
-//! only, when the mesh is small. The idea is from Dupuy and Vanhoey, "A Halfedge Refinement Rule for Parallel
-//! Catmull-Clark Subdivision", 2021, adapted to half-edges stored in pairs.
+//! position in the face. Otherwise the corner numbers are computed in advance. This happens on the first level only,
+//! whose mesh is the smallest: after it, all faces are quads. The idea is from Dupuy and Vanhoey, "A Halfedge
+//! Refinement Rule for Parallel Catmull-Clark Subdivision", 2021, adapted to half-edges stored in pairs.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};
@@ -124,7 +124,7 @@ impl<'a> Quads<'a> {
         ([self.out(c), after], [FaceId::new(c), FaceId::new(next)])
     }
 
-    /// The entries of corner `c`: the two halves of its spoke, and the half-edge of its face.
+    /// Returns the entries of corner `c`: the two halves of its spoke, and the half-edge of its face.
     #[inline]
     fn spoke(&self, c: usize) -> Entries<2, 1> {
         let (h, f) = self.half_edge_of_corner(c);

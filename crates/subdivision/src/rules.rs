@@ -17,7 +17,7 @@ pub struct Rules {
 }
 
 impl Rules {
-    /// A scheme with default options.
+    /// Returns the rules of a scheme, with default options.
     pub const fn of(scheme: Scheme) -> Self {
         Self {
             scheme,
@@ -117,7 +117,7 @@ pub enum FaceVarying {
 }
 
 impl Scheme {
-    /// The name of the scheme, capitalized, for messages.
+    /// Returns the name of the scheme for messages. It starts with a capital letter.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Loop(_) => "Loop subdivision",

@@ -113,8 +113,8 @@ impl SemiSharp {
         semi_sharp
     }
 
-    /// An edge at this vertex with sharpness `s` is split in two. Returns the sharpness, on the next level, of the
-    /// part at this vertex.
+    /// Returns the sharpness on the next level of the part at this vertex of an edge with sharpness `s`. Each edge
+    /// has two parts, one at each end.
     pub(crate) fn half_of(self, s: f64) -> f64 {
         if s <= 0.0 || s >= INFINITE || self.n < 2 {
             return decreased(s);
@@ -254,14 +254,14 @@ impl<'a> Sharpness<'a> {
         SemiSharp::of(self.creasing, edges.map(|h| self.edge(h.edge())))
     }
 
-    /// The edge of `h` is split in two. Returns the sharpness, on the next level, of the part at the origin of `h`.
+    /// Returns the sharpness, on the next level, of the part of the edge of `h` that is at the origin of `h`.
     pub(crate) fn of_half(&self, h: HalfEdgeId) -> f64 {
         let semi_sharp = self.semi_sharp(self.mesh.origin(h));
         semi_sharp.half_of(self.edge(h.edge()))
     }
 
-    /// The edge of `h` is split in two. Returns the sharpness to store, on the next level, for the part at the
-    /// origin of `h`.
+    /// Returns the sharpness to store, on the next level, for the part of the edge of `h` that is at the origin of
+    /// `h`.
     pub(crate) fn next_of_half(&self, h: HalfEdgeId) -> f64 {
         if self.edges.is_none() {
             0.0

@@ -11,7 +11,8 @@ use crate::rules::{Scheme, Split};
 /// The largest number of elements of one kind: ids end at 2^32 - 2.
 const MAX_ELEMENTS: u64 = u32::MAX as u64;
 
-/// A number of elements: exact, or a range while planning. Arithmetic saturates at the largest value.
+/// A number of elements: an exact number, or a range if the number is not known yet. Arithmetic saturates at the
+/// largest value.
 pub trait Count: Copy {
     /// Returns the sum of two counts.
     #[must_use]
@@ -232,7 +233,7 @@ impl<N: Count> Size<N> {
     }
 }
 
-/// The error that a subdivided mesh would be too large.
+/// A subdivided mesh would be too large.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("level {levels} would have {faces} faces and {}", self.excess())]
 pub struct TooLarge {
@@ -251,7 +252,7 @@ pub struct TooLarge {
 }
 
 impl TooLarge {
-    /// Names the highest level that fits, for the help of an error message.
+    /// Returns the help for an error message: the highest level that fits.
     pub fn help(&self) -> String {
         match self.fits {
             Some(level) => format!("the highest level that fits is {level}"),

@@ -322,8 +322,8 @@ impl Topology for Sqrt3<'_> {
         links::connectivity(self, meter)
     }
 
-    /// A triangle at a flipped edge lies in two old faces. At its old vertex, triangle 3f + k has the value of the
-    /// corner of face f. At each center it has the value of the face of that center.
+    /// Returns the place of a corner. A triangle at a flipped edge lies in two old faces. At its old vertex, triangle
+    /// 3f + k has the value of the corner of face f. At each center it has the value of the face of that center.
     fn corner(&self, finer: &Connectivity, i: usize) -> Place {
         let mesh = self.mesh;
         let Some(face) = finer.face[i].some() else {
@@ -333,7 +333,7 @@ impl Topology for Sqrt3<'_> {
             Source::Old(v) => {
                 let mut sides = mesh.face_half_edges(FaceId::new(face.index() / 3));
                 let h = sides.find(|&h| mesh.origin(h) == v);
-                Place::At(h.expect("a triangle has a corner of its kept_half_edge face"))
+                Place::At(h.expect("triangle 3f + k has a corner of face f"))
             }
             Source::Center(f) => Place::In(f),
             Source::Near(h) => place_near_origin(mesh, h, 3),

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::parallel::of_blocks;
 
-/// A subset of the numbers from 0 to n - 1 of the elements. Holds its members in ascending order.
+/// A subset of the numbers from 0 to n - 1, which are the numbers of n elements. The members are in ascending order.
 #[derive(Debug)]
 pub(crate) struct Subset(Vec<u32>);
 

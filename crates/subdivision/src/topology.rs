@@ -8,28 +8,28 @@ use progress::{Cancelled, Meter};
 /// Computes the connectivity of the next level of a dense mesh, and the old element that each new element
 /// comes from.
 pub(crate) trait Topology: Sync {
-    /// The connectivity of the next level.
+    /// Computes the connectivity of the next level.
     fn connectivity(&self, meter: &Meter) -> Result<Connectivity, Cancelled>;
 
-    /// The place in the old mesh of the corner of half-edge `i` of the next level.
+    /// Returns the place in the old mesh of the corner of half-edge `i` of the next level.
     fn corner(&self, finer: &Connectivity, i: usize) -> Place;
 
-    /// The old vertex that vertex `i` of the next level comes from, if any. The default returns `i`, because old
-    /// vertices keep their numbers in most schemes. A result that is not the number of an old vertex means that
+    /// Returns the old vertex that vertex `i` of the next level comes from, if any. The default returns `i`, because
+    /// old vertices keep their numbers in most schemes. A result that is not the number of an old vertex means that
     /// vertex `i` is new.
     fn vertex(&self, i: usize) -> Option<usize> {
         Some(i)
     }
 
-    /// The old edge that new edge `i` is a part of, if any.
+    /// Returns the old edge that new edge `i` is a part of, if any.
     fn edge(&self, i: usize) -> Option<usize>;
 
-    /// The old face that new face `i` is a part of, if any.
+    /// Returns the old face that new face `i` is a part of, if any.
     fn face(&self, i: usize) -> Option<usize>;
 
-    /// If edge `i` of the next level is a part of an old edge: the half-edge of the old edge that starts at the end
-    /// of the old edge where the part is. The default is for schemes that split each edge in two and number these
-    /// parts before all other edges.
+    /// If edge `i` of the next level is a part of an old edge at one of its ends, returns the half-edge of the old
+    /// edge that starts at this end. The default is for schemes that split each edge in two and number these parts
+    /// before all other edges.
     fn half(&self, i: usize) -> Option<HalfEdgeId> {
         self.edge(i).map(|_| HalfEdgeId::new(i))
     }
@@ -112,7 +112,7 @@ pub(crate) fn add_doo_sabin(mesh: &Mesh, h: HalfEdgeId, mut add: impl FnMut(Half
     }
 }
 
-/// The weight of the `j`-th of the `n` corners of a face, counted from the corner whose Doo-Sabin point is
+/// Returns the weight of the `j`-th of the `n` corners of a face, counted from the corner whose Doo-Sabin point is
 /// computed.
 #[inline]
 fn doo_sabin_weight(n: usize, j: usize) -> f64 {

@@ -14,7 +14,7 @@ use crate::size::Size;
 
 /// Subdivides a mesh `levels` times.
 ///
-/// What happens to ids in one level, where V, E and F are the numbers of old vertices, edges and faces:
+/// One level changes ids as follows, where V, E and F are the numbers of old vertices, edges and faces:
 ///
 /// - Loop, Butterfly, Catmull-Clark and Midpoint: old vertices keep their ids. The vertex on edge e is V + e,
 ///   and edge e becomes edges 2e and 2e + 1. Triangle f becomes faces 4f to 4f + 3. If the scheme makes quads,
@@ -47,7 +47,7 @@ pub fn subdivide(
     subdivide_within(mesh, rules, 0..levels, u64::MAX, progress)
 }
 
-/// Computes a range of levels, starting from this mesh, if the result takes at most `budget` bytes.
+/// Computes a range of levels, starting from this mesh. Fails if the result would take more than `budget` bytes.
 ///
 /// `levels.start` is the number of levels that were applied to this mesh before; 0 for a coarse mesh. The number
 /// matters for [`Scheme::Sqrt3`](crate::Scheme::Sqrt3), whose even and odd levels differ.

@@ -1,4 +1,4 @@
-//! The limit masks of a settled star.
+//! The limit masks of a settled star, which has no semi-sharp elements.
 
 use std::f64::consts::{PI, TAU};
 

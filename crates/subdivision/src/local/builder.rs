@@ -32,7 +32,7 @@ impl<'a> ConnectivityBuilder<'a> {
                 let m = pieces.on_edge(h.edge());
                 new.origin[last.index()] = m;
                 // The half-edge of m is the second part of the first half-edge of the edge. If the second half-edge
-                // is on the boundary, its second part replaces the part of the first one.
+                // has no face, m stores its second part instead.
                 if h.index().is_multiple_of(2) || mesh.face(h).is_none() {
                     new.vertex_half_edge[m.index()] = last;
                 }
@@ -49,7 +49,7 @@ impl<'a> ConnectivityBuilder<'a> {
         Self { pieces, new, ring }
     }
 
-    /// Makes the half-edges of `ring` the face `f`, whose first half-edge is `ring[start]`, and clears `ring`.
+    /// Links the half-edges of `ring` around the face `f`, whose first half-edge is `ring[start]`, and clears `ring`.
     fn close(&mut self, f: FaceId, start: usize) {
         let next = self.ring.iter().cycle().skip(1);
         for (h, &next) in self.ring.iter().zip(next) {
@@ -110,7 +110,7 @@ impl<'a> ConnectivityBuilder<'a> {
             let n_to = self.ring.len();
             self.ring.push(across);
             pieces.push_ring_from_middle(before, &mut self.ring);
-            // Two parts of one half-edge have a hanging vertex between them.
+            // Between two parts of one half-edge is a hanging vertex. The face starts there.
             let start = match (n_to, self.ring.len() - n_to) {
                 (2, _) => 1,
                 (_, 3) => 3,

@@ -22,7 +22,7 @@ pub(super) enum Cut {
 }
 
 impl Cut {
-    /// The numbers of new vertices and new edges inside the face, and of the faces that it becomes.
+    /// Returns the numbers of new vertices and new edges inside the face, and of the faces that it becomes.
     pub(super) const fn counts(self) -> [u32; 3] {
         match self {
             Self::Whole | Self::Hanging => [0, 0, 1],
@@ -42,8 +42,8 @@ pub(super) struct Cuts {
 }
 
 impl Cuts {
-    /// Cuts the chosen triangles into four, and repeatedly any triangle that would get a second hanging vertex.
-    /// The result does not depend on the order in which triangles are visited.
+    /// Returns the cuts that cut the chosen triangles into four, and repeatedly any triangle that would get a second
+    /// hanging vertex. The result does not depend on the order in which triangles are visited.
     ///
     /// A face with four corners is a triangle with a hanging vertex.
     pub(super) fn of_triangles(
@@ -88,7 +88,7 @@ impl Cuts {
         Ok(Self { faces, edges })
     }
 
-    /// Cuts triangles with a hanging vertex in two.
+    /// Returns the cuts that cut each triangle with a hanging vertex in two.
     pub(super) fn in_two(mesh: &Mesh) -> Self {
         let cut = |f| {
             if mesh.is_triangle(f) {
@@ -103,7 +103,7 @@ impl Cuts {
         }
     }
 
-    /// Cuts the chosen faces into quads.
+    /// Returns the cuts that cut the chosen faces into quads.
     pub(super) fn of_polygons(mesh: &Mesh, chosen: &[bool]) -> Self {
         let cut = |f: FaceId| {
             if chosen[f.index()] {

@@ -90,7 +90,8 @@ pub(super) struct Side {
 }
 
 impl<'a> Pieces<'a> {
-    /// The caller has checked that ids can number the elements of the next level.
+    /// Numbers the parts of all elements. The caller must have checked that ids can number the elements of the next
+    /// level.
     pub(super) fn new(mesh: &'a Mesh, cuts: Cuts, smoothed: SmoothedElements) -> Self {
         let with_edges = |kept: u32| {
             let edges = mesh.edges().zip(&cuts.edges);
@@ -202,7 +203,7 @@ impl<'a> Pieces<'a> {
         }
     }
 
-    /// Adds the half-edges from the start of a side to its middle.
+    /// Adds to `ring` the half-edges from the start of a side to its middle.
     pub(super) fn to_middle(&self, side: Side, ring: &mut Vec<HalfEdgeId>) {
         if side.is_whole() {
             ring.push(self.first(side.to));
@@ -211,7 +212,7 @@ impl<'a> Pieces<'a> {
         }
     }
 
-    /// Adds the half-edges from the middle of a side to its end.
+    /// Adds to `ring` the half-edges from the middle of a side to its end.
     pub(super) fn push_ring_from_middle(&self, side: Side, ring: &mut Vec<HalfEdgeId>) {
         if side.is_whole() {
             ring.push(self.second(side.to));

@@ -70,7 +70,7 @@ impl ButterflyMasks<'_> {
         }
     }
 
-    /// Returns the valence of the origin of `h` if that vertex is extraordinary.
+    /// Returns the valence of the origin of `h` if that vertex is extraordinary; otherwise `None`.
     #[inline]
     fn extraordinary(&self, h: HalfEdgeId) -> Option<usize> {
         let v = self.0.origin(h);
@@ -125,7 +125,7 @@ impl ButterflyMasks<'_> {
     }
 }
 
-/// The weight of the `j`-th of the `n` neighbors of an extraordinary vertex. The weights sum to 1/4.
+/// Returns the weight of the `j`-th of the `n` neighbors of an extraordinary vertex. The weights sum to 1/4.
 fn ring_weight(n: usize, j: usize) -> f64 {
     match (n, j) {
         (3, 0) => 5.0 / 12.0,

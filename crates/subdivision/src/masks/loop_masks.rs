@@ -25,7 +25,7 @@ pub(crate) struct LoopMasks<'a> {
 }
 
 impl LoopWeights {
-    /// The weight u of each neighbor of a vertex of valence `n`.
+    /// Returns the weight u of each neighbor of a vertex of valence `n`.
     #[inline]
     pub(crate) fn of(self, n: usize) -> f64 {
         let valence = n as f64;

@@ -69,7 +69,7 @@ impl Sqrt3<'_> {
     }
 }
 
-/// The total weight a of the `n` neighbors of an inner vertex.
+/// Returns the total weight a of the `n` neighbors of an inner vertex.
 #[inline]
 fn neighbor_weight(n: usize) -> f64 {
     match n {

@@ -48,7 +48,7 @@ fn cube() -> Polygons {
     Polygons::new(positions, faces.map(|face| face.to_vec()).to_vec())
 }
 
-/// Returns the tetrahedron on four corners of that cube.
+/// Returns the tetrahedron on four corners of the [`cube`].
 fn tetrahedron() -> Polygons {
     let positions = [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]];
     let faces = [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]];

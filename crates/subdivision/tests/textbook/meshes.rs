@@ -15,7 +15,7 @@ use crate::polygons::{Adjacency, Polygons};
 pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
-    /// Returns a number from 0 to 1, exclusive of 1.
+    /// Returns a number from 0, inclusive, to 1, exclusive.
     pub(crate) fn unit(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;

@@ -101,7 +101,8 @@ impl Sides {
         if cells == 0 || (n == 2 && collapsed == 4) {
             return Counts::default();
         }
-        // A chain of k sides has k n + 1 samples, and all four sides have 4 n samples. They become one vertex.
+        // The samples of a chain become one vertex. A chain of k sides has k n + 1 samples, or 4 n if it has all four
+        // sides.
         let merged = n * collapsed - u64::from(collapsed == 4);
         let vertices = square(n.saturating_add(1)) - merged;
         match faces {

@@ -57,9 +57,8 @@ impl Point for DVec3 {
 ///
 /// The curve starts at the first control point (t = 0) and ends at the last (t = 1). There it is tangent
 /// to the first and the last leg of the control polygon. For t from 0 to 1, it is inside the convex hull
-/// of the control points. Every function also accepts parameters outside this range: the polynomial
-/// simply continues. If the parameter is NaN, the resulting points have NaN coordinates; no function
-/// panics.
+/// of the control points. Every function also accepts parameters outside this range: it evaluates the same polynomial
+/// there. If the parameter is NaN, the resulting points have NaN coordinates; no function panics.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve<P> {
     /// At least one point and at most [`MAX_POINTS`].

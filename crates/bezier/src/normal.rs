@@ -43,7 +43,8 @@ use crate::patch::size;
 /// pole (1e-10 of the patch), the next coefficient gives a better normal anyway.
 pub const VANISHING: f64 = 1e-10;
 
-/// Returns the limit of the normals along a line into the patch from `uv`, if there is one.
+/// Returns the limit of the normals along a line into the patch from `uv`; `None` if the normals are zero along all
+/// three lines that are tried.
 ///
 /// `c` has the Taylor coefficients of the patch at `uv`: c\[i\]\[j\] is the coefficient of x^i y^j.
 /// `max_steps` is the result of [`Patch::max_steps`](crate::Patch), which must not be zero.
@@ -72,7 +73,7 @@ fn inward_directions(uv: DVec2) -> [DVec2; 3] {
     [direction, direction + offset, direction - offset]
 }
 
-/// Returns the first nonzero coefficient of N along `direction`, scaled to length 1.
+/// Returns the first nonzero coefficient of N along `direction`, scaled to length 1; `None` if all are zero.
 fn limit_along(c: &[[DVec3; 4]; 4], max_steps: DVec2, direction: DVec2) -> Option<DVec3> {
     // The coefficients of du and dv along the line, by powers of e.
     let mut du = [DVec3::ZERO; 6];

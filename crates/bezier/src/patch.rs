@@ -29,9 +29,8 @@ pub const MAX_COORDINATE: f64 = 1e100;
 /// A bicubic Bezier patch: a surface in two parameters, u along the rows of its control points
 /// and v across them.
 ///
-/// Every function also accepts parameters outside 0 to 1: the polynomial simply continues. If a
-/// parameter is NaN, the resulting point has NaN coordinates and the normal is zero; no function
-/// panics.
+/// Every function also accepts parameters outside 0 to 1: it evaluates the same polynomial there. If a parameter is
+/// NaN, the resulting point has NaN coordinates and the normal is zero; no function panics.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Patch {
     points: [[DVec3; 4]; 4],
@@ -90,8 +89,8 @@ impl Patch {
     /// Returns the unit normal at (`u`, `v`), in the direction of du x dv.
     ///
     /// If du x dv is zero, as at the pole of a surface of revolution, returns the limit of the normals
-    /// inside the patch; see the module [`normal`](mod@crate::normal). Returns zero only if the patch has no
-    /// normal in the neighborhood of the point, because it is a curve or a point.
+    /// inside the patch; see the module [`normal`](mod@crate::normal). Returns zero only if the patch has no normal
+    /// anywhere near the point, for example if the patch is a curve or a point.
     pub fn normal(&self, u: f64, v: f64) -> DVec3 {
         self.normal_at(Weights::at(u), Weights::at(v), self.max_steps())
     }
@@ -139,7 +138,7 @@ impl Patch {
     }
 }
 
-/// Returns the largest magnitude of a coordinate.
+/// Returns the largest magnitude of a coordinate of `p`.
 pub(crate) fn size(p: DVec3) -> f64 {
     p.abs().max_element()
 }

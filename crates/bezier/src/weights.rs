@@ -1,4 +1,4 @@
-//! The weights of a parameter, symmetric in both directions along a curve.
+//! The weights of a parameter. If a curve is reversed, its weights are exchanged bit for bit.
 
 use crate::Point;
 

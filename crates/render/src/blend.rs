@@ -1,12 +1,13 @@
 //! Alpha compositing in integers, so that the result is the same on every processor.
 
-/// Composites a color over `under`. Both have straight alpha, which is not multiplied into the channels.
+/// Returns a color composited over `under`. Both have straight alpha: their channels are not multiplied by alpha.
 pub(crate) fn over([r, g, b, a]: [u8; 4], under: [u8; 4]) -> [u8; 4] {
     blended([r, g, b].map(|c| u32::from(c) * u32::from(a)), a, under)
 }
 
-/// Composites a color with premultiplied alpha, whose channels are from 0 to 255 * 255, over a color with straight
-/// alpha: a = s + d (1 - s), c = (S s + D d (1 - s)) / a (Porter and Duff, "Compositing digital images", 1984).
+/// Returns a color with premultiplied alpha, whose channels are from 0 to 255 * 255, composited over a color with
+/// straight alpha: a = s + d (1 - s), c = (S s + D d (1 - s)) / a (Porter and Duff, "Compositing digital images",
+/// 1984).
 pub(crate) fn blended(over: [u32; 3], alpha: u8, under: [u8; 4]) -> [u8; 4] {
     let s = u32::from(alpha);
     // Alphas are in units of 1/255, and their products in units of 1/(255 * 255).

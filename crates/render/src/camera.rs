@@ -1,4 +1,4 @@
-//! Cameras. A recipe describes a [`Camera`]; the rasteriser uses a [`View`], which is a camera fitted to a scene and a
+//! Cameras. A recipe describes a [`Camera`]; the rasterizer uses a [`View`], which is a camera fitted to a scene and a
 //! picture size.
 
 mod fit;

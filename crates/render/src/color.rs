@@ -154,7 +154,7 @@ pub(crate) fn whole(value: f64) -> usize {
     value as usize
 }
 
-/// Like [`whole`], but to 32 bits, which is a faster conversion.
+/// Truncates like [`whole`], but to 32 bits, which is faster.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

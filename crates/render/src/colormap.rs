@@ -89,12 +89,13 @@ impl ColorMap {
 
     /// Returns the sRGB color of a whole number in [`Classes`](Self::Classes). The colors repeat after eight.
     pub fn class(self, class: f64) -> [u8; 3] {
-        // Without the small offset, rounding could select the class before.
+        // Without the small offset, rounding could select the color of the previous class.
         self.srgb(class.floor().rem_euclid(8.0) / 7.0 + 1e-9)
     }
 
-    /// Returns the linear red, green and blue of a number. `range` gives the numbers at the two ends of the map. NaN is
-    /// gray. [`Classes`](Self::Classes) ignores `range` and rounds the number down.
+    /// Returns the linear red, green and blue of a number. `range` gives the numbers at the two ends of the map. NaN
+    /// is gray. Unless the second end is greater than the first, all numbers have the middle color.
+    /// [`Classes`](Self::Classes) ignores `range` and rounds the number down.
     pub fn linear(self, value: f64, [low, high]: [f64; 2]) -> [f32; 3] {
         if value.is_nan() {
             return [0.3; 3];

@@ -1,4 +1,4 @@
-//! The input of the rasteriser: triangles, lines, points and label positions. It is independent of meshes and styles.
+//! The input of the rasterizer: triangles, lines, points and label positions. It is independent of meshes and styles.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -117,14 +117,14 @@ pub struct Label {
     pub text: String,
 }
 
-/// All input of the rasteriser.
+/// All input of the rasterizer.
 #[derive(Clone, Debug, Default)]
 pub struct Drawing<'a> {
     /// Parts of triangles. Triangles and faces are numbered through all parts, in this order.
     pub parts: Vec<Part<'a>>,
     /// Lines and points. Later ones are drawn on top.
     pub lines: Vec<Line>,
-    /// Labels. The rasteriser does not draw them: it only returns their positions and whether they are hidden.
+    /// Labels. The rasterizer does not draw them: it only returns their positions and whether they are hidden.
     pub labels: Vec<Label>,
 }
 

@@ -24,7 +24,7 @@ pub struct Image {
     /// The height in pixels.
     pub height: u32,
     /// The rows from top to bottom, each from left to right. A pixel is red, green and blue in sRGB, and straight
-    /// alpha, which is not multiplied into the colors.
+    /// alpha: the colors are not multiplied by alpha.
     pub pixels: Vec<[u8; 4]>,
 }
 
@@ -132,7 +132,7 @@ impl Image {
         self.to_png_with_progress(texts, &NoProgress)
     }
 
-    /// Like [`Self::to_png`], with progress and cancellation.
+    /// Encodes the image like [`Self::to_png`], with progress and cancellation.
     ///
     /// # Errors
     ///

@@ -158,7 +158,7 @@ impl Style {
         }
     }
 
-    /// Returns the settings of this style that the rasteriser uses.
+    /// Returns the settings of this style that the rasterizer uses.
     pub fn look(&self) -> Look {
         Look {
             shading: self.shading,

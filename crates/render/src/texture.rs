@@ -19,7 +19,7 @@ pub struct Texture {
     alpha: Alpha,
 }
 
-/// How the alpha of a texture is used.
+/// How the alpha of a texture affects the opacity of the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Alpha {
     /// Alpha is ignored: the surface is opaque.
@@ -270,7 +270,7 @@ mod tests {
     const BLUE: [u8; 4] = [0, 0, 255, 255];
     const WHITE: [u8; 4] = [255; 4];
 
-    /// A texture of 2 x 2 pixels: red and green above blue and white.
+    /// Returns a texture of 2 x 2 pixels: red and green above blue and white.
     fn texture(sampler: Sampler, transform: TextureTransform) -> Texture {
         let image = Image {
             width: 2,

@@ -83,7 +83,7 @@ fn check(name: &str, drawing: &Drawing, style: &Style, size: [u32; 2]) {
     assert!(peak <= needed, "{name}: {peak} bytes, estimated {needed}");
 }
 
-/// A drawing of long lines, each of which is in the lists of many tiles.
+/// Returns a drawing of long lines, each of which is in the lists of many tiles.
 fn long_lines() -> Drawing<'static> {
     let line = |i: i32| {
         let from = DVec3::new(f64::from(i % 200), f64::from(i / 200), 0.0);

@@ -43,7 +43,8 @@ impl<'s> Builder<'s, '_> {
         let needs_corners = !uvs.is_empty() || is_per_corner(&colors) || is_per_corner(&normals);
         let triangulation = triangulate(mesh, needs_corners);
         let n_faces = u32::try_from(mesh.domain_len(Domain::Face)).unwrap_or(u32::MAX);
-        // The back of a closed surface is not visible, except for thin slivers at its outline.
+        // The back of a closed surface is not visible, except for thin slivers at its outline, which get the color of
+        // the front.
         let has_no_back = object.materials.iter().any(|m| m.double_sided)
             || coloring.is_some()
             || (mesh.is_closed() && geometry::volume(mesh) > 0.0);
@@ -202,7 +203,7 @@ struct Triangulation {
 /// Triangulates the faces of a mesh, which can be concave.
 fn triangulate(mesh: &Mesh, with_corners: bool) -> Triangulation {
     let n = mesh.domain_len(Domain::Face);
-    // Each triangle is a face, with the same index.
+    // True if each triangle is a face with the same index.
     let is_simple = mesh.is_dense() && 3 * mesh.n_faces() == n_corners(mesh);
     let chunks: Vec<Triangulation> = (0..n.div_ceil(CHUNK))
         .into_par_iter()

@@ -127,7 +127,8 @@ pub const PALETTE: [Color; 6] = [
 /// `images` returns the bytes of an image file for its path in a material. If it returns `None`, or the bytes are not a
 /// PNG or JPEG file, the surface is drawn without this texture, and a message gives the path and the reason.
 ///
-/// The drawing has these properties of materials: base color and alpha with their texture, roughness, and emission.
+/// The drawing has these properties of materials: base color and alpha with their texture, roughness, emission, and
+/// whether they are lit.
 ///
 /// # Errors
 ///

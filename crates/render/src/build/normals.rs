@@ -7,7 +7,8 @@ use crate::color::narrow;
 use crate::drawing::Channel;
 use crate::work::map_indices;
 
-/// Returns the area vectors of faces by index, divided by `size` squared. Deleted faces have zero vectors.
+/// Returns the area vectors of faces by index, divided by the square of `size`, so that they fit `f32`. Deleted faces
+/// have zero vectors.
 pub(super) fn of_faces(mesh: &Mesh, size: f64) -> Vec<[f32; 3]> {
     let scale = 1.0 / (size * size);
     map_indices(mesh.domain_len(Domain::Face), |i| {
@@ -33,8 +34,9 @@ fn of_vertices(mesh: &Mesh, areas: &[[f32; 3]]) -> Vec<[f32; 3]> {
     })
 }
 
-/// Returns smooth normals that are split at sharp edges. If the mesh has smoothing groups, the edges between different
-/// groups are sharp; else the edges whose face normals differ by at least `sharp` degrees.
+/// Returns smooth normals that are split at sharp edges. If the mesh has smoothing groups, an edge is sharp if its
+/// two faces are in different groups or in none; otherwise if their normals differ by at least `sharp` degrees.
+/// `size` is the radius of the scene.
 pub(super) fn smooth<'a>(mesh: &Mesh, size: f64, sharp: f64) -> Channel<'a> {
     let areas = of_faces(mesh, size);
     let is_sharp = sharp_edges(mesh, &areas, sharp);

@@ -91,7 +91,7 @@ mod tests {
         }
     }
 
-    /// The unit square with its material.
+    /// Returns a scene with the unit square, which has this material.
     fn square(material: Material) -> Scene {
         let mut mesh: Mesh = shapes::square();
         let uvs = mesh.half_edges().map(|h| mesh.position(mesh.origin(h)));

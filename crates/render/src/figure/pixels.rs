@@ -41,7 +41,8 @@ pub fn pixel_size(svg: &Svg, scale: f64) -> Result<(u32, u32), PictureError> {
     Ok((width, height))
 }
 
-/// Returns the maximum number of bytes that [`pixels`] needs: four for each pixel of the result and of the layer.
+/// Returns the maximum number of bytes that [`pixels`] needs: for each pixel, four bytes of the image, and four of
+/// the layer into which the document is drawn first.
 pub fn bytes_needed(width: u32, height: u32) -> u64 {
     u64::from(width) * u64::from(height) * 8
 }
@@ -166,7 +167,7 @@ fn union(a: Rect, b: Rect) -> Rect {
     Rect::from_ltrb(left, top, right, bottom).unwrap_or(a)
 }
 
-/// Returns a color, and the stroke of a line of this width.
+/// Returns the color, and the stroke of a line of this width.
 fn stroke((color, width): (Color, f64), cap: LineCap, dash: Option<StrokeDash>) -> (Color, Stroke) {
     let stroke = Stroke {
         width: narrow(width),

@@ -20,7 +20,7 @@ pub struct Paint {
 }
 
 impl Paint {
-    /// Fills with this color, without an outline.
+    /// Creates a paint that fills with this color, without an outline.
     pub const fn fill(color: Color) -> Self {
         Self {
             fill: Some(color),
@@ -29,7 +29,7 @@ impl Paint {
         }
     }
 
-    /// Outlines in this color, `width` pixels wide, without a fill.
+    /// Creates a paint that draws an outline of this color, `width` pixels wide, without a fill.
     pub const fn stroke(color: Color, width: f64) -> Self {
         Self {
             fill: None,
@@ -38,7 +38,7 @@ impl Paint {
         }
     }
 
-    /// Makes the outline dashed.
+    /// Makes the outline dashed. `dashes` are the lengths of dashes and gaps in pixels.
     #[must_use]
     pub const fn with_dashes(mut self, dashes: &'static [f64]) -> Self {
         self.dashes = dashes;

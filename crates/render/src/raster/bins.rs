@@ -23,7 +23,8 @@ const MAX_CHUNKS: usize = 32;
 const MIN_CHUNK: usize = 1 << 15;
 /// An item that touches more tiles than this is never in the lists of these tiles.
 const MAX_LISTED_TILES: usize = 64;
-/// The lists of all tiles together have at most this number of entries for each item, plus `EXTRA_ENTRIES`.
+/// The lists of all tiles together have at most this number of entries for each item of a chunk, plus
+/// `EXTRA_ENTRIES`.
 const ENTRIES_PER_ITEM: usize = 8;
 /// See `ENTRIES_PER_ITEM`.
 const EXTRA_ENTRIES: usize = 4096;

@@ -24,7 +24,7 @@ const RING: f64 = 0.35;
 const MIN_RING: f64 = 1.2;
 
 /// The maximum width of a line, as a fraction of its spacing. The edges of equilateral triangles with side 1 cover 2 √3
-/// times their width, which is half of the surface at this limit.
+/// times their width, which is about half of the surface at this limit.
 const MAX_RELATIVE_WIDTH: f64 = 0.15;
 
 /// A line, projected to the picture.

@@ -42,7 +42,7 @@ use tile::{NO_TRIANGLE, OFFSETS, SAMPLES, Tile};
 /// The width and height of a tile in pixels.
 const TILE: u32 = 32;
 
-/// The settings of a style that the rasteriser uses.
+/// The settings of a style that the rasterizer uses.
 #[derive(Clone, Copy, Debug)]
 pub struct Look {
     /// The lighting of surfaces.

@@ -1,7 +1,7 @@
 //! Computes the color of a triangle at a point of the picture.
 //!
-//! There are a key light from the upper left, a weak fill light from the right, and a bright sky over a darker ground.
-//! The directions of the lights are relative to the camera, so that every view is lit alike.
+//! The light comes from a key light at the upper left, a weak fill light at the right, and a bright sky over a darker
+//! ground. The directions of the lights are relative to the camera, so that every view is lit alike.
 
 use glam::{DVec2, DVec3};
 

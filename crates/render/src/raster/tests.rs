@@ -38,7 +38,7 @@ fn drawing(parts: Vec<Part<'static>>) -> Drawing<'static> {
     }
 }
 
-/// Unchanged colors on a transparent background.
+/// Returns settings for unchanged colors on a transparent background.
 fn plain() -> Look {
     Look {
         shading: Shading::Plain,
@@ -47,7 +47,7 @@ fn plain() -> Look {
     }
 }
 
-/// An orthographic camera in front of the plane z = 0, whose picture is `height` units high.
+/// Returns the view of an orthographic camera in front of the plane z = 0, whose picture is `height` units high.
 fn front_view(height: f64, size: [u32; 2]) -> View {
     // At this distance, an orthographic `LookAt` is `height` units high, as its documentation says.
     let distance = 0.5 * height / libm::tan(15.0_f64.to_radians());
@@ -70,7 +70,7 @@ fn covered(picture: &Rendered) -> f64 {
     alphas.sum::<f64>() / 255.0
 }
 
-/// A pseudo-random number generator, `SplitMix64`.
+/// Returns the next pseudo-random number of the generator `SplitMix64`.
 fn random(seed: &mut u64) -> i32 {
     *seed = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let mut z = *seed;
@@ -159,7 +159,7 @@ fn a_square_with_sides_between_pixels_covers_exactly_these_pixels() {
     }
 }
 
-/// A triangulated sphere around the origin.
+/// Returns a triangulated sphere around the origin.
 fn sphere(radius: f64) -> Part<'static> {
     let mesh = geometry::shapes::fans(&geometry::shapes::uv_sphere(192, 96));
     let mut triangles = Vec::new();

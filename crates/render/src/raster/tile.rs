@@ -104,8 +104,8 @@ impl Tile {
         }
     }
 
-    /// Like [`Self::draw`], for a triangle that covers only the samples for which `covers` returns true. `covers` takes
-    /// a pixel and the index of a sample.
+    /// Draws like [`Self::draw`], for a triangle that covers only the samples for which `covers` returns true.
+    /// `covers` takes a pixel and the index of a sample.
     pub(super) fn draw_textured(
         &mut self,
         id: u32,
@@ -244,7 +244,7 @@ struct Setup {
 }
 
 impl Setup {
-    /// Returns `None` if the triangle has no area or its bounding box is outside of the tile.
+    /// Prepares a triangle. Returns `None` if it has no area or its bounding box is outside of the tile.
     fn new(projected: &ProjectedTriangle, tile: &Tile) -> Option<Self> {
         let [o, mut p, mut q] = *projected;
         let from_o = |c: GridPoint| [c.at[0] - o.at[0], c.at[1] - o.at[1]].map(i64::from);

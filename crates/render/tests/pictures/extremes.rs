@@ -31,7 +31,7 @@ fn draw(mesh: Mesh, camera: &Camera, style: &Style, size: [u32; 2]) -> Image {
     picture.image
 }
 
-/// An orthographic camera in front of the scene, whose picture is `height` units high.
+/// Returns an orthographic camera in front of the scene, whose picture is `height` units high.
 fn front(height: f64) -> Camera {
     // At this distance, an orthographic `LookAt` is `height` units high, as its documentation says.
     let distance = 0.5 * height / libm::tan(15.0_f64.to_radians());

@@ -55,7 +55,7 @@ pub struct Panel<'a> {
     pub before: Option<&'a Curve<DVec2>>,
     /// The parameter of the point, from 0 to 1. If `None`, only the curve and its control polygon are drawn.
     pub t: Option<f64>,
-    /// The title above the panel, which is followed by the parameter.
+    /// The title above the panel. The parameter follows the title.
     pub title: Option<&'a str>,
 }
 
@@ -138,7 +138,7 @@ const TITLE: f64 = 30.0;
 /// The minimum width of the drawing in a panel, in pixels.
 const MIN_DRAWING_WIDTH: f64 = 32.0;
 
-/// Draws a figure of these panels, in rows from left to right.
+/// Draws a figure of these panels. They are arranged in rows, from left to right.
 ///
 /// Each curve and its construction fill their panel, with the same scale in both axes. If all control points of a curve
 /// are equal, it is drawn as a point.

@@ -71,7 +71,7 @@ fn is_near(curve: &Curve<DVec2>, piece: &[DVec2; 4], t: f64, h: f64) -> bool {
 mod tests {
     use super::*;
 
-    /// A curve with `n` pseudo-random control points in a picture.
+    /// Returns a curve with `n` pseudo-random control points.
     fn curve(n: usize) -> Curve<DVec2> {
         let coordinate = |i: usize| (i * 7919 % 613) as f64;
         let points = (0..n).map(|i| DVec2::new(coordinate(i + 3), coordinate(i * i + 11)));

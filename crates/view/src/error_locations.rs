@@ -31,7 +31,7 @@ const HIDDEN: f64 = 0.4;
 const MAX_DOTTED: usize = 200;
 /// The maximum number of names in the close-up.
 const MAX_NAMES: usize = 24;
-/// If a scene has more faces than this, the overview does not draw their edges, which would cover the picture.
+/// If a scene has more faces than this, the overview does not draw their edges, because they would cover the surface.
 const MAX_FACES_WITH_EDGES: usize = 5_000;
 /// The tangent of half the default field of view, which is 25 degrees.
 const TANGENT: f64 = 0.221_694_662_642_939_43;
@@ -142,7 +142,7 @@ fn style(has_edges: bool) -> Style {
     }
 }
 
-/// The faces at the locations of errors.
+/// The surfaces at the locations of errors.
 #[derive(Default)]
 struct Surroundings {
     /// The number of faces of the scene.
@@ -255,8 +255,8 @@ fn angles(direction: DVec3) -> (f64, f64) {
     (azimuth, elevation)
 }
 
-/// Marks the locations with lines of the width `width` and dots of the diameter `dot`, in pixels. Locations that are
-/// smaller than `dot_limit`, in scene units, also get a dot.
+/// Returns marks of the locations: lines of the width `width` and dots of the diameter `dot`, in pixels. Locations
+/// that are smaller than `dot_limit`, in scene units, also get a dot.
 fn marks(
     locations: &[ErrorLocation],
     surroundings: &Surroundings,
@@ -306,8 +306,8 @@ fn marks(
     overlays
 }
 
-/// Returns the offset from a mark to its name, for a camera at this distance: to the right, above, and towards the
-/// camera.
+/// Returns the offset from a mark to its name, for a camera in this direction and at this distance: to the right,
+/// above, and towards the camera.
 fn label_offset(direction: DVec3, distance: f64) -> DVec3 {
     let pixel = 2.0 * TANGENT * distance / f64::from(SIZE[1]);
     let right = DVec3::Y.cross(direction).normalize();

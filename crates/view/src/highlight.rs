@@ -5,13 +5,13 @@ use render::{Color, Elements, Highlight};
 /// The default color of highlighted elements.
 pub const HIGHLIGHT_COLOR: Color = Color::rgb(0xe6, 0x55, 0x0d);
 
-/// The width of highlighted edges in a picture that is 960 pixels high.
+/// The width of highlighted edges in a picture whose shorter side has 960 pixels.
 const EDGE_WIDTH: f64 = 4.0;
-/// The diameter of highlighted vertices in a picture that is 960 pixels high.
+/// The diameter of highlighted vertices in a picture whose shorter side has 960 pixels.
 const VERTEX_DIAMETER: f64 = 13.0;
 
-/// In pictures less than 960 pixels high, the width of edges is proportional to this power of the height. If the width
-/// were proportional to the height, edges in small pictures would be too thin to see.
+/// In smaller pictures, the width of edges is proportional to this power of the shorter side. If the width were
+/// proportional to the shorter side, edges in small pictures would be too thin to see.
 const EDGE_POWER: f64 = 0.25;
 /// The power for the diameter of vertices, as `EDGE_POWER` for the width of edges.
 const VERTEX_POWER: f64 = 0.4;
@@ -21,7 +21,8 @@ const HIDDEN_EDGES: f64 = 0.3;
 /// The opacity of the rings of hidden vertices.
 const HIDDEN_VERTICES: f64 = 0.75;
 
-/// Scales a length in a picture that is 960 pixels high to a picture of this size.
+/// Scales a length in a picture whose shorter side has 960 pixels to a picture of this size. In smaller pictures, the
+/// length is proportional to this power of the shorter side.
 fn scaled(length: f64, power: f64, size: [u32; 2]) -> f64 {
     let scale = f64::from(size[0].min(size[1])) / 960.0;
     if scale < 1.0 {
@@ -42,8 +43,8 @@ fn max_diameter(n: usize, [width, height]: [u32; 2]) -> f64 {
     area.sqrt().max(2.5)
 }
 
-/// Highlights elements of an object. `width` is the width of edges and the diameter of vertices in pixels; if `None`,
-/// the default for the picture size `size`.
+/// Returns a highlight of elements of an object. `width` is the width of edges and the diameter of vertices in
+/// pixels; if `None`, the default for the picture size `size`.
 pub fn highlight(
     object: &str,
     elements: Elements,

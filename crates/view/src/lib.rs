@@ -1,4 +1,4 @@
-//! Composes pictures of scenes, for the operation `Picture`, the program and the editor.
+//! Composes pictures of scenes, for the operation `Picture` and the command line.
 //!
 //! ```text
 //!   scene + numbers (ColorBy) + selected elements (highlight) --> Subject --Shot--> images --sheet--> one image

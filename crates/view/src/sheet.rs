@@ -154,7 +154,8 @@ pub fn sheet(cells: &[Cell], style: &SheetStyle, budget: u64) -> Result<Image, P
     sheet_with_headings(cells, Headings::default(), style, budget)
 }
 
-/// Like [`sheet`], with headings of rows and columns. In a heading that is too long, "…" replaces the middle.
+/// Arranges images like [`sheet`], with headings of rows and columns. In a heading that is too long, "…" replaces the
+/// middle.
 ///
 /// # Errors
 ///
@@ -268,7 +269,7 @@ mod tests {
         image.pixels[(y * image.width + x) as usize]
     }
 
-    /// If the environment variable `MESHWRIGHT_UPDATE` is set, the golden file is written instead.
+    /// If the environment variable `MESHWRIGHT_UPDATE` is set, the test writes the golden file before it compares.
     #[test]
     fn a_sheet_is_the_same_on_every_machine() {
         let image = |width, height| plain(width, height, [60, 120, 180, 128]);

@@ -18,7 +18,7 @@ const TEXT_COLOR: [u8; 4] = [0x1f, 0x29, 0x37, 255];
 /// The font size of labels of elements, in pixels.
 const FONT_SIZE: f64 = 13.0;
 
-/// The number of progress steps of a view.
+/// The number of progress units of one view.
 const STEPS: u64 = 1000;
 
 /// The cameras, sizes and style with which scenes are drawn.
@@ -83,7 +83,7 @@ impl<'s> Subject<'s> {
 /// pictures have the same view and scale, and the same numbers have the same colors.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Extent {
-    /// The points that determine the views of cameras that fit.
+    /// The points that determine the views of the cameras that are a [`Camera::Fit`].
     points: Vec<DVec3>,
     /// The meaning of the colors, if numbers are shown as colors.
     scale: Option<ColorScale>,
@@ -134,7 +134,7 @@ impl Shot<'_> {
 
     /// Draws scenes side by side at the same scale, each with its caption. Returns one image, or the images of a turn.
     ///
-    /// Cameras that fit show all of `within`; if it is `None`, all of the scenes.
+    /// A [`Camera::Fit`] shows all of `within`; if that is `None`, all of the scenes.
     ///
     /// # Errors
     ///

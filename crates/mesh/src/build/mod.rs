@@ -15,14 +15,13 @@
 //! Input that is not a manifold is repaired, and a [`BuildReport`] lists all repairs:
 //!
 //! - Two polygons that share an edge have a consistent orientation if their sides run along the edge
-//!   in opposite directions. Each part that is connected through edges with two sides is treated
-//!   separately. If reversing some of its polygons makes all neighbors consistent, the minority is
-//!   reversed. In a tie, the polygons that agree with the lowest-numbered one stay. If no choice of
-//!   polygons makes all neighbors consistent, none is reversed. The first corner of a reversed polygon
-//!   stays the first.
-//! - Two vertices a and b can have more than two sides between them, or two sides that still run in
-//!   the same direction. Then the k-th side from a to b is paired with the k-th side from b to a, in
-//!   order of corners. Unpaired sides become boundary edges.
+//!   in opposite directions. The polygons that are connected through edges with exactly two sides form a part, and
+//!   each part is treated separately. If reversing some of its polygons makes all neighbors consistent, the minority
+//!   is reversed. In a tie, the polygons that agree with the lowest-numbered one stay. If no choice of polygons makes
+//!   all neighbors consistent, none is reversed. The first corner of a reversed polygon stays the first.
+//! - Two vertices a and b can have more than two sides between them, or two sides that run in the same direction even
+//!   after these reversals. Then the k-th side from a to b is paired with the k-th side from b to a, in order of
+//!   corners. Unpaired sides become boundary edges.
 //! - If the faces around a vertex form several fans, the fan of the first corner keeps the vertex. Each
 //!   other fan gets a copy of the vertex, appended after all other vertices.
 //! - A polygon that has fewer than three corners, or that visits a vertex twice, is dropped.
@@ -71,7 +70,7 @@ pub enum BuildError {
     /// The offsets do not divide the corners into polygons.
     #[error("the offsets of the faces must increase from 0 to the number of corners, {0}")]
     BadOffsets(usize),
-    /// This polygon has fewer than three corners or a vertex as a corner twice, and non-manifold input is refused.
+    /// This polygon has fewer than three corners, or visits a vertex twice, and non-manifold input is refused.
     #[error(
         "the faces are not a manifold: face {0} has fewer than three corners, or visits a vertex twice"
     )]

@@ -66,8 +66,8 @@ impl Mesh {
         Ok(new)
     }
 
-    /// Replaces `e` by a face: every other edge at an end of `e` is cut at `fraction` of its length,
-    /// measured from that end, and the cuts are connected.
+    /// Replaces `e` by a face: each of the other edges at the ends of `e` is cut at `fraction` of its length,
+    /// measured from the end of `e`, and the cuts are connected.
     ///
     /// ```text
     ///     \               /            \               /

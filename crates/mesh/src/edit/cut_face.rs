@@ -18,7 +18,7 @@ use crate::{EditError, FaceId, HalfEdgeId, Mesh};
 /// if diagonals cross, or if a part would have fewer than three sides.
 pub fn polygon_parts(n: usize, diagonals: &[[u32; 2]]) -> Option<Vec<Vec<usize>>> {
     // The diagonals at each corner, counter-clockwise from the side that starts at the corner. The diagonal
-    // to the nearest corner ahead comes first. Each is (corner, distance to the other corner, half-edge).
+    // to the nearest corner ahead comes first. Each entry is (corner, distance to the other corner, half-edge).
     let mut outgoing: Vec<(usize, usize, usize)> = Vec::with_capacity(2 * diagonals.len());
     for (k, diagonal) in diagonals.iter().enumerate() {
         let [a, b] = diagonal.map(|corner| corner as usize);

@@ -40,8 +40,8 @@ impl Mesh {
     /// - [`EditError::DuplicateEdge`] if two edges would become one between vertices that already share an
     ///   edge.
     /// - [`EditError::FewCorners`] if a face would be left with fewer than three corners.
-    /// - [`EditError::Seam`] with an edge at `v` if, at the other end of the edge, corner attributes differ
-    ///   between its two sides.
+    /// - [`EditError::Seam`] with an edge at `v` if, at the other end of this edge, corner attributes differ between
+    ///   the two sides of the edge.
     /// - [`EditError::NoSuchVertex`].
     ///
     /// The mesh is unchanged.

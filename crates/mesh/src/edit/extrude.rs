@@ -24,10 +24,10 @@ impl Mesh {
     ///
     /// **Ids.** The faces keep their ids and the order of their corners, so that the same faces can be
     /// extruded again. The edges and vertices inside the faces keep their ids too. The vertices and edges of
-    /// the rim stay in place with the rest of the mesh, and the moved faces get new ones. The new elements
-    /// are, for each h in order of `faces` and counter-clockwise from the first half-edge of each face: the
-    /// vertex v', then the edges v'-w' and v-v' (those of the first h before those of the second), and the
-    /// side face, whose half-edge is h.
+    /// the rim stay in place with the rest of the mesh, and the moved faces get new ones. The new elements are
+    /// numbered in the order of the half-edges h: in order of `faces`, and counter-clockwise from the first half-edge
+    /// of each face. Each h adds the vertex v', the edges v'-w' and v-v' in this order, and the side face, whose
+    /// half-edge is h.
     ///
     /// If faces meet only at a vertex, each of their fans gets a separate copy of the vertex. A sheet of which
     /// all faces are extruded becomes a box that is open where the sheet was. A closed component of which all
@@ -35,9 +35,9 @@ impl Mesh {
     /// their copies.
     ///
     /// **Attributes.** New vertices and the new edges of the rim have the values of the old ones; the edges
-    /// v-v' have zero values. A side face has the values of the face f at its rim edge. Both of its corners
-    /// at v and v' have the values that the corner of f had at v, so that there is no seam between f and the
-    /// side face. Normals do not change.
+    /// v-v' have zero values. A side face has the values of the face f at its rim edge. Its corners at v and v' both
+    /// have the values that the corner of f had at v, so that there is no seam between f and the side face. Normals
+    /// do not change.
     ///
     /// Returns the side faces, in the order of their half-edges h.
     ///

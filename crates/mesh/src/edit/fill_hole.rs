@@ -20,8 +20,8 @@ impl Mesh {
     /// The outer boundary of an open sheet is a hole too: filling it gives a closed mesh, with the sheet as
     /// its front and the new face as its back. No vertices or edges are added, and all ids stay the same.
     ///
-    /// The new face has the values of the face beside `h`. Each corner has the values of the corner at the
-    /// same vertex in the face on the other side of the edge that leaves the corner. So an edge of the hole becomes a
+    /// The new face has the values of the face beside `h`. Each new corner has the values of the corner at the same
+    /// vertex in the face on the other side of the edge that leaves the new corner. So an edge of the hole becomes a
     /// seam only if the corners at one of its ends already had different values.
     ///
     /// Returns the new face.

@@ -20,10 +20,9 @@ impl Mesh {
     /// ```
     ///
     /// V, E and F grow by n, 2n and n, where f has n corners. The inner face keeps the id of `f` and its first
-    /// corner. Existing vertices and edges do not move. The new elements are, as in
-    /// [`extrude_faces`](Self::extrude_faces), for each half-edge h of `f` counter-clockwise: the vertex v',
-    /// then the edges v'-w' and v-v' (those of the first h before those of the second), and the face
-    /// (v, w, w', v'), whose half-edge is h.
+    /// corner. Existing vertices and edges do not move. As in [`extrude_faces`](Self::extrude_faces), the new
+    /// elements are numbered in the order of the half-edges h of `f`, counter-clockwise from the first. Each h adds
+    /// the vertex v', the edges v'-w' and v-v' in this order, and the face (v, w, w', v'), whose half-edge is h.
     ///
     /// Attributes of the new vertices and of the corners at them are interpolated at t between the outer corner
     /// and the mean of all corners of the face. Attributes that are not interpolated are copied from the outer

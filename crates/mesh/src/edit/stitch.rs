@@ -20,9 +20,9 @@ impl Mesh {
     /// a and a' become one vertex, and so do b and b'; either pair can already be one vertex. Of each pair, the
     /// vertex with the lower id remains, with its position and values; the other one dies. Of the two edges,
     /// the one with the lower id remains, with its values, and gets both faces; the other one dies. Corners
-    /// keep their values, so that different UVs become a seam. If the adjacent boundary edges would become a
-    /// hole with two edges, they are stitched too, because a list of polygons cannot represent such a hole. So
-    /// a cut is closed from its end, edge by edge.
+    /// keep their values, so that different UVs become a seam. If the boundary edges next to `h` and `g` would become
+    /// a hole with two edges, they are stitched too, because a list of polygons cannot represent such a hole. A cut
+    /// can be closed edge by edge, from its end.
     ///
     /// The order of `h` and `g` does not matter. The orientation of the faces always matches, because both
     /// half-edges have the surface on their right.

@@ -52,8 +52,8 @@ pub fn vertex_area(mesh: &Mesh, v: VertexId) -> f64 {
     faces.map(share).sum()
 }
 
-/// Returns the signed angle between the normals of the two faces at an edge, positive if the edge is convex. 0
-/// on the boundary.
+/// Returns the signed angle between the normals of the two faces at an edge, positive if the edge is convex; 0 on the
+/// boundary.
 fn signed_dihedral(mesh: &Mesh, e: EdgeId) -> f64 {
     let [Some(f), Some(g)] = mesh.edge_faces(e) else {
         return 0.0;

@@ -105,8 +105,8 @@ pub fn valences(mesh: &Mesh) -> Vec<usize> {
     counts
 }
 
-/// Returns the sine and cosine of an angle in degrees. Exact for multiples of 90, and the same bits on every
-/// platform.
+/// Returns the sine and cosine of an angle in degrees. The result is exact for multiples of 90, and has the same bits
+/// on every platform.
 pub fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
     let degrees = degrees % 360.0; // This operation is exact.
     match degrees.abs() {

@@ -239,7 +239,7 @@ pub fn uv_sphere(around: u32, rings: u32) -> Mesh {
 }
 
 /// Returns the mesh with each polygon triangulated as a fan at its first corner. The triangles are in the order
-/// of the polygons. Meant for convex polygons, such as those of these shapes. Attributes are dropped.
+/// of the polygons. This is meant for convex polygons, such as the faces of these shapes. Attributes are dropped.
 pub fn fans(mesh: &Mesh) -> Mesh {
     let number = |v: VertexId| u32::try_from(v.index()).expect("ids are below 2^32");
     let mut triangles = Vec::new();

@@ -106,7 +106,8 @@ fn heights(mesh: &Mesh, point: DVec3, normal: DVec3) -> Result<Vec<f64>, EditErr
             return Ok(0.0);
         }
         let height = (mesh.position(v) - point).dot(normal);
-        // The difference of two heights must be finite too. Its magnitude is at most twice the larger height.
+        // The difference of two heights must be finite too. Its magnitude is at most twice the larger magnitude of
+        // the two.
         if !(2.0 * height).is_finite() || !near.is_finite() {
             return Err(EditError::BadNumber(height));
         }

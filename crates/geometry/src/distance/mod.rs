@@ -15,8 +15,8 @@
 //! Only pieces whose bound is above the largest distance found so far are cut. Sources: Aspert, Santa-Cruz,
 //! Ebrahimi, "MESH: Measuring Errors between Surfaces using the Hausdorff Distance", 2002, for the measures;
 //! Tang, Lee, Kim, "Interactive Hausdorff Distance Computation for General Polygonal Models", 2009, for the
-//! bounds and the cutting. All pieces of a round are cut before the largest distance is updated, so that the
-//! result is the same for any number of threads.
+//! bounds and the cutting. Pieces are cut in rounds, and the largest distance is updated after each round, so that
+//! the result is the same for any number of threads.
 
 mod piece;
 mod surface;

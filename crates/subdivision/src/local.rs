@@ -21,10 +21,10 @@
 //!            b                              b
 //! ```
 //!
-//! Each piece is similar to its old triangle, or is half of a triangle that is similar to the old triangle. So
-//! angles do not shrink from level to level: the cotangent of the smallest angle grows by at most a factor of three in
-//! total. Source: Bank, Sherman and Weiser, "Refinement Algorithms and Data Structures for Regular Local Mesh
-//! Refinement", 1983.
+//! Each piece is similar to its old triangle, or is half of a triangle that is similar to the old triangle. So angles
+//! do not become smaller with each level: over all levels together, the cotangent of the smallest angle grows by at
+//! most a factor of three. Source: Bank, Sherman and Weiser, "Refinement Algorithms and Data Structures for Regular
+//! Local Mesh Refinement", 1983.
 //!
 //! # Polygons
 //!
@@ -79,7 +79,7 @@ use smoothed::{LocalMasks, SmoothedElements};
 /// If the result is refined again, triangles that were cut in two are treated as ordinary triangles. So each call can
 /// halve angles once, however many levels it computes.
 ///
-/// The mesh stays unchanged if `levels` is 0 or no face is chosen.
+/// If `levels` is 0 or no face is chosen, returns the compacted mesh.
 ///
 /// # Errors
 ///

@@ -61,7 +61,7 @@ pub struct Surface {
     pub uv_set: usize,
     /// Whether the color is shown without lighting.
     pub unlit: bool,
-    /// The width of highlights, from 0 (a mirror) to 1 (matt).
+    /// The width of highlights, from 0 (a mirror) to 1 (matte).
     pub roughness: f32,
     /// Linear red, green and blue of the emitted light.
     pub emissive: [f32; 3],

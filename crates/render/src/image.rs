@@ -146,7 +146,7 @@ impl Image {
         let mut bytes = Vec::new();
         let (encoder, channels) = encoder(&mut bytes, std::slice::from_ref(self), texts)?;
         let mut writer = encoder.write_header()?;
-        // Row by row, so that a large image is not copied as a whole.
+        // The image is written row by row, so that a large image is not copied as a whole.
         let mut stream = writer.stream_writer()?;
         for row in self.pixels.chunks(self.width.max(1) as usize) {
             work.add(1)?;

@@ -241,7 +241,8 @@ fn preferred_direction(normal: DVec3, locations: &[ErrorLocation], center: DVec3
         .map_or(center, |first| sphere(&first.points).0);
     let outward = normal.normalize_or((middle - center).normalize_or_zero());
     let direction = (outward + 0.45 * default).normalize_or(default);
-    // Limited to 75 degrees: if the camera looks almost straight down, the upward direction of the picture is unstable.
+    // The elevation is limited to 75 degrees: if the camera looks almost straight down, the upward direction of the
+    // picture is unstable.
     let (azimuth, elevation) = angles(direction);
     let (sin, cos) = geometry::sin_cos_degrees(azimuth);
     let (up, horizontal) = geometry::sin_cos_degrees(elevation.clamp(-75.0, 75.0));

@@ -31,7 +31,7 @@ impl Label {
 pub fn draw_labels(image: &mut Image, labels: &[Label]) {
     let size = DVec2::new(f64::from(image.width), f64::from(image.height));
     for label in labels {
-        // One by one, because drawing takes memory for the bounding box of the whole document.
+        // Labels are drawn one by one, because drawing takes memory for the bounding box of the whole document.
         let mut svg = Svg::new(size.x, size.y);
         svg.text(
             label.position + DVec2::Y * label.text.size * 0.36,

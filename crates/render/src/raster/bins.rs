@@ -16,8 +16,8 @@ use crate::drawing::Drawing;
 use crate::work::Work;
 use crate::{PictureError, View};
 
-/// The maximum number of chunks, without the incomplete last chunk of each part. It is limited because each chunk
-/// stores a number for every tile.
+/// The maximum number of chunks, without the incomplete last chunk of each part. The number of chunks is limited
+/// because each chunk stores a number for every tile.
 const MAX_CHUNKS: usize = 32;
 /// The minimum number of items in a chunk, unless the chunk ends with its part.
 const MIN_CHUNK: usize = 1 << 15;
@@ -48,8 +48,8 @@ fn n_tiles([left, top, right, bottom]: TileRect) -> usize {
     (right - left) as usize * (bottom - top) as usize
 }
 
-/// Returns the maximum number of tiles of an item that is in the lists of its tiles. An item that touches more tiles is
-/// kept in the list that all tiles read, so that the lists stay within their bounds.
+/// Returns the limit for items in the lists of single tiles. An item that touches more tiles than this is kept in the
+/// list that all tiles read, so that the lists stay within their bounds.
 fn max_listed_tiles(items: &[(u32, TileRect)]) -> usize {
     let mut entries = [0; MAX_LISTED_TILES + 1];
     for &(_, rect) in items {

@@ -1,8 +1,9 @@
 //! Ambient occlusion: how much of the surroundings of a point on a surface is visible from that point.
 //!
 //! Depth maps are drawn from directions that are spread evenly over the sphere. Each map stores the nearest and the
-//! farthest depth, and thus serves two opposite directions. The openness of a point is the mean over all maps. The
-//! openness does not depend on the camera and has no noise. Transparent surfaces do not occlude.
+//! farthest depth, and thus serves two opposite directions. The openness of a point is the weighted mean of its
+//! visibility over all maps. The openness does not depend on the camera and has no noise. Transparent surfaces do not
+//! occlude.
 
 use std::borrow::Cow;
 
@@ -166,7 +167,7 @@ impl Occlusion {
 const SMALL_EDGE: f64 = 0.85;
 
 /// Returns the triangles of a part that are drawn into maps, and whether the points of the part are drawn too.
-/// Triangles whose edges are all shorter than `length` are left out; the points stand for them. If the part has
+/// Triangles whose edges are all shorter than `length` are left out; the points are drawn instead. If the part has
 /// transparent surfaces, returns all triangles of its opaque surfaces, and `false`.
 fn triangles_to_draw<'a>(part: &'a Part, length: f64) -> (Cow<'a, [[u32; 3]]>, bool) {
     let has_transparent = part.materials.iter().any(Surface::is_transparent);

@@ -14,7 +14,7 @@ use crate::{ScreenPoint, View};
 pub(super) const GRID_BITS: i32 = 8;
 /// Grid steps per pixel.
 pub(super) const GRID: i32 = 1 << GRID_BITS;
-/// The maximum coordinate of a grid point, in pixels from the upper left corner of the picture, to each side.
+/// The maximum distance of a grid point from the upper left corner of the picture, in pixels along each axis.
 const FAR: f64 = 32_768.0;
 
 /// A point of the picture.

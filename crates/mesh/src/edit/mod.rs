@@ -70,7 +70,7 @@ pub enum EditError {
     #[error("{0} has too few edges")]
     FewEdges(VertexId),
     /// The face would be left with fewer than three corners.
-    #[error("{0} has too few corners")]
+    #[error("{0} would have fewer than three corners")]
     FewCorners(FaceId),
     /// A face would have this vertex as a corner twice, or already has.
     #[error("one face would have {0} as a corner twice")]

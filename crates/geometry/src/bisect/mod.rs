@@ -54,9 +54,8 @@ pub struct Bisection {
 ///
 /// The plane meets a flat face in a line. This line crosses the sides of the face an even number of times, and
 /// the intervals between crossings are alternately inside and outside of the face. A face that is twisted or
-/// intersects itself may not have this property. Then each part in front of the plane is cut off separately. If
-/// two faces share both edges that the plane crosses, each gets a separate edge between the same two crossing
-/// points.
+/// intersects itself can lack this property. Then each part in front of the plane is cut off separately. If two faces
+/// share both edges that the plane crosses, each gets a separate edge between the same two crossing points.
 ///
 /// A face that lies in the plane counts as behind it if its normal points to the front, because the solid that
 /// it bounds lies behind. Otherwise it counts as in front.

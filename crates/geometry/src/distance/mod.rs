@@ -79,9 +79,9 @@ type Ask<'a> = dyn Fn() -> Result<(), Cancelled> + Sync + 'a;
 
 impl Distance {
     /// Measures the distance between two surfaces. `tolerance` is the largest allowed error of the Hausdorff
-    /// distance, in scene units. If `None`, it is [`TOLERANCE`] times the [`diagonal`]. A very small tolerance
-    /// may not be reached; [`at_most`](Self::at_most) is a valid bound in any case. Returns `None` if one of
-    /// the meshes has no faces.
+    /// distance, in scene units. If `None`, it is [`TOLERANCE`] times the [`diagonal`]. The search can stop before it
+    /// reaches a very small tolerance; [`at_most`](Self::at_most) is a valid bound in any case. Returns `None` if one
+    /// of the meshes has no faces.
     pub fn between(a: &Mesh, b: &Mesh, tolerance: Option<f64>) -> Option<Self> {
         let found = Self::between_with(a, b, tolerance, &NoProgress);
         found.expect("never cancelled")

@@ -72,8 +72,8 @@ fn sort_into_tree(points: &mut [Point]) {
     if points.len() <= LEAF || min == max {
         return;
     }
-    // The sides of the box are compared at half their length, because the difference of two finite numbers may
-    // be infinite.
+    // The sides of the box are compared at half their length, because the difference of two finite numbers can be
+    // infinite.
     let axis = (0.5 * max - 0.5 * min).max_position();
     let n = points.len();
     let middle = n / 2;

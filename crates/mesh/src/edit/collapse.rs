@@ -243,8 +243,8 @@ impl Mesh {
         Ok(())
     }
 
-    /// Called if the merged vertex would have two edges and two faces. Returns whether these faces would lie
-    /// back to back, which is true if every vertex of one of them would have two edges.
+    /// Must be called only if the merged vertex would have two edges and two faces. Returns whether these faces would
+    /// lie back to back, which is true if every vertex of one of them would have two edges.
     fn would_fold(&self, e: EdgeId, apexes: [Option<VertexId>; 2]) -> bool {
         let [ab, ba] = e.half_edges();
         // Finds one of the two faces. A face beside e that is not a triangle remains. If both are triangles,

@@ -24,7 +24,9 @@ pub enum FileError {
     #[error("the output path \"{0}\" does not end with a file name")]
     NoName(String),
     /// A placeholder does not name a path parameter.
-    #[error("unknown placeholder {{{0}}} in \"{1}\"; known placeholders: {2}")]
+    #[error(
+        "unknown placeholder {{{0}}} in \"{1}\"; placeholders stand for file names in path parameters, here: {2}"
+    )]
     Placeholder(String, String, String),
     /// The path leads out of the output folder through a symbolic link.
     #[error("\"{0}\" leads out of the output folder through a link")]
@@ -263,7 +265,7 @@ mod tests {
         );
         assert_eq!(
             files().to_write("{mdel}.obj").unwrap_err().to_string(),
-            "unknown placeholder {mdel} in \"{mdel}.obj\"; known placeholders: {model.stem}"
+            "unknown placeholder {mdel} in \"{mdel}.obj\"; placeholders stand for file names in path parameters, here: {model.stem}"
         );
     }
 

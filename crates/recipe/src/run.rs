@@ -381,7 +381,12 @@ impl Runner<'_> {
                     let failure = Diagnostic::error(placed.span, violation.message);
                     let step = after.and_then(|i| recipe.steps.get(i));
                     let failure = match step.filter(|step| step.scope == placed.scope) {
-                        Some(step) => failure.with_label(step.span, "after this step"),
+                        Some(step) if step.turns.is_empty() => {
+                            failure.with_label(step.span, "after this step")
+                        }
+                        Some(step) => {
+                            failure.with_label(step.span, format!("after {}", step.label()))
+                        }
                         None => failure,
                     };
                     let places = if listener.wants_places() {

@@ -170,16 +170,10 @@ mod tests {
                 .into_iter()
                 .map(|(place, message, _)| (place, message))
                 .collect::<Vec<_>>(),
-            [
-                (
-                    "Sharp".to_owned(),
-                    "`Sharp` needs `above` (read as a selection of edges)".to_owned()
-                ),
-                (
-                    "abov".to_owned(),
-                    "unknown field `abov` in `Sharp` (read as a selection of edges)".to_owned()
-                ),
-            ]
+            [(
+                "abov".to_owned(),
+                "unknown field `abov` in `Sharp` (read as a selection of edges)".to_owned()
+            ),]
         );
         assert_eq!(
             wrong("Sharp(above: 300)", None)[0].1,

@@ -359,8 +359,8 @@ impl Picture {
 impl Operation for Picture {
     const NAME: &'static str = "Picture";
     const SUMMARY: &'static str = "Draw the scene into an image file";
-    const EXAMPLE: &'static str = r#"Picture(path: "a.png", size: (64, 48), highlight: Edges(Sharp(above: 30)), style: (wireframe: ()))"#;
-    const WORDS: &'static [&'static str] = &["render", "draw", "screenshot", "image"];
+    const EXAMPLE: &'static str = r#"Picture(path: "a.png", size: (64, 48), highlight: Edges(Sharp(above: 30)), color_by: (of: Valence), style: (wireframe: ()))"#;
+    const WORDS: &'static [&'static str] = &["render", "draw", "screenshot", "image", "color"];
     const TAKES_ON: bool = true;
     const ATOMIC: bool = true;
 

@@ -58,7 +58,7 @@ pub(crate) enum Command {
     Sweep(SweepArgs),
     /// Write a small commented recipe to start from
     New(NewArgs),
-    /// List the operations and selections, or describe one operation
+    /// List the operations or the selections, or describe one operation
     Ops(OpsArgs),
     /// List the expectations that recipes can have, or describe one
     Expectations {

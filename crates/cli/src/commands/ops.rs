@@ -61,7 +61,7 @@ fn list(registry: &Registry) -> String {
     for (name, schema) in step_kinds() {
         text += &row(name, schema["description"].as_str().unwrap_or_default());
     }
-    text
+    text + "\n`meshwright ops NAME` describes one operation, `meshwright ops --selections` the selections.\n"
 }
 
 fn selections() -> String {
@@ -75,6 +75,17 @@ fn operation(name: &str, registry: &Registry) -> anyhow::Result<String> {
         return Ok(format!("{name}: {}", described(&schema)));
     }
     let Some(entry) = registry.get(name) else {
+        let is_selection = |t: &TypeDoc| {
+            t.name != "Region" && t.variants.iter().any(|variant| variant.name == name)
+        };
+        if recipe::selections().iter().any(is_selection) {
+            anyhow::bail!("`{name}` is a selection: `meshwright ops --selections` describes it");
+        }
+        if recipe::expectations().iter().any(|e| e.name == name) {
+            anyhow::bail!(
+                "`{name}` is an expectation: `meshwright expectations {name}` describes it"
+            );
+        }
         let help = suggest_operations(name, registry);
         anyhow::bail!("unknown operation `{name}`: {help}");
     };
@@ -108,8 +119,8 @@ fn described(schema: &Json) -> String {
         "\nParameters:\n"
     };
     text.extend(fields.iter().map(|field| field_text(field, "  ")));
-    // The variants of a parameter's type are listed with the parameter.
-    let is_shown = |t: &TypeDoc| fields.iter().any(|f| f.kind == t.name);
+    // The variants of a parameter's type are listed with the parameter, but not the fields.
+    let is_shown = |t: &TypeDoc| t.fields.is_empty() && fields.iter().any(|f| f.kind == t.name);
     let types = types(schema);
     for t in types.iter().filter(|t| !t.is_selection() && !is_shown(t)) {
         text += &format!("\n{}", type_text(t));

@@ -15,7 +15,8 @@ fn operations_are_listed_with_their_summaries() {
         assert!(listed.stdout.contains(&line), "{line}");
     }
     let n = ops_all::registry().entries().len() + kinds.len();
-    assert_eq!(listed.stdout.lines().count(), n);
+    // An empty line and a hint follow.
+    assert_eq!(listed.stdout.lines().count(), n + 2);
 }
 
 #[test]
@@ -89,6 +90,33 @@ fn every_operation_can_be_shown() {
         let shown = folder.run(&format!("ops {}", entry.name)).with_code(0);
         assert!(shown.stdout.starts_with(entry.name), "{shown:#?}");
     }
+}
+
+#[test]
+fn every_type_of_a_parameter_is_described() {
+    Folder::new().run("ops Picture").with_code(0).prints(&[
+        "\nColorBy: ",
+        "  of: Quantity (required)",
+        "\nStyle: ",
+        "  shading: Shading = Smooth",
+        "\nTurntable: ",
+    ]);
+}
+
+#[test]
+fn names_of_selections_and_expectations_are_known() {
+    let error = |name: &str| {
+        let command = format!("ops {name}");
+        Folder::new().run(&command).with_code(1).stderr
+    };
+    assert_eq!(
+        error("Facing"),
+        "error: `Facing` is a selection: `meshwright ops --selections` describes it\n"
+    );
+    assert_eq!(
+        error("Closed"),
+        "error: `Closed` is an expectation: `meshwright expectations Closed` describes it\n"
+    );
 }
 
 #[test]

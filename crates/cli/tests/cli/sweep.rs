@@ -66,7 +66,7 @@ fn the_table_has_a_row_for_each_cell_and_the_last_parameter_changes_fastest() {
         "cell  levels  around  Vertices",
         "\n1          0       8        48",
         "\n6          1       4        96",
-        "6 cells; 1 expectation of the recipe not checked: set `expect: true` to check expectations\n",
+        "6 cells; 1 expectation of the recipe not checked: write `expect: true` in the sweep to check them\n",
     ]);
     // Outputs are only written with --keep-outputs.
     assert_eq!(folder.entries("."), ["a.sweep.ron", "recipe.ron"]);

@@ -183,10 +183,12 @@ fn exceeds_budget(step: &RecipeStep, bytes: u64, budget: u64) -> Diagnostic {
     Diagnostic::error(step.span, message).with_help("raise the budget with --budget")
 }
 
-/// Formats a number of bytes in MiB.
+/// Formats a number of bytes in MiB, or in KiB if there are few.
 pub fn mebibytes(bytes: u64) -> String {
     let mebi = bytes as f64 / f64::from(1 << 20);
-    if mebi < 10.0 {
+    if mebi < 0.1 {
+        format!("{:.1} KiB", bytes as f64 / 1024.0)
+    } else if mebi < 10.0 {
         format!("{mebi:.1} MiB")
     } else {
         format!("{mebi:.0} MiB")

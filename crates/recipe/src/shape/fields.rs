@@ -2,7 +2,7 @@
 
 use super::schema::Schema;
 use super::{Checker, Place, listed, nearest};
-use ron_tree::{Field, Span, Value, ValueKind};
+use ron_tree::{Field, Number, Span, Value, ValueKind};
 
 impl Checker {
     /// Checks `(a: 1, b: 2)`.
@@ -25,19 +25,20 @@ impl Checker {
             _ => {
                 let help = match &value.kind {
                     ValueKind::Map(_) => {
-                        Some("write fields in parentheses, and their names without quotes")
+                        let help = "write fields in parentheses, and their names without quotes";
+                        Some(help.to_owned())
                     }
-                    _ => None,
+                    _ => with_field_name(value, schema),
                 };
                 let expected = schema.expectation();
-                return self.mismatch(value, &expected, place, help.map(str::to_owned));
+                return self.mismatch(value, &expected, place, help);
             }
         };
-        let mut given = Vec::with_capacity(fields.len());
+        let (mut given, mut unknown) = (Vec::with_capacity(fields.len()), Vec::new());
         for field in fields {
             let name = &*field.name.text;
             let Some((current, inner)) = schema.field_or_alias(name) else {
-                self.unknown_field(value, field, schema, place);
+                unknown.push(field);
                 continue;
             };
             if current != name {
@@ -47,7 +48,10 @@ impl Checker {
             self.check(&field.value, &inner, Place::named(name));
         }
         let is_given = |name: &&str| given.contains(name);
-        let missing: Vec<&str> = schema.required().filter(|name| !is_given(name)).collect();
+        let mut missing: Vec<&str> = schema.required().filter(|name| !is_given(name)).collect();
+        for field in unknown {
+            self.unknown_field(value, field, schema, place, &mut missing);
+        }
         if complete && !missing.is_empty() {
             let subject = place
                 .name
@@ -58,12 +62,30 @@ impl Checker {
         }
     }
 
-    fn unknown_field(&mut self, value: &Value, field: &Field, schema: &Schema, place: Place) {
+    /// Reports an unknown field. If it is likely to be one of the `missing` fields under a wrong name, removes that field
+    /// from `missing`.
+    fn unknown_field(
+        &mut self,
+        value: &Value,
+        field: &Field,
+        schema: &Schema,
+        place: Place,
+        missing: &mut Vec<&str>,
+    ) {
         let name = &*field.name.text;
         let near = nearest(name, schema.fields());
         let known: Vec<&str> = schema.fields().collect();
         let help = match place.name {
-            _ if !near.is_empty() => format!("did you mean {}?", listed(near)),
+            _ if !near.is_empty() => {
+                missing.retain(|name| !near.contains(name));
+                format!("did you mean {}?", listed(near))
+            }
+            _ if missing.len() == 1 => {
+                format!(
+                    "write {} instead",
+                    usage_of(&std::mem::take(missing), schema)
+                )
+            }
             Some(owner) if known.is_empty() => format!("`{owner}` has no fields"),
             _ => format!("fields: {}", listed(known.iter().copied().take(24))),
         };
@@ -106,6 +128,23 @@ impl Checker {
             }
         }
     }
+}
+
+/// Returns the help text for a value that should be a struct, but seems to be the value of its first field.
+fn with_field_name(value: &Value, schema: &Schema) -> Option<String> {
+    let field = schema
+        .required()
+        .next()
+        .or_else(|| schema.fields().next())?;
+    let inner = value.single().unwrap_or(value);
+    let text = match &inner.kind {
+        ValueKind::Name(name) => name.to_string(),
+        ValueKind::Call(call) => format!("{}(..)", call.name.text),
+        ValueKind::Number(Number::Int(text) | Number::Float(text)) => text.to_string(),
+        ValueKind::String(_) => "\"..\"".to_owned(),
+        _ => return None,
+    };
+    Some(format!("write `({field}: {text})`"))
 }
 
 /// Describes how to write the missing fields, such as `` `count:` with a whole number ``.

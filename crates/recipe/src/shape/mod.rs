@@ -331,7 +331,12 @@ impl Checker {
                 let help = "write tuples in parentheses: `(1, 2, 3)`";
                 return self.mismatch(value, expected, Place::default(), Some(help.to_owned()));
             }
-            _ => return self.mismatch(value, expected, Place::default(), None),
+            _ => {
+                let are_numbers = items.iter().all(|item| item.types() == ["number"]);
+                let example = vec!["0.5"; items.len()].join(", ");
+                let help = are_numbers.then(|| format!("write numbers, such as `({example})`"));
+                return self.mismatch(value, expected, Place::default(), help);
+            }
         };
         let readable = values.iter().all(|v| !matches!(v.kind, ValueKind::Error));
         if readable && values.len() != items.len() {

@@ -390,6 +390,10 @@ fn unknown_variants_are_errors() {
         "variants: `Area`, `Angle`, `Uniform`"
     );
     assert_eq!(help("edges: Random"), "write `Random(count: ..)`");
+    // The field that a value without a name belongs to.
+    assert_eq!(help("edges: Random(3)"), "write `(count: 3)`");
+    assert_eq!(help("nested: 1.5"), "write `(width: 1.5)`");
+    assert_eq!(help("at: Up"), "write numbers, such as `(0.5, 0.5, 0.5)`");
     assert_eq!(
         help("edges: Near(0, 0, 1)"),
         "the value needs its own parentheses: `Near((.., .., ..))`"
@@ -481,6 +485,18 @@ fn lengths_are_checked() {
 }
 
 #[test]
+fn a_wrong_name_of_a_required_field_is_one_error() {
+    let found = problem("edges: Random(amount: 3)");
+    assert!(found.contains("unknown field `amount`"), "{found}");
+    assert_eq!(
+        help("edges: Random(amount: 3)"),
+        "write `count:` with a whole number instead"
+    );
+    assert_eq!(help("edges: Random(cuont: 3)"), "did you mean `count`?");
+    problem("edges: Random(cuont: 3)");
+}
+
+#[test]
 fn every_error_of_a_step_is_found() {
     let source = "Everything(levels: 9, egdes: All, weight: Aera, \
                   other: And([Between(1), Sharp(abve: 1), Valence(0)]), at: (0, 0))";
@@ -494,7 +510,6 @@ fn every_error_of_a_step_is_found() {
             "egdes: unknown field `egdes` in `Everything`",
             "Aera: unknown variant `Aera` for `weight`",
             "(1): expected `Between(.., ..)`, found 1 value",
-            "Sharp: `Sharp` needs `above`",
             "abve: unknown field `abve` in `Sharp`",
             "0: `Valence` is 0, expected at least 1",
             "(0, 0): expected 3 values in brackets `(.., .., ..)` for `at`, found 2 values",

@@ -60,7 +60,7 @@ impl Checker {
                         Some(help),
                     );
                 }
-                None => self.unknown_variant(value, name, value.span, choice, place),
+                None => self.unknown_variant(value, (name, value.span), schema, choice, place),
             },
             ValueKind::Call(call) => match content(&call.name.text) {
                 Some(content) => self.check_content(call, &content),
@@ -69,7 +69,10 @@ impl Checker {
                     let help = format!("write `{}` alone", call.name.text);
                     self.report(value, call.body.span, message, Some(help));
                 }
-                None => self.unknown_variant(value, &call.name.text, call.name.span, choice, place),
+                None => {
+                    let name = (&*call.name.text, call.name.span);
+                    self.unknown_variant(value, name, schema, choice, place);
+                }
             },
             ValueKind::String(text) if is_unit(text) || content(text).is_some() => {
                 let message = format!("the variant `{text}` must not be in quotes");
@@ -86,17 +89,24 @@ impl Checker {
     fn unknown_variant(
         &mut self,
         value: &Value,
-        name: &str,
-        span: Span,
+        (name, span): (&str, Span),
+        schema: &Schema,
         choice: &Choice,
         place: Place,
     ) {
         let names: Vec<&str> = choice.names().collect();
         let near = nearest(name, names.iter().copied());
-        let help = if near.is_empty() {
-            variants_help(&names)
-        } else {
+        let help = if !near.is_empty() {
             Some(format!("did you mean {}?", listed(near)))
+        } else if schema
+            .name()
+            .is_some_and(|name| name.ends_with("Selection"))
+        {
+            Some("`meshwright ops --selections` lists all selections".to_owned())
+        } else if names.contains(&"Closed") {
+            Some("`meshwright expectations` lists all expectations".to_owned())
+        } else {
+            variants_help(&names)
         };
         self.report(
             value,

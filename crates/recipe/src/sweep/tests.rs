@@ -105,6 +105,11 @@ fn a_range_has_both_ends_and_round_numbers_between_them() {
         cells("over: {\"n\": Range(from: 3, to: 3, steps: 1)}").concat(),
         ["3"]
     );
+    // All whole numbers.
+    assert_eq!(
+        cells("over: {\"n\": Range(from: 4, to: 2)}").concat(),
+        ["4", "3", "2"]
+    );
 }
 
 #[test]
@@ -181,6 +186,9 @@ fn invalid_ranges_are_refused_with_a_reason() {
         found("from: 0, to: 1, steps: 1"),
         "a range with 1 step must have equal ends, found 0 and 1"
     );
+    assert!(found("from: -1e300, to: 1e300").contains("expected at most 10000"));
+    let without_steps = wrong("over: {\"x\": Range(from: 0, to: 1)}").remove(0).1;
+    assert!(without_steps.contains("needs `steps`"), "{without_steps}");
     assert!(found("from: 0, to: 1, steps: 0").contains("expected at least 1"));
     assert!(found("from: 0, to: 1, steps: 2, step: 2").contains("unknown field `step`"));
     assert!(found("from: 0, to: 1, steps: 4_000_000_000").contains("expected at most 10000"));

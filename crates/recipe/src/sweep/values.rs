@@ -21,9 +21,11 @@ enum Values {
         from: f64,
         /// The last number.
         to: f64,
-        /// The number of values, including the first and the last.
+        /// The number of values, including the first and the last. If omitted, all whole numbers from the first to the
+        /// last.
+        #[serde(default)]
         #[schemars(range(min = 1))]
-        steps: u32,
+        steps: Option<u32>,
     },
 }
 
@@ -72,7 +74,7 @@ fn collect(
 fn range(
     param: &Param,
     [from, to]: [f64; 2],
-    steps: u32,
+    steps: Option<u32>,
     span: Span,
 ) -> Result<Vec<Setting>, Vec<Diagnostic>> {
     let problem = |message: String| vec![Diagnostic::error(span, message)];
@@ -85,6 +87,14 @@ fn range(
                 "expected a list of values `[..]`: `Range` is for numbers, but the parameter has the type {kind}"
             );
             return Err(problem(message));
+        }
+    };
+    let steps = match steps {
+        Some(steps) => steps,
+        None if whole => whole_numbers(from, to),
+        None => {
+            let message = "`Range` needs `steps` for a parameter that is not a whole number";
+            return Err(problem(message.to_owned()));
         }
     };
     if steps as usize > MAX_CELLS {
@@ -120,6 +130,16 @@ fn range(
         wrong.truncate(1);
         wrong
     })
+}
+
+/// Returns the number of whole numbers from one number to another, including both. At most [`u32::MAX`].
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "too large numbers become the maximum"
+)]
+fn whole_numbers(from: f64, to: f64) -> u32 {
+    ((to - from).abs() + 1.0) as u32
 }
 
 /// Returns one value for a parameter.

@@ -81,6 +81,10 @@ fn expectations_after_a_step_must_hold_in_each_repetition() {
     assert_eq!(outcome.checked, 4);
     let failed: Vec<_> = outcome.failures.iter().map(|f| f.span).collect();
     assert_eq!(failed.len(), 2, "{:?}", outcome.failures);
+    let after: Vec<&str> = (outcome.failures.iter())
+        .map(|failure| failure.labels[0].1.as_str())
+        .collect();
+    assert_eq!(after, ["after up#2", "after up#3"]);
 }
 
 #[test]
@@ -141,7 +145,6 @@ fn errors_in_inner_steps_are_reported_like_others() {
         found,
         [
             ("-1", "`times` is -1, expected at least 0"),
-            ("Repeat", "`Repeat` needs `times`"),
             ("tims", "unknown field `tims` in `Repeat`"),
             ("Lft", "unknown operation `Lft`"),
             ("\"n\"", "`n` has the type Int, expected Bool"),
@@ -155,7 +158,7 @@ fn errors_in_inner_steps_are_reported_like_others() {
         ]
     );
     assert_eq!(
-        reading.diagnostics[8].help.as_deref(),
+        reading.diagnostics[7].help.as_deref(),
         Some("did you mean `Repeat`?")
     );
 }

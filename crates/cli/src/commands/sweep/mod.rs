@@ -257,7 +257,7 @@ fn finish(args: &SweepArgs, plan: &Plan, results: &[CellResult]) -> anyhow::Resu
     if unchecked > 0 && !plan.sweep.expects {
         let expectations = counted(unchecked, "expectation");
         summary += &format!(
-            "; {expectations} of the recipe not checked: set `expect: true` to check expectations"
+            "; {expectations} of the recipe not checked: write `expect: true` in the sweep to check them"
         );
     }
     print(&format!("{summary}\n"))?;

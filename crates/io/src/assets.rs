@@ -116,6 +116,8 @@ pub(crate) struct Assets<'a> {
     store: &'a dyn Store,
     /// The requested file.
     pub(crate) path: &'a Path,
+    /// Folders in which images are searched before the folder of the file, relative to it.
+    pub(crate) image_folders: Vec<PathBuf>,
     seen: BTreeSet<FileDependency>,
 }
 
@@ -124,6 +126,7 @@ impl<'a> Assets<'a> {
         Self {
             store,
             path,
+            image_folders: Vec::new(),
             seen: BTreeSet::new(),
         }
     }

@@ -64,6 +64,7 @@ mod error;
 mod fault;
 mod format;
 mod gltf;
+mod images;
 mod joined;
 mod loss;
 mod mws;
@@ -90,6 +91,7 @@ use store::Store;
 pub use assets::FileDependency;
 pub use error::{ReadError, WriteError};
 pub use format::Format;
+pub use images::Images;
 pub use loss::Loss;
 pub use note::{Note, NoteKind};
 pub use peek::{Peek, PeekGeometry, PeekMesh, PeekObject};
@@ -111,6 +113,9 @@ pub struct ReadOptions {
     pub policies: Policies,
     /// Whether reading fails if anything in the file would be left out.
     pub strict: bool,
+    /// The memory budget in bytes for content whose size does not follow from the size of the file: its images,
+    /// together, and the decompressed content of a `.gz` file. Defaults to 4 GiB.
+    pub budget: Option<u64>,
 }
 
 /// The content of a file.
@@ -131,6 +136,10 @@ pub struct WriteOptions {
     /// the header of STL, as `asset.extras.meshwright` in glTF, and in the header of `.mws`. The Bezier formats
     /// cannot store it.
     pub provenance: Option<String>,
+    /// What to do with the images of materials. If `None`, `.glb` files embed them, and images next to the model
+    /// that they come from are copied next to `.gltf` and `.obj` files. OBJ cannot embed images, so embedded ones
+    /// are written to files too.
+    pub images: Option<Images>,
 }
 
 /// The files that were written.
@@ -189,6 +198,9 @@ pub fn read_bytes(
             Shape::Geometry(geometry) => Object::new(name, geometry),
             Shape::Object(object) => *object,
         });
+    }
+    if known_format(path)? != Format::Mws {
+        images::load(&mut objects, &mut assets, options.budget(), &mut notes);
     }
     let notes = notes.into_vec();
     if options.strict {
@@ -315,7 +327,8 @@ pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Pee
 }
 
 /// Writes a scene to a file and to the files that the format needs next to it: `a.obj` comes with `a.mtl` if there
-/// are materials, `a.gltf` with `a.bin`. Existing files with these names are replaced.
+/// are materials, `a.gltf` with `a.bin`. Existing files with these names are replaced. Images of materials are embedded
+/// or copied according to [`WriteOptions::images`].
 ///
 /// # Errors
 ///
@@ -335,8 +348,14 @@ pub fn write(
         files: vec![(path.to_path_buf(), bytes)],
         losses,
     };
-    let written = match Format::from_path(path).ok_or_else(unknown)? {
-        Format::Obj => return obj::write(store, path, scene, options),
+    let format = Format::from_path(path).ok_or_else(unknown)?;
+    let images::Settled {
+        scene,
+        files: mut all,
+    } = images::settle(store, path, format, scene, options)?;
+    let scene = &*scene;
+    let written = match format {
+        Format::Obj => return obj::write(store, path, scene, all, options),
         Format::Gltf => gltf::write(path, false, scene, options),
         Format::Glb => gltf::write(path, true, scene, options),
         Format::Ply => ply::write(scene, options).map(one),
@@ -351,7 +370,8 @@ pub fn write(
     let files = files
         .into_iter()
         .map(|(path, bytes)| (path, Content::Bytes(bytes)));
-    let (files, bytes) = save(store, files.collect())?;
+    all.extend(files);
+    let (files, bytes) = save(store, all)?;
     Ok(WriteReport {
         files,
         bytes,
@@ -377,6 +397,10 @@ fn known_format(path: &Path) -> Result<Format, ReadError> {
 }
 
 impl ReadOptions {
+    fn budget(&self) -> u64 {
+        self.budget.unwrap_or(1 << 32)
+    }
+
     /// The name of an object that has no name in the file.
     fn name_in(&self, path: &Path) -> String {
         let given = self.name.clone();

@@ -109,6 +109,7 @@ mod tests {
         let text = r#"meshwright 1.2.3, recipe 0123456789abcdef0123456789abcdef, {"a":"\"ä"}"#;
         let options = WriteOptions {
             provenance: Some(text.to_owned()),
+            ..WriteOptions::default()
         };
         let mut scene = Scene::new();
         scene

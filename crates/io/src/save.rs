@@ -2,6 +2,7 @@
 
 use std::io;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use store::{NewFile, Store};
 
@@ -12,6 +13,8 @@ use crate::parallel::consume;
 pub(crate) enum Content<'a> {
     /// The bytes as they are.
     Bytes(Vec<u8>),
+    /// The bytes of an image.
+    Shared(Arc<[u8]>),
     /// The bytes that the blocks append, in order. Blocks are produced while the file is written, several at a
     /// time, so that a large text is never in memory as a whole.
     Blocks(Vec<Block<'a>>),
@@ -54,6 +57,10 @@ impl Content<'_> {
     fn write(&self, out: &mut dyn NewFile) -> io::Result<u64> {
         let n_bytes = match self {
             Content::Bytes(bytes) => {
+                out.write_all(bytes)?;
+                bytes.len() as u64
+            }
+            Content::Shared(bytes) => {
                 out.write_all(bytes)?;
                 bytes.len() as u64
             }

@@ -257,6 +257,10 @@ impl<'a> Decoder<'a> {
     fn texture(&mut self) -> Result<Texture, DecodeError> {
         let image = match self.text()? {
             "file" => Image::File(self.text()?.to_owned()),
+            "loaded" => Image::Loaded {
+                path: self.text()?.to_owned(),
+                bytes: self.array::<u8>(1)?.into(),
+            },
             "embedded" => Image::Embedded {
                 mime: self.text()?.to_owned(),
                 bytes: self.array::<u8>(1)?.into(),

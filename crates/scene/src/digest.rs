@@ -259,6 +259,11 @@ impl Encoder<'_> {
                 self.text("file");
                 self.text(path);
             }
+            Image::Loaded { path, bytes } => {
+                self.text("loaded");
+                self.text(path);
+                self.array(bytes, 1);
+            }
             Image::Embedded { mime, bytes } => {
                 self.text("embedded");
                 self.text(mime);

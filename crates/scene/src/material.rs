@@ -41,6 +41,30 @@ pub struct Material {
 }
 
 impl Material {
+    /// Returns the textures of the material.
+    pub fn textures(&self) -> impl Iterator<Item = &Texture> {
+        let textures = [
+            &self.base_color_texture,
+            &self.metallic_roughness_texture,
+            &self.normal_texture,
+            &self.occlusion_texture,
+            &self.emissive_texture,
+        ];
+        textures.into_iter().flatten()
+    }
+
+    /// Returns the textures of the material, to change them.
+    pub fn textures_mut(&mut self) -> impl Iterator<Item = &mut Texture> {
+        let textures = [
+            &mut self.base_color_texture,
+            &mut self.metallic_roughness_texture,
+            &mut self.normal_texture,
+            &mut self.occlusion_texture,
+            &mut self.emissive_texture,
+        ];
+        textures.into_iter().flatten()
+    }
+
     /// Creates a white, matt, opaque material.
     pub fn new(name: impl Into<String>) -> Self {
         Self {
@@ -108,7 +132,7 @@ impl Texture {
     /// Returns the path of the image, if it is a file.
     pub fn path(&self) -> Option<&str> {
         match &self.image {
-            Image::File(path) => Some(path),
+            Image::File(path) | Image::Loaded { path, .. } => Some(path),
             Image::Embedded { .. } => None,
         }
     }
@@ -117,9 +141,16 @@ impl Texture {
 /// An image.
 #[derive(Clone, PartialEq)]
 pub enum Image {
-    /// The path of an image file, as written in the model file, with `/` as separator; or a URI with a
-    /// scheme.
+    /// The path of an image file that was not read, as written in the model file, with `/` as separator; or a URI
+    /// with a scheme.
     File(String),
+    /// An image file that was found beside the model file. The bytes are shared, as in `Embedded`.
+    Loaded {
+        /// The path, as in `File`.
+        path: String,
+        /// The content of the image file.
+        bytes: Arc<[u8]>,
+    },
     /// The bytes of an image file. They are shared, so that copying a material is cheap.
     Embedded {
         /// The media type, such as `image/png`.
@@ -134,6 +165,7 @@ impl fmt::Debug for Image {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::File(path) => f.debug_tuple("File").field(path).finish(),
+            Self::Loaded { path, bytes } => write!(f, "Loaded({path:?}, {} bytes)", bytes.len()),
             Self::Embedded { mime, bytes } => write!(f, "Embedded({mime}, {} bytes)", bytes.len()),
         }
     }

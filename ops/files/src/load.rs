@@ -12,7 +12,7 @@ use op::prelude::*;
 /// Formats: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl`, `.off`, `.dae`, `.bez` (Bezier patches), `.bzc` (a Bezier
 /// curve) and `.mws` (a complete scene). An OBJ file becomes one object, and its objects (`o`) and groups (`g`)
 /// become face tags. A glTF or COLLADA file gives an object for each node with a mesh. Content that the scene
-/// cannot hold is counted and listed. A corner that repeats the corner before it is removed, and a face that still
+/// cannot hold is counted and listed. Images of materials are read from files next to the model. A corner that repeats the corner before it is removed, and a face that still
 /// visits a vertex twice is left out.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -55,6 +55,7 @@ impl Load {
                 isolated: self.isolated,
             },
             strict: self.strict,
+            budget: None,
         }
     }
 }

@@ -1,6 +1,8 @@
 //! Save: writes objects to a file.
 
-use mesh_io::{Format, WriteOptions};
+use std::path::Path;
+
+use mesh_io::{Format, Images, WriteOptions};
 use op::prelude::*;
 use op::{Loss, Operation, target_scene};
 
@@ -15,6 +17,11 @@ pub struct Save {
     /// The file. The path is relative to the output folder. `{name.stem}` is replaced by the name, without
     /// extension, of the file in the recipe parameter `name`.
     pub path: String,
+    /// What to do with the images of materials. If omitted, `.glb` files embed them, and images next to the model
+    /// that they come from are copied next to `.gltf` and `.obj` files. OBJ cannot embed images, so embedded ones are
+    /// written to files too.
+    #[serde(default)]
+    pub images: Option<Images>,
 }
 
 impl Operation for Save {
@@ -37,6 +44,11 @@ impl Operation for Save {
             );
             Some(Problem::error(message).at(["path"]).help(help))
         });
+        let is_obj = Format::from_path(Path::new(&self.path)) == Some(Format::Obj);
+        if is_obj && self.images == Some(Images::Embed) {
+            let problem = Problem::error("OBJ files cannot embed images");
+            problems.push(problem.at(["images"]).help("use `images: Copy`"));
+        }
         if plan.objects().is_empty() && !plan.incomplete {
             problems.push(Problem::error("no objects to save at this point"));
         }
@@ -51,6 +63,7 @@ impl Operation for Save {
         let chosen = target_scene(scene, cx);
         let options = WriteOptions {
             provenance: cx.files().provenance.clone(),
+            images: self.images,
         };
         let written =
             mesh_io::write(&*cx.files().store, &path, &chosen, &options).map_err(|e| failed(&e))?;
@@ -122,6 +135,54 @@ mod tests {
         let path = folder.path().join("cube.obj");
         let back = mesh_io::read(&store::Disk, &path, &mesh_io::ReadOptions::default()).unwrap();
         assert_eq!(back.objects[0].as_mesh().unwrap().n_faces(), 6);
+    }
+
+    #[test]
+    fn images_of_a_loaded_model_are_embedded_copied_or_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let files = Files {
+            input: folder.path().into(),
+            output: folder.path().join("out"),
+            ..Files::default()
+        };
+        let write = |name: &str, bytes: &[u8]| {
+            std::fs::write(folder.path().join(name), bytes).unwrap();
+        };
+        write(
+            "a.obj",
+            b"mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n",
+        );
+        write("a.mtl", b"newmtl m\nmap_Kd wood.png\n");
+        write("wood.png", b"\x89PNG...");
+        let mut scene = Scene::new();
+        let load: crate::Load = op::test::read(r#"(path: "a.obj")"#).unwrap();
+        let mut cx = Context::new(&NoProgress, &files);
+        let report = load.apply(&mut scene, &mut cx).unwrap();
+        assert_eq!(report.notes, Vec::<String>::new());
+        for (text, copied) in [
+            (r#"(path: "1/a.glb")"#, false),
+            (r#"(path: "2/a.gltf")"#, true),
+            (r#"(path: "3/a.obj")"#, true),
+            (r#"(path: "4/a.glb", images: Copy)"#, true),
+            (r#"(path: "5/a.gltf", images: Embed)"#, false),
+            (r#"(path: "6/a.obj", images: Keep)"#, false),
+        ] {
+            let save: Save = op::test::read(text).unwrap();
+            let report = save.apply(&mut scene, &mut cx).unwrap();
+            assert_eq!(report.losses, [], "{text}");
+            let folder = files.output.join(&save.path[..1]);
+            assert_eq!(folder.join("wood.png").exists(), copied, "{text}");
+        }
+        let save: Save = op::test::read(r#"(path: "a.obj", images: Embed)"#).unwrap();
+        let plan = PlanContext {
+            files: &files,
+            on: None,
+            budget: u64::MAX,
+        };
+        let mut planned = Plan::default();
+        planned.insert("a", PlannedGeometry::Patches(Range::ANY));
+        let problems = save.plan(&mut planned, &plan);
+        assert_eq!(problems[0].message, "OBJ files cannot embed images");
     }
 
     #[test]

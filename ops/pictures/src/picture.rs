@@ -66,8 +66,8 @@ pub struct Picture {
     /// Makes an animation in which the camera moves once around the scene.
     #[serde(default)]
     pub turntable: Option<Turntable>,
-    /// The folder of the images of materials, relative to the folder of the recipe. If omitted, the folder of the
-    /// recipe. Missing images are not drawn, and are reported.
+    /// The folder of images that are not next to their model, relative to the folder of the recipe. If omitted, the
+    /// folder of the recipe. Missing images are not drawn, and are reported.
     #[serde(default)]
     pub images: Option<String>,
 }

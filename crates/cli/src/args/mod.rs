@@ -12,6 +12,7 @@ use std::path::PathBuf;
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use mesh_io::Images;
 
 pub(crate) use cache::{CacheAction, CacheArgs, CacheCommandArgs, CacheFolder};
 pub(crate) use look::{DiffArgs, Kind, SelectArgs};
@@ -137,6 +138,10 @@ pub(crate) struct ConvertArgs {
     pub(crate) read: ReadArgs,
     /// The file to write; its extension determines the format
     pub(crate) output: PathBuf,
+    /// Images of materials: Embed, Copy (next to the file) or Keep (only the paths); by default, GLB files embed them
+    /// and other files get copies
+    #[arg(long, value_name = "POLICY", value_parser = read::policy::<Images>)]
+    pub(crate) images: Option<Images>,
 }
 
 #[derive(Debug, ClapArgs)]

@@ -41,8 +41,8 @@ pub(crate) struct DrawArgs {
     /// 'DistanceTo("other.obj")', are relative to the working directory
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) color_by: Option<String>,
-    /// Folder with the images of materials, relative to the working directory; defaults to the folder of the file
-    /// or recipe
+    /// Folder with images that are not next to their model, relative to the working directory; defaults to the folder
+    /// of the file or recipe
     #[arg(long, value_name = "DIR")]
     pub(crate) images: Option<String>,
     /// Further parameters of the operation Picture, written as in recipes

@@ -40,12 +40,13 @@ impl ReadArgs {
                 isolated: self.isolated,
             },
             strict: self.strict,
+            budget: None,
         }
     }
 }
 
 /// Parses a policy from its name in recipes.
-fn policy<T: DeserializeOwned>(text: &str) -> Result<T, String> {
+pub(super) fn policy<T: DeserializeOwned>(text: &str) -> Result<T, String> {
     let name: StrDeserializer<serde::de::value::Error> = text.into_deserializer();
     T::deserialize(name).map_err(|error| error.to_string())
 }

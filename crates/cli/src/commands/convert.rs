@@ -11,6 +11,7 @@ pub(crate) fn run(args: &ConvertArgs) -> anyhow::Result<bool> {
     }
     let options = mesh_io::WriteOptions {
         provenance: Some(STAMP.to_owned()),
+        images: args.images,
     };
     let report = mesh_io::write(&store::Disk, &args.output, &scene, &options)
         .map_err(|error| anyhow::anyhow!("{error}"))?;

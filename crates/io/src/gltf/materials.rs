@@ -15,6 +15,7 @@ use super::surface::{
 };
 use super::views::Reader;
 use crate::fault::Fault;
+use crate::images::sniffed;
 use crate::note::Notes;
 
 /// Converts materials, and loads each image once.
@@ -152,17 +153,12 @@ impl<'a> Materials<'a> {
         };
         let mime = from.mime_type.as_deref().or(given);
         let mime = mime.filter(|mime| !mime.is_empty());
-        let mime = mime.unwrap_or_else(|| sniffed(&bytes)).to_owned();
+        let unknown = "application/octet-stream";
+        let mime = mime
+            .or_else(|| sniffed(&bytes))
+            .unwrap_or(unknown)
+            .to_owned();
         Ok(Some(Image::Embedded { mime, bytes }))
-    }
-}
-
-/// The media type that the first bytes of an image indicate.
-pub(super) fn sniffed(bytes: &[u8]) -> &'static str {
-    match bytes {
-        [0x89, b'P', b'N', b'G', ..] => "image/png",
-        [0xff, 0xd8, 0xff, ..] => "image/jpeg",
-        _ => "application/octet-stream",
     }
 }
 

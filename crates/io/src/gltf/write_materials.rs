@@ -43,7 +43,7 @@ impl MaterialWriter {
         losses.add(None, &material.name, dropped, reason);
         let reason = "glTF only supports PNG and JPEG, so the texture is not written";
         let dropped = drop_textures(&mut material, |texture| match &texture.image {
-            Image::File(_) => true,
+            Image::File(_) | Image::Loaded { .. } => true,
             Image::Embedded { mime, .. } => matches!(mime.as_str(), "image/png" | "image/jpeg"),
         });
         losses.add(None, &material.name, dropped, reason);
@@ -166,7 +166,7 @@ impl MaterialWriter {
         self.known_images.push(image.clone());
         let mut json = ImageJson::default();
         match image {
-            Image::File(path) => json.uri = Some(uri(path)),
+            Image::File(path) | Image::Loaded { path, .. } => json.uri = Some(uri(path)),
             Image::Embedded { mime, bytes } => {
                 self.image_bytes.push((place, bytes.clone()));
                 json.mime_type = Some(mime.clone());

@@ -1,6 +1,7 @@
 //! MTL, the material libraries of OBJ files. `tobj` parses the statements.
 
 use std::collections::BTreeSet;
+use std::path::Path;
 
 use scene::{AlphaMode, Material, Texture};
 use tobj::LoadError;
@@ -52,6 +53,10 @@ pub(super) fn read_libraries(
             match assets.read(&relative, room) {
                 Ok(bytes) => {
                     room -= bytes.len() as u64;
+                    let folder = relative.parent().unwrap_or(Path::new("")).to_path_buf();
+                    if !assets.image_folders.contains(&folder) && !folder.as_os_str().is_empty() {
+                        assets.image_folders.push(folder);
+                    }
                     let mut library_notes = Notes::of(&assets.place(&relative));
                     for material in read_library(&bytes, &mut library_notes) {
                         if known.insert(material.name.clone()) {

@@ -1,7 +1,7 @@
 //! Writes the objects of a scene to an OBJ file and its material library.
 
 use std::borrow::Cow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 use mesh::Mesh;
@@ -18,7 +18,7 @@ use crate::save::{Block, Content, save};
 use crate::writing::{dense, push_comment};
 use crate::{WriteOptions, WriteReport};
 
-/// Writes `scene` to an OBJ file, preceded by the material library if there are materials.
+/// Writes `scene` to an OBJ file, preceded by `images` and, if there are materials, the material library.
 ///
 /// # Errors
 ///
@@ -27,6 +27,7 @@ pub(crate) fn write(
     store: &dyn Store,
     path: &Path,
     scene: &Scene,
+    images: Vec<(PathBuf, Content<'static>)>,
     options: &WriteOptions,
 ) -> Result<WriteReport, WriteError> {
     let shapes = scene.objects().iter().map(Shape::of);
@@ -67,7 +68,8 @@ pub(crate) fn write(
         }
     }
 
-    let mut files = Vec::new();
+    let mut files: Vec<(PathBuf, Content)> = Vec::new();
+    files.extend(images);
     if !library.materials.is_empty() {
         let bytes = write_library(&library.materials, options.provenance.as_deref());
         files.push((library_path, Content::Bytes(bytes)));

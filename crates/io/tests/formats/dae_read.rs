@@ -79,7 +79,9 @@ pub(crate) fn only(text: &str) -> Object {
     let Loaded {
         mut objects, notes, ..
     } = loaded(text);
-    assert!(notes.is_empty(), "{notes:?}");
+    // The images of some materials do not exist.
+    let is_other = |note: &&mesh_io::Note| !note.what.starts_with("image ");
+    assert_eq!(notes.iter().find(is_other), None);
     assert_eq!(objects.len(), 1);
     objects.remove(0)
 }

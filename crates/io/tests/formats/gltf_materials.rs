@@ -293,7 +293,7 @@ fn images_in_views_and_data_uris_are_read_with_their_media_type() {
     ]
     .map(|texture| match &texture.as_ref().unwrap().image {
         Image::Embedded { mime, bytes } => (mime.clone(), bytes.len()),
-        Image::File(path) => (path.clone(), 0),
+        Image::File(path) | Image::Loaded { path, .. } => (path.clone(), 0),
     });
     let expected = [
         ("application/octet-stream", 60),

@@ -286,6 +286,7 @@ fn content_left_out_is_noted() {
         "1 attributes JOINTS_0",
         "1 attributes WEIGHTS_0",
         "1 textures without a supported image left out",
+        "1 image `wood.png` left out",
     ];
     for words in expected {
         assert!(

@@ -21,6 +21,7 @@ fn written(name: &str, scene: &Scene) {
     std::fs::write(folder.join("a picture.png"), PNG).unwrap();
     let options = WriteOptions {
         provenance: Some(format!("\"{name}\" \u{1f980}\n\t\\")),
+        ..WriteOptions::default()
     };
     for extension in ["glb", "gltf"] {
         let path = folder.join(name).with_extension(extension);

@@ -247,6 +247,7 @@ fn generator_and_provenance_are_in_the_asset() {
     let path = folder.path("a.gltf");
     let options = WriteOptions {
         provenance: Some("recipe \"x\"".into()),
+        ..WriteOptions::default()
     };
     mesh_io::write(
         &store::Disk,

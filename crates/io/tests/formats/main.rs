@@ -12,6 +12,7 @@ mod gltf_meshopt;
 mod gltf_read;
 mod gltf_valid;
 mod gltf_written;
+mod images;
 mod obj_dialects;
 mod obj_files;
 mod obj_limits;
@@ -97,7 +98,9 @@ fn only(path: &Path) -> Object {
     let Loaded {
         mut objects, notes, ..
     } = read(path).unwrap();
-    assert!(notes.is_empty(), "{notes:?}");
+    // The images of some materials do not exist.
+    let is_other = |note: &&mesh_io::Note| !note.what.starts_with("image ");
+    assert_eq!(notes.iter().find(is_other), None);
     assert_eq!(objects.len(), 1);
     objects.remove(0)
 }

@@ -389,6 +389,7 @@ fn the_provenance_is_a_comment() {
     let path = folder.path("a.obj");
     let options = WriteOptions {
         provenance: Some("one\ntwo".into()),
+        ..WriteOptions::default()
     };
     mesh_io::write(&store::Disk, &path, &scene([rich()]), &options).unwrap();
     for name in ["a.obj", "a.mtl"] {

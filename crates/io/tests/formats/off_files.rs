@@ -119,6 +119,7 @@ fn content_that_off_cannot_store_is_a_loss() {
     let objects = [Object::mesh("a", mesh), Object::mesh("b", shapes::cube())];
     let options = WriteOptions {
         provenance: Some("by hand\nand feet".into()),
+        ..WriteOptions::default()
     };
     let report = mesh_io::write(&store::Disk, &path, &scene(objects), &options).unwrap();
     let lost: Vec<_> = report.losses.iter().map(|l| l.attribute.as_str()).collect();

@@ -283,6 +283,7 @@ fn the_provenance_is_a_comment() {
     let path = folder.path("a.ply");
     let options = WriteOptions {
         provenance: Some("one\ntwo".into()),
+        ..WriteOptions::default()
     };
     mesh_io::write(
         &store::Disk,

@@ -222,6 +222,7 @@ fn content_that_stl_cannot_store_is_a_loss() {
     };
     let options = WriteOptions {
         provenance: Some("recipe 12ab".into()),
+        ..WriteOptions::default()
     };
     let scene = scene([object, Object::mesh("b", shapes::tetrahedron())]);
     let report = mesh_io::write(&store::Disk, &path, &scene, &options).unwrap();

@@ -49,7 +49,8 @@ impl Builder<'_, '_> {
                 let bytes = (self.images)(path).ok_or_else(|| format!("{path}: not found"))?;
                 (path.as_str(), bytes)
             }
-            scene::Image::Embedded { mime, bytes } => (mime.as_str(), bytes.to_vec()),
+            scene::Image::Loaded { path: name, bytes }
+            | scene::Image::Embedded { mime: name, bytes } => (name.as_str(), bytes.to_vec()),
         };
         Texture::decode(&bytes, texture.sampler, texture.transform, alpha)
             .map_err(|why| format!("{name}: {why}"))

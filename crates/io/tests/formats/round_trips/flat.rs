@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use geometry::triangulate::Cutter;
 use glam::DVec3;
 use mesh::{Column, Domain, HalfEdgeId, Mesh, Rule, Values, VertexId};
-use scene::{Geometry, Object};
+use scene::{Geometry, Image, Material, Object};
 
 /// What differs: the values of a domain with this name, or another part of an object. Names are the same as in
 /// losses.
@@ -70,7 +70,18 @@ fn add(all: &mut Differences, key: Key, difference: Difference) {
 }
 
 fn materials(a: &Object, b: &Object, all: &mut Differences) {
-    if a.materials != b.materials {
+    // The format decides whether an image is a file or embedded.
+    let with_bytes = |object: &Object| {
+        let mut materials = object.materials.clone();
+        for texture in materials.iter_mut().flat_map(Material::textures_mut) {
+            if let Image::Loaded { bytes, .. } | Image::Embedded { bytes, .. } = &texture.image {
+                let (mime, bytes) = (String::new(), bytes.clone());
+                texture.image = Image::Embedded { mime, bytes };
+            }
+        }
+        materials
+    };
+    if with_bytes(a) != with_bytes(b) {
         add(all, key(None, "materials"), Difference::Other);
     }
 }

@@ -78,6 +78,14 @@ fn painted(materials: Vec<Material>) -> Vec<Object> {
     }]
 }
 
+/// An image file beside the model.
+fn image_file(path: &str) -> Texture {
+    Texture::new(Image::Loaded {
+        path: path.to_owned(),
+        bytes: format!("\u{89}PNG of {path}").into_bytes().into(),
+    })
+}
+
 fn embedded() -> Texture {
     Texture::new(Image::Embedded {
         mime: "image/png".to_owned(),
@@ -344,8 +352,8 @@ fn materials() -> Vec<Feature> {
         ..Material::new("glass")
     };
     let wood = Material {
-        base_color_texture: Some(Texture::file("pictures/red wood.png")),
-        normal_texture: Some(Texture::file("bumps.png")),
+        base_color_texture: Some(image_file("pictures/red wood.png")),
+        normal_texture: Some(image_file("bumps.png")),
         ..Material::new("wood")
     };
     let cut_out = Material {
@@ -379,8 +387,16 @@ fn materials() -> Vec<Feature> {
             mixed,
         ),
         feature("materials", material(), painted(vec![red.clone(), glass])),
-        feature("texture files", material(), with_uv(vec![red, wood])),
-        feature("embedded textures", material(), with_uv(vec![inside])),
+        feature(
+            "image files of textures",
+            material(),
+            with_uv(vec![red, wood]),
+        ),
+        feature(
+            "embedded images of textures",
+            material(),
+            with_uv(vec![inside]),
+        ),
         feature(
             "alpha cutoff, double-sided materials",
             material(),

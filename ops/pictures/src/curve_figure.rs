@@ -8,18 +8,18 @@
 //! p0                     p3
 //! ```
 
-use std::path::Path;
-
 use bezier::Curve;
 use glam::DVec2;
 use op::Operation;
 use op::named_object;
 use op::prelude::*;
+use render::figure::Svg;
 use render::figure::construction::{
     Layout, MAX_CONSTRUCTED, MAX_DRAWN, MAX_PANELS, MAX_POINTS, Panel, construction,
 };
-use render::figure::{Svg, bytes_needed, pixel_size, pixels};
 use scene::{Geometry, Object};
+
+use crate::figure_file;
 
 /// Draws Bezier curves, and de Casteljau's construction of their points, into an image file.
 ///
@@ -74,25 +74,6 @@ const fn yes() -> bool {
     true
 }
 
-/// The formats of figures.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
-enum Format {
-    Svg,
-    Png,
-}
-
-impl Format {
-    /// Returns the format for the extension of a path.
-    fn of(path: &Path) -> Option<Self> {
-        let extension = path.extension()?.to_str()?.to_ascii_lowercase();
-        match extension.as_str() {
-            "svg" => Some(Self::Svg),
-            "png" => Some(Self::Png),
-            _ => None,
-        }
-    }
-}
-
 impl Operation for CurveFigure {
     const NAME: &'static str = "CurveFigure";
     const SUMMARY: &'static str = "Draw de Casteljau's construction of Bezier curves";
@@ -100,40 +81,21 @@ impl Operation for CurveFigure {
     const TAKES_ON: bool = true;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
-        let mut problems = plan.write(cx, &self.path, |path| {
-            let unknown = Problem::error(self.unknown_format()).at(["path"]);
-            let help = "use the extension .svg or .png";
-            Format::of(path).is_none().then(|| unknown.help(help))
-        });
+        let mut problems = figure_file::plan(&self.path, plan, cx);
         problems.extend(self.plan_curves(plan, cx));
         problems
     }
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
         cx.advance("draw", 0, 1)?;
-        let file_error = |error: &dyn std::fmt::Display| OpError::File(error.to_string());
-        let path = (cx.files().to_write(&self.path)).map_err(|e| file_error(&e))?;
         let figure = self.figure(scene, cx)?;
-        let stamp = cx.files().provenance.as_deref();
-        let bytes = match Format::of(&path) {
-            Some(Format::Svg) => figure.finish(stamp).into_bytes(),
-            Some(Format::Png) => self.png(&figure, stamp, cx.budget)?,
-            None => {
-                return Err(OpError::Parameter(self.unknown_format()));
-            }
-        };
-        let store = &cx.files().store;
-        store.write(&path, &bytes).map_err(|e| file_error(&e))?;
+        figure_file::write(&self.path, &figure, self.scale, cx)?;
         cx.advance("draw", 1, 1)?;
         Ok(Report::changed(0))
     }
 }
 
 impl CurveFigure {
-    fn unknown_format(&self) -> String {
-        format!("unknown figure format of \"{}\"", self.path)
-    }
-
     /// Returns the problems of the objects and of the number of panels and points.
     fn plan_curves(&self, plan: &Plan, cx: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();
@@ -237,22 +199,6 @@ impl CurveFigure {
             legend: self.legend,
         };
         construction(&panels, &layout).map_err(|error| OpError::Parameter(error.to_string()))
-    }
-
-    fn png(&self, figure: &Svg, stamp: Option<&str>, budget: u64) -> Result<Vec<u8>, OpError> {
-        let scale = f64::from(self.scale.get());
-        let parameter_error = |error: render::PictureError| OpError::Parameter(error.to_string());
-        let (width, height) = pixel_size(figure, scale).map_err(parameter_error)?;
-        let needed = bytes_needed(width, height);
-        if needed > budget {
-            let message = format!(
-                "the figure needs {needed} bytes of memory, which exceeds the memory budget of {budget} bytes"
-            );
-            return Err(OpError::Budget(message));
-        }
-        let image = pixels(figure, scale, [255; 4]).map_err(parameter_error)?;
-        let texts: Vec<(&str, &str)> = stamp.iter().map(|stamp| ("Software", *stamp)).collect();
-        image.to_png(&texts).map_err(parameter_error)
     }
 }
 

@@ -4,10 +4,12 @@
 //! such documents too; they are drawn over an image.
 //!
 //! - [`construction`](mod@construction): de Casteljau's construction of a point of a Bezier curve.
+//! - [`half_edges`](mod@half_edges): the half-edges of a part of a mesh.
 //! - [`legend`](mod@legend): the legend that explains the colors of a picture.
 //! - [`label`](mod@label): texts at points of an image.
 
 pub mod construction;
+pub mod half_edges;
 pub mod label;
 pub mod legend;
 mod letters;

@@ -1,0 +1,79 @@
+//! Writes figures into files.
+
+use std::path::Path;
+
+use op::prelude::*;
+use render::PictureError;
+use render::figure::{Svg, bytes_needed, pixel_size, pixels};
+
+/// The formats of figures.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+enum Format {
+    Svg,
+    Png,
+}
+
+impl Format {
+    /// Returns the format for the extension of a path.
+    fn of(path: &Path) -> Option<Self> {
+        let extension = path.extension()?.to_str()?.to_ascii_lowercase();
+        match extension.as_str() {
+            "svg" => Some(Self::Svg),
+            "png" => Some(Self::Png),
+            _ => None,
+        }
+    }
+}
+
+/// Plans a figure file. Returns the problems of its path.
+pub(crate) fn plan(path: &str, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
+    plan.write(cx, path, |target| {
+        let unknown = Problem::error(unknown_format(path)).at(["path"]);
+        let help = "use the extension .svg or .png";
+        Format::of(target).is_none().then(|| unknown.help(help))
+    })
+}
+
+/// Writes a figure into a file. `scale` is the number of PNG pixels per SVG pixel.
+pub(crate) fn write(
+    path: &str,
+    figure: &Svg,
+    scale: Count<1, 8>,
+    cx: &Context,
+) -> Result<(), OpError> {
+    let file_error = |error: &dyn std::fmt::Display| OpError::File(error.to_string());
+    let target = cx.files().to_write(path).map_err(|e| file_error(&e))?;
+    let stamp = cx.files().provenance.as_deref();
+    let bytes = match Format::of(&target) {
+        Some(Format::Svg) => figure.finish(stamp).into_bytes(),
+        Some(Format::Png) => png(figure, scale, stamp, cx.budget)?,
+        None => return Err(OpError::Parameter(unknown_format(path))),
+    };
+    let store = &cx.files().store;
+    store.write(&target, &bytes).map_err(|e| file_error(&e))
+}
+
+fn unknown_format(path: &str) -> String {
+    format!("unknown figure format of \"{path}\"")
+}
+
+fn png(
+    figure: &Svg,
+    scale: Count<1, 8>,
+    stamp: Option<&str>,
+    budget: u64,
+) -> Result<Vec<u8>, OpError> {
+    let scale = f64::from(scale.get());
+    let parameter_error = |error: PictureError| OpError::Parameter(error.to_string());
+    let (width, height) = pixel_size(figure, scale).map_err(parameter_error)?;
+    let needed = bytes_needed(width, height);
+    if needed > budget {
+        let message = format!(
+            "the figure needs {needed} bytes of memory, which exceeds the memory budget of {budget} bytes"
+        );
+        return Err(OpError::Budget(message));
+    }
+    let image = pixels(figure, scale, [255; 4]).map_err(parameter_error)?;
+    let texts: Vec<(&str, &str)> = stamp.iter().map(|stamp| ("Software", *stamp)).collect();
+    image.to_png(&texts).map_err(parameter_error)
+}

@@ -23,7 +23,7 @@ use crate::figure_file;
 
 /// Draws Bezier curves, and de Casteljau's construction of their points, into an image file.
 ///
-/// The figure has a panel for each curve and each `t`. A panel shows the control polygon, every level of de Casteljau's
+/// The figure has a panel for each curve and each `t`, or with `by_level` for each of its levels. A panel shows the control polygon, every level of de Casteljau's
 /// algorithm in a different color, the point, and the curve, with the same scale in both axes. The extension of the
 /// file determines the format: `.svg` or `.png`. The file is written only if the whole recipe succeeds. The scene does
 /// not change.
@@ -37,6 +37,9 @@ pub struct CurveFigure {
     /// polygons are drawn.
     #[serde(default = "half")]
     pub t: Vec<ClosedFraction>,
+    /// Draws a panel for each level of the algorithm, in place of one panel with all levels.
+    #[serde(default)]
+    pub by_level: bool,
     /// The name of a curve that shows an earlier state of the other curves. It is drawn faintly behind them, with
     /// arrows to the control points that moved.
     #[serde(default)]
@@ -44,7 +47,8 @@ pub struct CurveFigure {
     /// The width of the figure in SVG pixels. The font size is 12 to 19 pixels.
     #[serde(default = "width")]
     pub width: Count<80, 8192>,
-    /// The number of panels in a row. If omitted, the number of values of `t`, but at most 4.
+    /// The number of panels in a row. If omitted, the number of values of `t`, or with `by_level`
+    /// of levels, but at most 4.
     #[serde(default)]
     pub columns: Option<Count<1, 256>>,
     /// The number of PNG pixels per SVG pixel. Has no effect on `.svg` files.
@@ -106,7 +110,7 @@ impl CurveFigure {
         } else {
             MAX_CONSTRUCTED
         };
-        let (mut n_curves, mut n_points) = (0, 0_u64);
+        let (mut n_curves, mut n_panels, mut n_points) = (0, 0, 0_u64);
         for object in plan.objects() {
             let is_before = before == Some(&object.name);
             let is_chosen = match cx.on {
@@ -126,8 +130,16 @@ impl CurveFigure {
                 }
                 PlannedGeometry::Curve(points) if is_chosen => {
                     n_curves += 1;
+                    let n_levels = points.min.saturating_sub(1);
+                    let n_panels_each = if self.has_levels() {
+                        n_levels.max(1)
+                    } else {
+                        1
+                    };
+                    let n_new = n_panels_each * self.t.len().max(1) as u64;
+                    n_panels += n_new;
                     let points_per_panel = points.min * (points.min + 1) / 2;
-                    n_points += points_per_panel * self.t.len() as u64;
+                    n_points += points_per_panel * if self.t.is_empty() { 0 } else { n_new };
                 }
                 PlannedGeometry::Curve(_) => {}
                 // Without `on`, all curves are drawn, and other objects are ignored.
@@ -142,10 +154,9 @@ impl CurveFigure {
             let problem = Problem::error("expected a curve to draw, found none in the scene");
             problems.push(problem.help("load a .bzc file in an earlier step"));
         }
-        let n_panels = n_curves * self.t.len().max(1);
-        if n_panels > MAX_PANELS {
+        if n_panels > MAX_PANELS as u64 {
             let message = format!(
-                "expected at most {MAX_PANELS} panels, one for each curve and each `t`, found {n_panels}"
+                "expected at most {MAX_PANELS} panels, one for each curve and each `t` (and each level), found {n_panels}"
             );
             problems.push(Problem::error(message).at(["t"]));
         } else if n_points > MAX_POINTS as u64 {
@@ -154,6 +165,11 @@ impl CurveFigure {
             problems.push(Problem::error(message).at(["t"]));
         }
         problems
+    }
+
+    /// Whether each level has a panel of its own.
+    fn has_levels(&self) -> bool {
+        self.by_level && !self.t.is_empty()
     }
 
     /// Draws the figure of the chosen curves.
@@ -181,17 +197,27 @@ impl CurveFigure {
         let mut panels = Vec::new();
         for object in &chosen {
             let curve = curve(object)?;
-            panels.extend(parameters.iter().map(|&t| Panel {
-                curve,
-                before,
-                t,
-                title: (chosen.len() > 1).then_some(object.name.as_str()),
-            }));
+            let levels: Vec<Option<usize>> = if self.has_levels() {
+                (1..=curve.degree().max(1)).map(Some).collect()
+            } else {
+                vec![None]
+            };
+            for &t in &parameters {
+                panels.extend(levels.iter().map(|&levels| Panel {
+                    curve,
+                    before,
+                    t,
+                    levels,
+                    title: (chosen.len() > 1).then_some(object.name.as_str()),
+                }));
+            }
         }
-        let columns = match self.columns {
-            Some(columns) => columns.get() as usize,
-            None => parameters.len().min(4),
+        let n_in_row = if self.has_levels() {
+            panels.len() / (parameters.len() * chosen.len()).max(1)
+        } else {
+            parameters.len()
         };
+        let columns = (self.columns).map_or(n_in_row.min(4), |columns| columns.get() as usize);
         let layout = Layout {
             width: f64::from(self.width.get()),
             columns,
@@ -269,6 +295,19 @@ mod tests {
         let on = ["wave".to_owned()];
         let text = String::from_utf8(written(&step, Some(&on), u64::MAX).unwrap()).unwrap();
         assert_eq!(text.matches("<g id=\"curve\">").count(), 3);
+    }
+
+    #[test]
+    fn every_level_can_have_a_panel() {
+        let step = step(r#"(path: "a.svg", t: [0.25, 0.5], by_level: true, legend: false)"#);
+        let on = ["wave".to_owned()];
+        let text = String::from_utf8(written(&step, Some(&on), u64::MAX).unwrap()).unwrap();
+        assert_eq!(text.matches("<g id=\"curve\">").count(), 6);
+        for level in 1..=3 {
+            assert_eq!(text.matches(&format!("level {level}<")).count(), 2);
+        }
+        // The point c(t) is in the last panel of each row only.
+        assert_eq!(text.matches("#d52b1e\" stroke").count(), 2, "{text}");
     }
 
     #[test]

@@ -55,6 +55,7 @@ fn a_construction() {
         curve: &after,
         before,
         t,
+        levels: None,
         title: Some("a < b"),
     };
     let layout = Layout {

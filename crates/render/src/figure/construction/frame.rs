@@ -95,6 +95,7 @@ mod tests {
             curve: &curve,
             before: None,
             t: None,
+            levels: None,
             title: None,
         };
         (Frame::new(&panel, 400.0), points)

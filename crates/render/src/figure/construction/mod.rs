@@ -55,6 +55,8 @@ pub struct Panel<'a> {
     pub before: Option<&'a Curve<DVec2>>,
     /// The parameter of the point, from 0 to 1. If `None`, only the curve and its control polygon are drawn.
     pub t: Option<f64>,
+    /// The number of levels that are drawn after the control polygon. If `None`, all levels and the point.
+    pub levels: Option<usize>,
     /// The title above the panel. The parameter follows the title.
     pub title: Option<&'a str>,
 }

@@ -35,7 +35,10 @@ pub(super) fn draw(
     }
     // A construction of many points has thinner lines.
     let fine = zoom.sqrt() * if points.len() > 16 { 0.5 } else { 1.0 };
-    let levels = panel.t.map(|t| curve.levels(t)).unwrap_or_default();
+    let mut levels = panel.t.map(|t| curve.levels(t)).unwrap_or_default();
+    if let Some(n_levels) = panel.levels {
+        levels.truncate(n_levels + 1);
+    }
     let n = curve.degree();
     svg.group("polygon", |svg| {
         svg.polyline(points, &Paint::stroke(POLYGON, LINE * fine));
@@ -130,6 +133,12 @@ pub(super) fn draw_title(svg: &mut Svg, panel: &Panel, middle: DVec2, width: f64
     if let Some(t) = panel.t {
         runs.push(Run::new(Font::Letter, "t"));
         runs.push(Run::new(Font::Digit, format!(" = {}", format_parameter(t))));
+    }
+    if let Some(level) = panel.levels {
+        runs.push(Run {
+            size: 0.85,
+            ..Run::new(Font::Plain, format!("   level {level}"))
+        });
     }
     if !runs.is_empty() {
         svg.text(middle, &Text::of(runs, size, TEXT).anchored(Anchor::Middle));

@@ -13,6 +13,7 @@ fn panel(curve: &Curve<DVec2>, t: impl Into<Option<f64>>) -> Panel<'_> {
         curve,
         before: None,
         t: t.into(),
+        levels: None,
         title: None,
     }
 }

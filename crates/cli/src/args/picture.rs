@@ -28,9 +28,12 @@ pub(crate) struct DrawArgs {
     /// Shading: Flat, Smooth, Phong, Matcap or Plain
     #[arg(long, value_name = "SHADING")]
     pub(crate) shading: Option<String>,
-    /// Draw the edges
+    /// Draw the edges of meshes and the grids of patches
     #[arg(long)]
     pub(crate) wireframe: bool,
+    /// Draw the control nets of patches and the control polygons of curves
+    #[arg(long)]
+    pub(crate) control_nets: bool,
     /// Transparent background instead of white
     #[arg(long)]
     pub(crate) transparent: bool,

@@ -133,6 +133,7 @@ fn fields(args: &DrawArgs, out: &Path, default_size: [u32; 2], further: Vec<Stri
     let mut style = Vec::new();
     style.extend(args.shading.iter().map(|s| format!("shading: {s}")));
     style.extend(field_if(args.wireframe, "wireframe: ()"));
+    style.extend(field_if(args.control_nets, "control_nets: ()"));
     style.extend(field_if(args.transparent, "background: Transparent"));
     if !style.is_empty() {
         fields.push(format!("style: ({})", style.join(", ")));

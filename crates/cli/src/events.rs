@@ -30,7 +30,7 @@ use serde::Serialize;
 use serde_json::{Value as Json, json};
 
 use crate::listener::lock;
-use crate::output::{ProblemJson, STAMP, origin, problems_json};
+use crate::output::{ProblemJson, STAMP, losses_json, origin, problems_json};
 use crate::picture_errors::Pictures;
 use engine::Loaded;
 
@@ -172,8 +172,6 @@ impl Listener for Events<'_> {
     }
 
     fn step_done(&self, number: usize, done: &StepDone) {
-        let losses = (done.report.losses.iter())
-            .map(|l| json!({ "object": l.object, "name": l.name, "message": l.to_string() }));
         self.write(&json!({
             "event": "done",
             "number": number + 1,
@@ -183,7 +181,7 @@ impl Listener for Events<'_> {
             "faces": done.faces,
             "changed": done.report.changed,
             "refused": done.report.refused,
-            "losses": losses.collect::<Vec<_>>(),
+            "losses": losses_json(&done.report.losses),
             "notes": done.report.notes,
             "digest": done.digest.map(|digest| digest.to_string()),
             "milliseconds": milliseconds(done.time),

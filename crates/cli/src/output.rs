@@ -168,6 +168,12 @@ pub(crate) fn origin(origin: &Origin) -> String {
     }
 }
 
+/// Converts losses for serialization as JSON.
+pub(crate) fn losses_json(losses: &[op::Loss]) -> Vec<serde_json::Value> {
+    let json = |l: &op::Loss| serde_json::json!({ "object": l.object, "name": l.name, "message": l.to_string() });
+    losses.iter().map(json).collect()
+}
+
 /// A diagnostic, for serialization as JSON.
 #[derive(Serialize)]
 pub(crate) struct ProblemJson {

@@ -28,22 +28,24 @@ pub(crate) fn clean(
 ) -> SourcePolygons {
     let mut is_corner_kept = vec![];
     let repeated = repeated_corners(polygons, &mut is_corner_kept);
-    let unwanted: [(_, fn(&Polygons) -> _, _, _); 2] = [
+    let unwanted: [(_, fn(&Polygons) -> _, _, _, _); 2] = [
         (
             policies.degenerate,
             degenerate,
+            "degenerate-faces-dropped",
             "face without area dropped",
             "faces without area dropped",
         ),
         (
             policies.duplicates,
             duplicates,
+            "duplicate-faces-dropped",
             "duplicate face dropped",
             "duplicate faces dropped",
         ),
     ];
     let mut is_dropped = vec![];
-    for (policy, find, one, several) in unwanted {
+    for (policy, find, code, one, several) in unwanted {
         if policy == CleanupPolicy::Drop {
             let faces: Vec<usize> = find(polygons);
             is_dropped.resize(polygons.n_faces(), false);
@@ -51,11 +53,12 @@ pub(crate) fn clean(
                 is_dropped[f] = true;
             }
             let what = if faces.len() == 1 { one } else { several };
-            note(polygons, what, Elements::Faces(faces), notes);
+            note(polygons, code, what, Elements::Faces(faces), notes);
         }
     }
     let what = "faces with repeated corners: each corner used once";
-    note(polygons, what, Elements::Faces(repeated), notes);
+    let code = "corners-repeated";
+    note(polygons, code, what, Elements::Faces(repeated), notes);
     let kept = keep(polygons, &is_dropped, &is_corner_kept);
     if policies.isolated == CleanupPolicy::Drop {
         drop_isolated(polygons, notes);
@@ -64,8 +67,15 @@ pub(crate) fn clean(
 }
 
 /// Adds a note that these elements are changed, with their positions.
-fn note(polygons: &Polygons, what: &str, elements: Elements, notes: &mut Notes) {
+fn note(
+    polygons: &Polygons,
+    code: &'static str,
+    what: &str,
+    elements: Elements,
+    notes: &mut Notes,
+) {
     let places = polygons.arrays().places(&elements);
+    let notes = notes.coded(code);
     notes.elements(NoteKind::Changed, what, elements, places);
 }
 
@@ -245,7 +255,7 @@ fn drop_isolated(polygons: &mut Polygons, notes: &mut Notes) {
     } else {
         "isolated vertices dropped"
     };
-    note(polygons, what, vertices, notes);
+    note(polygons, "isolated-vertices-dropped", what, vertices, notes);
     let mut new = vec![u32::MAX; n];
     for (i, &v) in (0..).zip(&kept) {
         new[v as usize] = i;

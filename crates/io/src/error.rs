@@ -64,6 +64,14 @@ pub enum ReadError {
         /// What would be left out.
         left_out: String,
     },
+    /// The content of a `.gz` file cannot be decompressed within the memory budget.
+    #[error("{}: {message}", path.display())]
+    Compressed {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with the content.
+        message: String,
+    },
     /// A binary file breaks the rules of its format.
     #[error("{}: byte {offset}: {message}", path.display())]
     Binary {
@@ -95,6 +103,7 @@ impl ReadError {
             | Self::Strict { path, .. }
             | Self::Text { path, .. }
             | Self::Json { path, .. }
+            | Self::Compressed { path, .. }
             | Self::Binary { path, .. } => path,
         }
     }
@@ -119,6 +128,14 @@ pub enum WriteError {
         path: PathBuf,
         /// The extensions of the formats that can be written.
         known: String,
+    },
+    /// Something would be lost, which [`WriteOptions::strict`](crate::WriteOptions::strict) forbids.
+    #[error("{}: strict writing does not allow any loss: {losses}", path.display())]
+    Strict {
+        /// The file.
+        path: PathBuf,
+        /// What would be lost.
+        losses: String,
     },
     /// The format cannot store an object of the scene.
     #[error("{}: object `{object}`: {message}", path.display())]

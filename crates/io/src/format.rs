@@ -3,6 +3,8 @@
 use std::fmt;
 use std::path::Path;
 
+use crate::gzip;
+
 /// A file format, chosen by the extension of a file's name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Format {
@@ -54,10 +56,14 @@ impl Format {
     }
 
     /// The format with the extension of `path`, in upper or lower case; `None` if the extension is unknown or
-    /// missing.
+    /// missing. The name of a file compressed by gzip ends in `.gz` after the extension of its format; `.glb` and
+    /// `.mws` cannot be compressed.
     pub fn from_path(path: &Path) -> Option<Self> {
-        let extension = path.extension()?;
-        Self::all().find(|format| extension.eq_ignore_ascii_case(format.extension()))
+        let plain = gzip::plain(path);
+        let extension = plain.extension()?;
+        let format = Self::all().find(|f| extension.eq_ignore_ascii_case(f.extension()))?;
+        let is_binary = matches!(format, Self::Glb | Self::Mws);
+        (!is_binary || !gzip::is_compressed(path)).then_some(format)
     }
 
     /// Whether files of this format can be written. All formats can be read.
@@ -98,6 +104,10 @@ mod tests {
             Some(Format::Obj)
         );
         assert_eq!(Format::from_path(Path::new("x.tar.glb")), Some(Format::Glb));
+        assert_eq!(Format::from_path(Path::new("x.PLY.Gz")), Some(Format::Ply));
+        for name in ["x.gz", "x.glb.gz", "x.mws.gz", "obj.gz", "x.obj.gz.gz"] {
+            assert_eq!(Format::from_path(Path::new(name)), None, "{name}");
+        }
         assert_eq!(Format::from_path(Path::new("obj")), None);
         assert_eq!(Format::from_path(Path::new("x.xyz")), None);
     }

@@ -15,7 +15,7 @@ use crate::error::WriteError;
 use crate::note::Notes;
 use crate::save::Content;
 use crate::text::quoted;
-use crate::{Format, WriteOptions};
+use crate::{Format, WriteOptions, gzip};
 
 /// What to do with the images of materials when a scene is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
@@ -53,7 +53,7 @@ pub(crate) fn load(objects: &mut [Object], assets: &mut Assets, most: u64, notes
             None => {
                 let image = find(path, assets, &mut room).map_err(|why| {
                     let what = format!("image {} left out: {why}", quoted(path.as_bytes()));
-                    notes.left_out(1, None, what);
+                    notes.coded("image-missing").left_out(1, None, what);
                 });
                 known.insert(path.clone(), image.clone().ok());
                 image.ok()
@@ -64,7 +64,7 @@ pub(crate) fn load(objects: &mut [Object], assets: &mut Assets, most: u64, notes
         }
     }
     let what = "references to images left out: too many images";
-    notes.left_out(n_further, None, what);
+    notes.coded("image-missing").left_out(n_further, None, what);
 }
 
 /// Reads an image from a folder of [`Assets::image_folders`] or the folder of the model.
@@ -224,7 +224,12 @@ pub(crate) fn settle<'a>(
 /// The file name of an embedded image: the name of the model with the extension of the image.
 fn new_name(path: &Path, mime: &str) -> Option<PathBuf> {
     let (extension, _) = KINDS.iter().find(|(_, known)| *known == mime)?;
-    Some(path.with_extension(extension).file_name()?.into())
+    Some(
+        gzip::plain(path)
+            .with_extension(extension)
+            .file_name()?
+            .into(),
+    )
 }
 
 /// The images that are written to files next to a model.
@@ -240,7 +245,7 @@ struct Copies<'a> {
 
 impl<'a> Copies<'a> {
     fn new(store: &'a dyn Store, path: &'a Path) -> Self {
-        let names = ["mtl", "bin"].map(|extension| path.with_extension(extension));
+        let names = ["mtl", "bin"].map(|extension| gzip::plain(path).with_extension(extension));
         let names = names.iter().map(PathBuf::as_path).chain([path]);
         let own = names.filter_map(|path| Some((path.file_name()?.into(), None)));
         Self {

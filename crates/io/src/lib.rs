@@ -13,6 +13,7 @@
 //! | `.dae` (read only) | polygons, materials, placed objects | `dae` |
 //! | `.bez` | Bezier patches | `bez` |
 //! | `.bzc` | a Bezier curve | `bez` |
+//! | `.gz` after one of these, except `.glb` and `.mws` | the same, compressed by gzip | `gzip` |
 //!
 //! Nothing is dropped silently: whatever a reader leaves out or changes becomes a [`Note`] with a count, and
 //! whatever a format cannot store becomes a [`Loss`]. Errors name the position: line and column in a text, the byte
@@ -64,6 +65,7 @@ mod error;
 mod fault;
 mod format;
 mod gltf;
+mod gzip;
 mod images;
 mod joined;
 mod loss;
@@ -102,6 +104,7 @@ pub use provenance::provenance;
 use assets::Assets;
 use note::Notes;
 use save::{Content, save};
+use writing::without_marks;
 
 /// How to read a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -113,6 +116,9 @@ pub struct ReadOptions {
     pub policies: Policies,
     /// Whether reading fails if anything in the file would be left out.
     pub strict: bool,
+    /// Whether copies of vertices that are split are marked, so that `.obj`, `.ply` and `.off` files are written with
+    /// the vertices of the file that was read. For conversions without edits.
+    pub keep_vertices: bool,
     /// The memory budget in bytes for content whose size does not follow from the size of the file: its images,
     /// together, and the decompressed content of a `.gz` file. Defaults to 4 GiB.
     pub budget: Option<u64>,
@@ -140,6 +146,8 @@ pub struct WriteOptions {
     /// that they come from are copied next to `.gltf` and `.obj` files. OBJ cannot embed images, so embedded ones
     /// are written to files too.
     pub images: Option<Images>,
+    /// Whether writing fails if the file would not store everything.
+    pub strict: bool,
 }
 
 /// The files that were written.
@@ -183,6 +191,7 @@ pub fn read_bytes(
     bytes: Vec<u8>,
     options: &ReadOptions,
 ) -> Result<Loaded, ReadError> {
+    let bytes = gzip::unpacked(path, bytes, options.budget())?;
     let mut notes = Notes::of(path);
     let mut assets = Assets::of(store, path);
     let mut objects = Vec::new();
@@ -227,7 +236,7 @@ pub fn read_polygons(
     known_format(path)?;
     let mut assets = Assets::of(store, path);
     let found = find(
-        store.read(path)?,
+        gzip::unpacked(path, store.read(path)?, options.budget())?,
         options,
         &mut assets,
         &mut Notes::of(path),
@@ -293,6 +302,8 @@ fn fail_if_left_out(path: &Path, notes: &[Note]) -> Result<(), ReadError> {
 /// Returns the objects that reading a file would give, with their counts. Uses the headers of the file if it has
 /// any.
 ///
+/// Also returns the content that reading would leave out, as far as it is known then.
+///
 /// Bezier files are checked completely and glTF files up to the end of their JSON. OBJ files are not checked: their
 /// statements are only counted.
 ///
@@ -302,8 +313,8 @@ fn fail_if_left_out(path: &Path, notes: &[Note]) -> Result<(), ReadError> {
 pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Peek, ReadError> {
     let format = known_format(path)?;
     let bytes = match format {
-        Format::Gltf | Format::Glb => gltf::document_of(store, path)?,
-        _ => store.read(path)?,
+        Format::Gltf | Format::Glb if !gzip::is_compressed(path) => gltf::document_of(store, path)?,
+        _ => gzip::unpacked(path, store.read(path)?, options.budget())?,
     };
     let name = options.name_in(path);
     let one = |geometry| {
@@ -311,19 +322,26 @@ pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Pee
         vec![PeekObject { name, geometry }]
     };
     let of = |geometry: Geometry| one(PeekGeometry::of(&geometry));
+    let mut notes = Notes::of(path);
     let objects = match format {
         Format::Obj => Ok(one(obj::peek(&bytes))),
-        Format::Gltf | Format::Glb => gltf::peek(&bytes, &name),
+        Format::Gltf | Format::Glb => gltf::peek(&bytes, &name, &mut notes),
         Format::Ply => ply::peek(&bytes).map(PeekGeometry::Mesh).map(one),
         Format::Stl => stl::peek(&bytes).map(PeekGeometry::Mesh).map(one),
         Format::Off => off::peek(&bytes).map(PeekGeometry::Mesh).map(one),
-        Format::Dae => dae::peek(&bytes, &name),
+        Format::Dae => dae::peek(&bytes, &name, &mut notes),
         Format::Mws => mws::peek(&bytes, options.name.as_deref()),
         Format::Bez => bez::read_patches(&bytes).map(of),
         Format::Bzc => bez::read_curve(&bytes).map(of),
     };
     let objects = objects.map_err(|fault| fault.in_file(path))?;
-    Ok(Peek { format, objects })
+    let mut left_out = notes.into_vec();
+    left_out.retain(|note| note.kind == NoteKind::LeftOut);
+    Ok(Peek {
+        format,
+        objects,
+        left_out,
+    })
 }
 
 /// Writes a scene to a file and to the files that the format needs next to it: `a.obj` comes with `a.mtl` if there
@@ -353,7 +371,12 @@ pub fn write(
         scene,
         files: mut all,
     } = images::settle(store, path, format, scene, options)?;
-    let scene = &*scene;
+    // The other formats merge the copies of split vertices by their positions, or store them.
+    let scene = &*if keeps_vertices(path) {
+        scene
+    } else {
+        without_marks(scene)
+    };
     let written = match format {
         Format::Obj => return obj::write(store, path, scene, all, options),
         Format::Gltf => gltf::write(path, false, scene, options),
@@ -367,6 +390,7 @@ pub fn write(
         Format::Bzc => bez::write_bzc(scene).map(one),
     };
     let Written { files, losses } = written.map_err(|why| why.in_file(path))?;
+    fail_if_lost(path, options, &losses)?;
     let files = files
         .into_iter()
         .map(|(path, bytes)| (path, Content::Bytes(bytes)));
@@ -376,6 +400,24 @@ pub fn write(
         files,
         bytes,
         losses,
+    })
+}
+
+/// Whether the file can store faces that do not form a manifold, so that
+/// [`ReadOptions::keep_vertices`] has an effect.
+pub fn keeps_vertices(path: &Path) -> bool {
+    let format = Format::from_path(path);
+    matches!(format, Some(Format::Obj | Format::Ply | Format::Off))
+}
+
+fn fail_if_lost(path: &Path, options: &WriteOptions, losses: &[Loss]) -> Result<(), WriteError> {
+    if !options.strict || losses.is_empty() {
+        return Ok(());
+    }
+    let list: Vec<String> = losses.iter().map(ToString::to_string).collect();
+    Err(WriteError::Strict {
+        path: path.to_path_buf(),
+        losses: list.join("; "),
     })
 }
 
@@ -405,7 +447,9 @@ impl ReadOptions {
     fn name_in(&self, path: &Path) -> String {
         let given = self.name.clone();
         let stem = || {
-            path.file_stem()
+            let plain = gzip::plain(path);
+            plain
+                .file_stem()
                 .map(|stem| stem.to_string_lossy().into_owned())
         };
         given.or_else(stem).unwrap_or_else(|| "object".to_owned())

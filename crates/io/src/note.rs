@@ -10,6 +10,9 @@ use mesh::{Elements, VertexId};
 /// Something in a file that a reader changed or left out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Note {
+    /// A stable name of the kind of note, for programs, such as `faces-reversed`. Notes without a name of their own
+    /// have `left-out` or `changed`.
+    pub code: &'static str,
     /// Whether something is missing from the scene or only has a different form.
     pub kind: NoteKind,
     /// The file that the note is about: the requested file or a file that it refers to.
@@ -97,6 +100,8 @@ const MAX_LISTED: usize = 1000;
 #[derive(Debug)]
 pub(crate) struct Notes {
     path: PathBuf,
+    /// The code of the next note.
+    code: Option<&'static str>,
     list: Vec<Note>,
     /// The number of notes that are counted but not listed.
     unlisted: BTreeMap<NoteKind, usize>,
@@ -106,9 +111,16 @@ impl Notes {
     pub(crate) fn of(path: &Path) -> Self {
         Self {
             path: path.to_path_buf(),
+            code: None,
             list: Vec::new(),
             unlisted: BTreeMap::new(),
         }
+    }
+
+    /// Sets the [`Note::code`] of the next note.
+    pub(crate) fn coded(&mut self, code: &'static str) -> &mut Self {
+        self.code = Some(code);
+        self
     }
 
     /// Adds a note unless `count` is 0.
@@ -153,8 +165,13 @@ impl Notes {
         self.push(note);
     }
 
-    fn note(&self, kind: NoteKind, count: usize, line: Option<usize>, what: String) -> Note {
+    fn note(&mut self, kind: NoteKind, count: usize, line: Option<usize>, what: String) -> Note {
+        let other = match kind {
+            NoteKind::LeftOut => "left-out",
+            NoteKind::Changed => "changed",
+        };
         Note {
+            code: self.code.take().unwrap_or(other),
             kind,
             path: self.path.clone(),
             line,
@@ -217,7 +234,8 @@ impl Names {
             new = format!("{name}.{last}");
         }
         let what = format!("node named `{name}` renamed to `{new}`: the name is taken");
-        notes.changed(usize::from(new != name), None, what);
+        let renamed = usize::from(new != name);
+        notes.coded("objects-renamed").changed(renamed, None, what);
         new
     }
 }

@@ -3,15 +3,18 @@
 use mesh::{COLOR, CORNER_NORMAL, Domain, MATERIAL, Mesh, UV, VERTEX_NORMAL};
 use scene::Geometry;
 
-use crate::Format;
+use crate::{Format, Note};
 
 /// What a file holds.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Peek {
     /// The format of the file.
     pub format: Format,
     /// The objects that reading the file would give, in order and with their names.
     pub objects: Vec<PeekObject>,
+    /// What reading would leave out, as far as the headers show it: for glTF files the content that the JSON lists.
+    /// Reading can leave out more.
+    pub left_out: Vec<Note>,
 }
 
 /// An object that reading a file would give.

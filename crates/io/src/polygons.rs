@@ -13,6 +13,7 @@ use scene::Material;
 use crate::clean::{SourcePolygons, clean, gather};
 use crate::error::ReadError;
 use crate::note::{NoteKind, Notes, PolygonArrays};
+use crate::writing::COPY_DISTANCE;
 use crate::{NonManifold, Orientation, Policies, ReadOptions, parallel};
 
 /// Polygons as flat arrays in the order of a file. Nothing is merged, split or left out.
@@ -146,6 +147,9 @@ impl Polygons {
         let kept = clean(&mut self, options.policies, notes);
         let n_positions = self.positions.len();
         let mut built = self.build(path, options.policies, &kept, notes)?;
+        if options.keep_vertices {
+            mark_copies(&mut built, n_positions);
+        }
         if self.attributes.iter().next().is_none() {
             return Ok((built.mesh, self.materials));
         }
@@ -215,10 +219,32 @@ impl Polygons {
                 Elements::Faces(faces) => Elements::Faces(faces.into_iter().map(in_file).collect()),
                 elements => elements,
             };
+            let notes = notes.coded(repair.code);
             notes.elements(kind, repair.description, elements, places);
         }
         Ok(built)
     }
+}
+
+/// Marks the copies of split vertices for [`FileVertices`](crate::writing::FileVertices).
+fn mark_copies(built: &mut BuildOutput, n_positions: usize) {
+    if built.report.split_vertices.is_empty() {
+        return;
+    }
+    let mut distances = vec![0; built.mesh.n_vertices()];
+    for (v, copy) in &built.report.split_vertices {
+        debug_assert!(
+            v.index() < n_positions,
+            "copies are made of original vertices"
+        );
+        distances[copy.index()] = i32::try_from(copy.index() - v.index()).unwrap_or(0);
+    }
+    let column = Column {
+        name: COPY_DISTANCE.to_owned(),
+        rule: Rule::Drop,
+        values: Values::Int(distances),
+    };
+    built.mesh.insert_column(Domain::Vertex, column);
 }
 
 /// For each element of the mesh, the element of the input that it takes its attribute values from.

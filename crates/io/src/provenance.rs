@@ -6,10 +6,12 @@ use std::path::Path;
 use serde_json::Value;
 use store::Store;
 
-use crate::{Format, ReadError, gltf, mws};
+use crate::{Format, ReadError, gltf, gzip, mws};
 
 /// The number of bytes at the beginning of a file that are searched.
 const HEAD: u64 = 1 << 20;
+/// The number of bytes of a compressed glTF file that are read.
+const MAX_DOCUMENT: u64 = 1 << 30;
 
 /// Reads the provenance that a file stores; `None` if the file stores none or its format cannot store it. MTL
 /// files, and the PNG and SVG pictures that the program writes, are recognized too.
@@ -20,12 +22,13 @@ const HEAD: u64 = 1 << 20;
 ///
 /// [`ReadError`] if the file cannot be read.
 pub fn provenance(store: &dyn Store, path: &Path) -> Result<Option<String>, ReadError> {
-    let head = |most| store.read_up_to(path, most);
+    let head = |most| gzip::head(store, path, most);
     let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
     let is_ours = |text: &String| text.starts_with("meshwright ");
     Ok(match Format::from_path(path) {
         None if ending == "png" => of_png(&head(HEAD)?).filter(is_ours),
         None if ending == "svg" => of_svg(&head(HEAD)?).filter(is_ours),
+        Some(Format::Gltf) if gzip::is_compressed(path) => of_document(&head(MAX_DOCUMENT)?),
         Some(Format::Gltf | Format::Glb) => of_document(&gltf::document_of(store, path)?),
         Some(Format::Stl) => {
             let head = head(80)?;

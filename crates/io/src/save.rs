@@ -1,12 +1,13 @@
 //! Writes files completely or not at all. Large files are produced in blocks on all threads.
 
-use std::io;
+use std::io::{self, Write};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use store::{NewFile, Store};
+use store::Store;
 
 use crate::error::WriteError;
+use crate::gzip;
 use crate::parallel::consume;
 
 /// The content of a file that is about to be written.
@@ -24,7 +25,7 @@ pub(crate) enum Content<'a> {
 pub(crate) type Block<'a> = Box<dyn Fn(&mut Vec<u8>) + Send + Sync + 'a>;
 
 /// Writes all files to temporary files first, and moves them to their paths in the given order when all are
-/// complete. Returns the paths and the total size in bytes.
+/// complete. The last file is compressed if its name ends in `.gz`. Returns the paths and the total size in bytes.
 ///
 /// # Errors
 ///
@@ -36,9 +37,15 @@ pub(crate) fn save(
 ) -> Result<(Vec<PathBuf>, u64), WriteError> {
     let mut complete = Vec::with_capacity(files.len());
     let mut n_bytes = 0;
-    for (path, content) in files {
+    let last = files.len().saturating_sub(1);
+    for (i, (path, content)) in files.into_iter().enumerate() {
         let mut file = store.create(&path)?;
-        match content.write(&mut *file) {
+        let written = if i == last && gzip::is_compressed(&path) {
+            gzip::compress(&mut *file, |out| content.write(out))
+        } else {
+            content.write(&mut *file)
+        };
+        match written {
             Ok(n) => n_bytes += n,
             Err(source) => return Err(WriteError::Io { path, source }),
         }
@@ -54,7 +61,7 @@ pub(crate) fn save(
 
 impl Content<'_> {
     /// Returns the number of bytes written.
-    fn write(&self, out: &mut dyn NewFile) -> io::Result<u64> {
+    fn write(&self, out: &mut (dyn Write + Send)) -> io::Result<u64> {
         let n_bytes = match self {
             Content::Bytes(bytes) => {
                 out.write_all(bytes)?;
@@ -73,7 +80,7 @@ impl Content<'_> {
 
 /// Writes the bytes that the blocks append, and returns their number. While one thread writes a group of blocks,
 /// the other threads produce the next group.
-fn write_blocks(out: &mut dyn NewFile, blocks: &[Block]) -> io::Result<u64> {
+fn write_blocks(out: &mut (dyn Write + Send), blocks: &[Block]) -> io::Result<u64> {
     let in_group = 4 * rayon::current_num_threads();
     let mut ready: Vec<Vec<u8>> = Vec::new();
     let mut spare: Vec<Vec<u8>> = Vec::new();

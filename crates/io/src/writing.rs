@@ -1,9 +1,11 @@
 //! Functions that several writers share.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use glam::DVec2;
-use mesh::{Column, Domain, Mesh, Value, Values};
+use mesh::{Column, Domain, Mesh, Value, Values, VertexId};
+use scene::{Geometry, Object, Scene};
 
 use crate::loss::Losses;
 use crate::parallel;
@@ -92,4 +94,91 @@ pub(crate) fn zero_non_finite(values: &mut Values) -> usize {
     let broken = parallel::count(n, |i| !is_finite(values, i));
     *values = values.gather(n, |i| is_finite(values, i).then_some(i));
     broken
+}
+
+/// The name of the vertex attribute that marks the copies of split vertices: the index of a copy minus the index of its
+/// original; 0 for originals. [`ReadOptions::keep_vertices`](crate::ReadOptions::keep_vertices) asks for it.
+pub(crate) const COPY_DISTANCE: &str = "distance to the original vertex";
+
+/// The vertices of a mesh as the file that it was read from has them: without the copies of split vertices.
+pub(crate) struct FileVertices {
+    /// The vertices to write, and the number of each vertex among them; `None` if the mesh has no copies.
+    originals: Option<(Vec<u32>, Vec<u32>)>,
+    n: usize,
+}
+
+impl FileVertices {
+    pub(crate) fn of(mesh: &Mesh) -> Self {
+        let n = mesh.n_vertices();
+        let column = mesh.attributes().column(Domain::Vertex, COPY_DISTANCE);
+        let Some(Values::Int(distances)) = column.map(|column| &column.values) else {
+            return Self { originals: None, n };
+        };
+        let mut written = Vec::new();
+        let mut numbers: Vec<u32> = Vec::with_capacity(n);
+        for (v, &distance) in (0_u32..).zip(distances) {
+            let original = v.checked_sub(distance.unsigned_abs());
+            match original.filter(|_| distance > 0) {
+                Some(original) => numbers.push(numbers[original as usize]),
+                None => {
+                    numbers.push(u32::try_from(written.len()).unwrap_or(u32::MAX));
+                    written.push(v);
+                }
+            }
+        }
+        Self {
+            n: written.len(),
+            originals: Some((written, numbers)),
+        }
+    }
+
+    /// The number of vertices to write.
+    pub(crate) fn len(&self) -> usize {
+        self.n
+    }
+
+    /// The vertex of the mesh that is written with number `i`.
+    pub(crate) fn vertex(&self, i: usize) -> usize {
+        match &self.originals {
+            Some((written, _)) => written[i] as usize,
+            None => i,
+        }
+    }
+
+    /// The number that a vertex of the mesh is written with.
+    pub(crate) fn number(&self, v: VertexId) -> usize {
+        match &self.originals {
+            Some((_, numbers)) => numbers[v.index()] as usize,
+            None => v.index(),
+        }
+    }
+}
+
+/// Whether an attribute only serves [`FileVertices`].
+pub(crate) fn is_mark(domain: Domain, column: &Column) -> bool {
+    domain == Domain::Vertex && column.name == COPY_DISTANCE
+}
+
+/// Removes the attribute of [`FileVertices`] from all meshes.
+pub(crate) fn without_marks(scene: Cow<Scene>) -> Cow<Scene> {
+    let has_marks = |object: &Object| {
+        let mesh = object.as_mesh();
+        mesh.is_some_and(|m| {
+            m.attributes()
+                .column(Domain::Vertex, COPY_DISTANCE)
+                .is_some()
+        })
+    };
+    if !scene.objects().iter().any(has_marks) {
+        return scene;
+    }
+    let mut new = Scene::new();
+    for mut object in scene.objects().iter().cloned() {
+        if let Geometry::Mesh(mesh) = &mut object.geometry {
+            Arc::make_mut(mesh).remove_column(Domain::Vertex, COPY_DISTANCE);
+        }
+        let inserted = new.insert(object);
+        inserted.expect("the names of the objects are those of the scene");
+    }
+    Cow::Owned(new)
 }

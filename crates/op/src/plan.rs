@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use mesh::{CORNER_NORMAL, Domain, Rule, VERTEX_NORMAL};
 
-use crate::Files;
+use crate::{Files, Loss};
 
 /// A range of possible counts, both ends included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -314,6 +314,8 @@ pub struct Plan {
     pub inputs: Vec<PathBuf>,
     /// The files that the steps so far write.
     pub outputs: Vec<PathBuf>,
+    /// What the current step certainly loses, apart from attributes of meshes.
+    pub losses: Vec<Loss>,
     /// Whether an earlier step could not be read or planned. The scene can then have objects that are missing
     /// in the plan.
     pub incomplete: bool,

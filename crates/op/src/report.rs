@@ -40,17 +40,30 @@ pub struct Loss {
     pub name: String,
     /// The lost data in words.
     pub what: String,
-    /// Why it was lost.
+    /// Why it was lost. If it is empty, `what` is the whole message.
     pub reason: String,
 }
 
 impl fmt::Display for Loss {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.reason.is_empty() {
+            return f.write_str(&self.what);
+        }
         write!(f, "{} lost {}: {}", self.object, self.what, self.reason)
     }
 }
 
 impl Loss {
+    /// Creates a loss of a file that is read. `code` names what is lost, `message` says it, with the file.
+    pub fn reading(file: &str, code: &str, message: impl Into<String>) -> Self {
+        Self {
+            object: file.to_owned(),
+            name: code.to_owned(),
+            what: message.into(),
+            reason: String::new(),
+        }
+    }
+
     /// Creates the loss of an attribute.
     pub fn attribute(object: &str, domain: Domain, name: &str, reason: impl Into<String>) -> Self {
         let what = format!("the {domain} attribute \"{name}\"");

@@ -2,15 +2,17 @@
 
 use mesh::Domain;
 use mesh_io::{
-    CleanupPolicy, NonManifold, Orientation, Peek, PeekGeometry, PeekMesh, Policies, ReadOptions,
+    CleanupPolicy, NonManifold, Note, NoteKind, Orientation, Peek, PeekGeometry, PeekMesh,
+    Policies, ReadOptions,
 };
-use op::Operation;
 use op::prelude::*;
+use op::{Loss, Operation};
 
 /// Reads the objects of a file into the scene.
 ///
 /// Formats: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl`, `.off`, `.dae`, `.bez` (Bezier patches), `.bzc` (a Bezier
-/// curve) and `.mws` (a complete scene). An OBJ file becomes one object, and its objects (`o`) and groups (`g`)
+/// curve) and `.mws` (a complete scene); `.gz` after these names, except `.glb` and `.mws`, means compressed by
+/// gzip. An OBJ file becomes one object, and its objects (`o`) and groups (`g`)
 /// become face tags. A glTF or COLLADA file gives an object for each node with a mesh. Content that the scene
 /// cannot hold is counted and listed. Images of materials are read from files next to the model. A corner that repeats the corner before it is removed, and a face that still
 /// visits a vertex twice is left out.
@@ -44,7 +46,7 @@ pub struct Load {
 }
 
 impl Load {
-    fn options(&self) -> ReadOptions {
+    fn options(&self, budget: u64) -> ReadOptions {
         ReadOptions {
             name: self.name.clone(),
             policies: Policies {
@@ -55,7 +57,8 @@ impl Load {
                 isolated: self.isolated,
             },
             strict: self.strict,
-            budget: None,
+            budget: Some(budget),
+            ..ReadOptions::default()
         }
     }
 }
@@ -69,8 +72,11 @@ impl Operation for Load {
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
         let path = cx.files.to_read(&self.path);
         plan.inputs.push(path.clone());
-        match mesh_io::peek(&*cx.files.store, &path, &self.options()) {
-            Ok(peek) => self.plan_objects(&peek, plan),
+        match mesh_io::peek(&*cx.files.store, &path, &self.options(cx.budget)) {
+            Ok(peek) => {
+                plan.losses.extend(peek.left_out.iter().map(loss));
+                self.plan_objects(&peek, plan)
+            }
             Err(error) => {
                 plan.incomplete = true;
                 vec![Problem::error(error.to_string()).at(["path"])]
@@ -81,7 +87,7 @@ impl Operation for Load {
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
         cx.advance("read", 0, 1)?;
         let path = cx.files().to_read(&self.path);
-        let loaded = mesh_io::read(&*cx.files().store, &path, &self.options())
+        let loaded = mesh_io::read(&*cx.files().store, &path, &self.options(cx.budget))
             .map_err(|error| OpError::File(error.to_string()))?;
         for file in loaded.files {
             cx.files().has_used(file.path, file.is_read);
@@ -99,8 +105,12 @@ impl Operation for Load {
             let inserted = scene.insert(object);
             inserted.map_err(|error| OpError::Object(error.to_string()))?;
         }
-        let notes = loaded.notes.iter().map(ToString::to_string);
-        report.notes.extend(notes);
+        for note in &loaded.notes {
+            match note.kind {
+                NoteKind::LeftOut => report.losses.push(loss(note)),
+                NoteKind::Changed => report.notes.push(note.to_string()),
+            }
+        }
         cx.advance("read", 1, 1)?;
         Ok(report)
     }
@@ -126,6 +136,15 @@ impl Load {
         }
         problems
     }
+}
+
+/// What a file loses when it is read.
+fn loss(note: &Note) -> Loss {
+    Loss::reading(
+        &note.path.display().to_string(),
+        note.code,
+        note.to_string(),
+    )
 }
 
 /// Returns the plan of the mesh that is read from a file with these counts. Reading can leave out faces and remove

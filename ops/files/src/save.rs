@@ -9,7 +9,8 @@ use op::{Loss, Operation, target_scene};
 /// Writes objects to a file in the output folder.
 ///
 /// The extension chooses the format: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl` or `.off` for meshes, `.bez` for
-/// Bezier patches, `.bzc` for a curve, and `.mws` for a complete scene without any loss. Content that the format
+/// Bezier patches, `.bzc` for a curve, and `.mws` for a complete scene without any loss. A name
+/// such as `a.obj.gz` compresses the file by gzip. Content that the format
 /// cannot store is listed. The file is only created when the whole recipe has succeeded.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -64,6 +65,7 @@ impl Operation for Save {
         let options = WriteOptions {
             provenance: cx.files().provenance.clone(),
             images: self.images,
+            strict: false,
         };
         let written =
             mesh_io::write(&*cx.files().store, &path, &chosen, &options).map_err(|e| failed(&e))?;

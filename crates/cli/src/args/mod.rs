@@ -142,6 +142,9 @@ pub(crate) struct ConvertArgs {
     /// and other files get copies
     #[arg(long, value_name = "POLICY", value_parser = read::policy::<Images>)]
     pub(crate) images: Option<Images>,
+    /// Output format
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: Format,
 }
 
 #[derive(Debug, ClapArgs)]

@@ -8,15 +8,17 @@ use serde::de::{DeserializeOwned, IntoDeserializer};
 /// Options of the commands that read a mesh file.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct ReadArgs {
-    /// Fail if the reader would leave out a part of the file
+    /// Fail if anything would be lost: a part of the file that the reader leaves out or, with `convert`, content that
+    /// the written file does not store
     #[arg(long)]
-    strict: bool,
+    pub(crate) strict: bool,
     /// Handling of non-manifold edges and vertices: Split or Refuse
     #[arg(long, default_value = "Split", value_name = "POLICY", value_parser = policy::<NonManifold>)]
     non_manifold: NonManifold,
-    /// Handling of neighboring faces with opposite orientations: Orient or Keep
-    #[arg(long, default_value = "Orient", value_name = "POLICY", value_parser = policy::<Orientation>)]
-    orientation: Orientation,
+    /// Handling of neighboring faces with opposite orientations: Orient or Keep; `convert` keeps them, other commands
+    /// orient them by default
+    #[arg(long, value_name = "POLICY", value_parser = policy::<Orientation>)]
+    pub(crate) orientation: Option<Orientation>,
     /// Handling of faces with the same vertices as an earlier face: Keep or Drop
     #[arg(long, default_value = "Keep", value_name = "POLICY", value_parser = policy::<CleanupPolicy>)]
     duplicates: CleanupPolicy,
@@ -34,13 +36,13 @@ impl ReadArgs {
             name: None,
             policies: Policies {
                 non_manifold: self.non_manifold,
-                orientation: self.orientation,
+                orientation: self.orientation.unwrap_or_default(),
                 duplicates: self.duplicates,
                 degenerate: self.degenerate,
                 isolated: self.isolated,
             },
             strict: self.strict,
-            budget: None,
+            ..ReadOptions::default()
         }
     }
 }

@@ -9,7 +9,8 @@ use super::run::report_errors;
 use crate::args::{CheckArgs, Format};
 use crate::loading::load;
 use crate::output::{
-    explain, group_digits, header_row, print, print_diagnostics, print_json, problems_json, table,
+    explain, group_digits, header_row, losses_json, print, print_diagnostics, print_json,
+    problems_json, table,
 };
 
 pub(crate) fn run(args: &CheckArgs, engine: &Engine) -> anyhow::Result<bool> {
@@ -27,7 +28,7 @@ pub(crate) fn run(args: &CheckArgs, engine: &Engine) -> anyhow::Result<bool> {
         let forecast = steps.iter().map(|s| {
             json!({
                 "step": s.label, "vertices": range(s.vertices), "edges": range(s.edges),
-                "faces": range(s.faces), "bytes": range(s.bytes),
+                "faces": range(s.faces), "bytes": range(s.bytes), "losses": losses_json(&s.losses),
             })
         });
         print_json(&json!({
@@ -45,6 +46,11 @@ pub(crate) fn run(args: &CheckArgs, engine: &Engine) -> anyhow::Result<bool> {
         rows.push(row);
     }
     print(&table(&rows))?;
+    for step in steps {
+        for loss in &step.losses {
+            print(&format!("{}: {loss}\n", step.label))?;
+        }
+    }
     let n = loaded.recipe.expectations.len();
     print(&format!(
         "{} is valid: {}, {}\n",

@@ -80,13 +80,15 @@ fn show(path: &Path, scene: Scene) -> anyhow::Result<()> {
 }
 
 /// Converts a note to JSON. The field `text` contains only some of the elements; the list contains all of them.
-fn note_json(note: &Note) -> serde_json::Value {
+pub(crate) fn note_json(note: &Note) -> serde_json::Value {
     let mut json = json!({
+        "code": note.code,
         "text": note.to_string(),
         "left_out": note.kind == NoteKind::LeftOut,
         "file": note.path.display().to_string(),
         "line": note.line,
         "count": note.count,
+        "places": note.places.iter().map(|p| p.iter().map(|p| p.to_array()).collect()).collect::<Vec<Vec<_>>>(),
     });
     let index = |v: &VertexId| v.index();
     match &note.elements {

@@ -118,3 +118,112 @@ fn policies_for_unclean_input_are_applied_and_listed() {
         "{wrong:#?}"
     );
 }
+
+/// Two triangles with a common edge and opposite orientations, three triangles at one edge, and two that touch at a
+/// vertex.
+const UNCLEAN: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 5 5 5\nv 6 5 5\n\
+                       f 1 2 3\nf 2 3 4\nf 1 2 5\nf 3 1 5\nf 1 6 7\n";
+
+#[test]
+fn a_conversion_changes_no_face_and_no_vertex() {
+    let folder = Folder::new().with("a.obj", UNCLEAN);
+    for to in ["b.obj", "b.ply", "b.off"] {
+        let ended = folder.run(&format!("convert a.obj {to}")).with_code(0);
+        assert_eq!(ended.stdout, format!("wrote {to}\n"));
+        folder.run(&format!("convert {to} back.obj")).with_code(0);
+        let text = String::from_utf8(folder.read("back.obj")).unwrap();
+        let lines: String = (text.lines().filter(|line| !line.starts_with('#')))
+            .map(|line| format!("{line}\n"))
+            .collect();
+        assert_eq!(lines, UNCLEAN, "{to}");
+    }
+    // Repairs are made on request, and named.
+    let ended = folder
+        .run("convert a.obj c.obj --orientation Orient")
+        .with_code(0);
+    assert!(ended.stdout.contains("reversed"), "{ended:#?}");
+}
+
+#[test]
+fn notes_have_codes_in_json() {
+    let folder = Folder::new().with("a.obj", format!("{UNCLEAN}f 1 2 2\n"));
+    let json = folder.run("info a.obj --format json").with_code(0).json();
+    let codes: Vec<&str> = json["notes"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|n| n["code"].as_str().unwrap())
+        .collect();
+    assert!(
+        codes.contains(&"faces-reversed") && codes.contains(&"faces-dropped"),
+        "{codes:?}"
+    );
+    let dropped = &json["notes"][codes.iter().position(|c| *c == "faces-dropped").unwrap()];
+    assert_eq!(dropped["count"], 1);
+    assert_eq!(dropped["faces"], serde_json::json!([5]));
+    assert_eq!(dropped["places"][0][1], serde_json::json!([1.0, 0.0, 0.0]));
+
+    let json = folder
+        .run("convert a.obj b.stl --format json")
+        .with_code(0)
+        .json();
+    assert_eq!(json["wrote"], serde_json::json!(["b.stl"]));
+    let codes: Vec<&str> = json["notes"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|n| n["code"].as_str().unwrap())
+        .collect();
+    assert!(!codes.contains(&"faces-reversed"), "{codes:?}");
+}
+
+#[test]
+fn strict_conversions_lose_nothing_in_both_directions() {
+    let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n";
+    let folder = Folder::new().with("a.obj", obj);
+    let ended = folder.run("convert a.obj a.stl --strict").with_code(1);
+    assert!(
+        ended
+            .stderr
+            .contains("strict writing does not allow any loss"),
+        "{ended:#?}"
+    );
+    assert!(!folder.path("a.stl").exists());
+    folder.run("convert a.obj a.ply --strict").with_code(0);
+}
+
+/// A glTF file with a triangle and a skin, which is not read.
+const SKINNED: &str = r#"{ "asset": { "version": "2.0" }, "skins": [{ "joints": [0] }],
+    "nodes": [{ "mesh": 0 }], "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 } }] }],
+    "accessors": [{ "componentType": 5126, "count": 3, "type": "VEC3", "bufferView": 0 }],
+    "bufferViews": [{ "buffer": 0, "byteLength": 36 }],
+    "buffers": [{ "byteLength": 36,
+        "uri": "data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA" }] }"#;
+
+#[test]
+fn losses_of_reading_are_losses_of_the_step() {
+    let recipe = |more: &str| {
+        format!("(recipe: 1, {more} steps: [Load(path: \"a.gltf\"), Save(path: \"b.obj\")])")
+    };
+    let folder = Folder::new()
+        .with("a.gltf", SKINNED)
+        .with("warn.ron", recipe(""))
+        .with("error.ron", recipe("on_loss: Error,"))
+        .with("allow.ron", recipe("on_loss: Allow([\"skins\"]),"));
+    let ended = folder.run("run warn.ron").with_code(0);
+    assert!(
+        ended.stdout.contains("Load: a.gltf: 1 skins left out"),
+        "{ended:#?}"
+    );
+    let checked = folder.run("check warn.ron").with_code(0);
+    assert!(
+        checked.stdout.contains("Load: a.gltf: 1 skins left out"),
+        "{checked:#?}"
+    );
+    for command in ["check", "run"] {
+        let ended = folder.run(&format!("{command} error.ron")).with_code(1);
+        let expected = "1 skins left out, and `on_loss` does not allow it";
+        assert!(ended.stderr.contains(expected), "{ended:#?}");
+    }
+    folder.run("run allow.ron").with_code(0);
+}

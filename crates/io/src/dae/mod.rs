@@ -72,8 +72,8 @@ pub(crate) fn read(
 /// # Errors
 ///
 /// As [`read`].
-pub(crate) fn peek(bytes: &[u8], name: &str) -> Result<Vec<PeekObject>, Fault> {
-    each_object(bytes, name, &mut Notes::of("".as_ref()), |name, object| {
+pub(crate) fn peek(bytes: &[u8], name: &str, notes: &mut Notes) -> Result<Vec<PeekObject>, Fault> {
+    each_object(bytes, name, notes, |name, object| {
         let geometry = PeekGeometry::Mesh(object.counts());
         Ok(PeekObject { name, geometry })
     })

@@ -60,6 +60,7 @@ impl Document {
     pub(super) fn new(json: &Value, budget: &Budget, notes: &mut Notes) -> Result<Self, Fault> {
         check_version(json)?;
         check_extensions(json, notes)?;
+        check_draco(json)?;
         let views: Vec<View> = pieces(json, "bufferViews", budget)?;
         // The memory for the additional data about each view.
         let more = views.len() * size_of::<(Option<Compressed>, OnceCell<Vec<u8>>)>();
@@ -84,7 +85,8 @@ impl Document {
             ("skins", "skins left out"),
             ("cameras", "cameras left out"),
         ] {
-            notes.left_out(list(json, key)?.len(), None, what);
+            let n = list(json, key)?.len();
+            notes.coded(key).left_out(n, None, what);
         }
         Ok(document)
     }
@@ -139,10 +141,7 @@ fn check_extensions(json: &Value, notes: &mut Notes) -> Result<(), Fault> {
             continue;
         }
         let message = if name == DRACO {
-            format!(
-                "the file uses the compression {name}, which is not supported: write the file without \
-                compression, for example with `gltf-transform copy`"
-            )
+            draco_message()
         } else {
             format!("the file requires the extension \"{name}\", which is not supported")
         };
@@ -156,12 +155,54 @@ fn check_extensions(json: &Value, notes: &mut Notes) -> Result<(), Fault> {
     if uses.remove(LIGHTS).is_some() {
         let lights = json.pointer("/extensions/KHR_lights_punctual/lights");
         let count = lights.and_then(Value::as_array).map_or(1, Vec::len);
-        notes.left_out(count, None, "lights left out");
+        notes
+            .coded("lights")
+            .left_out(count, None, "lights left out");
     }
     for (name, count) in uses {
-        if !known(name) {
+        // Uncompressed data is read instead.
+        if !known(name) && name != DRACO {
             let what = format!("uses of the extension \"{name}\" left out");
-            notes.left_out(count.max(1), None, what);
+            notes.coded("extensions").left_out(count.max(1), None, what);
+        }
+    }
+    Ok(())
+}
+
+fn draco_message() -> String {
+    format!(
+        "the file uses the compression {DRACO}, which is not supported: write the file without compression, for \
+        example with `gltf-transform copy`"
+    )
+}
+
+/// Refuses a primitive whose data only exists in compressed form. A file can have uncompressed data too; then the
+/// extension is optional.
+fn check_draco(json: &Value) -> Result<(), Fault> {
+    let accessors = list(json, "accessors")?;
+    let has_data = |accessor: &Value| {
+        let accessor = accessor.as_u64().and_then(|i| usize::try_from(i).ok());
+        // An accessor that does not exist is a different error.
+        let accessor = accessor.and_then(|i| accessors.get(i));
+        accessor.is_none_or(|a| a.get("bufferView").is_some() || a.get("sparse").is_some())
+    };
+    for (i, mesh) in list(json, "meshes")?.iter().enumerate() {
+        let primitives = mesh.get("primitives").and_then(Value::as_array);
+        for (j, primitive) in primitives.into_iter().flatten().enumerate() {
+            if primitive
+                .get("extensions")
+                .and_then(|e| e.get(DRACO))
+                .is_none()
+            {
+                continue;
+            }
+            let attributes = primitive.get("attributes").and_then(Value::as_object);
+            let mut used = attributes.into_iter().flatten().map(|(_, a)| a);
+            let has_indices = primitive.get("indices").is_none_or(has_data);
+            if !has_indices || !used.all(has_data) {
+                let pointer = format!("/meshes/{i}/primitives/{j}/extensions/{DRACO}");
+                return Err(Fault::json(pointer, draco_message()));
+            }
         }
     }
     Ok(())
@@ -215,6 +256,7 @@ fn roots(json: &Value, notes: &mut Notes) -> Result<Vec<usize>, Fault> {
         Some(scene) => index(scene, "/scene")?,
     };
     let scene = get(scenes, which, "/scene", "scene")?;
+    let notes = notes.coded("scenes");
     notes.left_out(scenes.len() - 1, None, "other scenes left out");
     let pointer = format!("/scenes/{which}/nodes");
     let nodes = match scene.get("nodes") {

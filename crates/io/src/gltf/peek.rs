@@ -21,15 +21,14 @@ use crate::peek::{PeekGeometry, PeekMesh, PeekObject};
 /// # Errors
 ///
 /// As [`read`](super::read()), for the parts that are checked.
-pub(crate) fn peek(json: &[u8], name: &str) -> Result<Vec<PeekObject>, Fault> {
-    let mut notes = Notes::of("".as_ref());
+pub(crate) fn peek(json: &[u8], name: &str, notes: &mut Notes) -> Result<Vec<PeekObject>, Fault> {
     let budget = Budget::of(json.len());
-    let document = Document::new(&parse(json)?, &budget, &mut notes)?;
+    let document = Document::new(&parse(json)?, &budget, notes)?;
     let reader = Reader::new(&document, &[], &budget);
     let mut meshes = BTreeMap::new();
     let mut names = Names::default();
     let mut objects = Vec::new();
-    for placed in placed_meshes(&document, &mut notes)? {
+    for placed in placed_meshes(&document, notes)? {
         let mesh = match meshes.get(&placed.mesh) {
             Some(&known) => known,
             None => peek_mesh(&reader, placed.mesh)?,
@@ -37,7 +36,7 @@ pub(crate) fn peek(json: &[u8], name: &str) -> Result<Vec<PeekObject>, Fault> {
         meshes.insert(placed.mesh, mesh);
         let name = placed.name(&document, name);
         placed.spend(name, &budget)?;
-        let name = names.unique(name, &mut notes);
+        let name = names.unique(name, notes);
         objects.push(PeekObject {
             name,
             geometry: PeekGeometry::Mesh(mesh),

@@ -14,7 +14,7 @@ use crate::assets::percent_encoded;
 use crate::error::Unwritable;
 use crate::loss::Losses;
 use crate::writing::dense;
-use crate::{WriteOptions, Written};
+use crate::{WriteOptions, Written, gzip};
 
 /// Converts `scene` to the bytes of files, and lists what the files do not store. The files are in the order in
 /// which they must be renamed.
@@ -58,7 +58,7 @@ pub(crate) fn write(
         let files = vec![(path, container(&json, length, &pieces)?)];
         return Ok(Written { files, losses });
     }
-    let binary_path = path.with_extension("bin");
+    let binary_path = gzip::plain(&path).with_extension("bin");
     let name = binary_path.file_name();
     let uri = name.map(|name| percent_encoded(&name.to_string_lossy()));
     let (json, pieces) = writer.into_json(options, uri.as_deref());

@@ -15,7 +15,7 @@ use crate::decimal::push_whole;
 use crate::loss::Losses;
 use crate::parallel;
 use crate::save::Block;
-use crate::writing::NOT_FINITE;
+use crate::writing::{FileVertices, NOT_FINITE, is_mark};
 
 /// The number of vertices, values or faces in a block.
 const BLOCK: usize = 8192;
@@ -29,6 +29,7 @@ pub(super) struct MeshBody<'a> {
     uvs: Option<(&'a [DVec2], CornerNumbers)>,
     normals: Option<(Normals<'a>, CornerNumbers)>,
     states: FaceStates<'a>,
+    vertices: FileVertices,
 }
 
 /// The source of normals.
@@ -64,6 +65,7 @@ impl<'a> MeshBody<'a> {
         };
         losses.add_columns(mesh, "OBJ", |domain, column| {
             match (domain, column.name.as_str()) {
+                _ if is_mark(domain, column) => true,
                 (Domain::Corner, "uv") => uvs.is_some(),
                 (Domain::Corner, "normal") => matches!(normals, Some(Normals::Corners(_))),
                 (Domain::Vertex, "normal") => matches!(normals, Some(Normals::Vertices(_))),
@@ -102,6 +104,7 @@ impl<'a> MeshBody<'a> {
             uvs,
             normals,
             states,
+            vertices: FileVertices::of(mesh),
         }
     }
 
@@ -120,7 +123,7 @@ impl<'a> MeshBody<'a> {
 
     fn counts(&self) -> Counts {
         let uvs = count(self.uvs.as_ref());
-        [self.mesh.n_vertices(), uvs, count(self.normals.as_ref())]
+        [self.vertices.len(), uvs, count(self.normals.as_ref())]
     }
 
     fn last_face(&self) -> Option<FaceId> {
@@ -150,16 +153,15 @@ impl<'a> MeshBody<'a> {
     }
 
     fn push_vertices(&self, out: &mut Vec<u8>, range: Range<usize>) {
-        let positions = &self.mesh.positions()[range.clone()];
-        let Some(colors) = self.colors else {
-            for position in positions {
-                push_values(out, "v", &position.to_array());
+        for v in range.map(|i| self.vertices.vertex(i)) {
+            let p = self.mesh.positions()[v];
+            match self.colors {
+                None => push_values(out, "v", &p.to_array()),
+                Some(colors) => {
+                    let [r, g, b] = finite(colors[v].truncate().to_array());
+                    push_values(out, "v", &[p.x, p.y, p.z, r, g, b]);
+                }
             }
-            return;
-        };
-        for (p, color) in positions.iter().zip(&colors[range]) {
-            let [r, g, b] = finite(color.truncate().to_array());
-            push_values(out, "v", &[p.x, p.y, p.z, r, g, b]);
         }
     }
 
@@ -200,7 +202,10 @@ impl<'a> MeshBody<'a> {
             out.push(b'f');
             for h in self.mesh.face_half_edges(f) {
                 out.push(b' ');
-                push_whole(out, positions + self.mesh.origin(h).index() + 1);
+                push_whole(
+                    out,
+                    positions + self.vertices.number(self.mesh.origin(h)) + 1,
+                );
                 if let Some((_, numbers)) = &self.uvs {
                     out.push(b'/');
                     push_whole(out, uvs + numbers.number(h) + 1);

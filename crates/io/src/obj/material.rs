@@ -70,6 +70,7 @@ pub(super) fn read_libraries(
                 }
                 Err(error) => {
                     let what = format!("material library `{library}` left out: {error}");
+                    let notes = notes.coded("material-library-missing");
                     notes.left_out(1, place.line, what);
                 }
             }
@@ -81,7 +82,7 @@ pub(super) fn read_libraries(
         if known.insert(used.clone()) {
             let what =
                 format!("material `{used}` not found in any library: replaced by a white material");
-            notes.changed(1, None, what);
+            notes.coded("material-missing").changed(1, None, what);
             materials.push(Material::new(used));
         }
     }
@@ -136,6 +137,7 @@ fn read_library(bytes: &[u8], notes: &mut Notes) -> Vec<Material> {
     let mut ignored = Ignored::default();
     let materials = materials.into_iter().map(|m| converted(m, &mut ignored));
     let materials = materials.collect();
+    let notes = notes.coded("material-values");
     notes.left_out(ignored.0, None, "material values left out: only color (Kd), alpha (d, Tr), roughness (Pr), metalness (Pm), emission (Ke), textures of color and emission, normal maps (norm), and a texture shared by Pr and Pm are read");
     materials
 }

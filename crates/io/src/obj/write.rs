@@ -16,7 +16,7 @@ use crate::error::{Unwritable, WriteError};
 use crate::loss::Losses;
 use crate::save::{Block, Content, save};
 use crate::writing::{dense, push_comment};
-use crate::{WriteOptions, WriteReport};
+use crate::{WriteOptions, WriteReport, fail_if_lost, gzip};
 
 /// Writes `scene` to an OBJ file, preceded by `images` and, if there are materials, the material library.
 ///
@@ -40,7 +40,7 @@ pub(crate) fn write(
     }
     let mut head = Vec::new();
     push_comment(&mut head, "#", options.provenance.as_deref());
-    let library_path = path.with_extension("mtl");
+    let library_path = gzip::plain(path).with_extension("mtl");
     if let (false, Some(file_name)) = (library.materials.is_empty(), library_path.file_name()) {
         push_name(&mut head, "mtllib", &file_name.to_string_lossy());
     }
@@ -68,6 +68,7 @@ pub(crate) fn write(
         }
     }
 
+    fail_if_lost(path, options, &losses)?;
     let mut files: Vec<(PathBuf, Content)> = Vec::new();
     files.extend(images);
     if !library.materials.is_empty() {

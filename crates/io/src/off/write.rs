@@ -12,7 +12,8 @@ use crate::error::Unwritable;
 use crate::joined::joined;
 use crate::loss::Losses;
 use crate::writing::{
-    NOT_FINITE, finite, is_byte, push_comment, to_byte, uvs_of_vertices, zero_non_finite,
+    FileVertices, NOT_FINITE, finite, is_byte, is_mark, push_comment, to_byte, uvs_of_vertices,
+    zero_non_finite,
 };
 use crate::{SingleFile, WriteOptions};
 
@@ -66,7 +67,8 @@ impl<'a> Content<'a> {
         let of_faces = column(Domain::Face, "color").or(column(Domain::Face, COLOR_INDEX));
         let is_other = |column| of_faces.is_none_or(|one| !std::ptr::eq(one, column));
         losses.add_columns(mesh, "OFF", |domain, column| {
-            fits(domain, column) && (domain != Domain::Face || !is_other(column))
+            is_mark(domain, column)
+                || fits(domain, column) && (domain != Domain::Face || !is_other(column))
         });
         let mut of_vertices = Vec::new();
         for name in ["normal", "color"] {
@@ -94,11 +96,13 @@ impl<'a> Content<'a> {
         }
         out.extend_from_slice(b"OFF\n");
         push_comment(out, "#", options.provenance.as_deref());
-        let (n_vertices, n_faces) = (self.mesh.n_vertices(), self.mesh.n_faces());
+        let vertices = FileVertices::of(self.mesh);
+        let (n_vertices, n_faces) = (vertices.len(), self.mesh.n_faces());
         let counts = format!("{n_vertices} {n_faces} {}\n", self.mesh.n_edges());
         out.extend_from_slice(counts.as_bytes());
         let as_bytes: Vec<bool> = self.of_vertices.iter().map(|v| are_bytes(v)).collect();
-        for (v, position) in self.mesh.positions().iter().enumerate() {
+        for v in (0..n_vertices).map(|i| vertices.vertex(i)) {
+            let position = self.mesh.positions()[v];
             push_number(out, position.x);
             push_numbers(out, &[position.y, position.z]);
             for (values, &as_bytes) in self.of_vertices.iter().zip(&as_bytes) {
@@ -111,7 +115,7 @@ impl<'a> Content<'a> {
             push_whole(out, self.mesh.degree(f));
             for v in self.mesh.face_vertices(f) {
                 out.push(b' ');
-                push_whole(out, v.index());
+                push_whole(out, vertices.number(v));
             }
             if let Some(values) = &self.of_faces {
                 push_value(out, values, f.index(), as_bytes);

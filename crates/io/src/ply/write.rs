@@ -17,7 +17,9 @@ use crate::error::Unwritable;
 use crate::joined::joined;
 use crate::loss::Losses;
 use crate::parallel;
-use crate::writing::{finite, is_byte, push_comment, to_byte, uvs_of_vertices};
+use crate::writing::{
+    FileVertices, finite, is_byte, is_mark, push_comment, to_byte, uvs_of_vertices,
+};
 use crate::{SingleFile, WriteOptions};
 
 /// Writes `scene` as little-endian binary, and lists what the file does not store.
@@ -32,7 +34,7 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile,
     losses.add_columns(mesh, "PLY", |domain, _| domain != Domain::Edge);
     let mut vertices = Element::vertices(mesh);
     let mut faces = Element::faces(mesh);
-    for (domain, column) in mesh.attributes().iter() {
+    for (domain, column) in mesh.attributes().iter().filter(|(d, c)| !is_mark(*d, c)) {
         let to = match domain {
             Domain::Vertex => &mut vertices,
             Domain::Corner if mesh.n_faces() == 0 => continue,
@@ -62,11 +64,12 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile,
     }
     let mut out = b"ply\nformat binary_little_endian 1.0\n".to_vec();
     push_comment(&mut out, "comment", options.provenance.as_deref());
-    vertices.push_header(&mut out, "vertex", mesh.n_vertices());
+    let file = FileVertices::of(mesh);
+    vertices.push_header(&mut out, "vertex", file.len());
     faces.push_header(&mut out, "face", mesh.n_faces());
     out.extend_from_slice(b"end_header\n");
-    vertices.push_rows(&mut out, mesh, mesh.n_vertices());
-    faces.push_rows(&mut out, mesh, mesh.n_faces());
+    vertices.push_rows(&mut out, mesh, &file, file.len(), |row| file.vertex(row));
+    faces.push_rows(&mut out, mesh, &file, mesh.n_faces(), |row| row);
     Ok((out, joined.losses))
 }
 
@@ -244,12 +247,20 @@ impl<'a> Element<'a> {
         }
     }
 
-    fn push_rows(&self, out: &mut Vec<u8>, mesh: &Mesh, rows: usize) {
+    /// Appends the rows. `element` returns the element of the mesh for a row.
+    fn push_rows(
+        &self,
+        out: &mut Vec<u8>,
+        mesh: &Mesh,
+        file: &FileVertices,
+        rows: usize,
+        element: impl Fn(usize) -> usize + Sync,
+    ) {
         let blocks = parallel::blocks(rows, |rows| {
             let mut bytes = Vec::with_capacity(rows.len() * 32);
             for row in rows {
                 for field in &self.fields {
-                    field.push(&mut bytes, mesh, row);
+                    field.push(&mut bytes, mesh, file, element(row));
                 }
             }
             bytes
@@ -262,7 +273,7 @@ impl<'a> Element<'a> {
 }
 
 impl Field<'_> {
-    fn push(&self, out: &mut Vec<u8>, mesh: &Mesh, row: usize) {
+    fn push(&self, out: &mut Vec<u8>, mesh: &Mesh, file: &FileVertices, row: usize) {
         let f = FaceId::new(row);
         match self {
             Self::Positions(positions) => {
@@ -273,7 +284,7 @@ impl Field<'_> {
             Self::Corners(count) => {
                 push_count(out, *count, mesh.degree(f));
                 for v in mesh.face_vertices(f) {
-                    push_whole(out, v.index());
+                    push_whole(out, file.number(v));
                 }
             }
             Self::Values {

@@ -396,3 +396,30 @@ proptest! {
         let _ = read_json(&json);
     }
 }
+
+#[test]
+fn draco_without_uncompressed_data_is_refused_by_name() {
+    let mut json = json!({
+        "asset": { "version": "2.0" },
+        "extensionsUsed": ["KHR_draco_mesh_compression"],
+        "nodes": [{ "mesh": 0 }],
+        "meshes": [{ "primitives": [{
+            "attributes": { "POSITION": 0 },
+            "extensions": { "KHR_draco_mesh_compression": { "bufferView": 0, "attributes": { "POSITION": 0 } } },
+        }] }],
+        "accessors": [{ "componentType": 5126, "count": 3, "type": "VEC3" }],
+        "buffers": [{ "byteLength": 36, "uri": "data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA" }],
+        "bufferViews": [{ "buffer": 0, "byteLength": 36 }],
+    });
+    let error = read_json(&json).unwrap_err().to_string();
+    let expected = "/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression: the file uses the compression";
+    assert!(
+        error.contains(expected) && error.contains("gltf-transform copy"),
+        "{error}"
+    );
+    // With uncompressed data, the extension is optional.
+    json["accessors"][0]["bufferView"] = json!(0);
+    let loaded = read_json(&json).unwrap();
+    assert_eq!(loaded.notes, []);
+    assert_eq!(loaded.objects[0].as_mesh().unwrap().n_faces(), 1);
+}

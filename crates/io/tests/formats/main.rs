@@ -1,6 +1,7 @@
 //! Reading and writing whole files, checked by general properties and by other readers.
 
 mod broken;
+mod compressed;
 mod dae_broken;
 mod dae_nodes;
 mod dae_read;

@@ -43,21 +43,25 @@ impl BuildReport {
         let copied = self.split_vertices.iter().map(|&(v, _)| v).collect();
         let repairs = [
             Repair::new(
+                "faces-reversed",
                 "face reversed to agree with its neighbors",
                 "faces reversed to agree with their neighbors",
                 faces(&self.reversed_faces),
             ),
             Repair::new(
+                "parts-unorientable",
                 "part has no consistent orientation",
                 "parts have no consistent orientation",
                 faces(&self.unorientable),
             ),
             Repair::new(
+                "edges-split",
                 "non-manifold edge split",
                 "non-manifold edges split",
                 Elements::Edges(self.split_edges.clone()),
             ),
             Repair::new(
+                "vertices-split",
                 "copy made of a non-manifold vertex",
                 "copies made of non-manifold vertices",
                 Elements::Vertices(copied),
@@ -69,6 +73,7 @@ impl BuildReport {
     /// Returns the dropped polygons, if there are any.
     pub fn dropped(&self) -> Option<Repair> {
         Repair::new(
+            "faces-dropped",
             "face dropped because it has fewer than 3 corners or visits a vertex twice",
             "faces dropped because they have fewer than 3 corners or visit a vertex twice",
             Elements::Faces(self.dropped_faces.clone()),
@@ -79,6 +84,8 @@ impl BuildReport {
 /// A repair of some elements of the input.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Repair {
+    /// A stable name of the kind of repair, for programs, such as `faces-reversed`.
+    pub code: &'static str,
     /// The text that follows the number of elements, such as "faces reversed".
     pub description: &'static str,
     /// The repaired elements, at least one.
@@ -88,13 +95,19 @@ pub struct Repair {
 impl Repair {
     /// Creates the repair of these elements, with the singular or the plural text. Returns `None` if the list
     /// is empty.
-    pub fn new(singular: &'static str, plural: &'static str, elements: Elements) -> Option<Self> {
+    pub fn new(
+        code: &'static str,
+        singular: &'static str,
+        plural: &'static str,
+        elements: Elements,
+    ) -> Option<Self> {
         let description = if elements.len() == 1 {
             singular
         } else {
             plural
         };
         (elements.len() > 0).then_some(Self {
+            code,
             description,
             elements,
         })
@@ -106,6 +119,7 @@ impl fmt::Display for Repair {
         let Self {
             description,
             elements,
+            ..
         } = self;
         write!(f, "{} {description} {elements}", elements.len())
     }

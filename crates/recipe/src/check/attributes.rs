@@ -149,10 +149,12 @@ impl Attributes {
 /// Returns the error for a loss that `on_loss` does not allow.
 pub(crate) fn forbidden(step: &RecipeStep, loss: &Loss) -> Diagnostic {
     let (what, object, name) = (&loss.what, &loss.object, &loss.name);
-    let message = format!(
-        "{} loses {what} of \"{object}\", and `on_loss` does not allow it",
-        step.name
-    );
+    let lost = if loss.reason.is_empty() && object != "" && what.starts_with(object.as_str()) {
+        what.clone()
+    } else {
+        format!("{} loses {what} of \"{object}\"", step.name)
+    };
+    let message = format!("{lost}, and `on_loss` does not allow it");
     let help = match &step.on_loss {
         OnLoss::Allow(names) => {
             let names = names.iter().chain([name]);

@@ -5,7 +5,7 @@ mod attributes;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-use op::{Files, Plan, PlanContext, Problem, Range};
+use op::{Files, Loss, Plan, PlanContext, Problem, Range};
 
 use crate::expect::{OtherMesh, golden};
 use crate::recipe::{Recipe, RecipeExpectation, RecipeStep};
@@ -29,6 +29,8 @@ pub struct StepForecast {
     pub faces: Range,
     /// The memory that all meshes take, in bytes.
     pub bytes: Range,
+    /// What the step certainly loses of the files that it reads.
+    pub losses: Vec<Loss>,
 }
 
 /// The result of checking a recipe without running it.
@@ -72,6 +74,10 @@ pub fn check(recipe: &Recipe, files: &Files, budget: u64) -> Forecast {
         attributes.needs(step, &plan, &mut found);
         let files_of = &files[step.scope];
         plan_step(step, &mut plan, files_of, budget, &mut written, &mut found);
+        let losses = std::mem::take(&mut plan.losses);
+        if let Some(loss) = step.on_loss.forbidden(&losses) {
+            found.push(forbidden(step, loss));
+        }
         if plan.take_edited() {
             attributes.losses(step, &totals.certain, &plan, &mut found);
             totals = Totals::default();
@@ -89,7 +95,9 @@ pub fn check(recipe: &Recipe, files: &Files, budget: u64) -> Forecast {
             let found = check_expectation(placed, &plan, &attributes, &files);
             forecast.add(recipe, placed.scope, found);
         }
-        forecast.steps.push(totals.forecast(step, plan.incomplete));
+        let mut step = totals.forecast(step, plan.incomplete);
+        step.losses = losses;
+        forecast.steps.push(step);
     }
     for placed in expectations {
         let found = check_expectation(placed, &plan, &attributes, &files);
@@ -339,6 +347,7 @@ impl Totals {
             edges: self.edges.plus(unknown),
             faces: self.faces.plus(unknown),
             bytes: self.bytes,
+            losses: Vec::new(),
         }
     }
 }

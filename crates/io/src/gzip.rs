@@ -1,0 +1,112 @@
+//! Compressed files: `model.obj.gz` is read and written like `model.obj`.
+//!
+//! The content is compressed by gzip (RFC 1952). All formats except the binary formats `.glb` and `.mws` can be
+//! compressed. The size of the decompressed content is limited, because a few bytes can stand for thousands.
+
+use std::borrow::Cow;
+use std::io::{self, Read as _, Write};
+use std::path::Path;
+
+use flate2::Compression;
+use flate2::read::MultiGzDecoder;
+use flate2::write::GzEncoder;
+use store::Store;
+
+use crate::error::ReadError;
+
+/// Whether the name of a file ends in `.gz`, in upper or lower case.
+pub(crate) fn is_compressed(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("gz"))
+}
+
+/// The path without `.gz`, from which the format, the name of the object and the names of further files follow.
+pub(crate) fn plain(path: &Path) -> Cow<'_, Path> {
+    if is_compressed(path) {
+        Cow::Owned(path.with_extension(""))
+    } else {
+        Cow::Borrowed(path)
+    }
+}
+
+/// Decompresses the content of a file if its name ends in `.gz`. `most` is the largest size of the result in bytes.
+///
+/// # Errors
+///
+/// [`ReadError::Compressed`] if the content is damaged or larger than `most`.
+pub(crate) fn unpacked(path: &Path, bytes: Vec<u8>, most: u64) -> Result<Vec<u8>, ReadError> {
+    if !is_compressed(path) {
+        return Ok(bytes);
+    }
+    let error = |message: String| ReadError::Compressed {
+        path: path.to_path_buf(),
+        message,
+    };
+    let mut out = Vec::new();
+    // The memory grows with the content, so that a wrong size in the file has no effect.
+    let mut decoder = MultiGzDecoder::new(&bytes[..]).take(most.saturating_add(1));
+    let read = decoder.read_to_end(&mut out);
+    read.map_err(|why| error(format!("the compressed content is damaged: {why}")))?;
+    if out.len() as u64 > most {
+        let message = format!(
+            "the content is larger than {most} bytes when decompressed, which exceeds the memory budget"
+        );
+        return Err(error(message));
+    }
+    Ok(out)
+}
+
+/// Reads at most `most` bytes from the beginning of the content of a file.
+///
+/// # Errors
+///
+/// If the file cannot be read or decompressed.
+pub(crate) fn head(store: &dyn Store, path: &Path, most: u64) -> Result<Vec<u8>, ReadError> {
+    if !is_compressed(path) {
+        return Ok(store.read_up_to(path, most)?);
+    }
+    let bytes = store.read(path)?;
+    let mut out = Vec::new();
+    let read = MultiGzDecoder::new(&bytes[..])
+        .take(most)
+        .read_to_end(&mut out);
+    read.map_err(|why| ReadError::Compressed {
+        path: path.to_path_buf(),
+        message: format!("the compressed content is damaged: {why}"),
+    })?;
+    Ok(out)
+}
+
+/// Compresses what `write` writes, and returns the number of compressed bytes. Equal content gives equal bytes: the
+/// header has no time and no name.
+///
+/// # Errors
+///
+/// The errors of `out` and of `write`.
+pub(crate) fn compress(
+    out: &mut (dyn Write + Send),
+    write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<u64>,
+) -> io::Result<u64> {
+    let counter = Counter { out, n: 0 };
+    let mut encoder = GzEncoder::new(counter, Compression::default());
+    write(&mut encoder)?;
+    Ok(encoder.finish()?.n)
+}
+
+/// Counts the bytes that are written.
+struct Counter<'a> {
+    out: &'a mut (dyn Write + Send),
+    n: u64,
+}
+
+impl Write for Counter<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let n = self.out.write(bytes)?;
+        self.n += n as u64;
+        Ok(n)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
+    }
+}

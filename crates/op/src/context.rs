@@ -10,7 +10,8 @@ pub struct Context<'a> {
     files: &'a Files,
     /// The objects named in the step's `on:`; `None` if the step acts on all objects that it supports.
     pub on: Option<&'a [String]>,
-    /// The key of the step's random streams: the step's id, or the name of its operation.
+    /// The text that seeds the random choices of the step, together with the `seed` of each choice: the label of the
+    /// step in the recipe.
     pub stream: &'a str,
     /// The memory budget of meshes, in bytes.
     pub budget: u64,

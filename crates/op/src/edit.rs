@@ -73,7 +73,7 @@ pub trait EditTarget: Copy {
     /// Returns the elements.
     fn elements(self) -> Vec<Element>;
 
-    /// Asks the processor to prefetch the memory that the edits after the edit with the number `at` will access.
+    /// Asks the processor to prefetch the memory that the edits after index `at` of the list will access.
     fn fetch_ahead(_: &Mesh, _: &[Self], _at: usize) {}
 }
 

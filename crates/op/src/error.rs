@@ -101,7 +101,7 @@ impl From<EditError> for Refusal {
     }
 }
 
-/// Why an operation failed. The scene is then the same as before the step.
+/// Why an operation failed. After an error, the runner restores the scene from before the step.
 #[derive(Debug, thiserror::Error)]
 pub enum OpError {
     /// The run was cancelled.
@@ -199,7 +199,7 @@ impl OpError {
         }
     }
 
-    /// Adds the locations of the elements in the object `object`, if the error is a refusal.
+    /// Sets the locations of the elements, if the error is a refusal. `object` is the name of the object with the mesh.
     #[must_use]
     pub(crate) fn placed(mut self, object: &str, mesh: &Mesh) -> Self {
         if let Self::Refused {

@@ -108,8 +108,8 @@ impl Default for Files {
 }
 
 impl Files {
-    /// Returns the path of an input file: `path` relative to the folder of the recipe. When the caller has read the
-    /// file, it calls [`has_read`](Self::has_read).
+    /// Returns the path of an input file: `path` relative to the folder of the recipe. If the caller reads the file, it
+    /// must call [`has_read`](Self::has_read).
     pub fn to_read(&self, path: &str) -> PathBuf {
         let full = self.input.join(path);
         let file = FileUse::Requested {
@@ -127,7 +127,7 @@ impl Files {
         self.log.note(FileUse::Read(path.into()));
     }
 
-    /// Logs that a file was read. If `is_read` is false, logs that the existence of the file was checked.
+    /// Logs that a file was read or, if `is_read` is false, that only its existence was checked.
     pub fn has_used(&self, path: PathBuf, is_read: bool) {
         self.log.note(if is_read {
             FileUse::Read(path)

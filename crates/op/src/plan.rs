@@ -307,7 +307,8 @@ pub struct PlannedObject {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Plan {
     objects: Vec<PlannedObject>,
-    /// The index of the object with each name. Cleared when objects are changed.
+    /// The index of each object by its name. Empty between [`objects_mut`](Self::objects_mut) and the next
+    /// [`insert`](Self::insert).
     index_by_name: HashMap<String, usize>,
     is_edited: bool,
     /// The files that the steps so far read.

@@ -129,7 +129,7 @@ impl Registry {
         self
     }
 
-    /// Adds an operation and removes the operation with the same name, if one exists.
+    /// Adds an operation and removes any operation that has the same name as its name or an earlier name.
     #[must_use]
     pub fn with_override<T: Operation>(mut self) -> Self {
         self.entries
@@ -137,7 +137,7 @@ impl Registry {
         self.with::<T>()
     }
 
-    /// Adds a group of operations, each of which is added by `register`.
+    /// Adds the operations that `register` adds.
     #[must_use]
     pub fn with_group(self, register: fn(Self) -> Self) -> Self {
         register(self)

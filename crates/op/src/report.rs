@@ -102,7 +102,8 @@ impl Report {
         }
     }
 
-    /// Counts edits that were refused for this reason. `first` is called only for the first edit of a reason.
+    /// Counts edits that were refused for this reason. `first` returns the message of the first of them. It is called
+    /// only if the report has no refusal for this reason yet.
     pub(crate) fn count_refused(
         &mut self,
         reason: Refusal,

@@ -66,7 +66,8 @@ impl<'a> Source<'a> {
     }
 
     /// Multiplies the coordinates by a factor above 0 for each axis, and then moves the mesh from the origin to
-    /// `center`, the parameter of that name. Error messages name the parameters that determine the factors.
+    /// `center`, the parameter of that name. `parameters` are the names, for error messages, of the parameters that
+    /// determine the factors.
     #[must_use]
     pub fn placed(mut self, parameters: &'static str, scale: [f64; 3], center: Vector) -> Self {
         self.scale_parameters = parameters;
@@ -90,7 +91,8 @@ impl<'a> Source<'a> {
         problems
     }
 
-    /// Adds the object at the end of a scene. `make` is called after all checks.
+    /// Adds the object at the end of a scene. `make` creates the mesh and is called only if the checks of the problems,
+    /// the name and the memory succeed.
     ///
     /// # Errors
     ///

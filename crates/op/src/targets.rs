@@ -76,7 +76,8 @@ impl TargetKind {
     }
 }
 
-/// Returns the names of the objects that a step acts on, in the order of the scene.
+/// Returns the names of the objects that a step acts on, in the order of the scene: the objects named in `on:`, or all
+/// objects whose geometry `is_wanted` accepts.
 ///
 /// # Errors
 ///

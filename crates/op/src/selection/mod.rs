@@ -271,7 +271,7 @@ fn marks<S: Select>(mesh: &Mesh, predicate: impl Fn(S::Id) -> bool) -> Vec<bool>
     mask
 }
 
-/// Returns the elements with the tag `name`.
+/// Returns a mask of the elements with the tag `name`.
 fn tagged<S: Select>(mesh: &Mesh, name: &str) -> Result<Vec<bool>, OpError> {
     if let Some(mask) = mesh.tag(S::Id::DOMAIN, name) {
         return Ok(mask.to_vec());

@@ -56,8 +56,8 @@ fn follow(
     mask
 }
 
-/// Returns the edges of the shortest path between two vertices. Among paths of equal length, each vertex is reached
-/// from the predecessor with the lowest number.
+/// Returns the edges of the shortest path between two vertices, starting with the edge at `to`. If several shortest
+/// paths lead to a vertex, the path through the predecessor with the lowest number is chosen.
 ///
 /// E. W. Dijkstra, "A note on two problems in connexion with graphs", 1959.
 ///

@@ -86,7 +86,7 @@ impl Store for Disk {
     }
 
     fn remove_folder(&self, folder: &Path) -> Result<(), StoreError> {
-        // Tries a second time after an error: a folder that cannot be listed now may be listable a moment later.
+        // After an error, tries a second time with fewer file descriptors.
         fs::remove_dir_all(folder)
             .or_else(|_| remove_all(folder))
             .map_err(|error| StoreError::new("write", folder, error))

@@ -1,6 +1,7 @@
 //! Reading and writing files: on the [`Disk`], or in [`Memory`] if there is no disk, as in a browser.
 //!
-//! Libraries do not use `std::fs`; their callers pass a [`Store`]. A file is written completely or not at all.
+//! The libraries that read and write models and recipes do not use `std::fs`; their callers pass a [`Store`]. A file is
+//! written completely or not at all.
 //!
 //! # Examples
 //!
@@ -64,7 +65,7 @@ pub trait Store: Debug + Send + Sync {
     /// [`StoreError`] if the path does not exist.
     fn canonical(&self, path: &Path) -> Result<PathBuf, StoreError>;
 
-    /// The paths of all files and folders in a folder, sorted.
+    /// Returns the paths of all files and folders in a folder, sorted.
     ///
     /// # Errors
     ///
@@ -78,8 +79,9 @@ pub trait Store: Debug + Send + Sync {
     /// [`StoreError`] if the folder cannot be created.
     fn make_folder(&self, folder: &Path) -> Result<(), StoreError>;
 
-    /// Creates an empty folder with a new name that begins with [`temporary_prefix`], inside `folder` or, if that
-    /// is `None`, in the default location for temporary files. [`TemporaryFolder`] also removes the folder.
+    /// Creates an empty folder with a new name, inside `folder` or, if that is `None`, in the default location for
+    /// temporary files. On disk, the name begins with the [`temporary_prefix`] of this process. [`TemporaryFolder`]
+    /// also removes the folder.
     ///
     /// # Errors
     ///
@@ -180,7 +182,7 @@ pub struct Entry {
     pub kind: Kind,
     /// The length of a file in bytes.
     pub len: u64,
-    /// The time of the last change, if known. For files in memory, the number of the change as nanoseconds.
+    /// The time of the last change, if known. For files in memory, it is not a real time, but later for later changes.
     pub modified: Option<SystemTime>,
 }
 
@@ -228,7 +230,7 @@ impl From<StoreError> for io::Error {
     }
 }
 
-/// The parent folder of `path`; `.` if the path is only a file name.
+/// Returns the parent folder of `path`; `.` if the path is only a file name.
 pub fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if parent != Path::new("") => parent,
@@ -246,7 +248,7 @@ fn check_target(store: &dyn Store, path: &Path) -> Result<(), StoreError> {
     Err(StoreError::new("write", path, io::Error::other(problem)))
 }
 
-/// The paths of all files below a folder, sorted.
+/// Returns the paths of all files below a folder, sorted.
 ///
 /// # Errors
 ///

@@ -8,8 +8,8 @@ use std::time::{Duration, SystemTime};
 
 use crate::{Entry, Kind, NewFile, Store, StoreError, check_target};
 
-/// Files that exist until this value is dropped. The working directory is the root, `..` is resolved by name, and
-/// there are no links.
+/// Files that exist until this value is dropped. The working directory is the root, `..` removes the folder name before
+/// it, and there are no links.
 #[derive(Debug, Default)]
 pub struct Memory(Mutex<Content>);
 
@@ -39,7 +39,7 @@ impl Content {
     }
 }
 
-/// The path relative to the root, without `.` and `..`.
+/// Returns the path relative to the root, without `.` and `..`.
 fn normalized(path: &Path) -> PathBuf {
     let mut parts = PathBuf::new();
     for part in path.components() {

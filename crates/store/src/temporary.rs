@@ -22,7 +22,7 @@ impl<'s> TemporaryFolder<'s> {
         Ok(Self { store, path })
     }
 
-    /// The path of the folder.
+    /// Returns the path of the folder.
     pub fn path(&self) -> &Path {
         &self.path
     }

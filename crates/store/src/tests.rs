@@ -3,7 +3,7 @@ use std::path::PathBuf;
 
 use super::*;
 
-/// Both stores, each with a separate folder.
+/// Returns both stores, each with the path of an empty folder in it.
 fn stores() -> [(Box<dyn Store>, PathBuf, Option<tempfile::TempDir>); 2] {
     let folder = tempfile::tempdir().unwrap();
     [

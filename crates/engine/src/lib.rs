@@ -32,7 +32,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-/// The examples of the book are tests.
+/// Runs the examples of the chapter about the library as tests.
 #[cfg(doctest)]
 #[doc = include_str!("../../../book/src/library.md")]
 struct Library;

@@ -46,7 +46,8 @@ impl Number {
         }
     }
 
-    /// Returns the value of a whole number. `None` if the number is not whole or does not fit 128 bits.
+    /// Returns the value of an [`Int`](Self::Int). `None` for a [`Float`](Self::Float), or if the value does not fit
+    /// 128 bits.
     pub fn to_int(&self) -> Option<i128> {
         match self {
             Self::Int(text) => parse_int(text)?.ok(),
@@ -54,7 +55,7 @@ impl Number {
         }
     }
 
-    /// Whether the number is whole.
+    /// Whether the number is written without a decimal point and an exponent.
     pub fn is_int(&self) -> bool {
         matches!(self, Self::Int(_))
     }

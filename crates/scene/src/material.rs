@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-/// A material. Colors are linear. Each texture multiplies the corresponding value.
+/// A material. Colors are linear.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// The name.
@@ -14,7 +14,7 @@ pub struct Material {
     pub base_color_texture: Option<Texture>,
     /// The metalness, from 0 (not a metal) to 1 (metal).
     pub metallic: f64,
-    /// The roughness, from 0 (mirror) to 1 (matt).
+    /// The roughness, from 0 (mirror) to 1 (matte).
     pub roughness: f64,
     /// The texture whose green channel multiplies the roughness, and whose blue channel multiplies the metalness.
     pub metallic_roughness_texture: Option<Texture>,

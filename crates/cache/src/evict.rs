@@ -20,7 +20,7 @@ struct Entry {
     used: SystemTime,
 }
 
-/// Lists all files of the cache, except files that are being written.
+/// Lists the steps, blobs and recipes of the cache, without files that are being written.
 fn entries(folder: &Folder) -> io::Result<Vec<Entry>> {
     let mut entries = Vec::new();
     for kind in Kind::ALL {

@@ -3,17 +3,17 @@
 //! ```text
 //! steps/ab/cdef..     the records of a step, by its key: report, counts, files, and references to blobs
 //! blobs/12/3456..     arrays of scenes and output files, each by the BLAKE3 digest of its content
-//! recipes/..          the key ingredients of the steps in the last run of a recipe, to explain what changed
+//! recipes/..          what the keys of the steps in the last run of a recipe were computed from, to explain changes
 //! tmp/                files that are being written
 //! sizes               the number of bytes that each run has added
 //! key                 the secret key of the cache: random bytes that enter the digests of records
 //! ```
 //!
 //! **Keys.** The key of a step is the digest of everything that determines its result before it runs: the program, the
-//! operation with its version and parameters, the objects in `on`, the name that seeds random choices, the memory
-//! budget, and the state before the step. The state after a step is the digest of its key and of the contents of the
-//! files that it read. These files are known only after the step has run; their contents are compared again before a
-//! cached result is used. Modification times are not used for this.
+//! operation with its version and parameters, the objects in `on`, the label that seeds random choices, the expected
+//! refusal, the memory budget, and the state before the step. The state after a step is the digest of its key and of
+//! the contents of the files that it read. These files are known only after the step has run; their contents are
+//! compared again before a cached result is used. Modification times are not used for this.
 //!
 //! **Integrity.** Only regular files are read, never links, and never more bytes than were stored. Every blob must
 //! match the digest in its name, and every record its digest, which depends on the secret key of the cache. Only the
@@ -71,8 +71,8 @@ pub struct Cache {
 pub struct Caching<'a> {
     /// The cache.
     pub cache: &'a Cache,
-    /// The file of the recipe, if it has one. The key ingredients of its steps are stored, so that the next run can
-    /// report what changed.
+    /// The file of the recipe, if it has one. What the keys of its steps were computed from is stored, so that the next
+    /// run can report what changed.
     pub recipe: Option<&'a Path>,
     /// Whether [`Outcome::scene`](recipe::Outcome::scene) must be available even if no step needs it.
     pub want_scene: bool,

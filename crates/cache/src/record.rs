@@ -13,9 +13,9 @@ use crate::folder::{Folder, Hash, Kind, Unusable, write_all};
 use crate::inputs::Inputs;
 use crate::key::Key;
 
-/// The first bytes of every file that is not a blob.
+/// The first bytes of every file with records or with a history.
 const MAGIC: &[u8] = b"meshwright cache\n";
-/// The maximum size of a record in bytes.
+/// The maximum size of a file with records or with a history, in bytes.
 const MAX_BYTES: u64 = 1 << 26;
 /// The maximum number of records for one key. They differ in the contents of the input files.
 const MAX_RECORDS: usize = 4;

@@ -27,8 +27,7 @@ pub struct CurveLevels {
     pub t: ClosedFraction,
 }
 
-/// Returns the size in bytes of all levels of a curve with n control points, at most 4096: n (n + 1) / 2
-/// points of 24 bytes each.
+/// Returns the size in bytes of all levels of a curve with n control points: n (n + 1) / 2 points of 24 bytes each.
 fn bytes(n: u64) -> u64 {
     n.saturating_mul(n.saturating_add(1)) / 2 * 24
 }

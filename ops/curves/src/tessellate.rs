@@ -23,10 +23,10 @@ use scene::Geometry;
 ///
 /// Acts on all objects that consist of patches, or on the objects in `on`. Each object becomes one mesh of
 /// the same name. Every patch is divided into `segments` x `segments` cells. Elements are numbered patch
-/// after patch. Patches share no vertices, but if they have the same control points on a common side, their
-/// positions there are equal bit for bit, so that `Weld(distance: 0)` joins them. A side whose points
-/// coincide, as at the pole of a teapot's lid, becomes one vertex. Patches without area give no faces and
-/// are counted. The mesh has UVs and normals only if they are requested.
+/// after patch. Patches share no vertices, but if they have the same control points on a common side, the
+/// positions of their vertices there are equal bit for bit, so that `Weld(distance: 0)` joins them. A side
+/// whose points coincide, as at the pole of a teapot's lid, becomes one vertex. Patches without area give no
+/// faces and are counted. The mesh has UVs and normals only if they are requested.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tessellate {

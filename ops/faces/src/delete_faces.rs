@@ -13,14 +13,14 @@ use op::prelude::*;
 
 /// Removes faces and leaves holes.
 ///
-/// All faces are removed at once, so their order does not matter. Edges left without a face are removed. Corners of the
-/// faces are removed if they are left without an edge, unless `keep_vertices` is true. Vertices that were isolated
-/// before the step are kept. The remaining elements keep their order and their values but are renumbered. To delete
-/// edges or vertices together with their faces, use `FacesBeside(edges)` or `FacesAround(vertices)`.
+/// All faces are removed at once, so their order does not matter. Edges left without a face are removed. Vertices that
+/// lose their last edge are removed too, unless `keep_vertices` is true. Vertices that were isolated before the step
+/// are kept. The remaining elements keep their order and their values but are renumbered. To delete edges or vertices
+/// together with their faces, use `FacesBeside(edges)` or `FacesAround(vertices)`.
 ///
 /// The removal is refused if the remaining faces around a vertex would form separate fans that meet only at that
 /// vertex. With `on_refusal: Skip`, faces are instead removed one by one, in order of their numbers, in repeated passes
-/// until no more faces can be removed. The faces that remain are counted.
+/// until no more of them can be removed. The selected faces that remain are counted as refused.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DeleteFaces {

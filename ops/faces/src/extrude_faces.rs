@@ -31,9 +31,9 @@ use region::Region;
 ///
 /// The faces keep their numbers, so the same selection can be extruded again in later steps, for example to grow an arm
 /// out of a body. Vertices and edges inside a region also keep their numbers. The vertices and edges of the old rim do
-/// not move, and the moved faces get new ones. New side faces are numbered last: by region in order of their lowest
-/// faces, then in order of the faces, then counter-clockwise around each face from its first corner. New vertices are
-/// in the same order, each above the first vertex of its side face.
+/// not move, and the moved faces get new ones. New side faces are numbered last: by region, in order of the lowest face
+/// number in each region, then in order of the faces, then counter-clockwise around each face from its first corner.
+/// New vertices are in the same order: each is the copy of the first vertex of its side face.
 ///
 /// A side face has the values of the adjacent moved face (material, tags). Its corners have the values of the corners
 /// of that face, so textures have no seam there, but each side face only shows the line of the texture along its edge.

@@ -21,8 +21,8 @@ use op::{Loss, Operation};
 pub struct Load {
     /// The file. A relative path is relative to the folder of the recipe.
     pub path: String,
-    /// The name of the object, if the file holds a single object. Defaults to the name of the file without its
-    /// extension.
+    /// The name for objects that have no name in the file, and for the only object of an `.mws` file. Defaults to the
+    /// name of the file without its extension; objects of an `.mws` file then keep their names.
     #[serde(default)]
     pub name: Option<String>,
     /// What to do if more than two faces share an edge, or if faces at a vertex share no edge.

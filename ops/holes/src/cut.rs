@@ -15,9 +15,9 @@ use op::prelude::*;
 ///
 /// The edges may form paths, loops and trees; a loop cuts out a piece. Each edge becomes two edges, one for each side.
 /// If the cuts separate the faces around a vertex into several parts, each part gets a separate copy of the vertex. The
-/// part with the lowest face keeps the number of the vertex, and new vertices are numbered last. Faces keep their
-/// numbers, and nothing moves. Copies have the values of the originals, and corners keep their values. `Stitch` is the
-/// inverse.
+/// part that has the face with the lowest number keeps the number of the vertex, and new vertices are numbered last.
+/// Faces keep their numbers, and nothing moves. Copies have the values of the originals, and corners keep their values.
+/// `Stitch` is the inverse.
 ///
 /// All edges are cut at once. An edge is refused if it is on the boundary (`Boundary`), or if the cut would not open
 /// the mesh because both ends are inside the mesh and no other cut continues at either end (`DuplicateEdge`).

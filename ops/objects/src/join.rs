@@ -19,8 +19,9 @@ use scene::Object;
 
 /// Joins meshes into one object.
 ///
-/// Vertices, edges and faces are numbered part by part, in the order of the list. The parts are not connected, even
-/// where they touch. The result replaces the first mesh of the list in the scene; the other meshes are removed.
+/// Each mesh becomes a part of the result. Vertices, edges and faces are numbered part by part, in the order of the
+/// list. The parts are not connected, even where they touch. The result replaces the first mesh of the list in the
+/// scene; the other meshes are removed.
 ///
 /// If a part lacks an attribute that another part has, its elements get the value zero, or -1 (no material) for
 /// material numbers. Normals are dropped and reported as lost unless all parts have them. If an attribute of a part has

@@ -40,10 +40,11 @@ pub struct Separate {
 #[derive(Clone, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum SeparateBy {
-    /// One part for each connected component, in order of their lowest faces.
+    /// One part for each connected component, in order of the lowest face number in each component.
     #[default]
     Components,
-    /// One part for each material, in order of the materials. Faces without a material are the last part.
+    /// One part for each material that a face has, in order of the materials. Faces without a material are the last
+    /// part.
     Material,
     /// The first part has the faces with the tag of this name, and the second part all other faces.
     Tag(String),

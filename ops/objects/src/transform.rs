@@ -33,7 +33,7 @@ use crate::transform::map::Map;
 /// Ids do not change. Normals are transformed; other attributes do not change. A mirror (one or three negative factors in
 /// `scale`) also reverses the faces, so that they are counter-clockwise seen from outside: the first corner of a face
 /// stays first, and the other corners follow in reverse order. In mirrored patches, u and v are exchanged for the same
-/// reason. A mirror drops attributes with the rule `Drop`.
+/// reason. A mirror drops attributes with the rule `Drop`, which are lost whenever the connectivity changes.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Transform {
@@ -62,7 +62,7 @@ pub enum About {
     /// The origin of the scene.
     #[default]
     Origin,
-    /// The center of the bounding box of each object's vertices or control points.
+    /// The center of the bounding box of each object: of its vertices, control points or points of polylines.
     Center,
     /// A point with the coordinates x, y, z.
     Point(f64, f64, f64),

@@ -24,8 +24,8 @@ use view::{ColorBy, Extent, HIGHLIGHT_COLOR, Shot, Subject, highlight};
 
 /// Draws the scene into an image file.
 ///
-/// The extension of the file determines the format: `.png` for an image. For a turntable, `.gif` for an animated GIF,
-/// or `.apng` or `.png` for an animated PNG. The file is written only if the whole recipe succeeds. The scene does not
+/// The extension of the file determines the format: `.png` for an image; with `turntable`, `.gif` for an animated GIF,
+/// and `.apng` or `.png` for an animated PNG. The file is written only if the whole recipe succeeds. The scene does not
 /// change. Drawing needs no GPU and gives the same bytes on every machine.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -191,7 +191,7 @@ impl Picture {
     /// Draws scenes side by side at the same scale, each with its caption, which can be empty. Returns one image, or
     /// the images of a turntable, and notes on parts that are not drawn.
     ///
-    /// If `within` is given, cameras that fit show all of it, and colors of numbers have its range. There is no legend
+    /// If `within` is given, [`Camera::Fit`] shows all of it, and colors of numbers have its range. There is no legend
     /// then, because the scenes have a [common legend](Extent::legend).
     ///
     /// # Errors

@@ -17,11 +17,12 @@ use op::prelude::*;
 /// concave face can be cut several times. A vertex closer to the plane than 1e-9 of the largest extent of the mesh
 /// counts as on the plane and is not moved. The part of an edge at the end with the lower number keeps the number of
 /// the edge, and the part of a face with the first corner keeps the number of the face. New elements are numbered last.
-/// Attributes are interpolated at the crossings, on both sides of seams.
+/// Attributes are interpolated at the crossings, separately on each side of a seam.
 ///
-/// With `keep`, one side of the plane is removed. A face in the plane belongs to the back if its normal points to the
-/// front, because it closes the solid behind it. Vertices left without a face are removed. If the remaining faces
-/// around a vertex form several fans, each fan gets a separate copy of the vertex. The cut is not closed with faces.
+/// With `keep: Front` or `keep: Back`, the other side of the plane is removed. A face in the plane belongs to the back
+/// if its normal points to the front, because it closes the solid behind it. Vertices left without a face are removed.
+/// If the remaining faces around a vertex form several fans, each fan gets a separate copy of the vertex. The cut is
+/// not closed with faces.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bisect {

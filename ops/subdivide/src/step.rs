@@ -18,13 +18,13 @@ use subdivision::{
 pub enum Until {
     /// Stops as soon as all edges are shorter than `below`.
     EdgeLength {
-        /// In scene units.
+        /// The length, in scene units.
         below: PositiveLength,
     },
     /// Stops as soon as every vertex is nearer than `below` to its limit position. Only for Loop and
     /// Catmull-Clark.
     LimitDistance {
-        /// In scene units.
+        /// The distance, in scene units.
         below: PositiveLength,
     },
 }

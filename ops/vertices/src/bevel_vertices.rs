@@ -13,9 +13,9 @@ use op::prelude::*;
 
 /// Replaces vertices with faces.
 ///
-/// Each edge at a selected vertex is cut at a fraction of its length before the step, and a new face joins the cuts.
-/// The new face has as many corners as the vertex had edges. If both ends of an edge are selected, the fraction must be
-/// below 0.5. For example, a fraction of 0.25 turns a cube into a truncated cube.
+/// Each edge at a selected vertex is cut at a fraction of the length that it had before the step, and a new face joins
+/// the cuts. The new face has as many corners as the vertex had edges. If both ends of an edge are selected, the
+/// fraction must be below 0.5. For example, a fraction of 0.25 turns a cube into a truncated cube.
 ///
 /// The selected vertices are removed, and later vertices are renumbered. New vertices are numbered last, in order of
 /// the selected vertices and clockwise around each vertex. Faces keep their numbers; new faces are numbered last, in

@@ -119,7 +119,7 @@ fn flow_fields(kind: Kind, step: &Json) -> Json {
             json!(["times", "steps"]),
         ),
         Kind::If => (
-            "Run steps if a parameter has a value",
+            "Run steps if a parameter has a given value",
             json!({
                 "param": { "type": "string", "description": "The name of the parameter." },
                 "is": { "description": "The value to compare the parameter with. Defaults to `true`." },

@@ -66,7 +66,7 @@ fn typed<T: DeserializeOwned + JsonSchema>(value: &Value) -> Result<T, Vec<Diagn
 }
 
 /// Returns the elements of an object that a selection matches. `stream` seeds random choices. To get the same choices
-/// as a step, pass the id of the step or, if it has none, the name of its operation.
+/// as a step, pass the label of the step.
 ///
 /// # Errors
 ///

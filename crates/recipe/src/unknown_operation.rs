@@ -5,9 +5,10 @@ use op::Registry;
 use crate::recipe::Kind;
 use crate::shape::{listed, nearest};
 
-/// Returns the help text of an error about an unknown operation: at most three operations, first those with a similar
-/// name, then those with a similar meaning, or else those that share a word of their name, or else the command that lists
-/// all.
+/// Returns the help text of an error about an unknown operation. It suggests at most three operations: first those with
+/// a similar name, then those that have a word of the name in their list of words. If there are none, it suggests
+/// operations whose names share a word with the name. If there are none either, it names the command that lists all
+/// operations.
 pub fn suggest_operations(name: &str, registry: &Registry) -> String {
     let entries = registry.entries();
     let known = entries.iter().map(|entry| entry.name);

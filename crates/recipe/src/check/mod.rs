@@ -19,7 +19,7 @@ pub(crate) use attributes::forbidden;
 /// The forecast of the scene after a step.
 #[derive(Clone, Debug)]
 pub struct StepForecast {
-    /// The step's id or, if it has none, its operation.
+    /// The label of the step.
     pub label: String,
     /// The number of vertices of all meshes together.
     pub vertices: Range,
@@ -58,7 +58,8 @@ impl Forecast {
     }
 }
 
-/// Plans every step. `budget` is the memory budget for meshes, in bytes.
+/// Checks a recipe that was read: plans every step, and returns the forecast. `budget` is the memory budget for meshes,
+/// in bytes.
 pub fn check(recipe: &Recipe, files: &Files, budget: u64) -> Forecast {
     let mut forecast = Forecast::default();
     let mut plan = Plan::default();

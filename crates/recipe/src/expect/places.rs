@@ -184,7 +184,7 @@ fn within<T: PartialOrd + Copy>(found: T, min: Option<T>, max: Option<T>) -> boo
     min.is_none_or(|min| found >= min) && max.is_none_or(|max| found <= max)
 }
 
-/// A place without a name.
+/// Creates a place without a name.
 fn point(at: DVec3) -> ErrorLocation {
     ErrorLocation {
         object: String::new(),
@@ -193,7 +193,7 @@ fn point(at: DVec3) -> ErrorLocation {
     }
 }
 
-/// An expected place.
+/// Creates a place where an element is expected but missing.
 fn expected(at: DVec3) -> ErrorLocation {
     ErrorLocation {
         name: ErrorLocation::EXPECTED.to_owned(),

@@ -40,7 +40,7 @@ impl<'m> PositionIndex<'m> {
         rest.take_while(move |&v| x(v) <= p.x + tolerance)
     }
 
-    /// Whether the distance of a vertex from `p` is within the tolerance.
+    /// Whether any vertex is near `p`: at a distance of at most the tolerance.
     pub(super) fn any_near(&self, p: DVec3, tolerance: f64) -> bool {
         self.near(p, tolerance)
             .any(|v| self.mesh.position(v).distance(p) <= tolerance)

@@ -49,7 +49,7 @@ pub struct Violation {
 }
 
 impl Violation {
-    /// A violation without an actual value that could be recorded.
+    /// Creates a violation without an actual value that could be recorded.
     pub(super) fn unmet(message: impl Into<String>) -> Self {
         Self {
             message: message.into(),
@@ -58,7 +58,7 @@ impl Violation {
         }
     }
 
-    /// A violation with the actual value, which can replace the expected value.
+    /// Creates a violation with the actual value, which can replace the expected value.
     pub(super) fn with_actual(message: String, found: ActualValue) -> Self {
         Self {
             found: Some(found),

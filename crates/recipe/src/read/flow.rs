@@ -3,7 +3,7 @@
 //! ```text
 //! Call(recipe: "clean.ron", with: {"distance": 1e-6})    runs the steps of another recipe
 //! Repeat(times: 3, steps: [..])                          runs the steps 3 times
-//! If(param: "smooth", steps: [..], otherwise: [..])      runs the steps if a parameter is true or has a value
+//! If(param: "smooth", steps: [..], otherwise: [..])      runs the steps if a parameter is true, or equals `is`
 //! ```
 //!
 //! Such a step is replaced by its inner steps while the recipe is read. A called recipe works on the current scene,

@@ -146,7 +146,7 @@ struct Shared<'a> {
     diagnostics: Vec<Diagnostic>,
 }
 
-/// Returns the path with links resolved, if the file exists.
+/// Returns the path with links resolved, or the path itself if the file does not exist.
 fn canonical(store: &dyn Store, path: &Path) -> PathBuf {
     store.canonical(path).unwrap_or_else(|_| path.to_owned())
 }

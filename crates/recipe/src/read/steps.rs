@@ -78,7 +78,8 @@ impl Reader<'_, '_> {
         // `check_shape` has reported invalid values.
         let refused = envelope("refused").and_then(|reason| Refusal::deserialize(reason).ok());
         let on_loss = envelope("on_loss").and_then(|on_loss| OnLoss::deserialize(on_loss).ok());
-        // The name seeds random choices. An old name is replaced by the current one, so that the choices are the same.
+        // The name can be a part of the label, which seeds random choices. An old name is replaced by the current one,
+        // so that the choices are the same.
         let name = entry.as_ref().map_or(name, |entry| entry.name).to_owned();
         Draft::new(RecipeStep {
             step,

@@ -52,7 +52,7 @@ pub struct Failure<'a> {
 /// A step that is done.
 #[derive(Clone, Debug)]
 pub struct StepDone {
-    /// The step's id or, if it has none, its operation.
+    /// The label of the step.
     pub label: String,
     /// The report of the step.
     pub report: Report,

@@ -1,8 +1,8 @@
 //! Checks values of a recipe against the JSON schema of their Rust type.
 //!
-//! The schema is derived by `schemars`, and the values are written as `ron` writes the type: every value that is
-//! accepted here can be deserialized. Unlike deserialization, the check finds all errors of a value, each with its span
-//! and a help text.
+//! The schema is derived by `schemars`, and the values are written as `ron` writes the type: a value that is accepted
+//! here can be deserialized, unless it breaks a rule that the schema does not state (a direction must not be zero).
+//! Unlike deserialization, the check finds all errors of a value, each with its span and a help text.
 //!
 //! ```text
 //! schema                                        in the recipe

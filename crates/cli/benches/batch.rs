@@ -35,7 +35,7 @@ const RECIPE: &str = r#"(
 
 const FILES: u32 = 200;
 
-/// A wavy grid.
+/// Returns the text of an OBJ file with a wavy grid.
 fn grid(seed: u32) -> String {
     const SIDE: u32 = 40;
     let mut text = String::new();

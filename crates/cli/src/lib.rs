@@ -1,6 +1,6 @@
 //! The program: command line, output and exit codes, for any registry of operations.
 //!
-//! A program with additional operations needs five lines:
+//! A program with additional operations needs only this function:
 //!
 //! ```no_run
 //! fn main() -> std::process::ExitCode {
@@ -9,7 +9,7 @@
 //! }
 //! ```
 //!
-//! Exit codes: 0 success, 1 failure, 2 wrong usage.
+//! Exit codes: 0 success, 1 failure, 2 wrong usage, 130 interrupted by Ctrl-C. `diff` also exits with 2 after an error.
 
 mod args;
 mod cache;

@@ -7,7 +7,8 @@ use crate::listener::is_interrupted;
 /// Number of runs that are checked before the first of them starts. The loaded recipe of each stays in memory.
 pub(crate) const CHECKED_AHEAD: usize = 1000;
 
-/// The result of a job. The error is the message of a panic, or `None` if the job was not started.
+/// The result of a job. The error is the message of a failure or panic, or `None` if the job was not started or was
+/// canceled.
 pub(crate) type JobResult<T> = Result<T, Option<String>>;
 
 /// Runs jobs, several at the same time, and passes their results to `each` in the order of the jobs.

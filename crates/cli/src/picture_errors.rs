@@ -40,7 +40,7 @@ impl PictureErrorsArgs {
 /// Maximum number of pictures of a run.
 const MAX_PICTURES: usize = 20;
 
-/// Larger files, in bytes, are not compared as pictures: no picture of a recipe is this large.
+/// Files with more bytes are not compared as pictures: no picture of a recipe is this large.
 const MAX_FILE_SIZE: u64 = 64 << 20;
 
 /// Draws the failures of a run, if requested, and keeps the list of pictures.

@@ -12,10 +12,10 @@ use crate::listener::{Terminal, catch_interrupts};
 use crate::loading::load_recipe;
 use crate::output::{print_diagnostics, print_error};
 
-/// A scene, with the key of the random choices that the next step makes.
+/// A scene at one point of a recipe, or of a file.
 pub(crate) struct SceneAtStep {
     pub(crate) scene: Scene,
-    /// The key of random choices of the step before which the recipe stopped; otherwise empty.
+    /// The label of the step before which the recipe stopped, which seeds random choices; otherwise empty.
     pub(crate) stream: String,
 }
 

@@ -67,7 +67,7 @@ fn two_parameters_label_rows_and_columns() {
     );
     sheet(&folder, "").with_code(0);
     let made = pixels(&folder, "s.png");
-    // Columns are labelled by the last parameter and rows by the first; the values of `keep` are below each cell.
+    // Columns are labeled by the last parameter and rows by the first; the values of `keep` are below each cell.
     let [width, height] = made.size;
     let beside = width - (12 + 3 * 102);
     assert!((40..=102).contains(&beside), "{beside}");

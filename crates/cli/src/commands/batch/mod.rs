@@ -86,7 +86,7 @@ fn summary(report: &Report, kept: usize, args: &BatchArgs) -> String {
 enum Task {
     /// Nothing: this is its row from an earlier run.
     Keep(Row),
-    /// Run the recipe, with this peak memory in bytes.
+    /// Run the recipe, with this estimated peak memory in bytes.
     Run(Box<Loaded>, u64),
     /// Report a failure, because the recipe cannot be run on this file.
     Fail(FileResult),

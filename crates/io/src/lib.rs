@@ -1,4 +1,4 @@
-//! Reading and writing OBJ, glTF, PLY, STL, OFF, COLLADA and Bezier files.
+//! Reading and writing OBJ, glTF, PLY, STL, OFF, COLLADA, Bezier and Meshwright scene files.
 //!
 //! [`read()`] reads the objects of a file, [`write()`] writes a scene to files, and [`peek()`] returns what a file
 //! holds (formats, kinds, counts) without building meshes. The extension of the file name chooses the [`Format`]:
@@ -109,8 +109,9 @@ use writing::without_marks;
 /// How to read a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ReadOptions {
-    /// The name of an object that has no name in the file. If `None`, the name of the file without its extension.
-    /// In glTF files, objects are named after their nodes, and this name is used for nodes without a name.
+    /// The name for objects that have no name in the file, and for the only object of an `.mws` file. If `None`, the
+    /// name of the file without its extension; objects of an `.mws` file then keep their names. In glTF and COLLADA
+    /// files, objects are named after their nodes, or else after their meshes.
     pub name: Option<String>,
     /// How to handle polygons that do not form a clean mesh.
     pub policies: Policies,

@@ -52,7 +52,7 @@ pub(super) struct Document {
 }
 
 impl Document {
-    /// Deserialises the parts of the document. Adds notes for the content that the reader ignores.
+    /// Deserializes the parts of the document. Adds notes for the content that the reader ignores.
     ///
     /// # Errors
     ///
@@ -283,7 +283,7 @@ fn list<'a>(json: &'a Value, key: &str) -> Result<&'a [Value], Fault> {
     }
 }
 
-/// Deserialises the elements of a list. An element with default values takes far less space in the text than in
+/// Deserializes the elements of a list. An element with default values takes far less space in the text than in
 /// memory.
 fn pieces<T: DeserializeOwned>(json: &Value, key: &str, budget: &Budget) -> Result<Vec<T>, Fault> {
     let piece = |(i, value): (usize, &Value)| {

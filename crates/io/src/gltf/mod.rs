@@ -59,7 +59,7 @@
 //! Content can be repeated, such as a mesh of several nodes, but the memory that a file can use is limited to 64
 //! times its size, or 16 MiB if that is more.
 //!
-//! Each part of the JSON is deserialised separately into the types of `gltf_json`, so that an error has the JSON
+//! Each part of the JSON is deserialized separately into the types of `gltf_json`, so that an error has the JSON
 //! pointer of its part, and errors in parts that are not read do not matter.
 
 mod accessor;

@@ -122,7 +122,7 @@ const MAX_BLANKS: usize = 16;
 
 /// Reads the materials of one library. Lines that cannot be read are left out, with a note.
 fn read_library(bytes: &[u8], notes: &mut Notes) -> Vec<Material> {
-    // Normalises line ends and encoding, because tobj only accepts LF and UTF-8.
+    // Normalizes line ends and encoding, because tobj only accepts LF and UTF-8.
     let text = name(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes));
     let text = text.replace("\r\n", "\n").replace('\r', "\n");
     if let Err(error) = check_encoding(bytes) {

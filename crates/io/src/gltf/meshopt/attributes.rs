@@ -43,8 +43,8 @@ fn elements_in_block(stride: usize) -> usize {
     (BLOCK_BYTES / stride / GROUP * GROUP).min(BLOCK)
 }
 
-/// A lower bound for the size of a stream of `count` elements of `stride` bytes, at most 256. In blocks of zeros,
-/// version 0 needs 2 bits for each 16 bytes, and version 1 needs 2 bits for each byte of an element.
+/// A lower bound for the size of a stream of `count` elements of `stride` bytes. The stride is at most 256. In blocks
+/// of zeros, version 0 needs 2 bits for each 16 bytes, and version 1 needs 2 bits for each byte of an element.
 pub(super) fn shortest(count: u64, stride: u64) -> u64 {
     let stride = usize::try_from(stride).unwrap_or(BLOCK).clamp(1, BLOCK);
     let block = elements_in_block(stride) as u64;

@@ -37,7 +37,7 @@ impl<'a> Context<'a> {
     ///
     /// # Errors
     ///
-    /// [`OpError::Cancelled`] if the run was cancelled. The operation returns this error at once.
+    /// [`OpError::Cancelled`] if the run was canceled. The operation returns this error at once.
     pub fn advance(&self, what: &str, done: u64, total: u64) -> Result<(), OpError> {
         Ok(self.progress.report(what, done, total)?)
     }

@@ -55,7 +55,7 @@ pub enum Seams {
     /// Refuse the edit.
     #[default]
     Refuse,
-    /// Edit anyway. Each corner keeps the values of one side of the seam.
+    /// Edit anyway. Each corner at the edge gets the values of one side of the seam.
     Drop,
 }
 
@@ -109,7 +109,7 @@ impl<E: EditTarget> EditTarget for [E; 2] {
 /// Edits the elements in order. Each edit is checked against the mesh as edited so far.
 ///
 /// The report counts the edits and, for [`OnRefusal::Skip`], the refused edits by reason. Elements that an
-/// earlier edit removed count as refused.
+/// earlier edit removed count as refused. `what` names the work in reports of the progress.
 ///
 /// # Errors
 ///

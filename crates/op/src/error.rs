@@ -104,7 +104,7 @@ impl From<EditError> for Refusal {
 /// Why an operation failed. After an error, the runner restores the scene from before the step.
 #[derive(Debug, thiserror::Error)]
 pub enum OpError {
-    /// The run was cancelled.
+    /// The run was canceled.
     #[error("cancelled")]
     Cancelled,
     /// An edit or a selection was refused.

@@ -120,9 +120,9 @@ impl Files {
         full
     }
 
-    /// Logs that a file was read: a file whose path [`to_read`](Self::to_read) returned, or a file to which such a
-    /// file refers. If an operation calls this for every requested path, the step can be cached. The result of the
-    /// step must then not depend on the contents of any other file.
+    /// Logs that a file was read: a file whose path [`to_read`](Self::to_read) returned, or a file that this file
+    /// refers to. If an operation calls this for every requested path, the step can be cached. The result of the step
+    /// must then not depend on the contents of any other file.
     pub fn has_read(&self, path: impl Into<PathBuf>) {
         self.log.note(FileUse::Read(path.into()));
     }

@@ -377,7 +377,8 @@ impl Plan {
         Some(Problem::error(message).at([field]))
     }
 
-    /// Returns a problem with the known names if no object has this name. `path` is the parameter with the name.
+    /// Returns a problem with the known names if no object has this name and the plan is not incomplete. `path` is the
+    /// parameter with the name.
     pub fn missing<const N: usize>(&self, name: &str, path: [&str; N]) -> Option<Problem> {
         if self.incomplete || self.object(name).is_some() {
             return None;

@@ -10,7 +10,7 @@ use crate::{OpError, Refusal};
 /// The report of a step: what it changed, which edits were refused, what was lost, and notes.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Eq, Serialize)]
 pub struct Report {
-    /// The number of elements that were changed or created.
+    /// The number of elements or objects that were changed or created.
     pub changed: u64,
     /// Edits that were refused and skipped, by reason.
     pub refused: Vec<Refused>,

@@ -119,7 +119,7 @@ impl<'a> Source<'a> {
         let bytes = self.counts.bytes().min;
         if bytes > cx.budget {
             let message = format!(
-                "the mesh takes {bytes} bytes, but the budget is {}",
+                "the mesh takes {bytes} bytes, but the memory budget is {} bytes",
                 cx.budget
             );
             return Err(OpError::Budget(message));

@@ -141,7 +141,8 @@ impl Join {
         let bytes: usize = meshes.iter().map(|m| m.bytes()).sum();
         let budget = cx.budget;
         if bytes as u64 > budget {
-            let message = format!("the result takes {bytes} bytes, but the budget is {budget}");
+            let message =
+                format!("the result takes {bytes} bytes, but the memory budget is {budget} bytes");
             return Err(OpError::Budget(message));
         }
         let mut joined = parts::connected(&meshes, cx)?;

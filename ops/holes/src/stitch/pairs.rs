@@ -10,7 +10,7 @@ use op::{Context, OpError};
 pub(crate) struct Pairs {
     /// Pairs of edges that coincide only with each other, in order of the lower half-edge.
     pub(crate) pairs: Vec<[HalfEdgeId; 2]>,
-    /// Edges that coincide with several edges, in order.
+    /// Edges that coincide with several edges, in order of the half-edges.
     pub(crate) ambiguous: Vec<HalfEdgeId>,
 }
 

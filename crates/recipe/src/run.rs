@@ -1,8 +1,8 @@
 //! Runs a recipe.
 //!
 //! Steps run one after another on a scene. If a step fails, the run ends and no outputs are written: steps write to
-//! a temporary folder inside the output folder, and the files are moved to the output folder only after all steps
-//! have run and all expectations hold.
+//! a temporary folder, and the files are moved to the output folder only after all steps have run and all expectations
+//! hold.
 //!
 //! With a [cache](StepCache), a step runs only if the cache does not have its result. A scene is loaded from the cache
 //! only if a step must run on it or an expectation must be checked against it.
@@ -145,7 +145,7 @@ pub(crate) struct StepError {
     places: Vec<ErrorLocation>,
 }
 
-/// The run ends early because it was cancelled or because a failure was reported.
+/// The run ends early because it was canceled or because a failure was reported.
 struct Stopped;
 
 impl Runner<'_> {
@@ -444,7 +444,7 @@ impl Runner<'_> {
 ///
 /// # Errors
 ///
-/// If the step was cancelled, `None`. If the step failed, the reason. In both cases, the scene is unchanged. But if the
+/// If the step was canceled, `None`. If the step failed, the reason. In both cases, the scene is unchanged. But if the
 /// operation panicked and the scene had not been cloned before, the scene is empty.
 pub(crate) fn run_step(
     step: &RecipeStep,

@@ -42,8 +42,8 @@ pub fn is_alike(a: &str, b: &str) -> bool {
     words(a) == words(b)
 }
 
-/// Returns the smallest scene that was found for which `fails` is still true. `fails` must be true for `scene`. Calls
-/// `fails` at most `tries` times.
+/// Returns the smallest scene that was found for which `fails` returns true. `fails` must return true for `scene`, and
+/// is called at most `tries` times.
 ///
 /// # Errors
 ///

@@ -129,7 +129,7 @@ pub struct Subject<'a> {
     pub files: &'a Files,
     /// Reads the files that the expectation refers to.
     pub reader: &'a dyn Reader,
-    /// Receives the progress of a check, and can cancel the check. A cancelled check fails.
+    /// Receives the progress of a check, and can cancel the check. A canceled check fails.
     pub progress: &'a dyn Progress,
 }
 

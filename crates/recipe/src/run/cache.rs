@@ -140,7 +140,7 @@ pub enum RerunReason {
     /// The memory budget changed.
     #[error("the memory budget changed")]
     Budget,
-    /// The paths of its input files now refer to a different folder.
+    /// The paths of the step's input files now refer to a different folder.
     #[error("it reads from a different folder")]
     Folder,
     /// An input file changed.
@@ -149,25 +149,25 @@ pub enum RerunReason {
     /// The recipe or its parameters changed, and the output files of the step record them.
     #[error("the recipe changed, and the output files record which recipe wrote them")]
     Provenance,
-    /// The names of its output files changed.
+    /// The names of the step's output files changed.
     #[error("the names of its output files changed")]
     Outputs,
     /// An earlier step ran: its number (counted from 1) and its label.
     #[error("step {0} {1} ran again")]
     Earlier(usize, String),
-    /// The earlier steps are different ones or in a different order.
+    /// The steps before the step are not the same as in the last run.
     #[error("the steps before it changed")]
     Order,
-    /// Its result was removed from the cache.
+    /// The result of the step was removed from the cache.
     #[error("its result is no longer in the cache")]
     Gone,
-    /// Its result in the cache is damaged, with the reason.
+    /// The result in the cache is damaged, for this reason.
     #[error("its result in the cache is damaged: {0}")]
     Damaged(String),
-    /// Its result was not stored, because computing it took less time than storing it would have taken.
+    /// The result was not stored, because computing it took less time than storing it would have taken.
     #[error("its result was not stored: computing it is faster than storing it")]
     NotKept,
-    /// Its input files could not be determined: a path and the reason.
+    /// The input files of the step could not be determined: a path and the reason.
     #[error("its input files are unknown: {}: {}", .0.display(), .1)]
     Unknown(PathBuf, String),
     /// The identity of the scene before the step is unknown, because an earlier step with unknown input files left

@@ -19,7 +19,7 @@ pub struct Outcome {
     pub failures: Vec<Diagnostic>,
     /// The expectations that do not hold.
     pub unmet: Vec<UnmetExpectation>,
-    /// Whether the run was cancelled.
+    /// Whether the run was canceled.
     pub cancelled: bool,
     /// The number of expectations that were checked.
     pub checked: usize,

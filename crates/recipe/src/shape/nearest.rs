@@ -34,8 +34,8 @@ pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) ->
     near.into_iter().map(|(_, candidate)| candidate).collect()
 }
 
-/// Returns a lower bound of the edit distance of two names: the number of letters that only one of them has. It is fast
-/// to compute, and rules out most names.
+/// Returns a lower bound of the edit distance of two names: the larger of the numbers of letters that only one of the
+/// names has. It is fast to compute, and rules out most names.
 fn min_distance(a: &str, b: &str) -> usize {
     let mut surplus = [0_isize; 32];
     a.bytes()

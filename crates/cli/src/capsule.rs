@@ -15,7 +15,7 @@ use engine::Loaded;
 pub(crate) fn scene_before(loaded: &mut Loaded, step: usize) -> anyhow::Result<Scene> {
     loaded
         .scene_before(step, &INTERRUPT)
-        .context("a step before the failed one has failed this time")
+        .context("a step before the failed step failed when it was run again")
 }
 
 /// Writes a capsule: a recipe with the failed step and the steps after it, and the scene before the failed step.

@@ -20,7 +20,7 @@ impl Cancel {
         self.0.swap(true, Ordering::Relaxed)
     }
 
-    /// Whether the runs are cancelled.
+    /// Whether the runs are canceled.
     pub fn is_set(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }

@@ -212,7 +212,7 @@ pub struct StoreError {
     pub what: &'static str,
     /// The file or folder.
     pub path: PathBuf,
-    /// The error of the operating system.
+    /// The cause, such as an error of the operating system.
     pub error: io::Error,
 }
 

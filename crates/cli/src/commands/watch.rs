@@ -2,7 +2,7 @@
 //!
 //! The folders of these files are watched, since many editors save by replacing the file. The cache compares contents:
 //! steps whose inputs did not change are not run again, and saving an unchanged file prints no results. If a file is
-//! saved during a run, the run is cancelled and the next one starts.
+//! saved during a run, the run is canceled and the next one starts.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

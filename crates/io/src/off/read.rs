@@ -233,7 +233,7 @@ fn faces(
     notes: &mut Notes,
 ) -> Result<(), Fault> {
     check_room(cursor, header.n_faces, 1, "faces")?;
-    // Each list is empty until the first face that has a color or a color index, respectively.
+    // `colors` is empty until the first face that has a color, `indices` until the first that has a color index.
     let (mut colors, mut indices) = (Colors::default(), Vec::new());
     let (mut small, mut first_small) = (0, None);
     let mut words = Vec::new();

@@ -101,7 +101,7 @@ impl From<EditError> for Refusal {
     }
 }
 
-/// Why an operation failed. After an error, the runner restores the scene from before the step.
+/// Why an operation failed. In a run, the scene is then the same as before the step.
 #[derive(Debug, thiserror::Error)]
 pub enum OpError {
     /// The run was canceled.

@@ -48,7 +48,7 @@ pub struct UnmetExpectation {
 }
 
 impl Outcome {
-    /// Whether every step was done and every expectation holds.
+    /// Whether the run has no failures and was not canceled.
     pub fn succeeded(&self) -> bool {
         self.failures.is_empty() && !self.cancelled
     }

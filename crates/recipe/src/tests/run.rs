@@ -265,7 +265,11 @@ fn a_mesh_that_exceeds_the_budget_is_not_built() {
     };
     let outcome = run(&reading.recipe, settings, &Silent);
     assert_eq!(outcome.failures.len(), 1);
-    assert!(outcome.failures[0].message.contains("the budget is 1000"));
+    assert!(
+        outcome.failures[0]
+            .message
+            .contains("the memory budget is 1000 bytes")
+    );
     assert!(outcome.scene.unwrap().objects().is_empty());
 }
 

@@ -20,8 +20,7 @@ pub trait MeshOperation:
 {
     /// The name of the step in recipes: the name of the struct.
     const NAME: &'static str;
-    /// The version of the results. Increased when a new version of the program can give a different result for the
-    /// same parameters and input.
+    /// The version of the results. It changes whenever the same parameters and input can give a different result.
     const VERSION: u32 = 1;
     /// One line for lists: what the operation does, without a full stop.
     const SUMMARY: &'static str;
@@ -37,8 +36,8 @@ pub trait MeshOperation:
     /// Runs before any geometry exists and must be fast.
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem>;
 
-    /// Changes the mesh, which [is dense](Mesh::is_dense). Calls [`Context::advance`] before its first change. An
-    /// operation that computes a new mesh stores it with [`Mesh::replace`].
+    /// Changes the mesh. Its ids have no gaps, so they are indices of its arrays, such as `positions()`. Calls [`Context::advance`] before its first change. An operation
+    /// that computes a new mesh stores it with [`Mesh::replace`].
     ///
     /// # Errors
     ///
@@ -53,8 +52,7 @@ pub trait Operation:
 {
     /// The name of the step in recipes: the name of the struct.
     const NAME: &'static str;
-    /// The version of the results. Increased when a new version of the program can give a different result for the
-    /// same parameters and input.
+    /// The version of the results. It changes whenever the same parameters and input can give a different result.
     const VERSION: u32 = 1;
     /// One line for lists: what the operation does, without a full stop.
     const SUMMARY: &'static str;
@@ -74,7 +72,7 @@ pub trait Operation:
     /// Changes `plan` as [`apply`](Self::apply) will change the scene, and returns the problems.
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem>;
 
-    /// Changes the scene, whose meshes [are dense](Mesh::is_dense). Calls [`Context::advance`] before its first change.
+    /// Changes the scene, whose meshes are dense. Calls [`Context::advance`] before its first change.
     ///
     /// # Errors
     ///

@@ -64,7 +64,7 @@ impl MeshOperation for Butterfly {
     const NAME: &'static str = "Butterfly";
     const SUMMARY: &'static str =
         "Split every triangle into four and smooth the surface, but keep the old vertices";
-    const EXAMPLE: &'static str = "Butterfly(levels: 0)";
+    const EXAMPLE: &'static str = "Butterfly(levels: 1)";
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
         self.step().plan(Self::NAME, plan, cx)

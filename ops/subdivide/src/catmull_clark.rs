@@ -97,7 +97,7 @@ impl CatmullClark {
 impl MeshOperation for CatmullClark {
     const NAME: &'static str = "CatmullClark";
     const SUMMARY: &'static str = "Split every face into quads and smooth the surface";
-    const EXAMPLE: &'static str = "CatmullClark(levels: 0)";
+    const EXAMPLE: &'static str = "CatmullClark(levels: 2)";
     const WORDS: &'static [&'static str] = &["smooth", "subdivide", "subdivision", "catmull"];
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {

@@ -72,7 +72,7 @@ impl DooSabin {
 impl MeshOperation for DooSabin {
     const NAME: &'static str = "DooSabin";
     const SUMMARY: &'static str = "Replace every edge and vertex by a face";
-    const EXAMPLE: &'static str = "DooSabin(levels: 0)";
+    const EXAMPLE: &'static str = "DooSabin(levels: 1)";
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
         self.step().plan(Self::NAME, plan, cx)

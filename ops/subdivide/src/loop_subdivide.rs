@@ -99,7 +99,7 @@ impl MeshOperation for LoopSubdivide {
     const NAME: &'static str = "LoopSubdivide";
     const VERSION: u32 = 2;
     const SUMMARY: &'static str = "Split every triangle into four and smooth the surface";
-    const EXAMPLE: &'static str = "LoopSubdivide(levels: 0)";
+    const EXAMPLE: &'static str = "LoopSubdivide(levels: 2)";
     const WORDS: &'static [&'static str] = &["smooth", "subdivide", "subdivision", "loop"];
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {

@@ -67,7 +67,7 @@ impl Midpoint {
 impl MeshOperation for Midpoint {
     const NAME: &'static str = "Midpoint";
     const SUMMARY: &'static str = "Split every face into smaller faces without moving vertices";
-    const EXAMPLE: &'static str = "Midpoint(levels: 0)";
+    const EXAMPLE: &'static str = "Midpoint(levels: 2, into: Quads)";
     const WORDS: &'static [&'static str] = &["subdivide", "tessellate"];
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {

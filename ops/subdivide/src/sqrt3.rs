@@ -76,7 +76,7 @@ impl MeshOperation for Sqrt3 {
     const NAME: &'static str = "Sqrt3";
     const SUMMARY: &'static str =
         "Split every triangle into three, flip the old edges, and smooth the surface";
-    const EXAMPLE: &'static str = "Sqrt3(levels: 0)";
+    const EXAMPLE: &'static str = "Sqrt3(levels: 1)";
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
         self.step().plan(Self::NAME, plan, cx)

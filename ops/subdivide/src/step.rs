@@ -94,9 +94,11 @@ impl Step<'_> {
                     "{name} needs triangles, but the faces have at least {} corners",
                     plan.degrees.min
                 );
-                problems.push(
-                    Problem::error(message).help("triangulate the faces first, with Triangulate"),
-                );
+                let help = match scheme {
+                    Scheme::Midpoint(_) => "write `into: Quads`, or triangulate the faces first",
+                    _ => "triangulate the faces first, with Triangulate",
+                };
+                problems.push(Problem::error(message).help(help));
             }
             plan.degrees = Range::exactly(3);
         }

@@ -63,8 +63,8 @@ fn in_group(
     let picture = root.join(format!("ops/all/pictures/{snake}.ron"));
     ensure!(
         group != "all" && list.is_file(),
-        "the group `{group}` does not exist in {}",
-        root.join("ops").display()
+        "the group `{group}` does not exist; groups: {}",
+        groups(root).join(", ")
     );
     for path in [&file, &picture] {
         ensure!(!path.exists(), "{} already exists", path.display());
@@ -77,7 +77,8 @@ fn in_group(
     let text = insert_last(&text, "        .with::<", &with)?;
     let next = format!(
         "next: cargo test -p meshwright-ops-{group}\nto draw its pictures: cargo run -- test \
-         ops/all/pictures/{snake}.ron --out ops/all/pictures\n"
+         ops/all/pictures/{snake}.ron --out ops/all/pictures\n\
+         to check it like all operations: cargo test -p meshwright-tests --test laws every_op\n"
     );
     let files = vec![
         (file, fill(OPERATION)),
@@ -114,6 +115,19 @@ fn in_new_crate(
         (folder.join("picture.ron"), fill(PICTURE)),
     ];
     Ok((files, next))
+}
+
+/// Returns the names of the groups of operations, sorted.
+fn groups(root: &Path) -> Vec<String> {
+    let entries = fs::read_dir(root.join("ops"))
+        .into_iter()
+        .flatten()
+        .flatten();
+    let folders = entries.filter(|entry| entry.path().join("src/lib.rs").is_file());
+    let names = folders.map(|entry| entry.file_name().to_string_lossy().into_owned());
+    let mut names: Vec<String> = names.filter(|name| name != "all").collect();
+    names.sort();
+    names
 }
 
 fn check_root(root: &Path) -> anyhow::Result<()> {

@@ -297,5 +297,5 @@ fn a_folder_that_is_not_a_workspace_is_refused() {
     small_workspace()
         .run("new-op Twist --in hair")
         .with_code(1)
-        .complains(&["error: the group `hair` does not exist in ./ops\n"]);
+        .complains(&["error: the group `hair` does not exist; groups: "]);
 }

@@ -251,7 +251,11 @@ mod tests {
                 .apply(&mut scene, &mut cx)
                 .map_err(|e| e.to_string())?;
             let mesh = scene.object("a").and_then(|o| o.as_mesh()).unwrap();
-            Ok::<_, String>((mesh.n_vertices(), mesh.n_faces(), done.notes.len()))
+            Ok::<_, String>((
+                mesh.n_vertices(),
+                mesh.n_faces(),
+                done.notes.len() + done.losses.len(),
+            ))
         };
         assert_eq!(counts("(path: \"a.obj\")").unwrap().1, 3);
         let all = "(path: \"a.obj\", duplicates: Drop, degenerate: Drop, isolated: Drop)";

@@ -87,6 +87,10 @@ fn full_scene() -> Scene {
     };
     texture.transform.rotation = 0.5;
     glass.normal_texture = Some(texture);
+    glass.occlusion_texture = Some(Texture::new(Image::Loaded {
+        path: "textures/soot.png".into(),
+        bytes: vec![9; 50].into(),
+    }));
     let mut opaque = Material::new("opaque");
     opaque.base_color[3] = 0.5;
     opaque.alpha = AlphaMode::Opaque;

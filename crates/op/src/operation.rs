@@ -20,7 +20,8 @@ pub trait MeshOperation:
 {
     /// The name of the step in recipes: the name of the struct.
     const NAME: &'static str;
-    /// The version of the results. It changes whenever the same parameters and input can give a different result.
+    /// The version of the results. Increased when a new version of the program can give a different result for the
+    /// same parameters and input.
     const VERSION: u32 = 1;
     /// One line for lists: what the operation does, without a full stop.
     const SUMMARY: &'static str;
@@ -36,8 +37,9 @@ pub trait MeshOperation:
     /// Runs before any geometry exists and must be fast.
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem>;
 
-    /// Changes the mesh. Its ids have no gaps, so they are indices of its arrays, such as `positions()`. Calls [`Context::advance`] before its first change. An operation
-    /// that computes a new mesh stores it with [`Mesh::replace`].
+    /// Changes the mesh, which [is dense](Mesh::is_dense): ids are indices of its arrays, such as `positions()`. Calls
+    /// [`Context::advance`] before its first change. An operation that computes a new mesh stores it with
+    /// [`Mesh::replace`].
     ///
     /// # Errors
     ///
@@ -52,7 +54,8 @@ pub trait Operation:
 {
     /// The name of the step in recipes: the name of the struct.
     const NAME: &'static str;
-    /// The version of the results. It changes whenever the same parameters and input can give a different result.
+    /// The version of the results. Increased when a new version of the program can give a different result for the
+    /// same parameters and input.
     const VERSION: u32 = 1;
     /// One line for lists: what the operation does, without a full stop.
     const SUMMARY: &'static str;

@@ -21,7 +21,8 @@ pub struct Note {
     pub line: Option<usize>,
     /// The number of things that the note is about.
     pub count: usize,
-    /// The things and what became of them, as words that follow the count: `statements 'vp' left out`.
+    /// The things and what became of them, in the plural, as words that follow the count: `statements 'vp' left out`.
+    /// If the count is 1, [`Display`](fmt::Display) writes the first noun in the singular.
     pub what: String,
     /// The affected elements of the file, if they are known.
     pub elements: Option<Elements>,
@@ -84,11 +85,117 @@ impl fmt::Display for Note {
         if let Some(line) = self.line {
             write!(f, "{line}:")?;
         }
-        write!(f, " {} {}", self.count, self.what)?;
+        match self.count {
+            1 => write!(f, " 1 {}", singular(&self.what))?,
+            n => write!(f, " {n} {}", self.what)?,
+        }
         if let Some(elements) = &self.elements {
             write!(f, " {elements}")?;
         }
         Ok(())
+    }
+}
+
+/// The plural nouns with which notes begin.
+const NOUNS: [&str; 57] = [
+    "animations",
+    "attributes",
+    "bytes",
+    "cameras",
+    "colors",
+    "coordinates",
+    "corners",
+    "edges",
+    "effects",
+    "elements",
+    "faces",
+    "facets",
+    "fields",
+    "files",
+    "geometries",
+    "groups",
+    "holes",
+    "images",
+    "inputs",
+    "instances",
+    "joints",
+    "lights",
+    "lines",
+    "links",
+    "lists",
+    "masks",
+    "materials",
+    "meshes",
+    "names",
+    "nodes",
+    "normals",
+    "notes",
+    "objects",
+    "parameters",
+    "parts",
+    "points",
+    "polygons",
+    "polylines",
+    "primitives",
+    "profiles",
+    "rows",
+    "scenes",
+    "sets",
+    "skews",
+    "skins",
+    "morphs",
+    "solids",
+    "statements",
+    "strips",
+    "targets",
+    "textures",
+    "transforms",
+    "triangles",
+    "uses",
+    "values",
+    "vertices",
+    "weights",
+];
+
+/// Returns the words of a note about one thing: `1 mesh left out` instead of `1 meshes left out`. Texts that do not
+/// begin with a known plural are unchanged.
+fn singular(what: &str) -> String {
+    let mut words: Vec<String> = what.split(' ').map(str::to_owned).collect();
+    let is_noun = |word: &String| NOUNS.contains(&word.as_str());
+    // At most two words stand before the noun, such as `third texture coordinates`.
+    let Some(first) = words.iter().take(3).position(is_noun) else {
+        return what.to_owned();
+    };
+    words[first] = singular_noun(&words[first]);
+    if words.get(first + 1).is_some_and(|word| word == "and")
+        && words.get(first + 2).is_some_and(is_noun)
+    {
+        "or".clone_into(&mut words[first + 1]);
+        words[first + 2] = singular_noun(&words[first + 2]);
+    }
+    let text = words.join(" ");
+    let verbs = [
+        ("that visit ", "that visits "),
+        ("that repeat ", "that repeats "),
+        ("that point ", "that points "),
+        ("because they are ", "because it is "),
+        ("because they have ", "because it has "),
+        ("because they point ", "because it points "),
+        ("because they visit ", "because it visits "),
+        (": they have ", ": it has "),
+    ];
+    verbs
+        .iter()
+        .fold(text, |text, (many, one)| text.replace(many, one))
+}
+
+/// Returns the singular of one of the [`NOUNS`].
+fn singular_noun(plural: &str) -> String {
+    match plural {
+        "geometries" => "geometry".to_owned(),
+        "meshes" => "mesh".to_owned(),
+        "vertices" => "vertex".to_owned(),
+        regular => regular.trim_end_matches('s').to_owned(),
     }
 }
 
@@ -243,6 +350,37 @@ impl Names {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn one_thing_is_in_the_singular() {
+        for (many, one) in [
+            (
+                "meshes left out: not used by any node",
+                "mesh left out: not used by any node",
+            ),
+            (
+                "third texture coordinates left out",
+                "third texture coordinate left out",
+            ),
+            ("lines and points left out", "line or point left out"),
+            ("physics elements left out", "physics element left out"),
+            (
+                "facet normals left out because they point away",
+                "facet normal left out because it points away",
+            ),
+            (
+                "uses of the extension \"a uses\" left out",
+                "use of the extension \"a uses\" left out",
+            ),
+            ("node named `values` renamed", "node named `values` renamed"),
+            (
+                "copy made of a non-manifold vertex",
+                "copy made of a non-manifold vertex",
+            ),
+        ] {
+            assert_eq!(singular(many), one);
+        }
+    }
 
     #[test]
     fn many_notes_are_counted_instead_of_listed() {

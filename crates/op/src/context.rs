@@ -1,5 +1,7 @@
 //! The context that an operation runs in: progress, cancellation, the random stream, files, the memory budget.
 
+use std::sync::{Mutex, PoisonError};
+
 use progress::Progress;
 
 use crate::{Files, OpError};
@@ -17,6 +19,8 @@ pub struct Context<'a> {
     pub budget: u64,
     /// The names of the materials of the object that is being changed, for selections.
     pub materials: Vec<String>,
+    /// Facts about the selections of the step, for its report.
+    notes: Mutex<Vec<String>>,
 }
 
 impl<'a> Context<'a> {
@@ -29,6 +33,7 @@ impl<'a> Context<'a> {
             stream: "",
             budget: u64::MAX,
             materials: Vec::new(),
+            notes: Mutex::default(),
         }
     }
 
@@ -40,6 +45,20 @@ impl<'a> Context<'a> {
     /// [`OpError::Cancelled`] if the run was canceled. The operation returns this error at once.
     pub fn advance(&self, what: &str, done: u64, total: u64) -> Result<(), OpError> {
         Ok(self.progress.report(what, done, total)?)
+    }
+
+    /// Adds a note to the report of the step, once for equal notes.
+    pub(crate) fn note(&self, note: String) {
+        let mut notes = self.notes.lock().unwrap_or_else(PoisonError::into_inner);
+        if !notes.contains(&note) {
+            notes.push(note);
+        }
+    }
+
+    /// Removes and returns the notes for the report.
+    pub(crate) fn take_notes(&mut self) -> Vec<String> {
+        let notes = self.notes.get_mut().unwrap_or_else(PoisonError::into_inner);
+        std::mem::take(notes)
     }
 
     /// Returns the progress, for long computations outside of this crate.

@@ -32,6 +32,9 @@ pub trait MeshOperation:
     /// What people who know other programs may call the operation, in lower case. Errors about an unknown operation
     /// suggest the operation for these words.
     const WORDS: &'static [&'static str] = &[];
+    /// What the step does to each element that its report counts as changed, as a participle: `flipped`. Step tables show
+    /// it after the number. If empty, the number is not shown.
+    const DONE: &'static str = "";
 
     /// Changes `plan` as [`apply`](Self::apply) will change the mesh, and returns the problems.
     /// Runs before any geometry exists and must be fast.
@@ -66,6 +69,9 @@ pub trait Operation:
     /// What people who know other programs may call the operation, in lower case. Errors about an unknown operation
     /// suggest the operation for these words.
     const WORDS: &'static [&'static str] = &[];
+    /// What the step does to each element that its report counts as changed, as a participle: `flipped`. Step tables show
+    /// it after the number. If empty, the number is not shown.
+    const DONE: &'static str = "";
     /// Whether a step may choose objects with `on:`.
     const TAKES_ON: bool = false;
     /// Whether the operation leaves the scene unchanged when it fails. If false, the runner keeps the meshes from
@@ -90,6 +96,7 @@ impl<T: MeshOperation> Operation for T {
     const EXAMPLE: &'static str = <T as MeshOperation>::EXAMPLE;
     const ALIASES: &'static [&'static str] = <T as MeshOperation>::ALIASES;
     const WORDS: &'static [&'static str] = <T as MeshOperation>::WORDS;
+    const DONE: &'static str = <T as MeshOperation>::DONE;
     const TAKES_ON: bool = true;
     const ATOMIC: bool = true;
 

@@ -171,6 +171,8 @@ pub trait Step: fmt::Debug + Send + Sync {
     fn name(&self) -> &'static str;
     /// See [`Operation::VERSION`].
     fn version(&self) -> u32;
+    /// See [`Operation::DONE`].
+    fn done(&self) -> &'static str;
     /// See [`Operation::plan`].
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem>;
     /// See [`Operation::apply`].
@@ -194,12 +196,18 @@ impl<T: Operation> Step for T {
         T::VERSION
     }
 
+    fn done(&self) -> &'static str {
+        T::DONE
+    }
+
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
         Operation::plan(self, plan, cx)
     }
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
-        Operation::apply(self, scene, cx)
+        let mut report = Operation::apply(self, scene, cx)?;
+        report.notes.extend(cx.take_notes());
+        Ok(report)
     }
 
     fn is_atomic(&self) -> bool {

@@ -29,6 +29,7 @@ impl MeshOperation for Reverse {
     const SUMMARY: &'static str = "Reverse the orientation of faces";
     const EXAMPLE: &'static str = "Reverse()";
     const WORDS: &'static [&'static str] = &["invert", "orientation", "winding"];
+    const DONE: &'static str = "reversed";
 
     fn plan(&self, _: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         Vec::new() // counts, degrees and attributes stay as they are

@@ -42,6 +42,7 @@ impl MeshOperation for Weld {
     const SUMMARY: &'static str = "Merge vertices that are close together";
     const EXAMPLE: &'static str = "Weld(distance: 0)";
     const WORDS: &'static [&'static str] = &["merge", "doubles", "deduplicate"];
+    const DONE: &'static str = "merged";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         // If faces are reversed, normals are dropped.

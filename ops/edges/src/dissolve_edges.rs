@@ -37,6 +37,7 @@ impl MeshOperation for DissolveEdges {
     const SUMMARY: &'static str = "Remove edges and merge the faces beside them";
     const EXAMPLE: &'static str = "DissolveEdges(edges: Between(0, 1))";
     const WORDS: &'static [&'static str] = &["remove", "delete"];
+    const DONE: &'static str = "dissolved";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let chosen = self.edges.count(plan);

@@ -79,6 +79,7 @@ impl MeshOperation for FlipEdges {
     const SUMMARY: &'static str = "Flip edges to the other diagonal of their two triangles";
     const EXAMPLE: &'static str = "FlipEdges(edges: All)";
     const WORDS: &'static [&'static str] = &["swap", "delaunay", "rotate"];
+    const DONE: &'static str = "flipped";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();

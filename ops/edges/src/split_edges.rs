@@ -40,6 +40,7 @@ impl MeshOperation for SplitEdges {
     const SUMMARY: &'static str = "Insert a vertex on edges and join it to the opposite corners";
     const EXAMPLE: &'static str = "SplitEdges(edges: All)";
     const WORDS: &'static [&'static str] = &["insert", "refine", "divide"];
+    const DONE: &'static str = "split";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         // A split cuts at most two faces. It cuts fewer at boundary edges and beside faces with more than three

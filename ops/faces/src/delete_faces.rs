@@ -39,6 +39,7 @@ impl MeshOperation for DeleteFaces {
     const SUMMARY: &'static str = "Delete faces and leave holes";
     const EXAMPLE: &'static str = "DeleteFaces(faces: All)";
     const WORDS: &'static [&'static str] = &["remove"];
+    const DONE: &'static str = "deleted";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let chosen = self.faces.count(plan);

@@ -44,6 +44,7 @@ impl MeshOperation for PokeFaces {
         "Insert a vertex at the center of faces and join it to their corners";
     const EXAMPLE: &'static str = "PokeFaces()";
     const WORDS: &'static [&'static str] = &["fan", "center"];
+    const DONE: &'static str = "poked";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let n = self.on_refusal.done(self.faces.count(plan));

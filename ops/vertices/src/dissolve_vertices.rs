@@ -39,6 +39,7 @@ impl MeshOperation for DissolveVertices {
     const SUMMARY: &'static str = "Remove vertices and merge the faces around them";
     const EXAMPLE: &'static str = "DissolveVertices(vertices: Vertices([1]))";
     const WORDS: &'static [&'static str] = &["remove", "delete"];
+    const DONE: &'static str = "dissolved";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         plan.drop_normals();

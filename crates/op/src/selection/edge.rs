@@ -2,7 +2,10 @@
 
 use mesh::{EdgeId, Mesh, VertexId};
 
-use super::{FaceSelection, Select, VertexSelection, lowest, marks, named_vertex, touching, walk};
+use super::{
+    FaceSelection, Select, VertexSelection, lowest, marks, named_vertex, note_if_fewer, touching,
+    walk,
+};
 use crate::{AngleBetween, Context, Length, MeshPlan, OpError, Range, Refusal};
 
 selection! {
@@ -139,7 +142,9 @@ impl Select for EdgeSelection {
                 mask
             }
             Self::Longest { count, of } => {
-                lowest::<Self, f64>(mesh, *count, &of.mask(mesh, cx)?, |e| -length(e))
+                let mask = of.mask(mesh, cx)?;
+                note_if_fewer::<Self>("Longest", *count, &mask, cx);
+                lowest::<Self, f64>(mesh, *count, &mask, |e| -length(e))
             }
             _ => self.shared().mask(mesh, cx)?,
         })

@@ -38,6 +38,22 @@ impl ElementKind {
     /// All three kinds.
     pub const ALL: [Self; 3] = [Self::Vertices, Self::Edges, Self::Faces];
 
+    /// Returns the selections of this kind that take a selection of `other` elements, such as `EdgesOf` for the edges of
+    /// faces. Empty if the kinds are equal.
+    pub fn from_other(self, other: Self) -> &'static [&'static str] {
+        match (self, other) {
+            (Self::Vertices, Self::Edges) => &["EndsOf"],
+            (Self::Vertices, Self::Faces) => &["CornersOf"],
+            (Self::Edges, Self::Vertices) => &["EdgesAround", "EdgesWithin"],
+            (Self::Edges, Self::Faces) => &["EdgesOf"],
+            (Self::Faces, Self::Vertices) => &["FacesAround"],
+            (Self::Faces, Self::Edges) => &["FacesBeside"],
+            (Self::Vertices, Self::Vertices)
+            | (Self::Edges, Self::Edges)
+            | (Self::Faces, Self::Faces) => &[],
+        }
+    }
+
     /// Returns `vertices`, `edges` or `faces`.
     pub fn word(self) -> &'static str {
         match self {

@@ -223,12 +223,14 @@ impl<S: Select> Shared<'_, S> {
             Self::Random { count, of, seed } => {
                 let step = cx.stream.bytes().fold(0, |h, b| mix(h, u64::from(b)));
                 let stream = mix(seed, step);
-                lowest::<S, u64>(mesh, count, &of.mask(mesh, cx)?, |id| {
-                    mix(stream, id.index() as u64)
-                })
+                let mask = of.mask(mesh, cx)?;
+                note_if_fewer::<S>("Random", count, &mask, cx);
+                lowest::<S, u64>(mesh, count, &mask, |id| mix(stream, id.index() as u64))
             }
             Self::Nearest { to, count, of } => {
-                lowest::<S, f64>(mesh, count, &of.mask(mesh, cx)?, |id| {
+                let mask = of.mask(mesh, cx)?;
+                note_if_fewer::<S>("Nearest", count, &mask, cx);
+                lowest::<S, f64>(mesh, count, &mask, |id| {
                     center::<S>(mesh, id).distance_squared(to.into())
                 })
             }
@@ -351,6 +353,17 @@ fn lowest<S: Select, K: PartialOrd>(
         chosen[id.index()] = true;
     }
     chosen
+}
+
+/// Adds a note to the report if a choice of `count` elements has fewer candidates, which are marked in `mask`.
+fn note_if_fewer<S: Select>(choice: &str, count: u32, mask: &[bool], cx: &Context) {
+    let available = mask.iter().filter(|&&m| m).count();
+    if available < count as usize {
+        let word = S::WORD;
+        cx.note(format!(
+            "{choice}(count: {count}) selected all {word} available: {available}"
+        ));
+    }
 }
 
 /// Hashes two numbers: combines them and applies the output function of SplitMix64.

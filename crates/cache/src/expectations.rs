@@ -41,7 +41,8 @@ pub(crate) fn is_known_to_hold(
     let id = id(placed);
     let mut same = met.iter().filter(|met| met.id == id);
     same.any(|met| {
-        met.inputs.resolve_as_before(files) && checker.first_change(&met.inputs.files).is_none()
+        met.inputs.resolve_as_before(files)
+            && checker.first_change(files, &met.inputs.files).is_none()
     })
 }
 

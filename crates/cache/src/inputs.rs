@@ -74,9 +74,13 @@ impl FileChecker {
     }
 
     /// Returns the first of these files that has changed, and how.
-    pub(crate) fn first_change(&mut self, files: &[FileState]) -> Option<(PathBuf, FileChange)> {
+    pub(crate) fn first_change(
+        &mut self,
+        folders: &Files,
+        files: &[FileState],
+    ) -> Option<(PathBuf, FileChange)> {
         files.iter().find_map(|file| {
-            let exists = file.path.is_file();
+            let exists = folders.store.is_file(&file.path);
             let change = match file.state {
                 PathState::Missing if exists => FileChange::Appeared,
                 PathState::Content(_) | PathState::Exists if !exists => FileChange::Gone,

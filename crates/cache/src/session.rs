@@ -316,7 +316,7 @@ impl<'a> Session<'a> {
         if !record.inputs.resolve_as_before(files) {
             return Err(RerunReason::Folder);
         }
-        if let Some((path, change)) = self.checker.first_change(&record.inputs.files) {
+        if let Some((path, change)) = self.checker.first_change(files, &record.inputs.files) {
             return Err(RerunReason::File(path, change));
         }
         let Some(outputs) = &record.outputs else {

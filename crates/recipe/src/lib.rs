@@ -49,7 +49,7 @@ pub use run::{
     Silent, StepCache, StepDone, StepResult, UnmetExpectation, run, run_from,
 };
 pub use schema::{Schemas, schema, step_kinds};
-pub use select::{read_selection, read_step, resolve};
+pub use select::{read_selection, read_step, resolve, with_case_of};
 pub use shape::did_you_mean;
 pub use source::Source;
 pub use stamp::Stamp;

@@ -172,8 +172,13 @@ impl Param {
             }
             (Self::Choice { of, .. }, ValueKind::String(text) | ValueKind::Name(text)) => {
                 let word = text.chars().all(|c| c.is_alphanumeric() || c == '_');
-                if of.iter().any(|choice| **choice == **text) && word {
-                    Ok(value(ValueKind::Name(text.clone())))
+                // The command line gives words as texts, in which the case does not matter.
+                let is_text = matches!(written.kind, ValueKind::String(_));
+                let same = |choice: &&String| ***choice == **text;
+                let similar = |choice: &&String| is_text && choice.eq_ignore_ascii_case(text);
+                let found = of.iter().find(same).or_else(|| of.iter().find(similar));
+                if let Some(found) = found.filter(|_| word) {
+                    Ok(value(ValueKind::Name(found.as_str().into())))
                 } else {
                     let expected = format!("one of {}", of.join(", "));
                     Err(ParamError::new(&expected, &format!("`{text}`")))

@@ -61,6 +61,19 @@ pub fn read_step<T: DeserializeOwned + JsonSchema>(source: &str) -> Result<T, Ve
     T::deserialize(parameters).map_err(|error| vec![shape::unread(step.span, error)])
 }
 
+/// Returns the text of a variant of `T` with the name of the variant as recipes write it, if the text has the name in
+/// another case: `front` becomes `Front`.
+pub fn with_case_of<T: JsonSchema>(text: &str) -> String {
+    let end = text.find(|c: char| !(c.is_alphanumeric() || c == '_'));
+    let (name, rest) = text.split_at(end.unwrap_or(text.len()));
+    let schema = schema::of::<T>();
+    let known = shape::Schema::root(&schema).variants();
+    let found = known
+        .into_iter()
+        .find(|known| known.eq_ignore_ascii_case(name));
+    format!("{}{rest}", found.unwrap_or(name))
+}
+
 fn typed<T: DeserializeOwned + JsonSchema>(value: &Value) -> Result<T, Vec<Diagnostic>> {
     shape::typed(value, &schema::of::<T>())
 }
@@ -147,7 +160,7 @@ mod tests {
         );
         assert_eq!(
             wrong("Faces(Sharp(above: 30))", None)[0].1,
-            "unknown variant `Sharp` for `Faces`"
+            "`Sharp` selects edges, expected a selection of faces for `Faces`"
         );
     }
 

@@ -23,6 +23,7 @@ mod fields;
 mod nearest;
 mod range;
 mod schema;
+mod selections;
 mod shorthand;
 mod variants;
 

@@ -181,6 +181,12 @@ impl<'s> Schema<'s> {
         lists.filter_map(Json::as_array).flatten()
     }
 
+    /// Returns the names of the variants, if the schema is of an enumeration.
+    pub(crate) fn variants(&self) -> Vec<&'s str> {
+        self.choice()
+            .map_or_else(Vec::new, |choice| choice.names().collect())
+    }
+
     /// Returns the alternatives of the schema, if it has any.
     pub(super) fn choice(&self) -> Option<Choice<'s>> {
         let mut choice = Choice {

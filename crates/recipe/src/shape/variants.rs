@@ -1,7 +1,7 @@
 //! Checks values whose schema has alternatives, such as variants of enumerations.
 
 use super::schema::{Choice, Schema};
-use super::{Checker, Place, counted, listed, nearest};
+use super::{Checker, Place, counted, listed, nearest, selections};
 use ron_tree::{Call, Span, Value, ValueKind};
 
 impl Checker {
@@ -94,6 +94,13 @@ impl Checker {
         choice: &Choice,
         place: Place,
     ) {
+        if let Some(other) = schema
+            .name()
+            .and_then(|kind| selections::of_other_kind(name, kind))
+        {
+            let message = format!("{}{}", other.message, place.of());
+            return self.report(value, span, message, Some(other.help));
+        }
         let names: Vec<&str> = choice.names().collect();
         let near = nearest(name, names.iter().copied());
         let help = if !near.is_empty() {

@@ -1,0 +1,48 @@
+//! Explains selections of the wrong kind of elements, such as `Faces([0])` where edges are selected.
+
+use std::sync::LazyLock;
+
+use op::{EdgeSelection, ElementKind, FaceSelection, VertexSelection};
+use serde_json::Value as Json;
+
+use super::Schema;
+use crate::schema;
+
+/// An error for a selection of the wrong kind.
+pub(super) struct WrongKind {
+    pub(super) message: String,
+    pub(super) help: String,
+}
+
+/// The name of the type, and its variants.
+type Variants = (&'static str, Vec<String>);
+
+/// Explains the variant `name` in a place for the selection type `expected`, if another selection type has this variant.
+/// Returns `None` for other types and variants.
+pub(super) fn of_other_kind(name: &str, expected: &str) -> Option<WrongKind> {
+    static ALL: LazyLock<[Variants; 3]> = LazyLock::new(|| {
+        [
+            (
+                "VertexSelection",
+                variants(&schema::of::<VertexSelection>()),
+            ),
+            ("EdgeSelection", variants(&schema::of::<EdgeSelection>())),
+            ("FaceSelection", variants(&schema::of::<FaceSelection>())),
+        ]
+    });
+    let kinds = || ElementKind::ALL.into_iter().zip(&*ALL);
+    let (expected, _) = kinds().find(|(_, (of, _))| *of == expected)?;
+    let (found, _) = kinds().find(|(_, (_, variants))| variants.iter().any(|v| v == name))?;
+    let (word, found_word) = (expected.word(), found.word());
+    let full = expected.from_other(found).iter();
+    let full: Vec<String> = full.map(|outer| format!("`{outer}({name}(..))`")).collect();
+    Some(WrongKind {
+        message: format!("`{name}` selects {found_word}, expected a selection of {word}"),
+        help: format!("write {}", full.join(" or ")),
+    })
+}
+
+fn variants(schema: &Json) -> Vec<String> {
+    let names = Schema::root(schema).variants();
+    names.into_iter().map(str::to_owned).collect()
+}

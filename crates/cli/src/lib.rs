@@ -16,11 +16,14 @@ mod cache;
 mod capsule;
 mod commands;
 mod events;
+mod file_kind;
+mod junit;
 mod listener;
 mod loading;
 mod many;
 mod output;
 mod picture_errors;
+mod recording;
 mod scenes;
 mod terminal_picture;
 

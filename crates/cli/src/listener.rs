@@ -4,7 +4,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use engine::Cancel;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use op::Progress;
 use recipe::{Listener, StepDone};
 
@@ -45,11 +45,14 @@ impl<'a> Terminal<'a> {
 
     /// Creates a listener for work that ends on Ctrl-C or as soon as `go_on` returns false.
     pub(crate) fn until(go_on: &'a (dyn Fn() -> bool + Sync)) -> Self {
-        // Draws on standard error, and only if it is a terminal.
+        // Draws on standard error, and only if it is a terminal that can move its cursor.
         let bar = ProgressBar::new(0);
-        if let Ok(style) =
-            ProgressStyle::with_template("{spinner} {prefix}: {msg} {wide_bar} {percent}%")
-        {
+        if std::env::var_os("TERM").is_some_and(|term| term == "dumb") {
+            bar.set_draw_target(ProgressDrawTarget::hidden());
+        }
+        if let Ok(style) = ProgressStyle::with_template(
+            "{spinner} {prefix}: {msg} {wide_bar} {percent}%, {eta} left",
+        ) {
             bar.set_style(style);
         }
         bar.enable_steady_tick(Duration::from_millis(120));
@@ -65,7 +68,11 @@ impl<'a> Terminal<'a> {
 impl Progress for Terminal<'_> {
     fn advance(&self, what: &str, done: u64, total: u64) -> bool {
         if !self.bar.is_hidden() {
-            self.bar.set_message(what.to_owned());
+            // Each phase has its own estimate of the remaining time.
+            if self.bar.message() != what {
+                self.bar.set_message(what.to_owned());
+                self.bar.reset();
+            }
             self.bar.set_length(total.max(1));
             self.bar.set_position(done);
         }

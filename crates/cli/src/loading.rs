@@ -9,6 +9,7 @@ use engine::{Engine, Loaded, Options, Source, Values};
 use walkdir::{DirEntry, WalkDir};
 
 use crate::args::{RecipeArgs, ValueArgs};
+use crate::file_kind::{FileKind, expect_kind};
 
 /// Reads and checks the recipe given on the command line.
 pub(crate) fn load(args: &RecipeArgs, engine: &Engine) -> anyhow::Result<Loaded> {
@@ -23,6 +24,7 @@ pub(crate) fn load_recipe(
     budget: u64,
     engine: &Engine,
 ) -> anyhow::Result<Loaded> {
+    expect_kind(path, FileKind::Recipe)?;
     let source = engine.open(path).map_err(anyhow::Error::msg)?;
     load_text(&source, values, out, budget, engine)
 }
@@ -75,6 +77,7 @@ pub(crate) fn recipes(paths: &[PathBuf]) -> anyhow::Result<Vec<RecipeFile>> {
                 "the file or folder {} does not exist",
                 path.display()
             );
+            expect_kind(path, FileKind::Recipe)?;
             let own_folder = path.file_stem().map(PathBuf::from).unwrap_or_default();
             found.push(RecipeFile {
                 path: path.clone(),

@@ -76,6 +76,18 @@ pub(crate) fn first_error(diagnostics: &[Diagnostic]) -> String {
     }
 }
 
+/// Returns the messages of the errors, joined by `; `, at most 20 of them.
+pub(crate) fn all_errors(diagnostics: &[Diagnostic]) -> String {
+    const MAX: usize = 20;
+    let errors = diagnostics.iter().filter(|d| d.severity == Severity::Error);
+    let messages: Vec<&str> = errors.map(|d| d.message.as_str()).collect();
+    match messages.len() {
+        0 => "failed".to_owned(),
+        n if n > MAX => format!("{}; and {} more", messages[..MAX].join("; "), n - MAX),
+        _ => messages.join("; "),
+    }
+}
+
 /// Formats a row of comma-separated values according to RFC 4180.
 pub(crate) fn csv_line(cells: &[impl AsRef<str>]) -> String {
     let cell = |cell: &str| {

@@ -4,7 +4,9 @@ use std::borrow::Cow;
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 
-use recipe::{LineIndex, Origin, Outcome, Recipe, Source, StepDone};
+use mesh::DVec3;
+use recipe::{LineIndex, Origin, Outcome, Recipe, RecipeStep, Source, StepDone};
+use ron_tree::{Value, ValueKind};
 
 use engine::Loaded;
 use serde::Serialize;
@@ -37,7 +39,7 @@ pub(crate) fn print_diagnostics(loaded: &Loaded, diagnostics: &[recipe::Diagnost
 pub(crate) fn print_diagnostics_in(sources: &[Source], diagnostics: &[recipe::Diagnostic]) {
     const MAX_SHOWN: usize = 200;
     if !diagnostics.is_empty() {
-        let colours = io::stderr().is_terminal();
+        let colours = has_colors(io::stderr().is_terminal());
         let shown = &diagnostics[..diagnostics.len().min(MAX_SHOWN)];
         print_error(&recipe::render(sources, shown, colours));
         if diagnostics.len() > MAX_SHOWN {
@@ -46,21 +48,58 @@ pub(crate) fn print_diagnostics_in(sources: &[Source], diagnostics: &[recipe::Di
     }
 }
 
-/// Returns a table of the steps, with the element counts after each step and its time.
-pub(crate) fn step_table(steps: &[StepDone]) -> String {
-    let mut rows = vec![header_row(["step", "vertices", "edges", "faces", "time"])];
-    for (i, step) in steps.iter().enumerate() {
+/// Whether to write colors: to a terminal, unless `NO_COLOR` is set or the terminal is `dumb`.
+fn has_colors(is_terminal: bool) -> bool {
+    let variable = |name| std::env::var_os(name).unwrap_or_default();
+    is_terminal && variable("NO_COLOR").is_empty() && variable("TERM") != "dumb"
+}
+
+/// Returns a table of the steps, with the element counts after each step, its time, and what it did.
+pub(crate) fn step_table(recipe: &Recipe, outcome: &Outcome) -> String {
+    let mut rows = vec![header_row([
+        "step", "vertices", "edges", "faces", "time", "",
+    ])];
+    let steps = recipe.steps.iter().skip(outcome.first);
+    for (i, (step, done)) in steps.zip(&outcome.steps).enumerate() {
         let count = |n| group_digits(n as u64);
-        let time = match step.ran {
-            Some(_) => format!("{:.1} ms", step.time.as_secs_f64() * 1e3),
+        let time = match done.ran {
+            Some(_) => format!("{:.1} ms", done.time.as_secs_f64() * 1e3),
             None => "cached".to_owned(),
         };
-        let mut row = vec![format!("{:>2} {}", i + 1, step.label)];
-        row.extend([step.vertices, step.edges, step.faces].map(count));
-        row.push(time);
+        let mut row = vec![format!("{:>2} {}", i + 1, done.label)];
+        row.extend([done.vertices, done.edges, done.faces].map(count));
+        row.extend([time, summary(step, done)]);
         rows.push(row);
     }
-    table(&rows)
+    text_table(&rows)
+}
+
+/// Returns the file that a step reads or writes, the number of elements that it changed, and the number of refused edits.
+fn summary(step: &RecipeStep, done: &StepDone) -> String {
+    let mut parts = Vec::new();
+    let parameters = match &step.value.kind {
+        ValueKind::Call(call) => call.body.field("path"),
+        _ => None,
+    };
+    if let Some(path) = parameters.and_then(Value::as_str) {
+        let name = Path::new(path).file_name().unwrap_or_default();
+        parts.push(escape_control(&name.to_string_lossy()).into_owned());
+    }
+    let verb = step.step.as_ref().map_or("", |step| step.done());
+    let changed = done.report.changed;
+    if !verb.is_empty() && done.refused.is_none() {
+        parts.push(format!("{} {verb}", group_digits(changed)));
+    }
+    let refused: u64 = done
+        .report
+        .refused
+        .iter()
+        .map(|refused| refused.count)
+        .sum();
+    if refused > 0 {
+        parts.push(format!("{} refused", group_digits(refused)));
+    }
+    parts.join(", ")
 }
 
 /// Returns what the steps report, one item per line: refused edits, losses and notes.
@@ -87,28 +126,113 @@ pub(crate) fn header_row<const N: usize>(titles: [&str; N]) -> Vec<String> {
     titles.map(str::to_owned).to_vec()
 }
 
-/// Aligns rows in columns: the first column to the left, all others to the right.
+/// Aligns rows in columns: the first column to the left, all others to the right. On a terminal, a table that is too
+/// wide is shortened.
 pub(crate) fn table(rows: &[Vec<String>]) -> String {
+    table_within(rows, terminal_width(), false)
+}
+
+/// Like [`table`], with the last column aligned to the left.
+fn text_table(rows: &[Vec<String>]) -> String {
+    table_within(rows, terminal_width(), true)
+}
+
+/// Returns the number of columns of the terminal, if standard output is one.
+fn terminal_width() -> Option<usize> {
+    let is_terminal = io::stdout().is_terminal();
+    let size = is_terminal.then(|| console::Term::stdout().size_checked())?;
+    size.map(|(_, columns)| usize::from(columns))
+        .filter(|&columns| columns > 0)
+}
+
+/// Aligns rows in columns. If the table is wider than `limit`, the header and then the first column and a last column of
+/// texts are shortened, but no numbers.
+fn table_within(rows: &[Vec<String>], limit: Option<usize>, last_is_text: bool) -> String {
+    /// Names are not shortened below this number of characters.
+    const MIN: usize = 8;
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
-    let width = |c: usize| {
+    let width = |rows: &[Vec<String>], c: usize| {
         let cells = rows.iter().filter_map(|row| row.get(c));
         cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
     };
-    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let mut widths: Vec<usize> = (0..columns).map(|c| width(rows, c)).collect();
+    let is_text = |c: usize| c == 0 || (last_is_text && c + 1 == columns);
+    if let Some(limit) = limit {
+        let total = widths.iter().sum::<usize>() + 2 * columns.saturating_sub(1);
+        let mut excess = total.saturating_sub(limit);
+        let below = rows.get(1..).unwrap_or_default();
+        let contents: Vec<usize> = (0..columns).map(|c| width(below, c).max(MIN)).collect();
+        let mut shorten = |c: usize, least: usize| {
+            let cut = excess.min(widths[c].saturating_sub(least));
+            widths[c] -= cut;
+            excess -= cut;
+        };
+        (0..columns).for_each(|c| shorten(c, contents[c]));
+        (0..columns)
+            .rev()
+            .filter(|&c| is_text(c))
+            .for_each(|c| shorten(c, MIN));
+    }
     let mut text = String::new();
     for row in rows {
         let mut line = String::new();
         for (c, cell) in row.iter().enumerate() {
-            if c == 0 {
-                line += &format!("{cell:<0$}", widths[0]);
+            let cell = shortened(cell, widths[c]);
+            let gap = if c == 0 { "" } else { "  " };
+            line += &if is_text(c) {
+                format!("{gap}{cell:<0$}", widths[c])
             } else {
-                line += &format!("  {cell:>0$}", widths[c]);
-            }
+                format!("{gap}{cell:>0$}", widths[c])
+            };
         }
         text += line.trim_end();
         text.push('\n');
     }
     text
+}
+
+/// Returns a text with at most `most` characters; an ellipsis replaces the rest.
+fn shortened(text: &str, most: usize) -> Cow<'_, str> {
+    if text.chars().count() <= most {
+        return Cow::Borrowed(text);
+    }
+    let start: String = text.chars().take(most.saturating_sub(1)).collect();
+    Cow::Owned(start + "…")
+}
+
+/// Formats a number for people, with six significant digits. All digits before the decimal point are kept.
+pub(crate) fn number(x: f64) -> String {
+    let size = x.abs();
+    if size == 0.0 || !x.is_finite() {
+        return x.to_string();
+    }
+    let exponent = size.log10().floor();
+    if !(-5.0..15.0).contains(&exponent) {
+        return trimmed(&format!("{x:.5e}"));
+    }
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "from 0 to 10"
+    )]
+    let decimals = (5.0 - exponent).max(0.0) as usize;
+    trimmed(&format!("{x:.decimals$}"))
+}
+
+/// Removes zeros at the end of the decimals.
+fn trimmed(text: &str) -> String {
+    let (digits, exponent) = text.find('e').map_or((text, ""), |e| text.split_at(e));
+    let digits = match digits.contains('.') {
+        true => digits.trim_end_matches('0').trim_end_matches('.'),
+        false => digits,
+    };
+    let digits = if digits == "-0" { "0" } else { digits };
+    format!("{digits}{exponent}")
+}
+
+/// Formats a point for people, such as `[0.5, 1, 2.33333]`.
+pub(crate) fn point(p: DVec3) -> String {
+    format!("[{}, {}, {}]", number(p.x), number(p.y), number(p.z))
 }
 
 /// Formats a number with its digits in groups of three, separated by spaces.
@@ -245,4 +369,66 @@ pub(crate) fn write_temporary(path: &Path, bytes: &[u8]) -> Result<Box<dyn NewFi
         Ok(file)
     };
     write().map_err(|error| StoreError::new("write", path, error))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_for_people_have_six_significant_digits() {
+        for (x, text) in [
+            (0.0, "0"),
+            (-0.0, "-0"),
+            (24.0, "24"),
+            (1.0 / 3.0, "0.333333"),
+            (23.999_999_99, "24"),
+            (0.1 + 0.2, "0.3"),
+            (-1_234.567_89, "-1234.57"),
+            (4_512_345.678, "4512346"),
+            (1.0e-5, "0.00001"),
+            (1.234_567_89e-12, "1.23457e-12"),
+            (1.0e300, "1e300"),
+            (f64::INFINITY, "inf"),
+        ] {
+            assert_eq!(number(x), text);
+        }
+    }
+
+    #[test]
+    fn every_number_for_people_is_close_to_the_number() {
+        let mut x = 1.7e-30;
+        while x < 1e30 {
+            for x in [x, -x] {
+                let shown: f64 = number(x).parse().unwrap();
+                assert!(
+                    (shown - x).abs() <= x.abs() * 5.1e-6,
+                    "{x} is shown as {shown}"
+                );
+            }
+            x *= 1.37;
+        }
+    }
+
+    #[test]
+    fn a_table_fits_the_terminal_without_shortening_numbers() {
+        let row = |cells: [&str; 3]| cells.map(str::to_owned).to_vec();
+        let rows = [
+            row(["cell", "DistanceTo(other: File(\"a.obj\"))", "error"]),
+            row(["a very long name of an object", "123456789012", "no"]),
+        ];
+        let whole = table_within(&rows, None, false);
+        assert!(whole.contains("File") && whole.contains("an object"));
+        let short = table_within(&rows, Some(40), false);
+        assert!(
+            short.lines().all(|line| line.chars().count() <= 40),
+            "{short}"
+        );
+        assert!(
+            short.contains("123456789012") && short.contains('…'),
+            "{short}"
+        );
+        // If the numbers do not fit, they are printed nevertheless.
+        assert!(table_within(&rows, Some(10), true).contains("123456789012"));
+    }
 }

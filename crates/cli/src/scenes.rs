@@ -8,6 +8,7 @@ use mesh_io::{Note, ReadOptions};
 use scene::Scene;
 
 use crate::args::{ValueArgs, WrongUsage};
+use crate::file_kind::{FileKind, expect_kind};
 use crate::listener::{Terminal, catch_interrupts};
 use crate::loading::load_recipe;
 use crate::output::{print_diagnostics, print_error};
@@ -54,6 +55,7 @@ pub(crate) fn load_scene(
 
 /// Reads a mesh file. Returns its objects as a scene, and notes on what was left out or changed.
 pub(crate) fn read_file(path: &Path, options: &ReadOptions) -> anyhow::Result<(Scene, Vec<Note>)> {
+    expect_kind(path, FileKind::Mesh)?;
     let loaded = mesh_io::read(&Disk, path, options);
     let loaded = loaded.map_err(|error| anyhow::anyhow!("{error}"))?;
     let mut scene = Scene::new();

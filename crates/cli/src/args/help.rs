@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use clap::{Command, CommandFactory, FromArgMatches};
+use clap::{Arg, Command, CommandFactory, FromArgMatches};
 
 use super::Args;
 
@@ -81,7 +81,16 @@ pub(crate) fn command() -> Command {
         }
     }
     template += "\nOptions:\n{options}\n\n`meshwright COMMAND --help` describes a command and its options.\n";
-    command.help_template(template)
+    // Names of values can be written in lower or upper case.
+    command
+        .help_template(template)
+        .mut_subcommands(|command| command.mut_args(in_any_case))
+}
+
+/// Lets the values of an argument be written in lower or upper case.
+fn in_any_case(argument: Arg) -> Arg {
+    let takes_values = argument.get_action().takes_values();
+    argument.ignore_case(takes_values)
 }
 
 /// Parses the command line. If it is invalid, prints a message and exits.

@@ -98,6 +98,9 @@ pub(crate) struct BatchArgs {
     /// Write a report with a row for each input file, as CSV, JSON or JSON Lines
     #[arg(long, value_name = "FILE.csv|.json|.jsonl")]
     pub(crate) report: Option<PathBuf>,
+    /// Also write the results as JUnit XML, with a test case for each input file
+    #[arg(long, value_name = "FILE")]
+    pub(crate) junit: Option<PathBuf>,
     /// Process only part I of N of the input files; the part depends only on the file's path
     #[arg(long, value_name = "I/N")]
     pub(crate) shard: Option<Shard>,
@@ -110,7 +113,9 @@ pub(crate) struct BatchArgs {
         value_name = "REPORT",
         num_args = 1..,
         requires = "report",
-        conflicts_with_all = ["recipe", "inputs", "param", "set", "preset", "folders", "shard", "retry_failed"],
+        conflicts_with_all = [
+            "recipe", "inputs", "param", "set", "preset", "folders", "junit", "shard", "retry_failed"
+        ],
     )]
     pub(crate) merge: Vec<PathBuf>,
     #[command(flatten)]
@@ -119,6 +124,7 @@ pub(crate) struct BatchArgs {
 
 /// One of several parts of a list of files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(expecting = "an object")]
 pub(crate) struct Shard {
     /// The number of the part, from 1.
     pub(crate) index: u32,

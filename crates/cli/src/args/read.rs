@@ -47,8 +47,12 @@ impl ReadArgs {
     }
 }
 
-/// Parses a policy from its name in recipes.
+/// Parses a policy from its name in recipes, in lower or upper case. The names are single words.
 pub(super) fn policy<T: DeserializeOwned>(text: &str) -> Result<T, String> {
-    let name: StrDeserializer<serde::de::value::Error> = text.into_deserializer();
+    let mut name = text.to_ascii_lowercase();
+    if let Some(first) = name.get_mut(..1) {
+        first.make_ascii_uppercase();
+    }
+    let name: StrDeserializer<serde::de::value::Error> = name.as_str().into_deserializer();
     T::deserialize(name).map_err(|error| error.to_string())
 }

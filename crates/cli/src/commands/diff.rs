@@ -1,7 +1,7 @@
 //! `meshwright diff`: compares two files, or the results of two recipes.
 
 use engine::{Engine, Stop};
-use geometry::distance::{Distance, OneSided};
+use geometry::distance::{Distance, OneSided, SurfacePoint};
 use recipe::compare::{
     AttributeDifference, ColumnDifference, Connectivity, Counts, Difference, MeshDifference, Moved,
     ObjectDifference,
@@ -10,7 +10,7 @@ use serde_json::{Value as Json, json};
 
 use super::diff_runs;
 use crate::args::{DiffArgs, Format, ValueArgs};
-use crate::output::{group_digits, print, print_json, table};
+use crate::output::{group_digits, number, point, print, print_json, table};
 use crate::scenes::load_scene;
 
 pub(crate) fn run(args: &DiffArgs, engine: &Engine) -> anyhow::Result<bool> {
@@ -110,7 +110,11 @@ fn mesh_text(mesh: &MeshDifference, files: &[String; 2]) -> String {
             None => "the same".to_owned(),
             Some(m) => {
                 let [n, all] = [m.count, mesh.counts[0].vertices].map(|n| group_digits(n as u64));
-                format!("{n} of {all} differ, most at {} by {}", m.vertex, m.by)
+                format!(
+                    "{n} of {all} differ, most at {} by {}",
+                    m.vertex,
+                    number(m.by)
+                )
             }
         };
         line("positions", &moved);
@@ -118,10 +122,12 @@ fn mesh_text(mesh: &MeshDifference, files: &[String; 2]) -> String {
     if let Some(distance) = &mesh.distance {
         let worst = distance.worst();
         line("distance", &largest(distance));
-        line("", &format!("from {} to {}", worst.from, worst.to));
+        let place = |at: &SurfacePoint| format!("{} at {}", at.on, point(at.position));
+        let (from, to) = (place(&worst.from), place(&worst.to));
+        line("", &format!("from {from} to {to}"));
         let way = usize::from(!distance.is_worst_forth());
         line("", &format!("the first point is on {}", files[way]));
-        line("mean distance", &distance.mean().to_string());
+        line("mean distance", &number(distance.mean()));
     }
     for attribute in &mesh.attributes {
         if attribute.difference != ColumnDifference::None {
@@ -140,13 +146,13 @@ const FACTS: [(&str, Show); 8] = [
     ("faces", |c| group_digits(c.faces as u64)),
     ("components", |c| group_digits(c.components as u64)),
     ("boundary loops", |c| group_digits(c.boundary_loops as u64)),
-    ("area", |c| c.area.to_string()),
+    ("area", |c| number(c.area)),
     ("volume", |c| match c.boundary_loops {
-        0 => c.volume.to_string(),
+        0 => number(c.volume),
         _ => "open".to_owned(),
     }),
     ("bounds", |c| match c.bounds {
-        Some([min, max]) => format!("{min} to {max}"),
+        Some([min, max]) => format!("{} to {}", point(min), point(max)),
         None => "none".to_owned(),
     }),
 ];
@@ -155,9 +161,9 @@ const FACTS: [(&str, Show); 8] = [
 fn largest(distance: &Distance) -> String {
     let (largest, most) = (distance.largest(), distance.at_most());
     if most > largest {
-        format!("at least {largest}, at most {most}")
+        format!("at least {}, at most {}", number(largest), number(most))
     } else {
-        largest.to_string()
+        number(largest)
     }
 }
 
@@ -171,7 +177,7 @@ fn column_text(attribute: &AttributeDifference, files: &[String; 2]) -> String {
         ColumnDifference::Unknown => "in both, but on different elements".to_owned(),
         ColumnDifference::Values { count, by, element } => {
             let n = group_digits(*count as u64);
-            format!("{n} values differ, most at {element} by {by}")
+            format!("{n} values differ, most at {element} by {}", number(*by))
         }
     }
 }
@@ -226,7 +232,7 @@ fn counts_json(counts: &Counts) -> Json {
 }
 
 fn side_json(side: &OneSided) -> Json {
-    let place = |place: &geometry::distance::SurfacePoint| json!({ "on": place.on.to_string(), "position": place.position.to_array() });
+    let place = |place: &SurfacePoint| json!({ "on": place.on.to_string(), "position": place.position.to_array() });
     json!({
         "largest": side.largest, "at_most": side.at_most, "mean": side.mean,
         "from": place(&side.from), "to": place(&side.to),

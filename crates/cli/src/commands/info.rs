@@ -13,7 +13,7 @@ use serde_json::json;
 
 use crate::args::{Format, InfoArgs};
 use crate::commands::picture::draw_scenes;
-use crate::output::{group_digits, print, print_json};
+use crate::output::{group_digits, number, point, print, print_json};
 use crate::scenes::{SceneAtStep, read_file};
 use crate::terminal_picture;
 
@@ -148,13 +148,13 @@ fn mesh_facts(object: &Object, mesh: &Mesh) -> Vec<(&'static str, String)> {
         ("components", count(geometry::n_components(mesh))),
         ("Euler char.", mesh.euler_characteristic().to_string()),
         ("genus", geometry::genus(mesh).to_string()),
-        ("area", geometry::area(mesh).to_string()),
+        ("area", number(geometry::area(mesh))),
     ];
     if loops == 0 {
-        facts.push(("volume", geometry::volume(mesh).to_string()));
+        facts.push(("volume", number(geometry::volume(mesh))));
     }
     if let Some([min, max]) = geometry::bounds(mesh) {
-        facts.push(("bounds", format!("{min} to {max}")));
+        facts.push(("bounds", format!("{} to {}", point(min), point(max))));
     }
     let isolated = mesh.n_isolated_vertices();
     if isolated > 0 {

@@ -7,8 +7,8 @@ use anyhow::Context as _;
 use mesh::Domain;
 use op::{Context, Elements, FaceSelection, Files, TagName};
 use ops_pictures::Picture;
-use recipe::Source;
-use render::Image;
+use recipe::{Source, with_case_of};
+use render::{Image, Shading, Side};
 use ron_tree::string_literal;
 use scene::{Geometry, Object, Scene};
 use view::sheet::{Cell, SheetStyle, sheet};
@@ -118,7 +118,7 @@ fn fields(args: &DrawArgs, out: &Path, default_size: [u32; 2], further: Vec<Stri
     let more = projection.into_iter().chain([up.to_owned()]);
     let has_own_camera = (args.with.iter()).any(|w| w.contains("camera:") || w.contains("views:"));
     let camera = |from: Option<&String>| {
-        let from = from.map(|from| format!("from: {from}"));
+        let from = from.map(|from| format!("from: {}", with_case_of::<Side>(from)));
         let fields: Vec<String> = from.into_iter().chain(more.clone()).collect();
         format!("Fit({})", fields.join(", "))
     };
@@ -131,7 +131,11 @@ fn fields(args: &DrawArgs, out: &Path, default_size: [u32; 2], further: Vec<Stri
         }
     }
     let mut style = Vec::new();
-    style.extend(args.shading.iter().map(|s| format!("shading: {s}")));
+    style.extend(
+        args.shading
+            .iter()
+            .map(|s| format!("shading: {}", with_case_of::<Shading>(s))),
+    );
     style.extend(field_if(args.wireframe, "wireframe: ()"));
     style.extend(field_if(args.control_nets, "control_nets: ()"));
     style.extend(field_if(args.transparent, "background: Transparent"));
@@ -139,7 +143,11 @@ fn fields(args: &DrawArgs, out: &Path, default_size: [u32; 2], further: Vec<Stri
         fields.push(format!("style: ({})", style.join(", ")));
     }
     fields.extend(args.highlight.iter().map(|s| format!("highlight: {s}")));
-    fields.extend(args.color_by.iter().map(|s| format!("color_by: (of: {s})")));
+    fields.extend(
+        args.color_by
+            .iter()
+            .map(|s| format!("color_by: (of: {})", with_case_of::<Quantity>(s))),
+    );
     let images = args.images.iter();
     fields.extend(images.map(|folder| format!("images: {}", string_literal(folder))));
     fields.extend(further);

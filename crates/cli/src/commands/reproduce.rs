@@ -11,6 +11,7 @@ use store::TemporaryFolder;
 use walkdir::{DirEntry, WalkDir};
 
 use crate::args::ReproduceArgs;
+use crate::file_kind::{FileKind, expect_kind};
 use crate::listener::{INTERRUPT, catch_interrupts};
 use crate::output::{print, print_diagnostics, print_error};
 use engine::Loaded;
@@ -20,6 +21,7 @@ pub(crate) fn run(args: &ReproduceArgs, engine: &Engine) -> anyhow::Result<bool>
     let mut last: Option<Rerun> = None;
     let mut all_equal = true;
     for file in &args.files {
+        expect_kind(file, FileKind::Mesh)?;
         let stamp = mesh_io::provenance(&Disk, file)?.and_then(|text| Stamp::parse(&text));
         let (source, run) = recipe_of(file, stamp.as_ref(), args, engine)?;
         // If consecutive files come from the same run, that run is repeated only once.

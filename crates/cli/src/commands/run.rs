@@ -118,7 +118,7 @@ pub(crate) fn print_outcome(
     pictures: &Pictures,
 ) -> anyhow::Result<()> {
     if !outcome.steps.is_empty() {
-        print(&step_table(&outcome.steps))?;
+        print(&step_table(&loaded.recipe, outcome))?;
     }
     if args.explain {
         print(&explain_steps(outcome))?;

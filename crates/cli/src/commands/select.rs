@@ -9,7 +9,7 @@ use serde_json::{Value as Json, json};
 
 use crate::args::{Format, Kind, SelectArgs, WrongUsage};
 use crate::commands::picture::{draw_scenes, write_images};
-use crate::output::{group_digits, print, print_error, print_json};
+use crate::output::{group_digits, number, print, print_error, print_json};
 use crate::scenes::load_scene;
 use engine::{Engine, Stop};
 
@@ -109,8 +109,8 @@ fn elements_text(
     for i in 0..shown {
         text += &match chosen {
             Selected::Vertices(list) => {
-                let p = mesh.position(list[i]);
-                format!("  {}  ({}, {}, {})\n", list[i].index(), p.x, p.y, p.z)
+                let [x, y, z] = mesh.position(list[i]).to_array().map(number);
+                format!("  {}  ({x}, {y}, {z})\n", list[i].index())
             }
             Selected::Edges(list) => {
                 let [v, w] = ends(mesh, list[i]);

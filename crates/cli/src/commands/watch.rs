@@ -1,13 +1,14 @@
 //! `meshwright watch`: runs a recipe again whenever the recipe, a recipe that it calls, or one of its inputs is saved.
 //!
-//! The folders of these files are watched, since many editors save by replacing the file. The cache compares contents:
+//! The folders of these files are watched, since many editors save by replacing the file. Other files in these folders
+//! are ignored, and so are the files that the run writes. The cache compares contents:
 //! steps whose inputs did not change are not run again, and saving an unchanged file prints no results. If a file is
 //! saved during a run, the run is canceled and the next one starts.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use anyhow::Context as _;
@@ -19,8 +20,10 @@ use store::folder_of;
 use super::run::{execute, load_to_run, print_outcome, start_threads};
 use crate::args::{Format, RunArgs};
 use crate::cache;
+use crate::file_kind::{FileKind, expect_kind};
 use crate::listener::{catch_interrupts, is_interrupted, lock};
 use crate::output::{print, print_error};
+use crate::recording::{RecordingDisk, with_real_folder};
 use engine::Loaded;
 
 /// How long the files must stay unchanged before a run starts: editors save in several steps.
@@ -30,11 +33,14 @@ const SETTLE_TIME: Duration = Duration::from_millis(50);
 const POLL_INTERVAL: Duration = Duration::from_millis(100);
 
 pub(crate) fn run(args: &RunArgs, engine: &Engine) -> anyhow::Result<bool> {
+    expect_kind(&args.recipe.recipe, FileKind::Recipe)?;
     start_threads(args.threads)?;
     let cache = cache::open(&args.cache)?;
     catch_interrupts();
     let is_human = args.recipe.format == Format::Human;
-    let mut changes = FolderWatcher::new()?;
+    let disk = Arc::new(RecordingDisk::default());
+    let engine = &Engine::new(engine.registry()).with_store(disk.clone());
+    let mut changes = FolderWatcher::new(disk)?;
     changes.follow(folder_of(&args.recipe.recipe))?;
     let mut texts = None;
     while !is_interrupted() {
@@ -44,13 +50,14 @@ pub(crate) fn run(args: &RunArgs, engine: &Engine) -> anyhow::Result<bool> {
                     // A missing folder has been reported as an error of the recipe.
                     let _ = changes.follow(&folder);
                 }
+                changes.ignore(&loaded.forecast.outputs);
                 let go_on = || !changes.has_pending();
                 let pictures = (args.picture_errors).of(&args.recipe.recipe, args.recipe.budget);
                 let outcome = execute(args, &loaded, cache.as_ref(), &pictures, &go_on)?;
-                changes.ignore(&pictures.paths());
                 if let Some(outcome) = &outcome {
                     changes.ignore(&outcome.written);
                 }
+                changes.follow_files();
                 let is_cancelled = outcome.as_ref().is_some_and(|o| o.cancelled);
                 let now = loaded.recipe.sources.iter().map(|s| s.text.clone());
                 let now: Vec<_> = now.collect();
@@ -101,20 +108,23 @@ struct FolderWatcher {
     watcher: notify::RecommendedWatcher,
     events: Mutex<Receiver<notify::Result<notify::Event>>>,
     folders: BTreeSet<PathBuf>,
-    /// Files that the runs write: their changes are ignored.
+    /// Knows the files that the recipe reads: changes of other files are ignored.
+    disk: Arc<RecordingDisk>,
+    /// Files that the runs write: their changes are ignored too.
     ignored: Mutex<BTreeSet<PathBuf>>,
     /// A file that has changed since the last call of [`wait`](Self::wait), if any.
     pending: Mutex<Option<PathBuf>>,
 }
 
 impl FolderWatcher {
-    fn new() -> anyhow::Result<Self> {
+    fn new(disk: Arc<RecordingDisk>) -> anyhow::Result<Self> {
         let (sender, events) = channel();
         let watcher = notify::recommended_watcher(sender).context("cannot watch files")?;
         Ok(Self {
             watcher,
             events: Mutex::new(events),
             folders: BTreeSet::new(),
+            disk,
             ignored: Mutex::default(),
             pending: Mutex::default(),
         })
@@ -131,6 +141,20 @@ impl FolderWatcher {
         Ok(())
     }
 
+    /// Follows the folders of all files that were read, such as the materials of a model.
+    fn follow_files(&mut self) {
+        let is_temporary = |path: &Path| {
+            let mut parts = path.components();
+            parts.any(|part| is_temporary(&part.as_os_str().to_string_lossy()))
+        };
+        for file in self.disk.files() {
+            if !is_temporary(&file) && !lock(&self.ignored).contains(&file) {
+                // The run has read the file; if its folder cannot be watched, the others still are.
+                let _ = self.follow(folder_of(&file));
+            }
+        }
+    }
+
     fn describe(&self) -> String {
         match self.folders.len() {
             1 => "one folder".to_owned(),
@@ -138,9 +162,9 @@ impl FolderWatcher {
         }
     }
 
-    /// Ignores changes of these files from now on.
+    /// Ignores changes of these output files from now on.
     fn ignore(&self, written: &[PathBuf]) {
-        let real = written.iter().filter_map(|path| path.canonicalize().ok());
+        let real = written.iter().filter_map(|path| with_real_folder(path));
         lock(&self.ignored).extend(real);
     }
 
@@ -178,7 +202,7 @@ impl FolderWatcher {
         lock(&self.pending).take()
     }
 
-    /// Returns the file that has changed, unless it is a folder, ignored or temporary.
+    /// Returns the file that has changed, if the recipe reads it and does not write it.
     fn changed_file(&self, event: notify::Result<notify::Event>) -> Option<PathBuf> {
         let event = event.ok()?;
         if event.kind.is_access() {
@@ -187,7 +211,15 @@ impl FolderWatcher {
         let ignored = lock(&self.ignored);
         event.paths.into_iter().find(|path| {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
-            !name.starts_with(".meshwright-") && !ignored.contains(path) && !path.is_dir()
+            !is_temporary(&name)
+                && self.disk.has_recorded(path)
+                && !ignored.contains(path)
+                && !path.is_dir()
         })
     }
+}
+
+/// Whether a file or folder with this name is written by a running program.
+fn is_temporary(name: &str) -> bool {
+    name.starts_with(".meshwright-")
 }

@@ -697,3 +697,50 @@ fn a_journal_that_cannot_be_written_ends_the_batch() {
         .with_code(1)
         .complains(&["error: cannot open the journal out/batch.jsonl"]);
 }
+
+#[test]
+fn all_violations_and_the_counts_of_a_failure_are_in_the_reports() {
+    let folder = Folder::with_recipe(
+        r#"(recipe: 1, params: {"model": Path(default: "a")}, steps: [
+            Load(path: arg("model")), Save(path: "{model.stem}.obj"),
+        ], expect: [Faces(eq: 5), Vertices(max: 3)])"#,
+    )
+    .with("models/a <1>.obj", tetrahedron(1));
+    batch(&folder, "--report r.json --junit deep/r.xml")
+        .with_code(1)
+        .prints(&[
+            "FAILED models/a <1>.obj: expected 5 faces, found 4; expected at most 3 vertices, found 4\n",
+        ]);
+    let report = report(&folder, "r.json");
+    let row = &rows(&report)[0];
+    let counts = ["vertices", "edges", "faces"].map(|name| row[name].as_u64());
+    assert_eq!(counts, [4, 6, 4].map(Some));
+    assert_eq!(
+        row["message"],
+        "expected 5 faces, found 4; expected at most 3 vertices, found 4"
+    );
+
+    let xml = String::from_utf8(folder.read("deep/r.xml")).unwrap();
+    let document = roxmltree::Document::parse(&xml).unwrap();
+    let find = |name: &str| {
+        let mut nodes = document.descendants();
+        nodes.find(|node| node.has_tag_name(name)).unwrap()
+    };
+    assert_eq!(find("testsuite").attribute("failures"), Some("1"));
+    assert_eq!(find("testcase").attribute("name"), Some("models/a <1>.obj"));
+    let text = find("failure").text().unwrap();
+    assert!(
+        text.contains("recipe.ron:3:") && text.contains("To repeat the run"),
+        "{text}"
+    );
+
+    // A file that is no report is refused without names of Rust types.
+    let folder = folder.with("no.json", "1").with("no.jsonl", "[]\n");
+    for name in ["no.json", "no.jsonl"] {
+        let ended = folder.run(&format!("batch --merge {name} --report all.json"));
+        assert!(!ended.stderr.contains("struct"), "{ended:#?}");
+        ended
+            .with_code(1)
+            .complains(&["is not a report of a batch"]);
+    }
+}

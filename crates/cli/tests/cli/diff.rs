@@ -69,7 +69,7 @@ fn recipes_are_compared_by_their_results() {
         "6",
         "12",
         "connectivity   different\n",
-        "distance       0",
+        "distance       4.71028e-16\n",
     ]);
     assert_eq!(folder.entries("."), ["a.ron", "b.ron", "c.ron"]);
     let json = folder

@@ -5,6 +5,7 @@ mod cache;
 mod capsule;
 mod diff;
 mod faults;
+mod file_kinds;
 mod files;
 mod folder;
 mod interrupt;

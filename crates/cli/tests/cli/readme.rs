@@ -26,8 +26,8 @@ fn without_times(text: &str) -> Vec<String> {
     };
     let row = |line| {
         let mut words = words(line);
-        if words.last().is_some_and(|unit| unit == "ms" || unit == "s") {
-            words.truncate(words.len() - 2);
+        if let Some(unit) = words.iter().position(|unit| unit == "ms") {
+            words.drain(unit - 1..=unit);
         }
         words.join(" ")
     };

@@ -102,3 +102,29 @@ fn a_saved_recipe_and_a_saved_input_run_again() {
         "{table:#?}"
     );
 }
+
+#[test]
+fn only_files_that_the_recipe_reads_start_a_run() {
+    let with_material = format!("mtllib a.mtl\n{TRIANGLE}");
+    let folder = Folder::with_recipe(RECIPE)
+        .with("a.obj", &with_material)
+        .with("a.mtl", "newmtl red\nKd 1 0 0\n");
+    let arguments = ["recipe.ron", "--set", "levels=1", "--out", "."];
+    for is_cached in [false, true] {
+        let watching = Watching::start(&folder, &arguments);
+        watching.wait_for("watching one folder");
+        // Neither other files nor the output start a run.
+        std::fs::write(folder.path("notes.txt"), "1").unwrap();
+        std::fs::write(folder.path("b.obj"), TRIANGLE).unwrap();
+        std::fs::write(folder.path("b.mtl"), "newmtl blue\n").unwrap();
+        std::thread::sleep(Duration::from_millis(300));
+        let kd = if is_cached { "0 1 0" } else { "0 0 1" };
+        std::fs::write(folder.path("a.mtl"), format!("newmtl red\nKd {kd}\n")).unwrap();
+        let lines = watching.wait_for(" changed");
+        assert!(
+            lines.last().unwrap().contains("a.mtl changed"),
+            "{lines:#?}"
+        );
+        watching.wait_for("watching");
+    }
+}

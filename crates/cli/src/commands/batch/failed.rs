@@ -38,6 +38,11 @@ pub(super) fn write(batch: &Batch, file: &Input, row: &Row, text: &str) -> anyho
     write_atomically(&path(batch, file), text.as_bytes())
 }
 
+/// Returns the text that was written for the failure of an input file.
+pub(super) fn read(batch: &Batch, file: &Input) -> std::io::Result<String> {
+    std::fs::read_to_string(path(batch, file))
+}
+
 /// Removes the file of an earlier failure, if there is one.
 pub(super) fn remove(batch: &Batch, file: &Input) {
     // Usually the file does not exist.

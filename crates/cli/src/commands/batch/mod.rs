@@ -17,7 +17,7 @@ mod merge;
 mod plan;
 mod row;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
@@ -25,9 +25,10 @@ use engine::Engine;
 use recipe::{InOrder, JobEnd, Jobs, Outcome};
 
 use crate::args::BatchArgs;
+use crate::junit::{self, Case, CaseEnd};
 use crate::listener::{INTERRUPT, catch_interrupts, is_interrupted};
-use crate::many::{self, CHECKED_AHEAD, JobResult, first_error, run_all};
-use crate::output::{escape_control, print};
+use crate::many::{self, CHECKED_AHEAD, JobResult, all_errors, run_all};
+use crate::output::{escape_control, print, write_atomically};
 use engine::{Loaded, Run};
 use inputs::Input;
 use journal::{Entry, Journal};
@@ -58,9 +59,37 @@ pub(crate) fn run(args: &BatchArgs, engine: &Engine) -> anyhow::Result<bool> {
     if let Some(path) = &args.report {
         report.write(path)?;
     }
+    if let Some(path) = &args.junit {
+        write_atomically(path, junit_report(&batch, &report.rows).as_bytes())?;
+    }
     print(&summary(&report, kept, args))?;
     let header = &report.header;
     Ok(header.failed == 0 && header.skipped == 0)
+}
+
+/// Returns the results as JUnit XML. The text of a failure is that of its file in the folder of failures.
+fn junit_report(batch: &Batch, rows: &[Row]) -> String {
+    let files = batch.files_of_part();
+    let pairs = rows.iter().zip(files);
+    let cases: Vec<Case> = pairs.map(|(row, file)| case(batch, file, row)).collect();
+    junit::report(&batch.path.display().to_string(), &cases)
+}
+
+fn case<'b>(batch: &Batch, file: &'b Input, row: &Row) -> Case<'b> {
+    let message = || row.message.clone().unwrap_or_default();
+    let end = match row.state {
+        State::Ok => CaseEnd::Passed,
+        State::Skipped => CaseEnd::Skipped("interrupted"),
+        State::Failed => CaseEnd::Failed {
+            message: message(),
+            text: failed::read(batch, file).unwrap_or_else(|_| message()),
+        },
+    };
+    Case {
+        path: Path::new(&file.path),
+        time: row.seconds,
+        end,
+    }
 }
 
 fn summary(report: &Report, kept: usize, args: &BatchArgs) -> String {
@@ -260,7 +289,7 @@ fn check(batch: &Batch, file: &Input, known: Option<&Entry>) -> Task {
         return Task::Keep(entry.row.clone());
     }
     if loaded.has_errors() {
-        let mut failed = failure(file, first_error(&loaded.diagnostics));
+        let mut failed = failure(file, all_errors(&loaded.diagnostics));
         failed.text = loaded.render(&loaded.diagnostics, false);
         let key = batch.key(file, &loaded);
         failed.key = key.map(|key| journal_key(key, &failed.row, batch));
@@ -308,16 +337,17 @@ fn row(path: &str, loaded: &Loaded, outcome: &Outcome) -> Row {
         row.losses
             .extend(losses.map(|loss| format!("{}: {loss}", step.label)));
     }
-    if state == State::Failed {
-        let failed = loaded.recipe.steps.get(outcome.steps.len());
-        row.step = failed.map(|step| step.label().to_owned());
-        row.message = Some(first_error(&outcome.failures));
-        return row;
-    }
+    // If a step failed, the counts are those before the step.
     let last = outcome.steps.last();
     row.vertices = last.map(|step| step.vertices);
     row.edges = last.map(|step| step.edges);
     row.faces = last.map(|step| step.faces);
+    if state == State::Failed {
+        let failed = loaded.recipe.steps.get(outcome.steps.len());
+        row.step = failed.map(|step| step.label().to_owned());
+        row.message = Some(all_errors(&outcome.failures));
+        return row;
+    }
     row.digest = Some(outcome.digest.to_string());
     let output = |path: &PathBuf| Output {
         bytes: path.metadata().map_or(0, |m| m.len()),

@@ -11,6 +11,7 @@ use super::inputs::{self, Input};
 use super::row::Header;
 use crate::args::BatchArgs;
 use crate::commands::run::report_errors;
+use crate::file_kind::{FileKind, expect_kind};
 use crate::loading::load_text;
 use engine::Loaded;
 
@@ -37,6 +38,7 @@ impl<'a> Batch<'a> {
         engine: &'a Engine<'a>,
     ) -> anyhow::Result<Option<Self>> {
         let path = args.recipe.as_deref().unwrap_or(Path::new(""));
+        expect_kind(path, FileKind::Recipe)?;
         let source = Source::open(path).map_err(anyhow::Error::msg)?;
         // Loads the recipe with its default file, which can be missing.
         let loaded = load_text(&source, &args.values, &args.out, args.many.budget, engine)?;

@@ -15,8 +15,8 @@
 //!   "rows": [{
 //!     "input": "models/cow.obj",
 //!     "state": "ok",                      or "failed", or "skipped": not processed because of Ctrl-C
-//!     "step": null, "message": null,      the failed step and its error
-//!     "vertices": 8, "edges": 12, "faces": 6,
+//!     "step": null, "message": null,      the failed step and its errors, joined by `; `
+//!     "vertices": 8, "edges": 12, "faces": 6,     at the end, or before the failed step
 //!     "digest": "..",
 //!     "losses": [".."],
 //!     "outputs": [{"path": "out/cow.glb", "bytes": 1200}],
@@ -37,6 +37,7 @@ use crate::output::write_atomically;
 
 /// The result of one input file.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
+#[serde(expecting = "an object")]
 pub(super) struct Row {
     pub(super) input: String,
     pub(super) state: State,
@@ -62,6 +63,7 @@ pub(super) enum State {
 
 /// A file that was written.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
+#[serde(expecting = "an object")]
 pub(super) struct Output {
     pub(super) path: String,
     pub(super) bytes: u64,
@@ -130,6 +132,7 @@ impl State {
 
 /// The batch that the rows belong to, and their counts.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
+#[serde(expecting = "an object")]
 pub(super) struct Header {
     pub(super) batch: u32,
     pub(super) meshwright: String,
@@ -152,6 +155,7 @@ pub(super) struct Header {
 
 /// A report of a batch or of a part.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(expecting = "an object")]
 pub(super) struct Report {
     #[serde(flatten)]
     pub(super) header: Header,

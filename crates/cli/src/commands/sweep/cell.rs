@@ -22,6 +22,8 @@ pub(super) struct Cells<'a> {
     pub(super) engine: &'a Engine<'a>,
     /// The text of the recipe.
     pub(super) source: &'a Source,
+    /// The text of the sweep.
+    pub(super) sweep: &'a str,
     pub(super) grid: &'a Grid,
     pub(super) keep: &'a [(Metric, Span)],
     /// Whether the recipe's expectations are checked.
@@ -116,9 +118,9 @@ impl Cells<'_> {
             return Err(Some(first_error(&loaded.diagnostics)));
         }
         let mut outcome = self.outcome(loaded, self.args.keep_outputs.is_some())?;
-        let measure = |(metric, _): &(Metric, Span)| {
+        let measure = |(metric, span): &(Metric, Span)| {
             let measured = metric.measure(&outcome, &loaded.files, &FileReader);
-            measured.map_err(|problem| Some(format!("{metric:?}: {problem}")))
+            measured.map_err(|problem| Some(format!("{}: {problem}", span.of(self.sweep))))
         };
         let measures = self.keep.iter().map(measure).collect::<Result<_, _>>()?;
         let scene = self.collect.zip(outcome.scene.take());

@@ -40,11 +40,13 @@ use crate::args::{Format, SweepArgs, ValueArgs};
 use crate::cache;
 use crate::commands::picture::write_png;
 use crate::commands::run::report_errors;
+use crate::file_kind::{FileKind, expect_kind};
 use crate::listener::catch_interrupts;
 use crate::loading::load_text;
 use crate::many::{CHECKED_AHEAD, csv_line, run_in_order};
 use crate::output::{
-    escape_control, print, print_diagnostics_in, print_error, print_json, table, write_atomically,
+    escape_control, number, print, print_diagnostics_in, print_error, print_json, table,
+    write_atomically,
 };
 use cell::{CellResult, Cells};
 use engine::Loaded;
@@ -78,6 +80,7 @@ pub(crate) fn run(args: &SweepArgs, engine: &Engine) -> anyhow::Result<bool> {
         cache: cache.as_ref(),
         engine,
         source: &plan.recipe,
+        sweep: &plan.source.text,
         grid: &plan.grid,
         keep: &plan.sweep.keep,
         expects: plan.sweep.expects,
@@ -145,6 +148,7 @@ struct Plan {
 impl Plan {
     /// Reads the sweep and its recipe, and checks that they match. If there are errors, prints them and returns `None`.
     fn read(args: &SweepArgs, engine: &Engine) -> anyhow::Result<Option<Self>> {
+        expect_kind(&args.sweep, FileKind::Sweep)?;
         let source = Source::open(&args.sweep).map_err(anyhow::Error::msg)?;
         let reading = read_sweep(&source.text);
         let mut diagnostics = reading.diagnostics;
@@ -297,10 +301,10 @@ fn plain(setting: &Setting) -> String {
     }
 }
 
-/// Shortens a long decimal number to six decimals. Escapes other texts for the terminal.
+/// Shortens a long decimal number to six significant digits. Escapes other texts for the terminal.
 fn short(text: &str) -> String {
     match text.parse::<f64>() {
-        Ok(number) if text.contains('.') && text.len() > 10 => format!("{number:.6}"),
+        Ok(x) if text.contains('.') => number(x),
         _ => escape_control(text).into_owned(),
     }
 }

@@ -1,74 +1,34 @@
-//! Writes test results as JUnit XML, which CI servers read.
-//!
-//! There is one suite, `recipes`. Each recipe is a test case, with its path as name and its folder as class. The text of
-//! a failure is the same as on a terminal.
-
-use std::path::Path;
+//! Writes test results as JUnit XML.
 
 use super::{State, Test, TestResult};
+use crate::junit::{Case, CaseEnd, report};
 
 /// Returns the results as XML.
-pub(super) fn report(tests: &[Test], results: &[TestResult]) -> String {
-    let cases: String = tests.iter().zip(results).map(|(t, r)| case(t, r)).collect();
-    let count = |is: fn(State) -> bool| results.iter().filter(|r| is(r.state)).count();
-    let failures = count(|state| state == State::Failed);
-    let skipped = count(|state| !matches!(state, State::Passed | State::Failed));
-    let time: f64 = results.iter().map(|r| r.time.as_secs_f64()).sum();
-    let tests = tests.len();
-    format!(
-        r#"<?xml version="1.0" encoding="UTF-8"?>
-<testsuites name="meshwright" tests="{tests}" failures="{failures}" errors="0" time="{time:.3}">
-    <testsuite name="recipes" tests="{tests}" disabled="{skipped}" errors="0" failures="{failures}">
-{cases}    </testsuite>
-</testsuites>
-"#
-    )
+pub(super) fn tests_report(tests: &[Test], results: &[TestResult]) -> String {
+    let pairs = tests.iter().zip(results);
+    let cases: Vec<Case> = pairs.map(|(test, result)| case(test, result)).collect();
+    report("recipes", &cases)
 }
 
-fn case(test: &Test, result: &TestResult) -> String {
-    let skipped = |reason: &str| format!(r#"<skipped message="{reason}"/>"#);
-    let outcome = match result.state {
-        State::Passed => String::new(),
+fn case<'a>(test: &'a Test, result: &TestResult) -> Case<'a> {
+    let end = match result.state {
+        State::Passed => CaseEnd::Passed,
         State::Failed => failure(test, result),
-        State::NoExpectations => skipped("no expectations"),
-        State::Called => skipped("called by other recipes"),
-        State::NotRun => skipped("interrupted"),
+        State::NoExpectations => CaseEnd::Skipped("no expectations"),
+        State::Called => CaseEnd::Skipped("called by other recipes"),
+        State::NotRun => CaseEnd::Skipped("interrupted"),
     };
-    let path = &test.found.path;
-    let folder = path.parent().unwrap_or(Path::new(""));
-    format!(
-        "        <testcase name=\"{}\" classname=\"{}\" time=\"{:.3}\">{outcome}</testcase>\n",
-        escaped(&path.display().to_string()),
-        escaped(&folder.display().to_string()),
-        result.time.as_secs_f64(),
-    )
+    let (path, time) = (test.found.path.as_path(), result.time.as_secs_f64());
+    Case { path, time, end }
 }
 
-fn failure(test: &Test, result: &TestResult) -> String {
+fn failure(test: &Test, result: &TestResult) -> CaseEnd {
     let first = result.diagnostics.first().map(|d| d.message.as_str());
     let message = first.or(result.message.as_deref()).unwrap_or("failed");
     let mut text = result.message.clone().unwrap_or_default();
     if let Ok(loaded) = &test.loaded {
         text += &loaded.render(&result.diagnostics, false);
     }
-    let (message, text) = (escaped(message), escaped(&text));
-    format!(r#"<failure message="{message}">{text}</failure>"#)
-}
-
-/// Escapes a text for an XML attribute or for XML content. Removes characters that XML does not allow.
-fn escaped(text: &str) -> String {
-    let mut xml = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => xml += "&amp;",
-            '<' => xml += "&lt;",
-            '>' => xml += "&gt;",
-            '"' => xml += "&quot;",
-            // In attributes, XML parsers replace these characters by spaces.
-            '\t' | '\n' | '\r' => xml += &format!("&#{};", u32::from(c)),
-            '\0'..='\x1f' | '\u{fffe}' | '\u{ffff}' => {}
-            c => xml.push(c),
-        }
-    }
-    xml
+    let message = message.to_owned();
+    CaseEnd::Failed { message, text }
 }

@@ -75,7 +75,7 @@ pub(crate) fn run(args: &TestArgs, engine: &Engine) -> anyhow::Result<bool> {
     }
 
     if let Some(path) = &args.junit {
-        write_atomically(path, junit::report(&tests, &results).as_bytes())?;
+        write_atomically(path, junit::tests_report(&tests, &results).as_bytes())?;
     }
     let count = |state: State| results.iter().filter(|r| r.state == state).count();
     let (failed, not_run) = (count(State::Failed), count(State::NotRun));

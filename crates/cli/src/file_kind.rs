@@ -1,0 +1,92 @@
+//! Checks that a file is of the kind that a command expects. The error for another kind names the commands that fit.
+
+use std::path::Path;
+
+use mesh_io::Format;
+use ron_tree::ValueKind;
+
+use crate::args::WrongUsage;
+use crate::output::shell_quoted;
+
+/// The kinds of files that commands take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum FileKind {
+    Recipe,
+    Sweep,
+    Mesh,
+}
+
+/// The maximum size of a file that is read to find out whether it is a sweep, in bytes. Sweeps are short.
+const MAX_SWEEP: u64 = 1 << 20;
+
+/// Checks the kind of a file by its extension; recipes and sweeps, which share an extension, by their contents. Files
+/// that are missing or of an unknown kind pass: the command itself reports them.
+///
+/// # Errors
+///
+/// [`WrongUsage`], which names the commands for the file.
+pub(crate) fn expect_kind(path: &Path, expected: FileKind) -> anyhow::Result<()> {
+    let shown = path.display();
+    if path.is_dir() {
+        let message = format!("{shown} is a folder, expected {}", expected.describe());
+        return Err(WrongUsage(message).into());
+    }
+    match FileKind::of(path) {
+        Some(kind) if kind != expected => {
+            let name = shell_quoted(&shown.to_string()).into_owned();
+            let (kind, expected, help) = (kind.describe(), expected.describe(), kind.help(&name));
+            let message = format!("{shown} is {kind}, expected {expected}: {help}");
+            Err(WrongUsage(message).into())
+        }
+        _ => Ok(()),
+    }
+}
+
+impl FileKind {
+    /// Returns the kind of an existing file, if it is known.
+    fn of(path: &Path) -> Option<Self> {
+        let size = path
+            .metadata()
+            .ok()
+            .filter(std::fs::Metadata::is_file)?
+            .len();
+        if Format::from_path(path).is_some() {
+            return Some(Self::Mesh);
+        }
+        if path.extension().is_none_or(|ending| ending != "ron") {
+            return None;
+        }
+        let text = (size <= MAX_SWEEP).then(|| std::fs::read_to_string(path));
+        let is_sweep = text.is_some_and(|text| text.is_ok_and(|text| is_sweep(&text)));
+        Some(if is_sweep { Self::Sweep } else { Self::Recipe })
+    }
+
+    fn describe(self) -> &'static str {
+        match self {
+            Self::Recipe => "a recipe",
+            Self::Sweep => "a sweep",
+            Self::Mesh => "a mesh file",
+        }
+    }
+
+    /// Returns the commands for a file of this kind.
+    fn help(self, name: &str) -> String {
+        match self {
+            Self::Recipe => format!("use `meshwright run {name}` or `meshwright check {name}`"),
+            Self::Sweep => format!("use `meshwright sweep {name}`"),
+            Self::Mesh => format!(
+                "use `meshwright info {name}`, `meshwright picture {name}` or `meshwright convert {name} OUTPUT`, or `meshwright new {name}` for a recipe that loads it"
+            ),
+        }
+    }
+}
+
+/// Whether a text has the field `sweep`, and not the steps of a recipe.
+fn is_sweep(text: &str) -> bool {
+    if !text.contains("sweep") {
+        return false;
+    }
+    let root = ron_tree::parse(text).value;
+    let is_struct = matches!(root.kind, ValueKind::Struct(_));
+    is_struct && root.field("sweep").is_some() && root.field("steps").is_none()
+}

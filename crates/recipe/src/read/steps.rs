@@ -12,6 +12,9 @@ use crate::shape::{Rename, check_shape, check_step, unread};
 use crate::unknown_operation::suggest_operations;
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
+/// After this number of problems, errors about unknown operations have no suggestions, which take long to find.
+const MAX_SUGGESTIONS: usize = 1000;
+
 impl Reader<'_, '_> {
     /// Reads a list of steps.
     pub(super) fn steps(&mut self, items: Vec<Value>) -> Vec<Draft> {
@@ -61,8 +64,10 @@ impl Reader<'_, '_> {
         let step = if let Some(entry) = &entry {
             self.operation(entry, run)
         } else {
-            let help = suggest_operations(name, self.shared.schemas.registry);
-            self.error(span, format!("unknown operation `{name}`"), help);
+            let has_help = self.diagnostics.len() < MAX_SUGGESTIONS;
+            let help = has_help.then(|| suggest_operations(name, self.shared.schemas.registry));
+            let message = format!("unknown operation `{name}`");
+            self.error(span, message, help.unwrap_or_default());
             None
         };
         let on = envelope("on").and_then(Value::items).map(|items| {

@@ -183,6 +183,7 @@ fn singular(what: &str) -> String {
         ("because they point ", "because it points "),
         ("because they visit ", "because it visits "),
         (": they have ", ": it has "),
+        ("in their rest pose", "in its rest pose"),
     ];
     verbs
         .iter()

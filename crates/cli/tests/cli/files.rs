@@ -212,17 +212,17 @@ fn losses_of_reading_are_losses_of_the_step() {
         .with("allow.ron", recipe("on_loss: Allow([\"skins\"]),"));
     let ended = folder.run("run warn.ron").with_code(0);
     assert!(
-        ended.stdout.contains("Load: a.gltf: 1 skins left out"),
+        ended.stdout.contains("Load: a.gltf: 1 skin left out"),
         "{ended:#?}"
     );
     let checked = folder.run("check warn.ron").with_code(0);
     assert!(
-        checked.stdout.contains("Load: a.gltf: 1 skins left out"),
+        checked.stdout.contains("Load: a.gltf: 1 skin left out"),
         "{checked:#?}"
     );
     for command in ["check", "run"] {
         let ended = folder.run(&format!("{command} error.ron")).with_code(1);
-        let expected = "1 skins left out, and `on_loss` does not allow it";
+        let expected = "1 skin left out, and `on_loss` does not allow it";
         assert!(ended.stderr.contains(expected), "{ended:#?}");
     }
     folder.run("run allow.ron").with_code(0);

@@ -68,7 +68,7 @@ fn transforms_apply_from_the_last_to_the_first() {
     let skew = "<skew>45 1 0 0 0 1 0</skew>";
     assert_eq!(
         notes(&file(CUBE, skew)),
-        ["Some(44): 1 skew of nodes left out"]
+        ["Some(44): 1 skews of nodes left out"]
     );
 }
 
@@ -144,10 +144,10 @@ fn skins_and_other_libraries_are_counted() {
         notes,
         [
             "1 other scenes left out",
-            "1 geometry left out: not used by any node of the scene",
+            "1 geometries left out: not used by any node of the scene",
             "1 node named `box` renamed to `box.2`: the name is taken",
             "2 animations left out",
-            "1 camera left out",
+            "1 cameras left out",
             "2 skins and morphs left out: geometries have their rest pose",
         ]
     );

@@ -153,7 +153,7 @@ fn lines_and_small_polygons_are_left_out_and_counted() {
         notes(&file(&lists, "")),
         [
             "Some(41): 2 lines and points left out",
-            "Some(42): 1 polygon with fewer than 3 corners left out"
+            "Some(42): 1 polygons with fewer than 3 corners left out"
         ]
     );
 }
@@ -270,7 +270,7 @@ fn unbound_symbols_become_white_materials_with_a_note() {
     let text = file(list, "");
     assert_eq!(
         notes(&text),
-        ["Some(20): 1 material that the file does not define: replaced by white materials"]
+        ["Some(20): 1 materials that the file does not define: replaced by white materials"]
     );
     assert_eq!(
         loaded(&text).objects[0].materials,

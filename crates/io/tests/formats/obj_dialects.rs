@@ -91,13 +91,13 @@ fn colors_of_zbrush_become_vertex_colors() {
         DVec4::ONE,
     ];
     assert_eq!(mesh.get(COLOR), Some(&expected[..]));
-    assert_eq!(notes, ["1 mask of `#MRGB` comments left out"]);
+    assert_eq!(notes, ["1 masks of `#MRGB` comments left out"]);
     let (mesh, notes) = found(format!("{TRIANGLE}#MRGB ffff0000\nf 1 2 3\n"));
     assert_eq!(mesh.get(COLOR), None);
     assert_eq!(
         notes,
         [
-            "1 color of `#MRGB` comments left out: their number differs from the number of vertices, or vertices have other colors"
+            "1 colors of `#MRGB` comments left out: their number differs from the number of vertices, or vertices have other colors"
         ]
     );
 }
@@ -128,7 +128,7 @@ fn files_of_common_programs_are_read() {
     let rest = "vt 0.000000 0.000000\nvn 0.0 0.0 1.0\ns off\ng pCube1\nusemtl\nf 1/1/1 2/1/1 3/1/1\ng\nf 1/1/1 3/1/1 2/1/1\n";
     let (mesh, notes) = found(format!("{maya}{TRIANGLE}{rest}"));
     assert_eq!(mesh.tag(Domain::Face, "pCube1"), Some(&[true, false][..]));
-    assert_eq!(notes, ["1 group or object left out: it has no faces"]);
+    assert_eq!(notes, ["1 groups and objects left out: they have no faces"]);
 
     let colored = "vn 0 0 1\nv 0 0 0 1.000000 0.501961 0.000000\nvn 0 0 1\nv 1 0 0 1 1 1\nvn 0 0 1\nv 0 1 0 0 0 0\n";
     let (mesh, notes) = found(format!(

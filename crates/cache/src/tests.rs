@@ -24,11 +24,14 @@ use crate::{Cache, Caching};
 struct GridReader;
 
 impl Reader for GridReader {
-    fn objects(&self, path: &Path, files: &Files) -> Result<Vec<Object>, String> {
+    fn scene(&self, path: &Path, files: &Files) -> Result<Scene, String> {
         files.has_read(path);
         let text = fs::read_to_string(path).map_err(|error| error.to_string())?;
         let n = text.trim().parse().map_err(|_| "no number".to_owned())?;
-        Ok(vec![Object::mesh("file", geometry::shapes::grid(n, 1))])
+        let mut scene = Scene::new();
+        let object = Object::mesh("file", geometry::shapes::grid(n, 1));
+        scene.insert(object).map_err(|error| error.to_string())?;
+        Ok(scene)
     }
 
     fn compare_pictures(

@@ -59,10 +59,8 @@ pub(crate) fn read_file(path: &Path, options: &ReadOptions) -> anyhow::Result<(S
     let loaded = mesh_io::read(&Disk, path, options);
     let loaded = loaded.map_err(|error| anyhow::anyhow!("{error}"))?;
     let mut scene = Scene::new();
-    for object in loaded.objects {
-        let inserted = scene.insert(object);
-        inserted.with_context(|| format!("cannot use {}", path.display()))?;
-    }
+    let appended = scene.append(loaded.objects, loaded.graph);
+    appended.with_context(|| format!("cannot use {}", path.display()))?;
     Ok((scene, loaded.notes))
 }
 

@@ -5,21 +5,24 @@ use std::path::Path;
 use op::Files;
 use recipe::Reader;
 use render::PictureError;
-use scene::Object;
+use scene::Scene;
 
-/// Reads objects of every format, and compares PNG files by their pixels.
+/// Reads scenes of every format, and compares PNG files by their pixels.
 #[derive(Clone, Copy, Debug)]
 pub struct FileReader;
 
 impl Reader for FileReader {
-    fn objects(&self, path: &Path, files: &Files) -> Result<Vec<Object>, String> {
+    fn scene(&self, path: &Path, files: &Files) -> Result<Scene, String> {
         let options = mesh_io::ReadOptions::default();
         let loaded =
             mesh_io::read(&*files.store, path, &options).map_err(|error| error.to_string())?;
         for file in loaded.files {
             files.has_used(file.path, file.is_read);
         }
-        Ok(loaded.objects)
+        let mut scene = Scene::new();
+        let appended = scene.append(loaded.objects, loaded.graph);
+        appended.map_err(|error| error.to_string())?;
+        Ok(scene)
     }
 
     fn compare_pictures(

@@ -215,6 +215,7 @@ pub(crate) fn settle<'a>(
         let inserted = settled.insert(object);
         inserted.expect("the names of the objects are those of the scene");
     }
+    settled.graph_mut().clone_from(scene.graph());
     Ok(Settled {
         scene: Cow::Owned(settled),
         files: copies.files,

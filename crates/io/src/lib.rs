@@ -75,6 +75,7 @@ mod obj;
 mod off;
 mod parallel;
 mod peek;
+mod placed;
 mod ply;
 mod policy;
 mod polygons;
@@ -87,7 +88,7 @@ mod writing;
 
 use std::path::{Path, PathBuf};
 
-use scene::{Geometry, Object, Scene};
+use scene::{Geometry, Graph, Object, Scene};
 use store::Store;
 
 pub use assets::FileDependency;
@@ -97,12 +98,13 @@ pub use images::Images;
 pub use loss::Loss;
 pub use note::{Note, NoteKind};
 pub use peek::{Peek, PeekGeometry, PeekMesh, PeekObject};
-pub use policy::{CleanupPolicy, NonManifold, Orientation, Policies};
+pub use policy::{CleanupPolicy, NonManifold, Orientation, Placements, Policies};
 pub use polygons::Polygons;
 pub use provenance::provenance;
 
 use assets::Assets;
 use note::Notes;
+use placed::{Placed, placed};
 use save::{Content, save};
 use writing::without_marks;
 
@@ -115,6 +117,8 @@ pub struct ReadOptions {
     pub name: Option<String>,
     /// How to handle polygons that do not form a clean mesh.
     pub policies: Policies,
+    /// How nodes place meshes. COLLADA files are always read with [`Placements::Bake`].
+    pub placements: Placements,
     /// Whether reading fails if anything in the file would be left out.
     pub strict: bool,
     /// Whether copies of vertices that are split are marked, so that `.obj`, `.ply` and `.off` files are written with
@@ -130,6 +134,8 @@ pub struct ReadOptions {
 pub struct Loaded {
     /// The objects in the order of the file. Their names are unique within the file.
     pub objects: Vec<Object>,
+    /// The nodes that place the objects. Empty if the file has no nodes.
+    pub graph: Graph,
     /// What was left out or changed by reading.
     pub notes: Vec<Note>,
     /// The files that the result depends on, without duplicates, sorted by path.
@@ -196,7 +202,8 @@ pub fn read_bytes(
     let mut notes = Notes::of(path);
     let mut assets = Assets::of(store, path);
     let mut objects = Vec::new();
-    for ParsedObject { name, shape } in find(bytes, options, &mut assets, &mut notes)? {
+    let parsed = find(bytes, options, &mut assets, &mut notes)?;
+    for ParsedObject { name, shape } in parsed.objects {
         objects.push(match shape {
             Shape::Polygons(polygons) => {
                 let (mesh, materials) = polygons.into_mesh(path, options, &mut notes)?;
@@ -218,13 +225,14 @@ pub fn read_bytes(
     }
     Ok(Loaded {
         objects,
+        graph: parsed.graph,
         notes,
         files: assets.into_files(),
     })
 }
 
 /// Reads the polygons of a file as they are, without building meshes, for programs that need no connectivity.
-/// Curves, patches and polylines are left out.
+/// Curves, patches and polylines are left out. Nodes are applied as by [`Placements::Bake`].
 ///
 /// # Errors
 ///
@@ -236,17 +244,37 @@ pub fn read_polygons(
 ) -> Result<Vec<(String, Polygons)>, ReadError> {
     known_format(path)?;
     let mut assets = Assets::of(store, path);
+    let options = ReadOptions {
+        placements: Placements::Bake,
+        ..options.clone()
+    };
     let found = find(
         gzip::unpacked(path, store.read(path)?, options.budget())?,
-        options,
+        &options,
         &mut assets,
         &mut Notes::of(path),
     )?;
-    let polygons = found.into_iter().filter_map(|found| match found.shape {
-        Shape::Polygons(polygons) => Some((found.name, polygons)),
-        Shape::Geometry(_) | Shape::Object(_) => None,
-    });
+    let polygons = found
+        .objects
+        .into_iter()
+        .filter_map(|found| match found.shape {
+            Shape::Polygons(polygons) => Some((found.name, polygons)),
+            Shape::Geometry(_) | Shape::Object(_) => None,
+        });
     Ok(polygons.collect())
+}
+
+/// The content of a file as a format's reader returns it.
+struct Parsed {
+    objects: Vec<ParsedObject>,
+    graph: Graph,
+}
+
+impl From<Vec<ParsedObject>> for Parsed {
+    fn from(objects: Vec<ParsedObject>) -> Self {
+        let graph = Graph::default();
+        Self { objects, graph }
+    }
 }
 
 /// An object as a format's reader returns it.
@@ -267,21 +295,22 @@ fn find(
     options: &ReadOptions,
     assets: &mut Assets,
     notes: &mut Notes,
-) -> Result<Vec<ParsedObject>, ReadError> {
+) -> Result<Parsed, ReadError> {
     let path = assets.path;
     let name = options.name_in(path);
     let one = |shape| {
         let name = name.clone();
-        vec![ParsedObject { name, shape }]
+        Parsed::from(vec![ParsedObject { name, shape }])
     };
+    let placements = options.placements;
     let found = match known_format(path)? {
         Format::Obj => obj::read(&bytes, assets, notes).map(one),
-        Format::Gltf | Format::Glb => gltf::read(bytes, &name, assets, notes),
+        Format::Gltf | Format::Glb => gltf::read(bytes, &name, placements, assets, notes),
         Format::Ply => ply::read(&bytes, notes).map(Shape::Polygons).map(one),
         Format::Stl => stl::read(&bytes, notes).map(Shape::Polygons).map(one),
         Format::Off => off::read(&bytes, notes).map(Shape::Polygons).map(one),
-        Format::Dae => dae::read(&bytes, &name, notes),
-        Format::Mws => mws::read(&bytes, options.name.as_deref()),
+        Format::Dae => dae::read(&bytes, &name, notes).map(Parsed::from),
+        Format::Mws => mws::read(&bytes, options.name.as_deref(), placements),
         Format::Bez => bez::read_patches(&bytes).map(Shape::Geometry).map(one),
         Format::Bzc => bez::read_curve(&bytes).map(Shape::Geometry).map(one),
     };
@@ -320,18 +349,18 @@ pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Pee
     let name = options.name_in(path);
     let one = |geometry| {
         let name = name.clone();
-        vec![PeekObject { name, geometry }]
+        vec![PeekObject::new(name, geometry)]
     };
     let of = |geometry: Geometry| one(PeekGeometry::of(&geometry));
     let mut notes = Notes::of(path);
     let objects = match format {
         Format::Obj => Ok(one(obj::peek(&bytes))),
-        Format::Gltf | Format::Glb => gltf::peek(&bytes, &name, &mut notes),
+        Format::Gltf | Format::Glb => gltf::peek(&bytes, &name, options.placements, &mut notes),
         Format::Ply => ply::peek(&bytes).map(PeekGeometry::Mesh).map(one),
         Format::Stl => stl::peek(&bytes).map(PeekGeometry::Mesh).map(one),
         Format::Off => off::peek(&bytes).map(PeekGeometry::Mesh).map(one),
         Format::Dae => dae::peek(&bytes, &name, &mut notes),
-        Format::Mws => mws::peek(&bytes, options.name.as_deref()),
+        Format::Mws => mws::peek(&bytes, options.name.as_deref(), options.placements),
         Format::Bez => bez::read_patches(&bytes).map(of),
         Format::Bzc => bez::read_curve(&bytes).map(of),
     };
@@ -363,11 +392,27 @@ pub fn write(
         path: path.to_path_buf(),
         known: Format::writable_extensions(),
     };
+    let format = Format::from_path(path)
+        .filter(|f| f.can_write())
+        .ok_or_else(unknown)?;
+    let Placed { scene, losses } = placed(scene, format, path)?;
+    let mut report = write_placed(store, path, format, &scene, options)?;
+    report.losses.splice(..0, losses);
+    Ok(report)
+}
+
+/// Writes a scene in which the format can store all placements.
+fn write_placed(
+    store: &dyn Store,
+    path: &Path,
+    format: Format,
+    scene: &Scene,
+    options: &WriteOptions,
+) -> Result<WriteReport, WriteError> {
     let one = |(bytes, losses)| Written {
         files: vec![(path.to_path_buf(), bytes)],
         losses,
     };
-    let format = Format::from_path(path).ok_or_else(unknown)?;
     let images::Settled {
         scene,
         files: mut all,
@@ -385,7 +430,8 @@ pub fn write(
         Format::Ply => ply::write(scene, options).map(one),
         Format::Stl => stl::write(scene, options).map(one),
         Format::Off => off::write(scene, options).map(one),
-        Format::Dae => return Err(unknown()),
+        // Refused above.
+        Format::Dae => Ok(one(Default::default())),
         Format::Mws => Ok(one(mws::write(scene, options))),
         Format::Bez => bez::write_bez(scene).map(one),
         Format::Bzc => bez::write_bzc(scene).map(one),

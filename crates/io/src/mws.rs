@@ -10,45 +10,71 @@
 //! Reading restores everything: the order of all elements, every attribute with its rule, names, and materials with
 //! their content. Other programs do not read this format.
 
-use scene::{NoArrays, Object, Scene};
+use std::collections::BTreeMap;
+
+use scene::{NoArrays, Scene};
 
 use crate::fault::Fault;
-use crate::{ParsedObject, PeekGeometry, PeekObject, Shape, SingleFile, WriteOptions};
+use crate::{
+    Parsed, ParsedObject, PeekGeometry, PeekObject, Placements, Shape, SingleFile, WriteOptions,
+};
 
 const MAGIC: &[u8; 4] = b"MWS1";
 const HEADER: usize = MAGIC.len() + size_of::<u64>();
 
-/// Reads the objects of a file. If the file holds a single object, `name` replaces its name.
-pub(crate) fn read(bytes: &[u8], name: Option<&str>) -> Result<Vec<ParsedObject>, Fault> {
-    let objects = objects(bytes, name)?
-        .into_iter()
-        .map(|object| ParsedObject {
-            name: object.name.clone(),
-            shape: Shape::Object(object.into()),
-        });
-    Ok(objects.collect())
+/// Reads the scene of a file. If the file holds a single object, `name` replaces its name.
+pub(crate) fn read(
+    bytes: &[u8],
+    name: Option<&str>,
+    placements: Placements,
+) -> Result<Parsed, Fault> {
+    let scene = scene_of(bytes, name, placements)?;
+    let objects = scene.objects().iter().map(|object| ParsedObject {
+        name: object.name.clone(),
+        shape: Shape::Object(object.clone().into()),
+    });
+    Ok(Parsed {
+        objects: objects.collect(),
+        graph: scene.graph().clone(),
+    })
 }
 
 /// Returns the objects that reading would give, with their counts. Decodes the whole file, because all of it
 /// must be valid.
-pub(crate) fn peek(bytes: &[u8], name: Option<&str>) -> Result<Vec<PeekObject>, Fault> {
-    let objects = objects(bytes, name)?.into_iter().map(|object| PeekObject {
+pub(crate) fn peek(
+    bytes: &[u8],
+    name: Option<&str>,
+    placements: Placements,
+) -> Result<Vec<PeekObject>, Fault> {
+    let scene = scene_of(bytes, name, placements)?;
+    let mut instances: BTreeMap<&str, u64> = BTreeMap::new();
+    for instance in scene.instances() {
+        *instances.entry(&instance.object.name).or_default() += 1;
+    }
+    let objects = scene.objects().iter().map(|object| PeekObject {
+        name: object.name.clone(),
         geometry: PeekGeometry::of(&object.geometry),
-        name: object.name,
+        instances: instances[object.name.as_str()],
     });
     Ok(objects.collect())
 }
 
-fn objects(bytes: &[u8], name: Option<&str>) -> Result<Vec<Object>, Fault> {
+fn scene_of(bytes: &[u8], name: Option<&str>, placements: Placements) -> Result<Scene, Fault> {
     let (provenance, form) =
         split(bytes).ok_or_else(|| Fault::byte(0, "expected a Meshwright scene (MWS1)"))?;
-    let scene = Scene::decode(form, usize::MAX, &mut NoArrays)
-        .map_err(|why| Fault::byte(HEADER + provenance.len(), why.to_string()))?;
-    let mut objects: Vec<Object> = scene.objects().to_vec();
-    if let (Some(name), [object]) = (name, &mut objects[..]) {
-        name.clone_into(&mut object.name);
+    let fault = |why: String| Fault::byte(HEADER + provenance.len(), why);
+    let mut scene =
+        Scene::decode(form, usize::MAX, &mut NoArrays).map_err(|why| fault(why.to_string()))?;
+    if let (Some(name), [object]) = (name, scene.objects()) {
+        let old = object.name.clone();
+        scene
+            .rename(&old, name)
+            .map_err(|why| fault(why.to_string()))?;
     }
-    Ok(objects)
+    if placements == Placements::Bake {
+        scene = scene.placed().into_owned();
+    }
+    Ok(scene)
 }
 
 /// Writes a scene. Nothing is lost.
@@ -82,7 +108,7 @@ mod tests {
     use crate::{ReadOptions, peek as peek_file, read as read_file, write as write_file};
     use geometry::shapes;
     use mesh::{Column, DVec3, Domain, Rule, Values};
-    use scene::{Geometry, Material};
+    use scene::{Geometry, Material, Object};
     use store::Memory;
 
     fn scene() -> Scene {
@@ -138,14 +164,17 @@ mod tests {
     fn shortened_files_fail_and_changed_files_fail_or_give_valid_meshes() {
         let (whole, _) = write(&scene(), &WriteOptions::default());
         for n in 0..whole.len() {
-            assert!(objects(&whole[..n], None).is_err(), "{n} bytes");
+            assert!(
+                scene_of(&whole[..n], None, Placements::Keep).is_err(),
+                "{n} bytes"
+            );
         }
         for i in 0..whole.len() {
             let mut changed = whole.clone();
             changed[i] ^= 1 << (i % 8);
             // A changed file that can still be decoded gives valid meshes.
-            for object in objects(&changed, None).into_iter().flatten() {
-                if let Some(mesh) = object.as_mesh() {
+            if let Ok(scene) = scene_of(&changed, None, Placements::Keep) {
+                for mesh in scene.objects().iter().filter_map(|o| o.as_mesh()) {
                     assert_eq!(mesh.defects(), [], "byte {i}");
                 }
             }

@@ -24,6 +24,19 @@ pub struct PeekObject {
     pub name: String,
     /// The kind and the counts of its geometry.
     pub geometry: PeekGeometry,
+    /// How often nodes show the object; 1 in a file without nodes.
+    pub instances: u64,
+}
+
+impl PeekObject {
+    /// An object that is shown once.
+    pub(crate) fn new(name: String, geometry: PeekGeometry) -> Self {
+        Self {
+            name,
+            geometry,
+            instances: 1,
+        }
+    }
 }
 
 /// The kind and the counts of an object's geometry.

@@ -45,6 +45,18 @@ pub enum Orientation {
     Keep,
 }
 
+/// How the nodes of a file place its meshes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum Placements {
+    /// Keep the nodes. A mesh becomes one object in its own space, and the nodes show it any number of times.
+    #[default]
+    Keep,
+    /// Apply the transforms of nodes to the points. Each node with a mesh becomes an object. The hierarchy, cameras and
+    /// lights are left out.
+    Bake,
+}
+
 /// What to do with elements that are probably not needed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]

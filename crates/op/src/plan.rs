@@ -301,6 +301,8 @@ pub struct PlannedObject {
     pub name: String,
     /// The geometry.
     pub geometry: PlannedGeometry,
+    /// How often nodes show the object; 1 if no node shows it.
+    pub instances: u64,
 }
 
 /// The plan of a scene at one point of a recipe. Each step changes the plan as it will change the scene.
@@ -365,9 +367,17 @@ impl Plan {
             self.objects.push(PlannedObject {
                 name: name.to_owned(),
                 geometry,
+                instances: 1,
             });
         }
         taken
+    }
+
+    /// Sets how often nodes show the object that was added last.
+    pub fn set_instances_of_last(&mut self, instances: u64) {
+        if let Some(object) = self.objects.last_mut() {
+            object.instances = instances;
+        }
     }
 
     /// Returns a problem if an object already has this name. `field` is the parameter with the name.

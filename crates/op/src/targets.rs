@@ -98,16 +98,12 @@ pub fn target_names(
     Ok(targets.map(|o| o.name.clone()).collect())
 }
 
-/// Returns a scene of the objects that a step acts on: those named in `on:`, or all.
+/// Returns a scene of the objects that a step acts on: those named in `on:`, with the nodes that place them, or all.
 pub fn target_scene<'s>(scene: &'s Scene, cx: &Context) -> Cow<'s, Scene> {
     let Some(on) = cx.on else {
         return Cow::Borrowed(scene);
     };
-    let mut targets = Scene::new();
-    for object in scene.objects().iter().filter(|o| on.contains(&o.name)) {
-        targets.insert(object.clone()).expect("names are unique");
-    }
-    Cow::Owned(targets)
+    Cow::Owned(scene.only(|name| on.iter().any(|wanted| wanted == name)))
 }
 
 /// Plans an operation on curves. `change` receives the number of control points of a curve and returns the

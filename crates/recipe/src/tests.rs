@@ -11,7 +11,7 @@ mod upgrade;
 use std::path::Path;
 
 use op::Files;
-use scene::Object;
+use scene::{Graph, Object, Scene};
 
 use self::operations::{registry, steps};
 use crate::{Diagnostic, Forecast, Outcome, Reader, Reading, Settings, Silent};
@@ -28,8 +28,10 @@ where
 }
 
 impl<F: Fn(&Path, &Files) -> Result<Vec<Object>, String> + Sync> Reader for Objects<F> {
-    fn objects(&self, path: &Path, files: &Files) -> Result<Vec<Object>, String> {
-        (self.0)(path, files)
+    fn scene(&self, path: &Path, files: &Files) -> Result<Scene, String> {
+        let mut scene = Scene::new();
+        let appended = scene.append((self.0)(path, files)?, Graph::default());
+        appended.map(|()| scene).map_err(|error| error.to_string())
     }
 
     fn compare_pictures(

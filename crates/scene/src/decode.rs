@@ -8,7 +8,7 @@ use bytemuck::{AnyBitPattern, NoUninit};
 use glam::DVec3;
 use mesh::{Column, Connectivity, Defect, Domain, Mesh, Values};
 
-use crate::digest::{FILTERS, FORM, MORE, RULES, TEXTURES, WRAPS};
+use crate::digest::{FILTERS, FORM, GRAPH, MORE, RULES, TEXTURES, WRAPS};
 use crate::{
     AlphaMode, DuplicateName, Geometry, Image, Material, Object, Sampler, Scene, Texture,
     TextureTransform,
@@ -91,6 +91,14 @@ impl Scene {
         for _ in 0..decoder.len()? {
             scene.insert(decoder.object()?)?;
         }
+        if !decoder.rest.is_empty() {
+            let marker = [&(GRAPH.len() as u64).to_le_bytes(), GRAPH.as_bytes()].concat();
+            if !decoder.rest.starts_with(&marker) {
+                return Err(DecodeError::TrailingData);
+            }
+            decoder.take(marker.len())?;
+            scene.graph = Arc::new(decoder.graph(&scene)?);
+        }
         if decoder.rest.is_empty() && decoder.arrays.next_len().is_none() {
             Ok(scene)
         } else {
@@ -99,7 +107,7 @@ impl Scene {
     }
 }
 
-struct Decoder<'a> {
+pub(crate) struct Decoder<'a> {
     rest: &'a [u8],
     min_long: usize,
     arrays: &'a mut dyn ArraySource,
@@ -115,12 +123,12 @@ impl<'a> Decoder<'a> {
         Ok(taken)
     }
 
-    fn len(&mut self) -> Result<u64, DecodeError> {
+    pub(crate) fn len(&mut self) -> Result<u64, DecodeError> {
         let bytes = self.take(8)?.try_into().expect("eight bytes");
         Ok(u64::from_le_bytes(bytes))
     }
 
-    fn text(&mut self) -> Result<&'a str, DecodeError> {
+    pub(crate) fn text(&mut self) -> Result<&'a str, DecodeError> {
         let n = usize::try_from(self.len()?).map_err(|_| DecodeError::Truncated)?;
         std::str::from_utf8(self.take(n)?).map_err(|_| DecodeError::Expected("a text in UTF-8"))
     }
@@ -139,7 +147,10 @@ impl<'a> Decoder<'a> {
     }
 
     /// Reads an array of numbers, or of structs of numbers, where each number has `width` bytes.
-    fn array<T: AnyBitPattern + NoUninit>(&mut self, width: usize) -> Result<Vec<T>, DecodeError> {
+    pub(crate) fn array<T: AnyBitPattern + NoUninit>(
+        &mut self,
+        width: usize,
+    ) -> Result<Vec<T>, DecodeError> {
         let n = usize::try_from(self.len()?).map_err(|_| DecodeError::Truncated)?;
         let n_bytes = n
             .checked_mul(size_of::<T>())
@@ -177,7 +188,7 @@ impl<'a> Decoder<'a> {
     }
 
     /// Reads a list with its length. `next` reads one element.
-    fn list<T>(
+    pub(crate) fn list<T>(
         &mut self,
         mut next: impl FnMut(&mut Self) -> Result<T, DecodeError>,
     ) -> Result<Vec<T>, DecodeError> {

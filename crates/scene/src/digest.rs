@@ -4,6 +4,9 @@
 //! and texts with their lengths. Two scenes have the same canonical form exactly if they have the same
 //! objects with the same arrays, in the same order.
 //!
+//! The graph follows after the objects, if there is one. So a scene without a graph has the same form as before there
+//! were graphs.
+//!
 //! A material is written as its name, base color, metalness, roughness and the path of its base color
 //! texture. If it has other properties, they follow after a marker ([`MORE`]), each with its name. So a
 //! material without other properties has the same form as in the first version of the canonical form.
@@ -95,8 +98,15 @@ impl Scene {
         for object in self.objects() {
             encoder.object(object);
         }
+        if !self.graph().is_empty() {
+            encoder.text(GRAPH);
+            encoder.graph(self.graph());
+        }
     }
 }
+
+/// The text before the graph of a scene. A scene without nodes has no graph in its canonical form.
+pub(crate) const GRAPH: &str = "graph";
 
 /// The first text of the canonical form, with its version.
 pub(crate) const FORM: &str = "meshwright scene 1";
@@ -160,23 +170,23 @@ fn named_numbers(m: &Material) -> [(&'static str, Vec<f64>); 7] {
     ]
 }
 
-struct Encoder<'a> {
+pub(crate) struct Encoder<'a> {
     /// Receives bytes, and whether they are the content of an array.
     sink: &'a mut dyn FnMut(&[u8], bool),
 }
 
 impl Encoder<'_> {
-    fn len(&mut self, n: usize) {
+    pub(crate) fn len(&mut self, n: usize) {
         (self.sink)(&(n as u64).to_le_bytes(), false);
     }
 
-    fn text(&mut self, text: &str) {
+    pub(crate) fn text(&mut self, text: &str) {
         self.len(text.len());
         (self.sink)(text.as_bytes(), false);
     }
 
     /// Writes an array of numbers, or of structs of numbers, where each number has `width` bytes.
-    fn array<T: NoUninit>(&mut self, values: &[T], width: usize) {
+    pub(crate) fn array<T: NoUninit>(&mut self, values: &[T], width: usize) {
         self.len(values.len());
         let bytes: &[u8] = bytemuck::cast_slice(values);
         if cfg!(target_endian = "little") {

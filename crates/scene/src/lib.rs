@@ -1,14 +1,17 @@
 //! A scene: named objects, each a mesh, Bezier patches, a Bezier curve or polylines.
 //!
-//! All coordinates are in scene space: file readers apply the transforms of nodes, and operations move the
-//! points themselves. Object names are unique. The [digest](Scene::digest) of a scene is the same on every
-//! machine for the same content.
+//! Each object has its own space. The nodes of the [graph](Graph) place meshes in the scene; an object that no node
+//! shows has its coordinates in scene space. Object names are unique. The [digest](Scene::digest) of a scene is the
+//! same on every machine for the same content.
 
 mod decode;
 mod digest;
 mod error_location;
+mod graph;
 mod material;
+mod placed;
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use bezier::{Curve, Patch};
@@ -18,12 +21,16 @@ use mesh::Mesh;
 pub use decode::{ArraySource, DecodeError, NoArrays};
 pub use digest::Digest;
 pub use error_location::ErrorLocation;
+pub use graph::{Graph, MeshLabel, Node, Placement};
 pub use material::{AlphaMode, Filter, Image, Material, Sampler, Texture, TextureTransform, Wrap};
+pub use placed::{Instance, transformed};
 
-/// A list of objects in the order of their creation.
+/// A list of objects in the order of their creation, and the nodes that place them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
     objects: Vec<Object>,
+    /// Shared until it is changed, so that copying a scene is cheap.
+    graph: Arc<Graph>,
 }
 
 /// A named object in a scene.
@@ -108,6 +115,27 @@ impl Scene {
         self.objects.iter().find(|o| o.name == name)
     }
 
+    /// Returns the nodes that place objects in the scene.
+    pub fn graph(&self) -> &Graph {
+        &self.graph
+    }
+
+    /// Returns the nodes that place objects in the scene, mutably. The objects of nodes must exist in the scene.
+    pub fn graph_mut(&mut self) -> &mut Graph {
+        Arc::make_mut(&mut self.graph)
+    }
+
+    /// Returns a scene of the objects that `is_wanted` accepts, with their nodes and the ancestors of these nodes, but
+    /// without cameras and lights.
+    #[must_use]
+    pub fn only(&self, is_wanted: impl Fn(&str) -> bool) -> Self {
+        let objects = self.objects.iter().filter(|o| is_wanted(&o.name));
+        Self {
+            objects: objects.cloned().collect(),
+            graph: Arc::new(self.graph.only(is_wanted)),
+        }
+    }
+
     /// Returns the geometry and the materials of the object with this name, mutably.
     pub fn parts_mut(&mut self, name: &str) -> Option<(&mut Geometry, &mut Vec<Material>)> {
         self.objects
@@ -129,13 +157,41 @@ impl Scene {
         Ok(())
     }
 
-    /// Removes an object and returns it.
+    /// Appends objects and the nodes that place them.
+    ///
+    /// # Errors
+    ///
+    /// [`DuplicateName`] if the scene already has an object with one of the names, or two of the objects have the same
+    /// name. The scene is unchanged.
+    pub fn append(&mut self, objects: Vec<Object>, graph: Graph) -> Result<(), DuplicateName> {
+        let mut names: BTreeSet<&str> = self.objects.iter().map(|o| o.name.as_str()).collect();
+        if let Some(object) = objects.iter().find(|o| !names.insert(&o.name)) {
+            return Err(DuplicateName(object.name.clone()));
+        }
+        self.objects.extend(objects);
+        if !graph.is_empty() {
+            self.graph_mut().append(graph);
+        }
+        Ok(())
+    }
+
+    /// Removes an object and returns it. Its nodes are removed, unless they have children, a camera or a light.
     pub fn remove(&mut self, name: &str) -> Option<Object> {
         let index = self.objects.iter().position(|o| o.name == name)?;
+        self.unplace(name);
         Some(self.objects.remove(index))
     }
 
-    /// Renames an object, which keeps its position in the list. Returns whether the object exists.
+    /// Removes an object from all nodes, so that its own space becomes the space of the scene. The nodes are removed,
+    /// unless they have children, a camera or a light.
+    pub fn unplace(&mut self, name: &str) {
+        if !self.graph.is_empty() {
+            self.graph_mut().remove_object(name);
+        }
+    }
+
+    /// Renames an object, which keeps its position in the list, and its node or mesh if they have its name. Returns
+    /// whether the object exists.
     ///
     /// # Errors
     ///
@@ -144,8 +200,14 @@ impl Scene {
         if from != to && self.object(to).is_some() {
             return Err(DuplicateName(to.to_owned()));
         }
-        let object = self.objects.iter_mut().find(|o| o.name == from);
-        Ok(object.map(|o| to.clone_into(&mut o.name)).is_some())
+        let Some(object) = self.objects.iter_mut().find(|o| o.name == from) else {
+            return Ok(false);
+        };
+        to.clone_into(&mut object.name);
+        if !self.graph.is_empty() {
+            self.graph_mut().rename_object(from, to);
+        }
+        Ok(true)
     }
 }
 

@@ -52,6 +52,14 @@ pub fn draw_error_locations(
     budget: u64,
     progress: &dyn Progress,
 ) -> Result<Option<Image>, PictureError> {
+    let bytes = scene.placed_bytes();
+    if !scene.graph().is_empty() && bytes > budget {
+        return Err(PictureError::Budget {
+            needed: bytes,
+            budget,
+        });
+    }
+    let (scene, locations) = &(scene.placed(), placed(scene, locations));
     let Some((center, radius)) = extent(scene) else {
         return Ok(None);
     };
@@ -153,6 +161,25 @@ struct Surroundings {
     mean_edge_length: f64,
     /// The faces that are locations of errors, by object.
     faces: Vec<(String, Vec<FaceId>)>,
+}
+
+/// Returns the locations in scene space, each at the first instance of its object.
+fn placed(scene: &Scene, locations: &[ErrorLocation]) -> Vec<ErrorLocation> {
+    let mut placed = locations.to_vec();
+    if scene.graph().is_empty() {
+        return placed;
+    }
+    let instances = scene.instances();
+    for location in &mut placed {
+        let instance = instances.iter().find(|i| i.object.name == location.object);
+        if let Some(instance) = instance {
+            location.object.clone_from(&instance.name);
+            for point in &mut location.points {
+                *point = instance.to_scene.transform_point3(*point);
+            }
+        }
+    }
+    placed
 }
 
 impl Surroundings {

@@ -3,7 +3,7 @@
 use mesh::Domain;
 use mesh_io::{
     CleanupPolicy, NonManifold, Note, NoteKind, Orientation, Peek, PeekGeometry, PeekMesh,
-    Policies, ReadOptions,
+    Placements, Policies, ReadOptions,
 };
 use op::prelude::*;
 use op::{Loss, Operation};
@@ -13,7 +13,8 @@ use op::{Loss, Operation};
 /// Formats: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl`, `.off`, `.dae`, `.bez` (Bezier patches), `.bzc` (a Bezier
 /// curve) and `.mws` (a complete scene); `.gz` after these names, except `.glb` and `.mws`, means compressed by
 /// gzip. An OBJ file becomes one object, and its objects (`o`) and groups (`g`)
-/// become face tags. A glTF or COLLADA file gives an object for each node with a mesh. Content that the scene
+/// become face tags. A glTF file gives an object for each mesh, named after its node if there is only one, and keeps the
+/// nodes, cameras and lights. A COLLADA file gives an object for each node with a mesh. Content that the scene
 /// cannot hold is counted and listed. Images of materials are read from files next to the model. A corner that repeats the corner before it is removed, and a face that still
 /// visits a vertex twice is left out.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
@@ -40,6 +41,10 @@ pub struct Load {
     /// What to do with vertices without a face.
     #[serde(default)]
     pub isolated: CleanupPolicy,
+    /// What to do with the nodes of a glTF file. If they are kept, steps change a mesh in its own space, once for all
+    /// nodes that show it.
+    #[serde(default)]
+    pub placements: Placements,
     /// If true, the step fails if anything in the file would be left out.
     #[serde(default)]
     pub strict: bool,
@@ -56,6 +61,7 @@ impl Load {
                 degenerate: self.degenerate,
                 isolated: self.isolated,
             },
+            placements: self.placements,
             strict: self.strict,
             budget: Some(budget),
             ..ReadOptions::default()
@@ -65,6 +71,7 @@ impl Load {
 
 impl Operation for Load {
     const NAME: &'static str = "Load";
+    const VERSION: u32 = 2;
     const SUMMARY: &'static str = "Read the objects of a file";
     const EXAMPLE: &'static str = r#"Load(path: "teapot.bez")"#;
     const WORDS: &'static [&'static str] = &["import", "open", "read"];
@@ -93,7 +100,7 @@ impl Operation for Load {
             cx.files().has_used(file.path, file.is_read);
         }
         let mut report = Report::changed(loaded.objects.len());
-        for object in loaded.objects {
+        for object in &loaded.objects {
             let bytes = object.as_mesh().map_or(0, |mesh| mesh.bytes() as u64);
             if bytes > cx.budget {
                 let message = format!(
@@ -102,9 +109,9 @@ impl Operation for Load {
                 );
                 return Err(OpError::Budget(message));
             }
-            let inserted = scene.insert(object);
-            inserted.map_err(|error| OpError::Object(error.to_string()))?;
         }
+        let appended = scene.append(loaded.objects, loaded.graph);
+        appended.map_err(|error| OpError::Object(error.to_string()))?;
         for note in &loaded.notes {
             match note.kind {
                 NoteKind::LeftOut => report.losses.push(loss(note)),
@@ -130,6 +137,9 @@ impl Load {
             };
             let field = if self.name.is_some() { "name" } else { "path" };
             let taken = plan.insert(&object.name, geometry);
+            if taken.is_none() {
+                plan.set_instances_of_last(object.instances);
+            }
             let help =
                 "give the object a different name with `name`, or rename the existing object";
             problems.extend(taken.map(|p| p.at([field]).help(help)));

@@ -10,7 +10,8 @@ use scene::Object;
 
 /// Copies an object, with its attributes and materials, under a new name.
 ///
-/// The copy is added after all other objects. Its elements have the same numbers.
+/// The copy is added after all other objects. Its elements have the same numbers. If nodes place the object, each of
+/// them gets a node beside it that places the copy.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Copy {
@@ -30,8 +31,11 @@ impl Operation for Copy {
         let Some(object) = plan.object(&self.from) else {
             return Vec::from_iter(plan.missing(&self.from, ["from"]));
         };
-        let geometry = object.geometry.clone();
+        let (geometry, instances) = (object.geometry.clone(), object.instances);
         let taken = plan.insert(&self.to, geometry);
+        if taken.is_none() {
+            plan.set_instances_of_last(instances);
+        }
         Vec::from_iter(taken.map(|p| p.at(["to"])))
     }
 
@@ -44,6 +48,9 @@ impl Operation for Copy {
             ..object.clone()
         };
         scene.insert(copy).expect("the name is free");
+        if !scene.graph().is_empty() {
+            scene.graph_mut().copy_object(&self.from, &self.to);
+        }
         Ok(Report::changed(1))
     }
 }

@@ -9,7 +9,8 @@ use op::{Operation, named_object};
 
 /// Deletes objects.
 ///
-/// The remaining objects keep their order.
+/// The remaining objects keep their order. The nodes that place a deleted object are removed too, unless they have
+/// children, a camera or a light.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Delete {

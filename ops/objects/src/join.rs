@@ -22,6 +22,7 @@ use scene::Object;
 /// Each mesh becomes a part of the result. Vertices, edges and faces are numbered part by part, in the order of the
 /// list. The parts are not connected, even where they touch. The result replaces the first mesh of the list in the
 /// scene; the other meshes are removed.
+/// Nodes that place a part are applied to its points, once for each node, and the result has no node.
 ///
 /// If a part lacks an attribute that another part has, its elements get the value zero, or -1 (no material) for
 /// material numbers. Normals are dropped and reported as lost unless all parts have them. If an attribute of a part has
@@ -57,7 +58,10 @@ impl Operation for Join {
             let at = i.to_string();
             match plan.object(name).map(|o| &o.geometry) {
                 None => problems.extend(plan.missing(name, ["objects", &at])),
-                Some(PlannedGeometry::Mesh(mesh)) => parts.push(mesh.clone()),
+                Some(PlannedGeometry::Mesh(mesh)) => {
+                    let instances = plan.object(name).map_or(1, |o| o.instances);
+                    parts.push((mesh.clone(), Range::exactly(instances)));
+                }
                 Some(other) => {
                     let message = not_a_mesh(name, other.kind());
                     problems.push(Problem::error(message).at(["objects", &at]));
@@ -88,6 +92,7 @@ impl Operation for Join {
         *object.expect("checked above") = PlannedObject {
             name: self.name.clone(),
             geometry: PlannedGeometry::Mesh(joined),
+            instances: 1,
         };
         problems
     }
@@ -105,12 +110,20 @@ impl Operation for Join {
             object.as_mesh().map(|_| object).ok_or_else(wrong_kind)
         };
         let parts: Vec<&Object> = self.objects.iter().map(part).collect::<Result<_, _>>()?;
-        let (joined, report) = self.joined(&parts, cx)?;
+        let placed = placed(scene, &parts, cx)?;
+        let (joined, mut report) = match &placed {
+            Some(placed) => self.joined(&placed.iter().collect::<Vec<_>>(), cx)?,
+            None => self.joined(&parts, cx)?,
+        };
+        if let Some(placed) = placed {
+            report = report.count("instances, whose placements were applied", placed.len());
+        }
 
         // After all checks, the result replaces the first part, and the other parts are removed.
         let (first, others) = self.objects.split_first().expect("at least one");
         let (geometry, materials) = scene.parts_mut(first).expect("found above");
         (*geometry, *materials) = (joined.geometry, joined.materials);
+        scene.unplace(first);
         for name in others {
             scene.remove(name);
         }
@@ -159,10 +172,14 @@ impl Join {
         Ok((object, report))
     }
 
-    fn joined_plan(&self, parts: &[MeshPlan]) -> MeshPlan {
-        let mut joined = parts[0].clone();
-        for part in &parts[1..] {
-            joined.grow(part.vertices, part.edges, part.faces);
+    /// Returns the plan of the result. Each part has its number of instances.
+    fn joined_plan(&self, parts: &[(MeshPlan, Range)]) -> MeshPlan {
+        let mut joined = parts[0].0.clone();
+        let none = Range::exactly(0);
+        (joined.vertices, joined.edges, joined.faces) = (none, none, none);
+        for (part, instances) in parts {
+            let counts = [part.vertices, part.edges, part.faces].map(|n| n.times(*instances));
+            joined.grow(counts[0], counts[1], counts[2]);
             joined.has_unlisted_attributes |= part.has_unlisted_attributes;
             joined.degrees = joined.degrees.or(part.degrees);
             for a in &part.attributes {
@@ -173,7 +190,8 @@ impl Join {
             }
         }
         // Normals are dropped unless all parts have them.
-        let certain = |a: &PlannedAttribute| parts.iter().all(|part| part.attributes.contains(a));
+        let certain =
+            |a: &PlannedAttribute| parts.iter().all(|(part, _)| part.attributes.contains(a));
         for attribute in &mut joined.attributes {
             attribute.certain = true;
             attribute.certain = certain(attribute);
@@ -185,6 +203,37 @@ impl Join {
         }
         joined
     }
+}
+
+/// Returns all instances of the parts in scene space, under the names of the parts; `None` if no node places a part.
+fn placed(scene: &Scene, parts: &[&Object], cx: &Context) -> Result<Option<Vec<Object>>, OpError> {
+    let is_part = |name: &str| parts.iter().any(|part| part.name == name);
+    let nodes = scene.graph().nodes().iter();
+    if !nodes.filter_map(|node| node.object.as_deref()).any(is_part) {
+        return Ok(None);
+    }
+    let instances = scene.instances();
+    let of_part = |part: &&Object| {
+        let name = part.name.clone();
+        instances
+            .iter()
+            .filter(move |instance| instance.object.name == name)
+    };
+    let instances: Vec<_> = parts.iter().flat_map(of_part).collect();
+    let bytes = instances.iter().filter_map(|i| i.object.as_mesh());
+    let bytes = bytes.fold(0_u64, |sum, mesh| sum.saturating_add(mesh.bytes() as u64));
+    if bytes > cx.budget {
+        let message = format!(
+            "the instances take {bytes} bytes, but the budget is {}",
+            cx.budget
+        );
+        return Err(OpError::Budget(message));
+    }
+    let placed = instances.into_iter().map(|instance| Object {
+        name: instance.object.name.clone(),
+        ..instance.placed()
+    });
+    Ok(Some(placed.collect()))
 }
 
 fn not_a_mesh(name: &str, kind: &str) -> String {

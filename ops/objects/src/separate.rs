@@ -20,6 +20,9 @@ use scene::{Geometry, Object};
 /// parts are added after all other objects. Elements keep their order and their values, and every part has all
 /// materials. Vertices without a face are dropped and counted. A mesh without faces is refused.
 ///
+/// If nodes place the object, the first part takes its place, and each of these nodes gets children that place the other
+/// parts.
+///
 /// If parts of one component are separated, the edges and vertices between them are copied to both parts. If the faces
 /// of a part around a vertex form several fans, each fan gets a separate copy of the vertex.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
@@ -85,9 +88,11 @@ impl Operation for Separate {
         if let Some(taken) = names.iter().find_map(|name| plan.taken(name, "object")) {
             return vec![taken];
         }
+        let instances = plan.objects()[place].instances;
         let mut objects = names.into_iter().map(|name| PlannedObject {
             name,
             geometry: PlannedGeometry::Mesh(part.clone()),
+            instances,
         });
         plan.objects_mut()[place] = objects.next().expect("at least one part");
         plan.objects_mut().extend(objects);
@@ -205,6 +210,9 @@ impl Separate {
                     materials: materials.clone(),
                 };
                 scene.insert(object).expect("the name is free");
+                if !scene.graph().is_empty() {
+                    scene.graph_mut().add_part(&names[0], name);
+                }
             }
         }
     }

@@ -12,6 +12,7 @@
 //! A point p moves to R S (p - c) + c + m, where S scales, R rotates, m is the move, and c is the point of `about`.
 
 mod map;
+mod nodes;
 
 use std::sync::Arc;
 
@@ -27,8 +28,10 @@ use crate::transform::map::Map;
 
 /// Scales, rotates and moves objects.
 ///
-/// Points are first scaled, then rotated, then moved. The points of meshes, patches, curves and polylines are changed; no
-/// separate placement is stored. A curve must stay in the plane z = 0.
+/// Points are first scaled, then rotated, then moved. The points of meshes, patches, curves and polylines are changed,
+/// unless nodes of a glTF file place the object. Such an object is moved by changing the placements of its nodes, and
+/// everything below these nodes moves along. Without `on:`, root nodes with cameras and lights move too, unless `about`
+/// is `Center`. A curve must stay in the plane z = 0.
 ///
 /// Ids do not change. Normals are transformed; other attributes do not change. A mirror (one or three negative factors in
 /// `scale`) also reverses the faces, so that they are counter-clockwise seen from outside: the first corner of a face
@@ -49,6 +52,20 @@ pub struct Transform {
     /// The fixed point of scaling and rotation.
     #[serde(default)]
     pub about: About,
+    /// The coordinates in which objects move.
+    #[serde(default)]
+    pub space: Space,
+}
+
+/// The coordinates in which objects move.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum Space {
+    /// The scene. The placements of nodes change; an object that no node places changes its points.
+    #[default]
+    Scene,
+    /// The space of each object. The points change, and so do all instances of the object.
+    Object,
 }
 
 const fn ones() -> Factors {
@@ -59,10 +76,11 @@ const fn ones() -> Factors {
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum About {
-    /// The origin of the scene.
+    /// The origin.
     #[default]
     Origin,
-    /// The center of the bounding box of each object: of its vertices, control points or points of polylines.
+    /// The center of the bounding box of each object, with all its instances: of its vertices, control points or points of
+    /// polylines.
     Center,
     /// A point with the coordinates x, y, z.
     Point(f64, f64, f64),
@@ -199,10 +217,14 @@ impl Operation for Transform {
     }
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
-        let names = target_names(scene, cx, |_| true)?;
+        let mut names = target_names(scene, cx, |_| true)?;
         let map = Map::new(self);
         let mut report = Report::default();
         cx.advance("transform", 0, names.len() as u64)?;
+        if self.space == Space::Scene && !scene.graph().is_empty() {
+            let n_points = self.move_nodes(scene, &mut names, &map, cx)?;
+            report = Report::changed(n_points);
+        }
         for (done, name) in (1..).zip(&names) {
             let (geometry, _) = scene.parts_mut(name).expect("a name of the scene");
             report.merge(self.change(name, geometry, &map)?);
@@ -229,5 +251,7 @@ fn transform_normals(mesh: &mut Mesh, map: &Map) {
     }
 }
 
+#[cfg(test)]
+mod node_tests;
 #[cfg(test)]
 mod tests;

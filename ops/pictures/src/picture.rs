@@ -8,6 +8,8 @@ mod colors;
 #[cfg(test)]
 mod tests;
 
+use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::path::{Component, Path};
 
@@ -214,10 +216,12 @@ impl Picture {
         let target_scenes: Vec<_> = (scenes.iter())
             .map(|(scene, caption)| (target_scene(scene, cx), *caption))
             .collect();
+        let placed_scenes = target_scenes.iter().map(|(scene, _)| placed(scene, cx));
+        let placed_scenes: Vec<_> = placed_scenes.collect::<Result<_, _>>()?;
         let (mut subjects, mut notes) = (Vec::new(), Vec::new());
-        for (scene, caption) in &target_scenes {
+        for ((scene, caption), placed) in target_scenes.iter().zip(&placed_scenes) {
             let (subject, scene_notes) =
-                self.subject(scene, caption, color_by.as_ref(), true, cx)?;
+                self.subject(scene, placed, caption, color_by.as_ref(), true, cx)?;
             subjects.push(subject);
             notes.extend(scene_notes);
         }
@@ -236,7 +240,8 @@ impl Picture {
         self.check()?;
         let scene = target_scene(scene, cx);
         // The images of materials do not change the extent.
-        let (subject, _) = self.subject(&scene, "", self.color_by.as_ref(), false, cx)?;
+        let placed = placed(&scene, cx)?;
+        let (subject, _) = self.subject(&scene, &placed, "", self.color_by.as_ref(), false, cx)?;
         self.shot(cx.budget).extent(subject).map_err(op_error)
     }
 
@@ -251,10 +256,12 @@ impl Picture {
         }
     }
 
-    /// Prepares a scene with its highlights and numbers. Also returns notes on parts that are not drawn.
+    /// Prepares a scene with its highlights and numbers. Also returns notes on parts that are not drawn. `placed` is
+    /// the scene with every instance as an object. Elements are selected in the space of each object.
     fn subject<'s>(
         &self,
-        scene: &'s Scene,
+        scene: &Scene,
+        placed: &'s Scene,
         caption: &'s str,
         color_by: Option<&ColorBy>,
         has_images: bool,
@@ -263,11 +270,17 @@ impl Picture {
         let numbers = match color_by {
             Some(by) => {
                 let targets = colors::distance_targets(by, cx)?;
-                Some(by.numbers(scene, &targets).map_err(op_error)?)
+                Some(by.numbers(placed, &targets).map_err(op_error)?)
             }
             None => None,
         };
         let mut overlays = Overlays::default();
+        let instances = scene.instances();
+        let mut instances_of: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+        for instance in &instances {
+            let names = instances_of.entry(&instance.object.name).or_default();
+            names.push(&instance.name);
+        }
         let first = (self.highlight.iter()).map(|of| (of, HIGHLIGHT_COLOR, self.highlight_width));
         let marks = self.marks.iter().map(|m| (&m.of, m.color, m.width));
         for (of, color, width) in first.chain(marks) {
@@ -285,15 +298,18 @@ impl Picture {
                     Selected::Faces(list) => render::Elements::Faces(list),
                 };
                 let size = self.size.map(Count::get);
-                let highlight = highlight(&object.name, elements, color, width, size);
-                overlays.highlights.push(highlight);
+                for name in &instances_of[object.name.as_str()] {
+                    let elements = elements.clone();
+                    let highlight = highlight(name, elements, color, width, size);
+                    overlays.highlights.push(highlight);
+                }
             }
         }
         let mut notes: Vec<String> = self.no_mesh_note(scene).into_iter().collect();
         let folder = self.images.as_deref();
         let read = |path: &str| read_image(cx.files(), folder, path);
         let mut images = |path: &str| if has_images { read(path) } else { None };
-        let subject = Subject::new(scene, caption, &self.style, overlays, numbers, &mut images);
+        let subject = Subject::new(placed, caption, &self.style, overlays, numbers, &mut images);
         let (subject, missing) = subject.map_err(op_error)?;
         let note = |reason| format!("a texture is not drawn: {reason}");
         notes.extend(missing.into_iter().map(note));
@@ -398,6 +414,19 @@ impl Operation for Picture {
             ..Report::default()
         })
     }
+}
+
+/// Returns the scene with every instance as an object in scene space.
+fn placed<'s>(scene: &'s Scene, cx: &Context) -> Result<Cow<'s, Scene>, OpError> {
+    let bytes = scene.placed_bytes();
+    if !scene.graph().is_empty() && bytes > cx.budget {
+        let message = format!(
+            "the instances take {bytes} bytes, but the budget is {}",
+            cx.budget
+        );
+        return Err(OpError::Budget(message));
+    }
+    Ok(scene.placed())
 }
 
 /// Reads the image file of a material. `None` if the file does not exist, or is not inside of the folder.

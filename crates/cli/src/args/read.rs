@@ -1,7 +1,7 @@
 //! Options for reading mesh files.
 
 use clap::Args as ClapArgs;
-use mesh_io::{CleanupPolicy, NonManifold, Orientation, Policies, ReadOptions};
+use mesh_io::{CleanupPolicy, NonManifold, Orientation, Placements, Policies, ReadOptions};
 use serde::de::value::StrDeserializer;
 use serde::de::{DeserializeOwned, IntoDeserializer};
 
@@ -28,6 +28,9 @@ pub(crate) struct ReadArgs {
     /// Handling of vertices without faces: Keep or Drop
     #[arg(long, default_value = "Keep", value_name = "POLICY", value_parser = policy::<CleanupPolicy>)]
     isolated: CleanupPolicy,
+    /// Handling of the nodes of glTF files: Keep them, or Bake their transforms into the points
+    #[arg(long, default_value = "Keep", value_name = "POLICY", value_parser = policy::<Placements>)]
+    placements: Placements,
 }
 
 impl ReadArgs {
@@ -41,6 +44,7 @@ impl ReadArgs {
                 degenerate: self.degenerate,
                 isolated: self.isolated,
             },
+            placements: self.placements,
             strict: self.strict,
             ..ReadOptions::default()
         }

@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use engine::BUDGET;
-use mesh::{Elements, Mesh, VertexId};
+use mesh::{DVec3, Elements, Mesh, VertexId};
 use mesh_io::{Note, NoteKind};
 use op::ErrorLocation;
 use ops_pictures::Picture;
 use recipe::shape::counted;
-use scene::{Geometry, Object, Scene};
+use scene::{Geometry, Graph, Instance, Object, Scene};
 use serde_json::json;
 
 use crate::args::{Format, InfoArgs};
@@ -21,27 +21,37 @@ pub(crate) fn run(args: &InfoArgs) -> anyhow::Result<bool> {
     let path = &args.file;
     let (scene, notes) = read_file(path, &args.read.options())?;
     let pictures = args.picture_errors.of(path, BUDGET);
+    // The places of notes are in the space of each object.
+    let mut unplaced = Scene::new();
+    unplaced.append(scene.objects().to_vec(), Graph::default())?;
     for note in &notes {
         let places = places(note);
         if !places.is_empty() {
-            pictures.draw(&scene, &places, &note.to_string());
+            pictures.draw(&unplaced, &places, &note.to_string());
         }
     }
     if args.format == Format::Json {
         pictures.warn();
-        let objects: Vec<_> = scene.objects().iter().map(object_json).collect();
+        let objects: Vec<_> = each_object(&scene, object_json);
         let notes: Vec<_> = notes.iter().map(note_json).collect();
-        print_json(&json!({
+        let mut json = json!({
             "file": path.display().to_string(), "objects": objects, "notes": notes,
             "pictures": pictures.paths(),
-        }))?;
+        });
+        for (what, n) in graph_counts(scene.graph()) {
+            json[what] = n.into();
+        }
+        print_json(&json)?;
         return Ok(true);
     }
-    for object in scene.objects() {
+    for (object, facts) in each_object(&scene, |object, placed| (object, facts(object, placed))) {
         print(&format!("{}: {}\n", object.name, object.geometry.kind()))?;
-        for (what, value) in facts(object) {
+        for (what, value) in facts {
             print(&format!("  {what:<18} {value}\n"))?;
         }
+    }
+    for (what, n) in graph_counts(scene.graph()).filter(|(_, n)| *n > 0) {
+        print(&format!("{what}: {}\n", group_digits(n as u64)))?;
     }
     for note in &notes {
         print(&format!("note: {note}\n"))?;
@@ -51,6 +61,56 @@ pub(crate) fn run(args: &InfoArgs) -> anyhow::Result<bool> {
         show(path, scene)?;
     }
     Ok(true)
+}
+
+/// The measures of all instances of a mesh together, in scene space.
+struct Placed {
+    n: usize,
+    area: f64,
+    volume: f64,
+    bounds: Option<[DVec3; 2]>,
+}
+
+impl Placed {
+    fn of(instances: &[Instance]) -> Self {
+        let mut placed = Self {
+            n: instances.len(),
+            area: 0.0,
+            volume: 0.0,
+            bounds: None,
+        };
+        for instance in instances {
+            let object = instance.placed();
+            let Some(mesh) = object.as_mesh() else {
+                continue;
+            };
+            placed.area += geometry::area(mesh);
+            placed.volume += geometry::volume(mesh);
+            if let Some([low, high]) = geometry::bounds(mesh) {
+                let [min, max] = placed.bounds.unwrap_or([low, high]);
+                placed.bounds = Some([min.min(low), max.max(high)]);
+            }
+        }
+        placed
+    }
+}
+
+/// Describes each object of a scene.
+fn each_object<'s, T>(scene: &'s Scene, describe: impl Fn(&'s Object, &Placed) -> T) -> Vec<T> {
+    let instances = scene.instances();
+    let objects = instances.chunk_by(|a, b| a.object.name == b.object.name);
+    objects
+        .map(|instances| describe(instances[0].object, &Placed::of(instances)))
+        .collect()
+}
+
+fn graph_counts(graph: &Graph) -> impl Iterator<Item = (&'static str, usize)> {
+    let counts = [
+        ("nodes", graph.nodes().len()),
+        ("cameras", graph.cameras.len()),
+        ("lights", graph.lights.len()),
+    ];
+    counts.into_iter()
 }
 
 /// Returns the places of the elements of a note, for a picture.
@@ -102,9 +162,9 @@ pub(crate) fn note_json(note: &Note) -> serde_json::Value {
     json
 }
 
-fn facts(object: &Object) -> Vec<(&'static str, String)> {
+fn facts(object: &Object, placed: &Placed) -> Vec<(&'static str, String)> {
     match &object.geometry {
-        Geometry::Mesh(mesh) => mesh_facts(object, mesh),
+        Geometry::Mesh(mesh) => mesh_facts(object, mesh, placed),
         Geometry::Patches(patches) => vec![("patches", group_digits(patches.len() as u64))],
         Geometry::Curve(curve) => {
             vec![("control points", group_digits(curve.points().len() as u64))]
@@ -119,7 +179,7 @@ fn facts(object: &Object) -> Vec<(&'static str, String)> {
     }
 }
 
-fn mesh_facts(object: &Object, mesh: &Mesh) -> Vec<(&'static str, String)> {
+fn mesh_facts(object: &Object, mesh: &Mesh, placed: &Placed) -> Vec<(&'static str, String)> {
     let count = |n: usize| group_digits(n as u64);
     let loops = mesh.n_boundary_loops();
     let closed = if loops == 0 {
@@ -148,12 +208,15 @@ fn mesh_facts(object: &Object, mesh: &Mesh) -> Vec<(&'static str, String)> {
         ("components", count(geometry::n_components(mesh))),
         ("Euler char.", mesh.euler_characteristic().to_string()),
         ("genus", geometry::genus(mesh).to_string()),
-        ("area", number(geometry::area(mesh))),
+        ("area", number(placed.area)),
     ];
     if loops == 0 {
-        facts.push(("volume", number(geometry::volume(mesh))));
+        facts.push(("volume", number(placed.volume)));
     }
-    if let Some([min, max]) = geometry::bounds(mesh) {
+    if placed.n > 1 {
+        facts.push(("instances", count(placed.n)));
+    }
+    if let Some([min, max]) = placed.bounds {
         facts.push(("bounds", format!("{} to {}", point(min), point(max))));
     }
     let isolated = mesh.n_isolated_vertices();
@@ -186,7 +249,7 @@ fn histogram(counts: &[usize], what: &str) -> String {
     format!("{} {what}", parts.join(", "))
 }
 
-fn object_json(object: &Object) -> serde_json::Value {
+fn object_json(object: &Object, placed: &Placed) -> serde_json::Value {
     let mut json = json!({ "name": object.name, "kind": object.geometry.kind() });
     let more = match &object.geometry {
         Geometry::Mesh(mesh) => {
@@ -203,14 +266,15 @@ fn object_json(object: &Object) -> serde_json::Value {
                 "components": geometry::n_components(mesh),
                 "euler_characteristic": mesh.euler_characteristic(),
                 "genus": geometry::genus(mesh),
-                "area": geometry::area(mesh),
-                "volume": geometry::volume(mesh),
-                "bounds": geometry::bounds(mesh).map(|b| b.map(|p| p.to_array())),
+                "area": placed.area,
+                "volume": placed.volume,
+                "bounds": placed.bounds.map(|b| b.map(|p| p.to_array())),
+                "instances": placed.n,
                 "isolated_vertices": mesh.n_isolated_vertices(),
                 "attributes": attributes,
             })
         }
-        _ => facts(object).into_iter().collect(),
+        _ => facts(object, placed).into_iter().collect(),
     };
     if let (Some(json), serde_json::Value::Object(more)) = (json.as_object_mut(), more) {
         json.extend(more);

@@ -75,7 +75,7 @@ pub(crate) fn read(
 pub(crate) fn peek(bytes: &[u8], name: &str, notes: &mut Notes) -> Result<Vec<PeekObject>, Fault> {
     each_object(bytes, name, notes, |name, object| {
         let geometry = PeekGeometry::Mesh(object.counts());
-        Ok(PeekObject { name, geometry })
+        Ok(PeekObject::new(name, geometry))
     })
 }
 

@@ -4,12 +4,13 @@ use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::fmt;
 
-use gltf_json::{Accessor, Buffer, Mesh, Node, buffer::View};
+use gltf_json::{Accessor, Buffer, Mesh, buffer::View};
 use serde::de::DeserializeOwned;
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 use super::budget::Budget;
 use super::meshopt::{self, Compressed, MESHOPT};
+use super::node_json::NodeJson;
 use super::surface::{
     ImageJson, MaterialJson, STRENGTH, SamplerJson, TRANSFORM, TextureJson, UNLIT,
 };
@@ -18,18 +19,23 @@ use crate::note::Notes;
 
 /// The extensions that the reader supports. `KHR_mesh_quantization` allows integers for positions and texture
 /// coordinates.
-const KNOWN_EXTENSIONS: [&str; 6] = [
+const KNOWN_EXTENSIONS: [&str; 7] = [
     "KHR_mesh_quantization",
     TRANSFORM,
     STRENGTH,
     UNLIT,
+    LIGHTS,
     MESHOPT[0],
     MESHOPT[1],
 ];
 
-const LIGHTS: &str = "KHR_lights_punctual";
+/// The extension for lights.
+pub(super) const LIGHTS: &str = "KHR_lights_punctual";
 
 const DRACO: &str = "KHR_draco_mesh_compression";
+
+/// A part that is kept as it is.
+pub(super) type Json = Map<String, Value>;
 
 /// The parts of a glTF document that the reader needs.
 #[derive(Debug, Default)]
@@ -43,7 +49,9 @@ pub(super) struct Document {
     pub(super) compressed: Vec<Option<Compressed>>,
     pub(super) materials: Vec<MaterialJson>,
     pub(super) meshes: Vec<Mesh>,
-    pub(super) nodes: Vec<Node>,
+    pub(super) nodes: Vec<NodeJson>,
+    pub(super) cameras: Vec<Json>,
+    pub(super) lights: Vec<Json>,
     /// The root nodes of the scene.
     pub(super) roots: Vec<usize>,
     pub(super) textures: Vec<TextureJson>,
@@ -75,6 +83,8 @@ impl Document {
             materials: pieces(json, "materials", budget)?,
             meshes: pieces(json, "meshes", budget)?,
             nodes: pieces(json, "nodes", budget)?,
+            cameras: pieces(json, "cameras", budget)?,
+            lights: lights(json)?,
             roots: roots(json, notes)?,
             textures: pieces(json, "textures", budget)?,
             samplers: pieces(json, "samplers", budget)?,
@@ -83,7 +93,6 @@ impl Document {
         for (key, what) in [
             ("animations", "animations left out"),
             ("skins", "skins left out"),
-            ("cameras", "cameras left out"),
         ] {
             let n = list(json, key)?.len();
             notes.coded(key).left_out(n, None, what);
@@ -152,13 +161,6 @@ fn check_extensions(json: &Value, notes: &mut Notes) -> Result<(), Fault> {
         uses.insert(name.as_str().unwrap_or_default(), 0);
     }
     count_extensions(json, &mut uses);
-    if uses.remove(LIGHTS).is_some() {
-        let lights = json.pointer("/extensions/KHR_lights_punctual/lights");
-        let count = lights.and_then(Value::as_array).map_or(1, Vec::len);
-        notes
-            .coded("lights")
-            .left_out(count, None, "lights left out");
-    }
     for (name, count) in uses {
         // Uncompressed data is read instead.
         if !known(name) && name != DRACO {
@@ -232,6 +234,20 @@ fn count_extensions<'a>(json: &'a Value, uses: &mut BTreeMap<&'a str, usize>) {
         }
         _ => {}
     }
+}
+
+fn lights(json: &Value) -> Result<Vec<Json>, Fault> {
+    let pointer = format!("/extensions/{LIGHTS}/lights");
+    let lights = match json.pointer(&pointer) {
+        None => return Ok(Vec::new()),
+        Some(Value::Array(lights)) => lights.iter().enumerate(),
+        Some(_) => return Err(Fault::json(pointer, "expected a list")),
+    };
+    let light = |(i, light): (usize, &Value)| {
+        let expected = || Fault::json(format!("{pointer}/{i}"), "expected an object");
+        light.as_object().cloned().ok_or_else(expected)
+    };
+    lights.map(light).collect()
 }
 
 fn roots(json: &Value, notes: &mut Notes) -> Result<Vec<usize>, Fault> {

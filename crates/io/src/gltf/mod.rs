@@ -8,13 +8,14 @@
 //!                    `- primitive
 //! ```
 //!
-//! Each node with a mesh becomes an object, with the transforms of the node and its ancestors applied. The parts of
-//! a file become:
+//! Each mesh that a node shows becomes an object in its own space, and the nodes become the graph of the scene. The parts
+//! of a file become:
 //!
 //! | glTF | in the scene |
 //! | --- | --- |
-//! | a node with a mesh | an object, named after the node, or else the mesh, or else the file; names are made unique |
-//! | `matrix`, `translation`, `rotation`, `scale` | applied to positions and normals; a transform that mirrors reverses the faces |
+//! | a mesh of a node | an object, named after the node, or else the mesh, or else the file; names are made unique |
+//! | a mesh of several nodes | one object, named after the mesh, or else the first node, or else the file |
+//! | a node | a node of the graph, with its numbers, name, extras, camera and light; a root node without any of these is left to the writer |
 //! | the scene that `scene` refers to, or else the first | all its nodes are read; without scenes, all nodes of the file |
 //! | triangles, strips and fans, with or without indices | triangles |
 //! | points, lines | left out, with a note |
@@ -26,7 +27,11 @@
 //! | `TANGENT`, `COLOR_1`, `JOINTS_n`, `WEIGHTS_n` | left out, with a note |
 //! | `material` | face attribute `material` and the object's materials |
 //! | textures, samplers, images | textures of the materials: the path of an image file, or the bytes of an image |
-//! | cameras, lights, skins, animations, morph targets, other scenes | left out, with a note |
+//! | cameras, lights | kept in the graph as they are |
+//! | skins, animations, morph targets, other scenes | left out, with a note |
+//!
+//! With [`Placements::Bake`](crate::Placements::Bake), each node with a mesh becomes an object, the transforms are applied
+//! to positions and normals, and there is no graph. A transform that mirrors reverses the faces.
 //!
 //! Accessors can be interleaved or sparse, can lack a view (all values are then zero), and can contain integers,
 //! normalized or not. Buffers are files inside the folder of the document, data URIs, or the second chunk of a
@@ -38,6 +43,7 @@
 //! | `EXT_meshopt_compression`, `KHR_meshopt_compression` | read |
 //! | `KHR_texture_transform` | read and written: the transform of a texture |
 //! | `KHR_materials_emissive_strength`, `KHR_materials_unlit` | read and written |
+//! | `KHR_lights_punctual` | read and written |
 //! | other required extensions, such as `KHR_draco_mesh_compression` | the file is refused |
 //! | other optional extensions | left out, with a note |
 //!
@@ -56,7 +62,7 @@
 //! Lost content is reported as a [`Loss`](crate::Loss), and content that is left out or changed as a
 //! [`Note`](crate::Note).
 //!
-//! Content can be repeated, such as a mesh of several nodes, but the memory that a file can use is limited to 64
+//! Content can be repeated, such as a mesh of several nodes that are applied, but the memory that a file can use is limited to 64
 //! times its size, or 16 MiB if that is more.
 //!
 //! Each part of the JSON is deserialized separately into the types of `gltf_json`, so that an error has the JSON
@@ -71,6 +77,7 @@ mod fill;
 mod materials;
 mod meshopt;
 mod names;
+mod node_json;
 mod nodes;
 mod numbers;
 mod peek;
@@ -85,6 +92,7 @@ mod views;
 mod write;
 mod write_document;
 mod write_materials;
+mod write_nodes;
 
 pub(crate) use buffers::document_of;
 pub(crate) use peek::peek;

@@ -1,111 +1,267 @@
-//! The nodes of a glTF scene: the meshes with their transforms and names.
+//! The nodes of a glTF scene: the meshes with their placements and names.
 
-use glam::{DAffine3, DMat4, DQuat, DVec3};
-use gltf_json::Node;
+use std::collections::BTreeMap;
+
+use glam::DAffine3;
+use scene::{Graph, MeshLabel, Node, Placement};
+use serde_json::Value;
 
 use super::budget::Budget;
-use super::document::{Document, get};
+use super::document::{Document, Json, get};
+use super::node_json::NodeJson;
+use crate::Placements;
 use crate::fault::Fault;
-use crate::note::Notes;
+use crate::note::{Names, Notes};
 
-/// A node with a mesh.
+/// A mesh that becomes an object.
 pub(super) struct PlacedMesh {
-    node: usize,
+    /// The name of the object.
+    pub(super) name: String,
     pub(super) mesh: usize,
+    /// The transform of the points: the identity if nodes place the object.
     pub(super) to_scene: DAffine3,
+    /// The number of nodes that show the object.
+    pub(super) instances: u64,
 }
 
-impl PlacedMesh {
-    /// Takes the minimal size of an object from the budget, including several copies of its name.
-    ///
-    /// # Errors
-    ///
-    /// If the budget is used up.
-    pub(super) fn spend(&self, name: &str, budget: &Budget) -> Result<(), Fault> {
-        let bytes = Budget::OBJECT + 8 * name.len() as u64;
-        budget.spend(bytes, &format!("/nodes/{}", self.node))
-    }
-
-    pub(super) fn name<'a>(&self, document: &'a Document, otherwise: &'a str) -> &'a str {
-        let node = document.nodes[self.node].name.as_deref();
-        let mesh = document.meshes[self.mesh].name.as_deref();
-        let mut names = [node, mesh].into_iter().flatten();
-        names.find(|name| !name.is_empty()).unwrap_or(otherwise)
-    }
+/// A node of the scene.
+struct SceneNode {
+    /// The index in the file.
+    index: usize,
+    /// The position of the parent in the list of nodes.
+    parent: Option<usize>,
+    placement: Placement,
+    to_scene: DAffine3,
+    light: Option<usize>,
 }
 
-/// The nodes of the scene that have a mesh, parents before children, in the order of the file.
+/// The objects of a scene and the nodes that place them.
 ///
 /// # Errors
 ///
-/// If a node is invalid or occurs twice in the scene.
+/// If a node is invalid or occurs twice in the scene, or if the budget is used up.
 pub(super) fn placed_meshes(
     document: &Document,
+    placements: Placements,
+    otherwise: &str,
+    budget: &Budget,
     notes: &mut Notes,
-) -> Result<Vec<PlacedMesh>, Fault> {
-    let mut skinned = 0;
-    let mut visited = vec![false; document.nodes.len()];
-    let mut placed = Vec::new();
-    // An explicit stack, because a chain of nodes can be as long as the file.
-    let mut open: Vec<(usize, DAffine3)> = Vec::new();
-    for &root in document.roots.iter().rev() {
-        open.push((root, DAffine3::IDENTITY));
+) -> Result<(Vec<PlacedMesh>, Graph), Fault> {
+    let nodes = scene_nodes(document)?;
+    let skinned = nodes.iter().map(|node| &document.nodes[node.index]);
+    let skinned = skinned.filter(|node| node.mesh.is_some() && node.skin.is_some());
+    let what = "skinned meshes read in their rest pose";
+    notes.changed(skinned.count(), None, what);
+    let mut names = Names::default();
+    match placements {
+        Placements::Bake => {
+            let placed = baked(document, &nodes, otherwise, budget, &mut names, notes)?;
+            note_left_out(document, notes);
+            Ok((placed, Graph::default()))
+        }
+        Placements::Keep => {
+            let placed = shared(document, &nodes, otherwise, budget, &mut names, notes)?;
+            let graph = graph(document, &nodes, &placed, budget)?;
+            Ok((placed, graph))
+        }
     }
-    while let Some((i, parent_to_scene)) = open.pop() {
-        let node = get(&document.nodes, i, "/scenes", "node")?;
-        let here = format!("/nodes/{i}");
-        if std::mem::replace(&mut visited[i], true) {
+}
+
+fn note_left_out(document: &Document, notes: &mut Notes) {
+    let (cameras, lights) = (document.cameras.len(), document.lights.len());
+    notes
+        .coded("cameras")
+        .left_out(cameras, None, "cameras left out");
+    notes
+        .coded("lights")
+        .left_out(lights, None, "lights left out");
+}
+
+/// The nodes of the scene, parents before children, in the order of the file.
+fn scene_nodes(document: &Document) -> Result<Vec<SceneNode>, Fault> {
+    let mut visited = vec![false; document.nodes.len()];
+    let mut nodes: Vec<SceneNode> = Vec::new();
+    // An explicit stack, because a chain of nodes can be as long as the file.
+    let mut open: Vec<(usize, Option<usize>)> = Vec::new();
+    open.extend(document.roots.iter().rev().map(|&root| (root, None)));
+    while let Some((index, parent)) = open.pop() {
+        let node = get(&document.nodes, index, "/scenes", "node")?;
+        let here = format!("/nodes/{index}");
+        if std::mem::replace(&mut visited[index], true) {
             let message = "the node occurs twice in the scene or is its own descendant";
             return Err(Fault::json(here, message));
         }
-        let to_scene = parent_to_scene * transform(node, &here)?;
+        let placement = node.placement(&here)?;
+        let own = placement.to_affine();
+        let to_scene = parent.map_or(own, |parent| nodes[parent].to_scene * own);
         if !to_scene.is_finite() {
             return Err(Fault::json(here, "the transform of the node is not finite"));
         }
         if let Some(mesh) = node.mesh {
-            skinned += usize::from(node.skin.is_some());
-            let mesh = mesh.value();
             get(&document.meshes, mesh, format_args!("{here}/mesh"), "mesh")?;
-            placed.push(PlacedMesh {
-                node: i,
-                mesh,
-                to_scene,
-            });
         }
-        let children = node.children.as_deref().unwrap_or(&[]);
-        for (k, child) in children.iter().enumerate().rev() {
+        if let Some(camera) = node.camera {
+            get(
+                &document.cameras,
+                camera,
+                format_args!("{here}/camera"),
+                "camera",
+            )?;
+        }
+        let light = node.light(&here)?;
+        if let Some(light) = light {
+            get(&document.lights, light, &here, "light")?;
+        }
+        for (k, &child) in node.children.iter().enumerate().rev() {
             let pointer = format_args!("{here}/children/{k}");
-            get(&document.nodes, child.value(), pointer, "node")?;
-            open.push((child.value(), to_scene));
+            get(&document.nodes, child, pointer, "node")?;
+            open.push((child, Some(nodes.len())));
         }
+        nodes.push(SceneNode {
+            index,
+            parent,
+            placement,
+            to_scene,
+            light,
+        });
     }
-    let what = "skinned meshes read in their rest pose";
-    notes.changed(skinned, None, what);
+    Ok(nodes)
+}
+
+/// An object for each node with a mesh, in the order of the nodes.
+fn baked(
+    document: &Document,
+    nodes: &[SceneNode],
+    otherwise: &str,
+    budget: &Budget,
+    names: &mut Names,
+    notes: &mut Notes,
+) -> Result<Vec<PlacedMesh>, Fault> {
+    let mut placed = Vec::new();
+    for node in nodes {
+        let Some(mesh) = document.nodes[node.index].mesh else {
+            continue;
+        };
+        let known = [
+            &document.nodes[node.index].name,
+            &document.meshes[mesh].name,
+        ];
+        let name = first_name(known, otherwise);
+        spend(name, node.index, budget)?;
+        placed.push(PlacedMesh {
+            name: names.unique(name, notes),
+            mesh,
+            to_scene: node.to_scene,
+            instances: 1,
+        });
+    }
     Ok(placed)
 }
 
-fn transform(node: &Node, here: &str) -> Result<DAffine3, Fault> {
-    if let Some(matrix) = node.matrix {
-        let matrix = DMat4::from_cols_array(&matrix.map(f64::from));
-        if matrix.row(3).to_array().map(f64::to_bits) != [0.0, 0.0, 0.0, 1.0].map(f64::to_bits) {
-            let message = "expected 0, 0, 0, 1 as the last row of the matrix";
-            return Err(Fault::json(format!("{here}/matrix"), message));
+/// An object for each mesh that nodes show, in the order of the meshes. A mesh of one node is named after the node.
+fn shared(
+    document: &Document,
+    nodes: &[SceneNode],
+    otherwise: &str,
+    budget: &Budget,
+    names: &mut Names,
+    notes: &mut Notes,
+) -> Result<Vec<PlacedMesh>, Fault> {
+    // The first node of each mesh, and the number of its nodes.
+    let mut uses: BTreeMap<usize, (usize, u64)> = BTreeMap::new();
+    for node in nodes {
+        if let Some(mesh) = document.nodes[node.index].mesh {
+            uses.entry(mesh).or_insert((node.index, 0)).1 += 1;
         }
-        return Ok(DAffine3::from_mat4(matrix));
     }
-    let scale = DVec3::from_array(node.scale.unwrap_or([1.0; 3]).map(f64::from));
-    let translation = DVec3::from_array(node.translation.unwrap_or_default().map(f64::from));
-    let rotation = DQuat::from_array(node.rotation.unwrap_or_default().0.map(f64::from));
-    // Because of 32-bit rounding, the length is only approximately 1.
-    let length = rotation.length();
-    if length == 0.0 || !length.is_finite() {
-        let pointer = format!("{here}/rotation");
-        return Err(Fault::json(pointer, "expected a unit quaternion"));
+    let mut placed = Vec::new();
+    for (mesh, (node, instances)) in uses {
+        let mut known = [&document.nodes[node].name, &document.meshes[mesh].name];
+        if instances > 1 {
+            known.reverse();
+        }
+        let name = first_name(known, otherwise);
+        spend(name, node, budget)?;
+        placed.push(PlacedMesh {
+            name: names.unique(name, notes),
+            mesh,
+            to_scene: DAffine3::IDENTITY,
+            instances,
+        });
     }
-    let rotation = DQuat::from_array(rotation.to_array().map(|x| x / length));
-    Ok(DAffine3::from_scale_rotation_translation(
-        scale,
-        rotation,
-        translation,
-    ))
+    Ok(placed)
+}
+
+/// The graph of the scene, without the nodes that the writer adds by itself.
+fn graph(
+    document: &Document,
+    nodes: &[SceneNode],
+    placed: &[PlacedMesh],
+    budget: &Budget,
+) -> Result<Graph, Fault> {
+    let mut graph = Graph::default();
+    graph.cameras.extend(document.cameras.iter().map(text));
+    graph.lights.extend(document.lights.iter().map(text));
+    let objects: BTreeMap<usize, &PlacedMesh> = placed.iter().map(|p| (p.mesh, p)).collect();
+    for object in placed {
+        let mesh = &document.meshes[object.mesh];
+        let extras = mesh.extras.as_ref().map(|extras| extras.get().to_owned());
+        if mesh.name.as_ref() != Some(&object.name) || extras.is_some() {
+            let name = mesh.name.clone();
+            graph.set_label(&*object.name, MeshLabel { name, extras });
+        }
+    }
+    // For each node, its index in the graph.
+    let mut places = vec![0; nodes.len()];
+    for (i, node) in nodes.iter().enumerate() {
+        let json = &document.nodes[node.index];
+        let object = json.mesh.map(|mesh| objects[&mesh]);
+        if object.is_some_and(|object| is_plain(node, json, object)) {
+            continue;
+        }
+        let object = object.map(|object| object.name.clone());
+        let length = object.as_ref().map_or(0, String::len);
+        let pointer = format!("/nodes/{}", node.index);
+        budget.spend((size_of::<Node>() + length) as u64, &pointer)?;
+        places[i] = graph.push(Node {
+            name: json.name.clone(),
+            // A node with children is not plain, so the parent is in the graph.
+            parent: node.parent.map(|parent| places[parent]),
+            placement: node.placement,
+            object,
+            camera: json.camera,
+            light: node.light,
+            extras: json.extras.as_ref().map(ToString::to_string),
+        });
+    }
+    Ok(graph)
+}
+
+fn text(json: &Json) -> String {
+    Value::Object(json.clone()).to_string()
+}
+
+/// Whether a node is like the node that the writer adds for an object without nodes.
+fn is_plain(node: &SceneNode, json: &NodeJson, object: &PlacedMesh) -> bool {
+    node.parent.is_none()
+        && json.children.is_empty()
+        && node.placement.to_affine() == DAffine3::IDENTITY
+        && json.name.as_ref() == Some(&object.name)
+        && json.camera.is_none()
+        && node.light.is_none()
+        && json.extras.is_none()
+        && object.instances == 1
+}
+
+fn first_name<'a>(names: [&'a Option<String>; 2], otherwise: &'a str) -> &'a str {
+    let mut names = names.into_iter().flatten();
+    names
+        .find(|name| !name.is_empty())
+        .map_or(otherwise, |name| name)
+}
+
+/// Takes the minimal size of an object from the budget, including several copies of its name.
+fn spend(name: &str, node: usize, budget: &Budget) -> Result<(), Fault> {
+    let bytes = Budget::OBJECT + 8 * name.len() as u64;
+    budget.spend(bytes, &format!("/nodes/{node}"))
 }

@@ -12,8 +12,9 @@ use super::nodes::placed_meshes;
 use super::primitives::attributes;
 use super::read::parse;
 use super::views::Reader;
+use crate::Placements;
 use crate::fault::Fault;
-use crate::note::{Names, Notes};
+use crate::note::Notes;
 use crate::peek::{PeekGeometry, PeekMesh, PeekObject};
 
 /// Returns the counts of the objects of a glTF file from its JSON.
@@ -21,24 +22,27 @@ use crate::peek::{PeekGeometry, PeekMesh, PeekObject};
 /// # Errors
 ///
 /// As [`read`](super::read()), for the parts that are checked.
-pub(crate) fn peek(json: &[u8], name: &str, notes: &mut Notes) -> Result<Vec<PeekObject>, Fault> {
+pub(crate) fn peek(
+    json: &[u8],
+    name: &str,
+    placements: Placements,
+    notes: &mut Notes,
+) -> Result<Vec<PeekObject>, Fault> {
     let budget = Budget::of(json.len());
     let document = Document::new(&parse(json)?, &budget, notes)?;
     let reader = Reader::new(&document, &[], &budget);
     let mut meshes = BTreeMap::new();
-    let mut names = Names::default();
     let mut objects = Vec::new();
-    for placed in placed_meshes(&document, notes)? {
+    let (placed, _) = placed_meshes(&document, placements, name, &budget, notes)?;
+    for placed in placed {
         let mesh = match meshes.get(&placed.mesh) {
             Some(&known) => known,
             None => peek_mesh(&reader, placed.mesh)?,
         };
         meshes.insert(placed.mesh, mesh);
-        let name = placed.name(&document, name);
-        placed.spend(name, &budget)?;
-        let name = names.unique(name, notes);
         objects.push(PeekObject {
-            name,
+            name: placed.name,
+            instances: placed.instances,
             geometry: PeekGeometry::Mesh(mesh),
         });
     }

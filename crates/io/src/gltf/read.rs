@@ -18,9 +18,9 @@ use super::views::Reader;
 use crate::assets::Assets;
 use crate::clean::gather;
 use crate::fault::Fault;
-use crate::note::{Names, Notes};
+use crate::note::Notes;
 use crate::text::{BYTE_ORDER_MARK, TextPosition};
-use crate::{ParsedObject, Polygons, Shape, parallel, weld};
+use crate::{Parsed, ParsedObject, Placements, Polygons, Shape, parallel, weld};
 
 /// Reads the objects of a glTF file from its bytes and from the buffers next to it.
 ///
@@ -30,9 +30,10 @@ use crate::{ParsedObject, Polygons, Shape, parallel, weld};
 pub(crate) fn read(
     bytes: Vec<u8>,
     name: &str,
+    placements: Placements,
     assets: &mut Assets,
     notes: &mut Notes,
-) -> Result<Vec<ParsedObject>, Fault> {
+) -> Result<Parsed, Fault> {
     // The bytes are kept until the end, because accessors read from them directly.
     let bytes = bytes.into_boxed_slice();
     let (json, binary) = buffers::container(&bytes)?;
@@ -45,12 +46,22 @@ pub(crate) fn read(
     if document.compressed.iter().any(Option::is_some) {
         budget.grant_compressed(loaded.iter().map(|buffer| buffer.len() as u64).sum());
     }
-    objects(&Reader::new(&document, &loaded, &budget), name, notes)
+    objects(
+        &Reader::new(&document, &loaded, &budget),
+        name,
+        placements,
+        notes,
+    )
 }
 
-fn objects(reader: &Reader, name: &str, notes: &mut Notes) -> Result<Vec<ParsedObject>, Fault> {
+fn objects(
+    reader: &Reader,
+    name: &str,
+    placements: Placements,
+    notes: &mut Notes,
+) -> Result<Parsed, Fault> {
     let document = reader.document;
-    let placed = placed_meshes(document, notes)?;
+    let (placed, graph) = placed_meshes(document, placements, name, reader.budget, notes)?;
     // The number of remaining uses of each mesh. The last object that uses a mesh takes its arrays instead of
     // copying them.
     let mut uses = BTreeMap::new();
@@ -62,7 +73,6 @@ fn objects(reader: &Reader, name: &str, notes: &mut Notes) -> Result<Vec<ParsedO
     notes.left_out(unused, None, what);
     let mut meshes = BTreeMap::new();
     let mut materials = Materials::new(reader);
-    let mut names = Names::default();
     let mut objects = Vec::new();
     for placed in placed {
         let here = format!("/meshes/{}", placed.mesh);
@@ -83,9 +93,6 @@ fn objects(reader: &Reader, name: &str, notes: &mut Notes) -> Result<Vec<ParsedO
             );
             return Err(Fault::json(here, message));
         }
-        let name = placed.name(document, name);
-        placed.spend(name, reader.budget)?;
-        let name = names.unique(name, notes);
         let (materials, places) = used_materials(&mut materials, &triangles)?;
         let cost: usize = materials.iter().map(cost_of_material).sum();
         reader.budget.spend(cost as u64, &here)?;
@@ -94,10 +101,13 @@ fn objects(reader: &Reader, name: &str, notes: &mut Notes) -> Result<Vec<ParsedO
             ..polygons(triangles, &places, &placed.to_scene, notes)
         };
         let shape = Shape::Polygons(polygons);
-        objects.push(ParsedObject { name, shape });
+        objects.push(ParsedObject {
+            name: placed.name,
+            shape,
+        });
     }
     materials.note(notes);
-    Ok(objects)
+    Ok(Parsed { objects, graph })
 }
 
 pub(super) fn parse(json: &[u8]) -> Result<Value, Fault> {

@@ -44,8 +44,9 @@ pub(crate) fn write(
     let mut writer = Writer::default();
     for prepared in &prepared {
         let mut losses = Losses::of(&prepared.object.name, &mut losses);
-        writer.object(prepared, &mut losses);
+        writer.object(prepared, scene.graph(), &mut losses)?;
     }
+    writer.nodes(scene)?;
     let length = writer.pieces.last().map_or(0, Piece::end);
     if u32::try_from(length).is_err() {
         let message =

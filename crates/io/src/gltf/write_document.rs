@@ -5,15 +5,19 @@ use std::collections::BTreeMap;
 use gltf_json::accessor::{ComponentType, Type};
 use gltf_json::buffer::{ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER};
 use gltf_json::mesh::Semantic;
+use scene::Graph;
 use serde_json::{Map, Value, json};
 
+use super::document::LIGHTS;
 use super::faces::Faces;
 use super::fill::{Bounds, fill_indices, fill_positions, fill_stream};
 use super::numbers::type_name;
 use super::pieces::Piece;
 use super::prepare::PreparedObject;
 use super::write_materials::MaterialWriter;
+use super::write_nodes::{NodeList, optional_json};
 use crate::WriteOptions;
+use crate::error::Unwritable;
 use crate::loss::Losses;
 
 /// Builds the document, and collects the functions that write the bytes it refers to.
@@ -22,7 +26,9 @@ pub(super) struct Writer<'a> {
     accessors: Vec<Value>,
     views: Vec<Value>,
     meshes: Vec<Value>,
-    nodes: Vec<Value>,
+    /// For each object that is written, the index of its mesh.
+    pub(super) mesh_of: BTreeMap<&'a str, usize>,
+    pub(super) nodes: NodeList,
     pub(super) pieces: Vec<Piece<'a>>,
     materials: MaterialWriter,
 }
@@ -36,9 +42,19 @@ impl<'a> Writer<'a> {
         uri: Option<&str>,
     ) -> (Vec<u8>, Vec<Piece<'a>>) {
         let length = self.pieces.last().map_or(0, Piece::end);
-        let nodes: Vec<usize> = (0..self.nodes.len()).collect();
+        let NodeList {
+            nodes,
+            roots,
+            cameras,
+            lights,
+        } = self.nodes;
         // A scene without nodes is left out.
         let has_nodes = !nodes.is_empty();
+        let mut extensions = self.materials.extensions();
+        let lights = (!lights.is_empty()).then(|| {
+            extensions.push(LIGHTS);
+            json!({ LIGHTS: { "lights": lights } })
+        });
         let mut document = json!({
             "accessors": self.accessors,
             "asset": {
@@ -50,9 +66,11 @@ impl<'a> Writer<'a> {
             "bufferViews": self.views,
             "scene": has_nodes.then_some(0),
             "meshes": self.meshes,
-            "nodes": self.nodes,
-            "scenes": has_nodes.then(|| json!([{ "nodes": nodes }])),
-            "extensionsUsed": self.materials.extensions(),
+            "nodes": nodes,
+            "scenes": has_nodes.then(|| json!([{ "nodes": roots }])),
+            "extensionsUsed": extensions,
+            "extensions": lights,
+            "cameras": cameras,
             "materials": self.materials.materials,
             "textures": self.materials.textures,
             "samplers": self.materials.samplers,
@@ -62,16 +80,30 @@ impl<'a> Writer<'a> {
         (document.to_string().into_bytes(), self.pieces)
     }
 
-    /// Adds a node with the mesh of an object, if the mesh has faces.
-    pub(super) fn object(&mut self, prepared: &'a PreparedObject<'a>, losses: &mut Losses) {
+    /// Adds the mesh of an object, if the mesh has faces.
+    ///
+    /// # Errors
+    ///
+    /// If the extras of the mesh are not JSON.
+    pub(super) fn object(
+        &mut self,
+        prepared: &'a PreparedObject<'a>,
+        graph: &Graph,
+        losses: &mut Losses,
+    ) -> Result<(), Unwritable> {
         if prepared.faces.is_empty() {
-            return;
+            return Ok(());
         }
         let primitives = self.primitives(prepared, losses);
         let name = &prepared.object.name;
-        let mesh = json!({ "name": name, "primitives": primitives });
+        let mut mesh = json!({ "name": name, "primitives": primitives });
+        if let Some(label) = graph.label(name) {
+            mesh["name"] = json!(label.name);
+            mesh["extras"] = optional_json(label.extras.as_deref())?;
+        }
         let mesh = push(&mut self.meshes, mesh);
-        self.nodes.push(json!({ "mesh": mesh, "name": name }));
+        self.mesh_of.insert(name, mesh);
+        Ok(())
     }
 
     /// Creates a primitive for each material, in the order of the materials of the object. The primitives share
@@ -183,12 +215,13 @@ fn push(list: &mut Vec<Value>, value: Value) -> usize {
     list.len() - 1
 }
 
-/// Removes members that are null or empty lists.
+/// Removes members that are null or empty lists, except from data of other programs.
 fn remove_empty(json: &mut Value) {
     match json {
         Value::Object(members) => {
             members.retain(|_, value| !value.is_null() && *value != json!([]));
-            members.values_mut().for_each(remove_empty);
+            let members = members.iter_mut().filter(|(key, _)| *key != "extras");
+            members.for_each(|(_, value)| remove_empty(value));
         }
         Value::Array(values) => values.iter_mut().for_each(remove_empty),
         _ => {}

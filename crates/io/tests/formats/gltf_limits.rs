@@ -2,10 +2,10 @@
 
 use std::time::{Duration, Instant};
 
-use mesh_io::{ReadError, ReadOptions};
+use mesh_io::{Placements, ReadError, ReadOptions};
 use serde_json::{Value, json};
 
-use crate::gltf_read::{read_json, square};
+use crate::gltf_read::{read_baked, read_json, square};
 use crate::{Folder, read};
 
 #[test]
@@ -30,8 +30,14 @@ fn repeated_references_to_the_same_data_are_limited() {
     let mut json = square(&[0, 1, 2].repeat(20_000), 4);
     json["nodes"] = vec![json!({ "mesh": 0 }); 5_000].into();
     json["scenes"][0]["nodes"] = (0..5_000).collect();
-    let error = read_json(&json).unwrap_err();
+    let error = read_baked(&json).unwrap_err();
     assert!(error.to_string().contains("so often"), "{error}");
+    // Nodes that only refer to the mesh need little memory.
+    let loaded = read_json(&json).unwrap();
+    assert_eq!(
+        (loaded.objects.len(), loaded.graph.nodes().len()),
+        (1, 5_000)
+    );
 }
 
 #[test]
@@ -50,7 +56,8 @@ fn many_nodes_are_read() {
     let n = 20_000;
     json["nodes"] = vec![json!({ "mesh": 0 }); n].into();
     json["scenes"][0]["nodes"] = (0..n).collect();
-    assert_eq!(read_json(&json).unwrap().objects.len(), n);
+    assert_eq!(read_baked(&json).unwrap().objects.len(), n);
+    assert_eq!(read_json(&json).unwrap().graph.nodes().len(), n);
 }
 
 #[test]
@@ -68,7 +75,7 @@ fn a_container_with_a_wrong_length_is_refused() {
 /// Returns the error of reading the document, and checks that it comes quickly.
 fn error_quickly(json: &Value) -> String {
     let start = Instant::now();
-    let error = read_json(json).unwrap_err();
+    let error = read_baked(json).unwrap_err();
     assert!(
         start.elapsed() < Duration::from_secs(5),
         "{:?}",
@@ -161,7 +168,13 @@ fn many_nodes_with_a_mesh_of_many_primitives_are_counted_quickly() {
     let folder = Folder::new();
     let path = folder.with("a.gltf", json.to_string());
     let start = Instant::now();
-    let peek = mesh_io::peek(&store::Disk, &path, &ReadOptions::default()).unwrap();
+    let options = ReadOptions {
+        placements: Placements::Bake,
+        ..ReadOptions::default()
+    };
+    let peek = mesh_io::peek(&store::Disk, &path, &options).unwrap();
     assert_eq!(peek.objects.len(), 5000);
+    let peek = mesh_io::peek(&store::Disk, &path, &ReadOptions::default()).unwrap();
+    assert_eq!((peek.objects.len(), peek.objects[0].instances), (1, 5000));
     assert!(start.elapsed() < Duration::from_secs(2));
 }

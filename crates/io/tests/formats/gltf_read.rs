@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3, DVec4};
 use mesh::{Mesh, UV, VERTEX_NORMAL};
-use mesh_io::ReadError;
+use mesh_io::{Placements, ReadError, ReadOptions};
 use serde_json::{Value, json};
 
 use crate::{Folder, polygons, read};
@@ -63,8 +63,19 @@ pub(crate) fn read_json(json: &Value) -> Result<mesh_io::Loaded, ReadError> {
     read(&folder.with("a.gltf", json.to_string()))
 }
 
+/// Reads a document and applies the transforms of its nodes.
+pub(crate) fn read_baked(json: &Value) -> Result<mesh_io::Loaded, ReadError> {
+    let folder = Folder::new();
+    let options = ReadOptions {
+        placements: Placements::Bake,
+        ..ReadOptions::default()
+    };
+    let path = folder.with("a.gltf", json.to_string());
+    mesh_io::read(&store::Disk, &path, &options)
+}
+
 fn mesh_of(json: &Value) -> Mesh {
-    let loaded = read_json(json).unwrap();
+    let loaded = read_baked(json).unwrap();
     assert!(loaded.notes.is_empty(), "{:?}", loaded.notes);
     loaded.objects[0].as_mesh().unwrap().as_ref().clone()
 }
@@ -184,7 +195,7 @@ fn transforms_of_nodes_are_applied_and_mirrors_reverse_faces() {
         { "mesh": 0, "name": "twin", "scale": [-1, 1, 1] },
         { "mesh": 0, "matrix": [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1] },
     ]);
-    let loaded = read_json(&json).unwrap();
+    let loaded = read_baked(&json).unwrap();
     let names: Vec<_> = loaded.objects.iter().map(|o| o.name.as_str()).collect();
     assert_eq!(names, ["twin", "twin.2", "a"]);
     assert_eq!(loaded.notes.len(), 1);
@@ -222,7 +233,7 @@ fn normals_are_transformed_with_the_node() {
     assert!((mesh.get(VERTEX_NORMAL).unwrap()[0] - expected).length() < 1e-12);
     json["nodes"][0]["scale"] = json!([1, 0, 1]);
     assert!(
-        read_json(&json)
+        read_baked(&json)
             .unwrap()
             .notes
             .iter()
@@ -262,7 +273,13 @@ fn content_left_out_is_noted() {
     json["nodes"][0]["skin"] = json!(0);
     let extensions = json!({ "KHR_materials_ior": { "ior": 1.4 }, "KHR_materials_unlit": {} });
     json["materials"][0]["extensions"] = extensions;
-    let loaded = read_json(&json).unwrap();
+    let kept = read_json(&json).unwrap();
+    let loaded = read_baked(&json).unwrap();
+    // If the nodes are kept, so are cameras and lights.
+    assert_eq!(kept.notes.len(), loaded.notes.len() - 2);
+    let is_left_out =
+        |note: &mesh_io::Note| note.what.contains("cameras") || note.what.contains("lights");
+    assert!(!kept.notes.iter().any(is_left_out));
     let notes: Vec<String> = loaded
         .notes
         .iter()

@@ -15,7 +15,7 @@ use crate::gltf_written::sphere;
 use crate::{read, scene, tag};
 
 /// Writes a scene in both variants, and reads the files.
-fn written(name: &str, scene: &Scene) {
+pub(crate) fn written(name: &str, scene: &Scene) {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("gltf");
     std::fs::create_dir_all(&folder).unwrap();
     std::fs::write(folder.join("a picture.png"), PNG).unwrap();

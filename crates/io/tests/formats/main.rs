@@ -10,6 +10,7 @@ mod gltf_broken;
 mod gltf_limits;
 mod gltf_materials;
 mod gltf_meshopt;
+mod gltf_nodes;
 mod gltf_read;
 mod gltf_valid;
 mod gltf_written;

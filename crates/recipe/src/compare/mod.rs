@@ -47,8 +47,19 @@ pub struct ObjectDifference {
 }
 
 impl Difference {
-    /// Compares two scenes. Measures the distance between meshes that are not identical.
+    /// Compares two scenes. Measures the distance between meshes that are not identical. If the nodes of the scenes
+    /// differ, their instances are compared in scene space.
     pub fn between(first: &Scene, second: &Scene) -> Self {
+        if first.graph() == second.graph() {
+            return Self::of_objects(first, second);
+        }
+        Self {
+            identical: false,
+            ..Self::of_objects(&first.placed(), &second.placed())
+        }
+    }
+
+    fn of_objects(first: &Scene, second: &Scene) -> Self {
         let is_in = |scene: &Scene, o: &&Object| scene.object(&o.name).is_some();
         let mut pairs: Vec<(&Object, &Object)> = first
             .objects()

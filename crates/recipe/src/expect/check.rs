@@ -9,17 +9,59 @@ use super::subject::{
     ActualValue, EdgeByVertices, Subject, Violation, check_count, check_integer, check_number,
     fails_unless, selected,
 };
-use super::{Expectation, output, same, symmetry};
+use super::{Expectation, OtherMesh, PlacedSubject, output, same, symmetry};
 use geometry::distance::{Distance, TOLERANCE, diagonal};
 
 impl Expectation {
-    /// Checks the expectation against a scene.
+    /// Checks the expectation against a scene. An expectation that measures in space is checked against every instance
+    /// of an object, in scene space.
     ///
     /// # Errors
     ///
     /// The expected and the actual value, if the expectation does not hold or cannot be checked.
-    #[expect(clippy::too_many_lines, reason = "one arm for each expectation")]
     pub fn check(&self, subject: Subject) -> Result<(), Violation> {
+        if self.measures_space() && !subject.scene.graph().is_empty() {
+            let placed = PlacedSubject::new(subject, self.other_object())?;
+            return self.check_as_is(placed.subject());
+        }
+        self.check_as_is(subject)
+    }
+
+    /// Whether the result depends on the placement of objects.
+    pub(crate) fn measures_space(&self) -> bool {
+        matches!(
+            self,
+            Self::Area { .. }
+                | Self::Volume { .. }
+                | Self::Bounds { .. }
+                | Self::DihedralAngle { .. }
+                | Self::EdgeLength { .. }
+                | Self::MinAngle { .. }
+                | Self::MeanFaceArea { .. }
+                | Self::Position { .. }
+                | Self::Same { .. }
+                | Self::DistanceTo { .. }
+                | Self::SymmetricUnder { .. }
+        )
+    }
+
+    /// Returns the name of the object to compare with.
+    fn other_object(&self) -> Option<&str> {
+        match self {
+            Self::Same {
+                r#as: OtherMesh::Object(name),
+                ..
+            }
+            | Self::DistanceTo {
+                other: OtherMesh::Object(name),
+                ..
+            } => Some(name),
+            _ => None,
+        }
+    }
+
+    #[expect(clippy::too_many_lines, reason = "one arm for each expectation")]
+    fn check_as_is(&self, subject: Subject) -> Result<(), Violation> {
         match self {
             Self::Not(inner) => match inner.check(subject) {
                 Ok(()) => Err(Violation::unmet(format!(

@@ -2,6 +2,7 @@
 
 mod check;
 mod output;
+mod placed;
 mod places;
 mod same;
 mod subject;
@@ -15,6 +16,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub(crate) use output::golden;
+pub(crate) use placed::PlacedSubject;
 pub(crate) use same::same_faces;
 pub use subject::{ActualValue, Reader, Subject, Violation};
 pub use symmetry::Group;

@@ -7,7 +7,7 @@
 use std::path::{Component, Path, PathBuf};
 
 use op::Files;
-use scene::{Digest, Object, Scene};
+use scene::{Digest, Scene};
 use store::TemporaryFolder;
 
 use super::subject::{ActualValue, Subject, Violation, fails_unless};
@@ -130,7 +130,7 @@ fn with_written_file(
 /// were alone in a folder. This is not the case for an OBJ file with a material library. True if the written file
 /// cannot be read as objects.
 fn stands_alone(written: &Path, golden: &Path, bytes: &[u8], subject: Subject) -> bool {
-    let Ok(objects) = subject.reader.objects(written, subject.files) else {
+    let Ok(scene) = subject.reader.scene(written, subject.files) else {
         return true;
     };
     let alone = || {
@@ -140,8 +140,8 @@ fn stands_alone(written: &Path, golden: &Path, bytes: &[u8], subject: Subject) -
         store
             .write(&path, bytes)
             .map_err(|error| error.to_string())?;
-        let alone = subject.reader.objects(&path, subject.files)?;
-        digests((written, objects), (&path, alone))
+        let alone = subject.reader.scene(&path, subject.files)?;
+        digests((written, &scene), (&path, alone))
     };
     alone().is_ok_and(|[then, now]| then == now)
 }
@@ -168,9 +168,9 @@ fn compare_pictures(
 fn compare(written: &Path, golden: &Path, subject: Subject) -> Result<(), Violation> {
     let (reader, files) = (subject.reader, subject.files);
     // A file that cannot be read as objects is compared by its bytes.
-    if let Ok(now) = reader.objects(written, files) {
-        let then = reader.objects(golden, files)?;
-        let [now, then] = digests((written, now), (golden, then))?;
+    if let Ok(now) = reader.scene(written, files) {
+        let then = reader.scene(golden, files)?;
+        let [now, then] = digests((written, &now), (golden, then))?;
         return fails_unless(now == then, || {
             format!("expected objects with the digest {then}, found {now}")
         });
@@ -193,27 +193,23 @@ fn compare(written: &Path, golden: &Path, subject: Subject) -> Result<(), Violat
     }))
 }
 
-/// Returns the digests of the objects in two files. If two corresponding objects are both named after their file, their
+/// Returns the digests of the scenes in two files. If two corresponding objects are both named after their file, their
 /// names are treated as equal.
 fn digests(
-    (path, objects): (&Path, Vec<Object>),
-    (other_path, mut others): (&Path, Vec<Object>),
+    (path, scene): (&Path, &Scene),
+    (other_path, mut other): (&Path, Scene),
 ) -> Result<[Digest; 2], String> {
-    let is_of =
-        |object: &Object, path: &Path| path.file_stem().is_some_and(|stem| *stem == *object.name);
-    for (object, other) in objects.iter().zip(&mut others) {
-        if is_of(object, path) && is_of(other, other_path) {
-            other.name.clone_from(&object.name);
+    let is_of = |name: &str, path: &Path| path.file_stem().is_some_and(|stem| *stem == *name);
+    let names =
+        |scene: &Scene| -> Vec<String> { scene.objects().iter().map(|o| o.name.clone()).collect() };
+    for (name, old) in names(scene).iter().zip(names(&other)) {
+        if is_of(name, path) && is_of(&old, other_path) {
+            other
+                .rename(&old, name)
+                .map_err(|error| error.to_string())?;
         }
     }
-    let digest = |objects: Vec<Object>| {
-        let mut scene = Scene::new();
-        for object in objects {
-            scene.insert(object).map_err(|error| error.to_string())?;
-        }
-        Ok::<_, String>(scene.digest())
-    };
-    Ok([digest(objects)?, digest(others)?])
+    Ok([scene.digest(), other.digest()])
 }
 
 /// Removes the recorded provenance from the bytes of a file: the metadata of an SVG, the comment of a GIF.

@@ -14,6 +14,14 @@ impl Expectation {
     /// expectations that are not about elements, and for `Not`.
     pub fn places(&self, subject: Subject) -> Vec<ErrorLocation> {
         let mut places = Vec::new();
+        let compares = matches!(
+            self,
+            Self::Same { .. } | Self::DistanceTo { .. } | Self::SymmetricUnder { .. }
+        );
+        if compares && !subject.scene.graph().is_empty() {
+            // Places are in the space of an object, but these expectations compare instances in scene space.
+            return places;
+        }
         for (object, mesh) in subject.meshes().unwrap_or_default() {
             let found = CheckedMesh {
                 subject,

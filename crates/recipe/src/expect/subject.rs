@@ -16,12 +16,12 @@ use super::OtherMesh;
 
 /// Reads the files that expectations refer to.
 pub trait Reader: Sync {
-    /// Reads the objects of a file, and reports each file that it reads to [`Files::has_read`].
+    /// Reads the scene of a file, and reports each file that it reads to [`Files::has_read`].
     ///
     /// # Errors
     ///
     /// The path and the reason, if the file cannot be read.
-    fn objects(&self, path: &Path, files: &Files) -> Result<Vec<Object>, String>;
+    fn scene(&self, path: &Path, files: &Files) -> Result<Scene, String>;
 
     /// Compares the pixels of two PNG files, each given by its path and bytes. Returns a description of the differences
     /// that exceed `tolerance` steps of 1/255, or `None` if there are none.
@@ -213,13 +213,16 @@ impl<'a> Subject<'a> {
                     .cloned()
                     .ok_or(format!("\"{name}\" is not a mesh"))
             }
-            OtherMesh::File(path) => self
-                .reader
-                .objects(&self.files.to_read(path), self.files)?
-                .iter()
-                .find_map(Object::as_mesh)
-                .cloned()
-                .ok_or(format!("{path} does not contain a mesh")),
+            OtherMesh::File(path) => {
+                let scene = self.reader.scene(&self.files.to_read(path), self.files)?;
+                let first = scene
+                    .instances()
+                    .into_iter()
+                    .find(|i| i.object.as_mesh().is_some());
+                let first = first.map(|instance| instance.placed());
+                let mesh = first.as_ref().and_then(Object::as_mesh).cloned();
+                mesh.ok_or(format!("{path} does not contain a mesh"))
+            }
         }
     }
 

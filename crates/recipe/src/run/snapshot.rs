@@ -3,11 +3,14 @@
 use std::sync::{Arc, Weak};
 
 use mesh::Mesh;
-use scene::{Material, Scene};
+use scene::{Graph, Material, Scene};
 
 /// A snapshot of a scene, to be compared with a later state of the scene. It holds only weak references to meshes:
 /// while a strong reference exists, an operation must copy the mesh before it changes the mesh.
-pub(super) struct SceneSnapshot(Vec<(String, Vec<Material>, Option<Weak<Mesh>>)>);
+pub(super) struct SceneSnapshot {
+    objects: Vec<(String, Vec<Material>, Option<Weak<Mesh>>)>,
+    graph: Graph,
+}
 
 impl SceneSnapshot {
     pub(super) fn of(scene: &Scene) -> Self {
@@ -15,7 +18,10 @@ impl SceneSnapshot {
             let mesh = o.as_mesh().map(Arc::downgrade);
             (o.name.clone(), o.materials.clone(), mesh)
         });
-        Self(objects.collect())
+        Self {
+            objects: objects.collect(),
+            graph: scene.graph().clone(),
+        }
     }
 
     /// Whether the scene is known to be unchanged. Changing a mesh with weak references moves it to a new
@@ -29,6 +35,8 @@ impl SceneSnapshot {
                     && object.materials == *materials
                     && object.as_mesh().zip(before).is_some_and(is_same)
             };
-        scene.objects().len() == self.0.len() && scene.objects().iter().zip(&self.0).all(same)
+        scene.objects().len() == self.objects.len()
+            && scene.objects().iter().zip(&self.objects).all(same)
+            && *scene.graph() == self.graph
     }
 }

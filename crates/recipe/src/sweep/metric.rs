@@ -7,7 +7,7 @@ use op::{FaceSelection, Files};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::expect::{OtherMesh, Reader, Subject};
+use crate::expect::{OtherMesh, PlacedSubject, Reader, Subject};
 use crate::run::Outcome;
 use geometry::distance::Distance;
 
@@ -82,6 +82,7 @@ impl Metric {
             progress: &op::NoProgress,
         };
         let whole = |n: usize| Measured::Whole(i64::try_from(n).unwrap_or(i64::MAX));
+        let placed = || PlacedSubject::new(subject, None).map_err(|violation| violation.message);
         Ok(match self {
             Self::Objects => whole(subject.objects()?.len()),
             Self::Vertices => whole(subject.points()?.len()),
@@ -91,16 +92,23 @@ impl Metric {
             Self::BoundaryLoops => whole(subject.sum(Mesh::n_boundary_loops)?),
             Self::EulerCharacteristic => Measured::Whole(subject.sum(Mesh::euler_characteristic)?),
             Self::Genus => Measured::Whole(subject.sum(geometry::genus)?),
-            Self::Area => Measured::Number(subject.sum(geometry::area)?),
-            Self::Volume => Measured::Number(subject.sum(geometry::volume)?),
+            Self::Area => Measured::Number(placed()?.subject().sum(geometry::area)?),
+            Self::Volume => Measured::Number(placed()?.subject().sum(geometry::volume)?),
             Self::MinAngle => {
-                let smallest = subject.smallest_angle(&FaceSelection::All);
+                let placed = placed()?;
+                let smallest = placed.subject().smallest_angle(&FaceSelection::All);
                 Measured::Number(smallest.map_err(|violation| violation.message)?.0)
             }
             Self::DistanceTo { other, on } => {
                 let on = on.as_ref().map(std::slice::from_ref);
-                let (_, mesh) = Subject { on, ..subject }.one_mesh()?;
-                let other = subject.other_mesh(other)?;
+                let name = match other {
+                    OtherMesh::Object(name) => Some(name.as_str()),
+                    OtherMesh::File(_) => None,
+                };
+                let placed = PlacedSubject::new(Subject { on, ..subject }, name);
+                let placed = placed.map_err(|violation| violation.message)?;
+                let (_, mesh) = placed.subject().one_mesh()?;
+                let other = placed.subject().other_mesh(other)?;
                 let distance = Distance::between(mesh, other.as_ref(), None);
                 Measured::Number(distance.map_or(f64::INFINITY, |d| d.largest()))
             }

@@ -1,6 +1,6 @@
 //! The affine map of the parameters, for points and normals.
 
-use glam::{DMat3, DVec3};
+use glam::{DAffine3, DMat3, DVec3};
 use op::Turn;
 
 use crate::transform::Transform;
@@ -51,6 +51,14 @@ impl Map {
         let inverse = DVec3::select(zero, DVec3::ZERO, smallest / self.scale);
         let image = self.turns * (n * inverse);
         (image / image.abs().max_element()).normalize()
+    }
+
+    /// Returns the map with a fixed point of scaling and rotation.
+    pub(crate) fn affine(&self, center: DVec3) -> DAffine3 {
+        DAffine3 {
+            matrix3: self.linear,
+            translation: self.point(DVec3::ZERO, center),
+        }
     }
 
     /// Whether points are neither scaled nor rotated.

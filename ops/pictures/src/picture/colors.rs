@@ -3,6 +3,7 @@
 use mesh::Mesh;
 use mesh_io::ReadOptions;
 use op::{Context, OpError, Plan, PlanContext, PlannedGeometry, Problem};
+use scene::Scene;
 use view::{ColorBy, Quantity, existing_attributes, missing_attribute};
 
 /// Returns the problems of the parameter, and adds the file that it reads to the plan.
@@ -55,7 +56,11 @@ pub(crate) fn distance_targets(by: &ColorBy, cx: &Context) -> Result<Vec<Mesh>, 
     for file in loaded.files {
         cx.files().has_used(file.path, file.is_read);
     }
-    let meshes: Vec<Mesh> = (loaded.objects.iter())
+    let mut scene = Scene::new();
+    let appended = scene.append(loaded.objects, loaded.graph);
+    appended.map_err(|error| OpError::File(error.to_string()))?;
+    let placed = crate::picture::placed(&scene, cx)?;
+    let meshes: Vec<Mesh> = (placed.objects().iter())
         .filter_map(|object| object.as_mesh().map(|mesh| (**mesh).clone()))
         .filter(|mesh| mesh.n_faces() > 0)
         .collect();

@@ -1,0 +1,74 @@
+//! A node in the JSON of a glTF file.
+
+use std::collections::BTreeMap;
+
+use scene::Placement;
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+use serde_json::Value;
+
+use super::document::LIGHTS;
+use crate::fault::Fault;
+
+/// A node. Numbers keep their 64 bits.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct NodeJson {
+    pub(super) name: Option<String>,
+    pub(super) children: Vec<usize>,
+    pub(super) mesh: Option<usize>,
+    pub(super) camera: Option<usize>,
+    pub(super) skin: Option<IgnoredAny>,
+    pub(super) extras: Option<Box<Value>>,
+    extensions: Option<BTreeMap<String, Value>>,
+    matrix: Option<Box<[f64; 16]>>,
+    translation: Option<[f64; 3]>,
+    rotation: Option<[f64; 4]>,
+    scale: Option<[f64; 3]>,
+}
+
+impl NodeJson {
+    /// The index of the light; `None` if the node has no light.
+    ///
+    /// # Errors
+    ///
+    /// If the light is not given by an index. `here` is the location of the node.
+    pub(super) fn light(&self, here: &str) -> Result<Option<usize>, Fault> {
+        let Some(extension) = self.extensions.as_ref().and_then(|all| all.get(LIGHTS)) else {
+            return Ok(None);
+        };
+        let light = extension.get("light").and_then(Value::as_u64);
+        let light = light.and_then(|light| usize::try_from(light).ok());
+        let pointer = format!("{here}/extensions/{LIGHTS}/light");
+        light
+            .map(Some)
+            .ok_or_else(|| Fault::json(pointer, "expected the index of a light"))
+    }
+
+    /// The placement in the space of the parent.
+    ///
+    /// # Errors
+    ///
+    /// If the matrix is not affine or the rotation is not a quaternion. `here` is the location of the node.
+    pub(super) fn placement(&self, here: &str) -> Result<Placement, Fault> {
+        if let Some(matrix) = &self.matrix {
+            let last_row = [3, 7, 11, 15].map(|i| matrix[i].to_bits());
+            if last_row != [0.0, 0.0, 0.0, 1.0].map(f64::to_bits) {
+                let message = "expected 0, 0, 0, 1 as the last row of the matrix";
+                return Err(Fault::json(format!("{here}/matrix"), message));
+            }
+            return Ok(Placement::Matrix(**matrix));
+        }
+        let rotation = self.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]);
+        let length = rotation.iter().map(|x| x * x).sum::<f64>();
+        if length == 0.0 || !length.is_finite() {
+            let pointer = format!("{here}/rotation");
+            return Err(Fault::json(pointer, "expected a unit quaternion"));
+        }
+        Ok(Placement::Parts {
+            translation: self.translation.unwrap_or_default(),
+            rotation,
+            scale: self.scale.unwrap_or([1.0; 3]),
+        })
+    }
+}

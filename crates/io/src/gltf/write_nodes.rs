@@ -1,0 +1,120 @@
+//! Writes the nodes of a scene, with their cameras and lights.
+
+use std::collections::BTreeSet;
+
+use scene::{Node, Placement, Scene};
+use serde_json::{Value, json};
+
+use super::document::LIGHTS;
+use super::write_document::Writer;
+use crate::error::Unwritable;
+
+/// The nodes of a document.
+#[derive(Default)]
+pub(super) struct NodeList {
+    pub(super) nodes: Vec<Value>,
+    /// The nodes without a parent.
+    pub(super) roots: Vec<usize>,
+    pub(super) cameras: Vec<Value>,
+    pub(super) lights: Vec<Value>,
+}
+
+impl Writer<'_> {
+    /// Adds the nodes of the graph, and then a node for each object that no node shows.
+    ///
+    /// # Errors
+    ///
+    /// If glTF cannot store the placement of a node, or if a part of the graph is not JSON.
+    pub(super) fn nodes(&mut self, scene: &Scene) -> Result<(), Unwritable> {
+        let graph = scene.graph();
+        let list = &mut self.nodes;
+        for (texts, values) in [
+            (&graph.cameras, &mut list.cameras),
+            (&graph.lights, &mut list.lights),
+        ] {
+            for text in texts {
+                values.push(parsed(text)?);
+            }
+        }
+        let mut children: Vec<Vec<usize>> = vec![Vec::new(); graph.nodes().len()];
+        let mut shown = BTreeSet::new();
+        for (i, node) in graph.nodes().iter().enumerate() {
+            match node.parent {
+                Some(parent) => children[parent].push(i),
+                None => list.roots.push(i),
+            }
+            shown.extend(node.object.as_deref());
+        }
+        for (node, children) in graph.nodes().iter().zip(children) {
+            let mesh = node
+                .object
+                .as_deref()
+                .and_then(|object| self.mesh_of.get(object));
+            let mut json = json!({ "mesh": mesh, "name": node.name, "children": children });
+            write_placement(node, &mut json)?;
+            json["camera"] = json!(node.camera);
+            if let Some(light) = node.light {
+                json["extensions"] = json!({ LIGHTS: { "light": light } });
+            }
+            json["extras"] = optional_json(node.extras.as_deref())?;
+            list.nodes.push(json);
+        }
+        for object in scene.objects() {
+            let name = object.name.as_str();
+            if let (Some(mesh), false) = (self.mesh_of.get(name), shown.contains(name)) {
+                list.roots.push(list.nodes.len());
+                list.nodes.push(json!({ "mesh": mesh, "name": name }));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Adds the placement of a node to its JSON. Parts that change nothing are left out.
+fn write_placement(node: &Node, json: &mut Value) -> Result<(), Unwritable> {
+    let numbers = match &node.placement {
+        Placement::Matrix(matrix) => {
+            json["matrix"] = json!(matrix);
+            matrix.to_vec()
+        }
+        Placement::Parts {
+            translation,
+            rotation,
+            scale,
+        } => {
+            let parts: [(&str, &[f64], &[f64]); 3] = [
+                ("translation", translation, &[0.0; 3]),
+                ("rotation", rotation, &[0.0, 0.0, 0.0, 1.0]),
+                ("scale", scale, &[1.0; 3]),
+            ];
+            for (key, numbers, default) in parts {
+                let bits =
+                    |numbers: &[f64]| numbers.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+                if bits(numbers) != bits(default) {
+                    json[key] = json!(numbers);
+                }
+            }
+            [&translation[..], rotation, scale].concat()
+        }
+    };
+    // A reader rounds the numbers to 32 bits.
+    if numbers.iter().all(|&x| x.abs() <= f64::from(f32::MAX)) {
+        return Ok(());
+    }
+    let name = node.name.as_deref().unwrap_or_default();
+    let message = format!(
+        "the placement of the node \"{name}\" exceeds the range of the 32-bit numbers of glTF"
+    );
+    Err(Unwritable::scene(message))
+}
+
+/// Parses a part of the graph.
+fn parsed(text: &str) -> Result<Value, Unwritable> {
+    serde_json::from_str(text)
+        .map_err(|why| Unwritable::scene(format!("expected JSON as a part of a node: {why}")))
+}
+
+/// Parses an optional part; null if it is missing.
+pub(super) fn optional_json(text: Option<&str>) -> Result<Value, Unwritable> {
+    text.map_or(Ok(Value::Null), parsed)
+}

@@ -1,0 +1,69 @@
+//! Placing meshes for formats without nodes.
+
+use std::borrow::Cow;
+use std::path::Path;
+
+use scene::Scene;
+
+use crate::{Format, Loss, WriteError};
+
+/// A scene as a format stores it.
+pub(crate) struct Placed<'s> {
+    pub(crate) scene: Cow<'s, Scene>,
+    /// The parts of the graph that the format does not store.
+    pub(crate) losses: Vec<Loss>,
+}
+
+/// The largest size of the meshes after placing, in bytes. Larger scenes are refused, because many nodes can show the
+/// same mesh.
+const MAX_PLACED_BYTES: u64 = 1 << 36;
+
+/// Returns the scene for a format. If the format has no nodes, every instance becomes an object in scene space.
+///
+/// # Errors
+///
+/// [`WriteError`] if the placed meshes would be too large.
+pub(crate) fn placed<'s>(
+    scene: &'s Scene,
+    format: Format,
+    path: &Path,
+) -> Result<Placed<'s>, WriteError> {
+    let graph = scene.graph();
+    if matches!(format, Format::Gltf | Format::Glb | Format::Mws) || graph.is_empty() {
+        return Ok(Placed {
+            scene: Cow::Borrowed(scene),
+            losses: Vec::new(),
+        });
+    }
+    let bytes = scene.placed_bytes();
+    if bytes > MAX_PLACED_BYTES {
+        let message = format!(
+            "the format has no nodes, so each instance is written separately, which needs {bytes} bytes of memory"
+        );
+        return Err(crate::error::Unwritable::scene(message).in_file(path));
+    }
+    let object = scene
+        .objects()
+        .first()
+        .map_or_else(String::new, |o| o.name.clone());
+    let loss = |count: usize, attribute: &str, reason: &str| {
+        (count > 0).then(|| Loss {
+            object: object.clone(),
+            domain: None,
+            attribute: attribute.to_owned(),
+            count,
+            reason: reason.to_owned(),
+        })
+    };
+    let nodes = graph.nodes();
+    let reason = "the format has no nodes, so each instance is written separately";
+    let losses = [
+        loss(nodes.len(), "nodes", reason),
+        loss(graph.cameras.len(), "cameras", "the format has no cameras"),
+        loss(graph.lights.len(), "lights", "the format has no lights"),
+    ];
+    Ok(Placed {
+        scene: scene.placed(),
+        losses: losses.into_iter().flatten().collect(),
+    })
+}

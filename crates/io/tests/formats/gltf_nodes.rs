@@ -1,0 +1,310 @@
+//! Nodes of glTF: a file that is read and written again keeps its hierarchy, cameras, lights and extras.
+
+use glam::DVec3;
+use mesh_io::{Loaded, Placements, ReadOptions, WriteOptions};
+use scene::{Placement, Scene};
+use serde_json::{Value, json};
+use store::Disk;
+
+use crate::Folder;
+use crate::gltf_read::{read_json, square};
+
+/// A document with a hierarchy of nodes: a mesh shown twice, a mesh of its own, a camera and two lights.
+fn asset() -> Value {
+    let mut json = square(&[0, 1, 2, 0, 2, 3], 4);
+    let primitives = json["meshes"][0]["primitives"].clone();
+    json["meshes"] = json!([
+        { "primitives": primitives, "name": "wheel", "extras": { "tire": [1, null, [], 2.5] } },
+        { "primitives": primitives, "name": "Cube.001" },
+        { "primitives": primitives },
+        { "primitives": primitives, "name": "plain" },
+    ]);
+    json["cameras"] = json!([
+        { "type": "perspective", "name": "main", "perspective": { "yfov": 0.7, "znear": 0.1 }, "extras": { "a": 1 } },
+        { "type": "orthographic", "orthographic": { "xmag": 2, "ymag": 1, "zfar": 9, "znear": 0 } },
+    ]);
+    json["extensionsUsed"] = json!(["KHR_lights_punctual"]);
+    json["extensions"] = json!({ "KHR_lights_punctual": { "lights": [
+        { "type": "point", "color": [1, 0.5, 0.25], "intensity": 12.25, "name": "lamp" },
+        { "type": "spot", "spot": { "outerConeAngle": 0.5 } },
+    ] } });
+    let light = |i: u32| json!({ "KHR_lights_punctual": { "light": i } });
+    json["nodes"] = json!([
+        { "children": [4, 2, 3], "translation": [10, 0.1, 0], "name": "car", "extras": { "id": 7 } },
+        { "mesh": 1, "name": "body", "rotation": [0, 0, 0.6, 0.8] },
+        { "mesh": 0, "name": "left", "scale": [2, 1, 1], "children": [5] },
+        { "mesh": 0, "scale": [-1, 1, 1], "extras": "right" },
+        { "camera": 0, "name": "eye" },
+        { "extensions": light(1), "camera": 1, "matrix": [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0.3, 0, 5, 1] },
+        { "mesh": 2, "extensions": light(0) },
+        { "mesh": 3, "name": "plain" },
+    ]);
+    json["scenes"][0]["nodes"] = json!([7, 0, 1, 6]);
+    json
+}
+
+/// The document without the order and the numbers of its parts: the tree of the nodes with everything they refer to.
+fn canonical(json: &Value) -> Value {
+    fn node_tree(json: &Value, i: &Value) -> Value {
+        let mut node = json["nodes"][index(i)].clone();
+        if !node["mesh"].is_null() {
+            let mut mesh = json["meshes"][index(&node["mesh"])].clone();
+            mesh.as_object_mut().unwrap().remove("primitives");
+            node["mesh"] = mesh;
+        }
+        if !node["camera"].is_null() {
+            node["camera"] = json["cameras"][index(&node["camera"])].clone();
+        }
+        let light = node["extensions"]["KHR_lights_punctual"]["light"].clone();
+        if !light.is_null() {
+            let lights = &json["extensions"]["KHR_lights_punctual"]["lights"];
+            node["light"] = lights[index(&light)].clone();
+        }
+        let children = node["children"].as_array().cloned().unwrap_or_default();
+        node["children"] = children
+            .iter()
+            .map(|child| node_tree(json, child))
+            .collect();
+        let node = node.as_object_mut().unwrap();
+        node.remove("extensions");
+        node.retain(|_, value| !value.is_null());
+        for key in ["translation", "rotation", "scale", "matrix"] {
+            if let Some(value) = node.get_mut(key) {
+                let numbers = value.as_array().unwrap().iter();
+                *value = numbers.map(|x| x.as_f64().unwrap()).collect();
+            }
+        }
+        sorted(Value::Object(node.clone()))
+    }
+    fn index(value: &Value) -> usize {
+        usize::try_from(value.as_u64().unwrap()).unwrap()
+    }
+    let roots = json["scenes"][0]["nodes"].as_array().unwrap();
+    let mut roots: Vec<Value> = roots.iter().map(|root| node_tree(json, root)).collect();
+    roots.sort_by_key(Value::to_string);
+    roots.into()
+}
+
+/// Sorts the members of objects, which have no order.
+fn sorted(value: Value) -> Value {
+    match value {
+        Value::Object(members) => {
+            let mut members: Vec<_> = members.into_iter().collect();
+            members.sort_by(|a, b| a.0.cmp(&b.0));
+            members
+                .into_iter()
+                .map(|(key, value)| (key, sorted(value)))
+                .collect()
+        }
+        Value::Array(values) => values.into_iter().map(sorted).collect(),
+        other => other,
+    }
+}
+
+fn scene_of(loaded: Loaded) -> Scene {
+    let mut scene = Scene::new();
+    scene.append(loaded.objects, loaded.graph).unwrap();
+    scene
+}
+
+/// Writes a scene and returns the document.
+fn written(scene: &Scene) -> Value {
+    let folder = Folder::new();
+    let report = mesh_io::write(
+        &Disk,
+        &folder.path("a.gltf"),
+        scene,
+        &WriteOptions::default(),
+    );
+    assert_eq!(report.unwrap().losses, []);
+    serde_json::from_slice(&std::fs::read(folder.path("a.gltf")).unwrap()).unwrap()
+}
+
+#[test]
+fn an_asset_that_no_step_touched_comes_out_as_it_went_in() {
+    let loaded = read_json(&asset()).unwrap();
+    assert_eq!(loaded.notes, []);
+    let scene = scene_of(loaded);
+    let names: Vec<_> = scene.objects().iter().map(|o| o.name.as_str()).collect();
+    assert_eq!(names, ["wheel", "body", "a", "plain"]);
+    let after = written(&scene);
+    assert_eq!(canonical(&after), canonical(&asset()));
+    assert_eq!(after["meshes"].as_array().unwrap().len(), 4);
+    assert_eq!(after["nodes"].as_array().unwrap().len(), 8);
+    // Reading again gives the same scene bit by bit.
+    let folder = Folder::new();
+    for extension in ["glb", "gltf", "mws"] {
+        let path = folder.path("a").with_extension(extension);
+        mesh_io::write(&Disk, &path, &scene, &WriteOptions::default()).unwrap();
+        let back = scene_of(crate::read(&path).unwrap());
+        assert_eq!(back.digest(), scene.digest(), "{extension}");
+        assert_eq!(back, scene);
+    }
+}
+
+#[test]
+fn three_nested_nodes_come_back_as_three_nested_nodes() {
+    let mut json = square(&[0, 1, 2], 4);
+    json["nodes"] = json!([
+        { "name": "a", "children": [1] },
+        { "name": "b", "children": [2], "translation": [0, 1, 0] },
+        { "name": "c", "mesh": 0, "scale": [2, 2, 2] },
+    ]);
+    let scene = scene_of(read_json(&json).unwrap());
+    assert_eq!(canonical(&written(&scene)), canonical(&json));
+    assert_eq!(
+        scene.objects()[0].as_mesh().unwrap().positions()[1],
+        DVec3::X
+    );
+    let [instance] = &scene.instances()[..] else {
+        panic!("one instance");
+    };
+    assert_eq!(
+        instance.to_scene.transform_point3(DVec3::X),
+        DVec3::new(2.0, 1.0, 0.0)
+    );
+}
+
+#[test]
+fn plain_nodes_are_not_stored() {
+    let mut json = square(&[0, 1, 2], 4);
+    json["nodes"] = json!([{ "mesh": 0, "name": "b", "scale": [1, 1, 1] }]);
+    json["meshes"][0]["name"] = json!("b");
+    let loaded = read_json(&json).unwrap();
+    assert!(loaded.graph.is_empty());
+    json["nodes"][0]["translation"] = json!([0, 0, 1e-30]);
+    assert!(!read_json(&json).unwrap().graph.is_empty());
+}
+
+#[test]
+fn numbers_of_placements_are_kept_exactly() {
+    let mut json = square(&[0, 1, 2], 4);
+    let digits = [0.1, 1.0 / 3.0, 1e-9 / 7.0];
+    json["nodes"][0]["translation"] = json!(digits);
+    let scene = scene_of(read_json(&json).unwrap());
+    assert_eq!(written(&scene)["nodes"][0]["translation"], json!(digits));
+    let Placement::Parts { translation, .. } = scene.graph().nodes()[0].placement else {
+        panic!("parts");
+    };
+    assert_eq!(translation, digits);
+}
+
+#[test]
+fn formats_without_nodes_are_written_with_placed_instances() {
+    let scene = scene_of(read_json(&asset()).unwrap());
+    let folder = Folder::new();
+    let options = ReadOptions {
+        placements: Placements::Bake,
+        ..ReadOptions::default()
+    };
+    let path = folder.with("a.gltf", asset().to_string());
+    let baked = mesh_io::read(&Disk, &path, &options).unwrap();
+    assert!(baked.graph.is_empty());
+    assert_eq!(baked.objects.len(), 5);
+    for extension in ["obj", "stl", "ply", "off"] {
+        let (path, expected) = (folder.path("b").with_extension(extension), folder.path("c"));
+        let expected = expected.with_extension(extension);
+        let report = mesh_io::write(&Disk, &path, &scene, &WriteOptions::default()).unwrap();
+        let lost: Vec<_> = report
+            .losses
+            .iter()
+            .map(|l| (l.attribute.as_str(), l.count))
+            .collect();
+        for loss in [("nodes", 7), ("cameras", 2), ("lights", 2)] {
+            assert!(lost.contains(&loss), "{extension}: {lost:?}");
+        }
+        let flat = scene_of(baked.clone());
+        mesh_io::write(&Disk, &expected, &flat, &WriteOptions::default()).unwrap();
+        let points = |path| -> Vec<[f64; 3]> {
+            let loaded = crate::read(path).unwrap();
+            let meshes = loaded.objects.iter().filter_map(|o| o.as_mesh());
+            let points = meshes.flat_map(|mesh| mesh.positions().to_vec());
+            let mut points: Vec<[f64; 3]> = points.map(|p| p.to_array()).collect();
+            points.sort_by(|a, b| a.partial_cmp(b).unwrap());
+            points
+        };
+        assert_eq!(points(&path), points(&expected), "{extension}");
+    }
+}
+
+#[test]
+fn placed_instances_agree_with_baked_objects() {
+    let scene = scene_of(read_json(&asset()).unwrap());
+    let placed = scene.placed();
+    let folder = Folder::new();
+    let options = ReadOptions {
+        placements: Placements::Bake,
+        ..ReadOptions::default()
+    };
+    let path = folder.with("a.gltf", asset().to_string());
+    let baked = scene_of(mesh_io::read(&Disk, &path, &options).unwrap());
+    let names = |scene: &Scene| -> Vec<String> {
+        let mut names: Vec<_> = scene.objects().iter().map(|o| o.name.clone()).collect();
+        names.sort();
+        names
+    };
+    // The unnamed node of the wheel is named after the mesh.
+    assert_eq!(names(&placed), ["a", "body", "left", "plain", "wheel"]);
+    assert_eq!(names(&placed), names(&baked));
+    for object in placed.objects() {
+        let mesh = object.as_mesh().unwrap();
+        let other = baked.object(&object.name).unwrap().as_mesh().unwrap();
+        assert_eq!(mesh.defects(), []);
+        for (p, q) in mesh.positions().iter().zip(other.positions()) {
+            assert!(p.distance(*q) < 1e-12, "{}: {p} {q}", object.name);
+        }
+        let up = |mesh: &mesh::Mesh| mesh.faces().map(|f| mesh.area_vector(f)).sum::<DVec3>();
+        assert!(up(mesh).distance(up(other)) < 1e-12, "{}", object.name);
+    }
+}
+
+#[test]
+fn cameras_and_lights_that_do_not_exist_are_errors() {
+    for (pointer, value, at) in [
+        ("/nodes/4/camera", json!(2), "/nodes/4/camera"),
+        (
+            "/nodes/6/extensions/KHR_lights_punctual/light",
+            json!(5),
+            "/nodes/6",
+        ),
+        (
+            "/nodes/6/extensions/KHR_lights_punctual/light",
+            json!("x"),
+            "/nodes/6/extensions",
+        ),
+        (
+            "/extensions/KHR_lights_punctual/lights/0",
+            json!(1),
+            "/extensions/KHR_lights_punctual",
+        ),
+        ("/cameras/0", json!([]), "/cameras/0"),
+    ] {
+        let mut json = asset();
+        *json.pointer_mut(pointer).unwrap() = value;
+        let error = read_json(&json).unwrap_err().to_string();
+        assert!(error.contains(at), "{error}");
+    }
+}
+
+#[test]
+fn a_placement_beyond_32_bits_is_refused() {
+    let mut json = square(&[0, 1, 2], 4);
+    json["nodes"][0]["translation"] = json!([1e39, 0, 0]);
+    let scene = scene_of(read_json(&json).unwrap());
+    let folder = Folder::new();
+    let written = mesh_io::write(
+        &Disk,
+        &folder.path("a.glb"),
+        &scene,
+        &WriteOptions::default(),
+    );
+    assert!(written.unwrap_err().to_string().contains("32-bit"));
+    assert_eq!(folder.count(), 0);
+}
+
+/// The file is checked by the Khronos validator.
+#[test]
+fn nodes_cameras_and_lights_are_valid() {
+    let scene = scene_of(read_json(&asset()).unwrap());
+    crate::gltf_valid::written("nodes", &scene);
+}

@@ -1,0 +1,67 @@
+//! The instances of a scene, for expectations that measure in space.
+
+use std::borrow::Cow;
+
+use scene::Scene;
+
+use super::subject::{Subject, Violation};
+
+/// The largest size of all instances together, in bytes. Many nodes can show the same mesh.
+const MAX_BYTES: u64 = 1 << 36;
+
+/// A subject whose objects are the instances of another subject, in scene space.
+pub(crate) struct PlacedSubject<'a> {
+    scene: Cow<'a, Scene>,
+    on: Option<Vec<String>>,
+    unplaced: Subject<'a>,
+}
+
+impl<'a> PlacedSubject<'a> {
+    /// Places all objects. `other` is an object that must have exactly one instance.
+    ///
+    /// # Errors
+    ///
+    /// If `other` has several instances, or if the instances are too large.
+    pub(crate) fn new(subject: Subject<'a>, other: Option<&str>) -> Result<Self, Violation> {
+        let scene = subject.scene;
+        let bytes = scene.placed_bytes();
+        if bytes > MAX_BYTES {
+            return Err(format!("the instances of all objects need {bytes} bytes").into());
+        }
+        let instances = scene.instances();
+        let n = instances
+            .iter()
+            .filter(|i| Some(i.object.name.as_str()) == other);
+        let n = n.count();
+        if let (Some(other), 2..) = (other, n) {
+            let message = format!("expected 1 instance of \"{other}\", found {n}");
+            return Err(message.into());
+        }
+        // An object without instances cannot exist, so an unknown name stays unknown.
+        let on = subject.on.map(|on| {
+            let names = on.iter().flat_map(|name| {
+                let of_object = instances.iter().filter(|i| i.object.name == *name);
+                let mut names: Vec<String> = of_object.map(|i| i.name.clone()).collect();
+                if names.is_empty() {
+                    names.push(name.clone());
+                }
+                names
+            });
+            names.collect()
+        });
+        Ok(Self {
+            scene: scene.placed(),
+            on,
+            unplaced: subject,
+        })
+    }
+
+    /// Returns the subject with the instances as objects.
+    pub(crate) fn subject(&self) -> Subject<'_> {
+        Subject {
+            scene: &self.scene,
+            on: self.on.as_deref(),
+            ..self.unplaced
+        }
+    }
+}

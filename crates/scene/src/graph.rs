@@ -1,0 +1,143 @@
+//! The nodes of a scene: the hierarchy that places objects, cameras and lights.
+//!
+//! ```text
+//! graph --- node "car" --- node "wheel left"  --- object "wheel"     (one mesh,
+//!              |      `--- node "wheel right" --- object "wheel"      shown twice)
+//!              `---------- object "body"
+//! ```
+//!
+//! A mesh has coordinates in its own space. The placement of a node maps the space of the node to the space of its
+//! parent, and the placements of a node and its ancestors together map the space of its object to the scene. An
+//! object that no node shows is shown once, and its own space is the space of the scene.
+
+mod edit;
+mod form;
+mod placement;
+
+use std::collections::BTreeMap;
+
+use glam::DAffine3;
+
+pub use placement::Placement;
+
+/// The nodes of a scene, with their cameras and lights. A parent comes before its children.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Graph {
+    nodes: Vec<Node>,
+    /// The cameras that nodes refer to, as JSON objects of glTF.
+    pub cameras: Vec<String>,
+    /// The lights that nodes refer to, as JSON objects of the glTF extension `KHR_lights_punctual`.
+    pub lights: Vec<String>,
+    /// The labels of meshes, by the name of the object.
+    labels: BTreeMap<String, MeshLabel>,
+}
+
+/// A node.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Node {
+    /// The name. Several nodes can have the same name.
+    pub name: Option<String>,
+    /// The index of the parent, which is less than the index of this node. `None` for a root.
+    pub parent: Option<usize>,
+    /// The placement in the space of the parent.
+    pub placement: Placement,
+    /// The name of the object that the node shows.
+    pub object: Option<String>,
+    /// The index of the camera in [`Graph::cameras`].
+    pub camera: Option<usize>,
+    /// The index of the light in [`Graph::lights`].
+    pub light: Option<usize>,
+    /// Data of other programs, as JSON.
+    pub extras: Option<String>,
+}
+
+/// The parts of a mesh in a file that an object does not have.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct MeshLabel {
+    /// The name of the mesh, which can differ from the name of the object.
+    pub name: Option<String>,
+    /// Data of other programs, as JSON.
+    pub extras: Option<String>,
+}
+
+impl Graph {
+    /// Returns the nodes.
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    /// Whether the graph has neither nodes nor cameras, lights and labels.
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// Appends a node and returns its index.
+    ///
+    /// # Panics
+    ///
+    /// If the parent, the camera or the light does not exist.
+    pub fn push(&mut self, node: Node) -> usize {
+        let index = self.nodes.len();
+        assert!(node.parent.is_none_or(|parent| parent < index), "no parent");
+        assert!(
+            node.camera.is_none_or(|i| i < self.cameras.len()),
+            "no camera"
+        );
+        assert!(node.light.is_none_or(|i| i < self.lights.len()), "no light");
+        self.nodes.push(node);
+        index
+    }
+
+    /// Changes the placement of a node.
+    ///
+    /// # Panics
+    ///
+    /// If the node does not exist.
+    pub fn set_placement(&mut self, node: usize, placement: Placement) {
+        self.nodes[node].placement = placement;
+    }
+
+    /// Returns the label of the mesh of an object. Without a label, the mesh has the name of the object.
+    pub fn label(&self, object: &str) -> Option<&MeshLabel> {
+        self.labels.get(object)
+    }
+
+    /// Sets the label of the mesh of an object.
+    pub fn set_label(&mut self, object: impl Into<String>, label: MeshLabel) {
+        self.labels.insert(object.into(), label);
+    }
+
+    /// Returns for each node the map from its space to the scene.
+    pub fn to_scene(&self) -> Vec<DAffine3> {
+        let mut maps: Vec<DAffine3> = Vec::with_capacity(self.nodes.len());
+        for node in &self.nodes {
+            let own = node.placement.to_affine();
+            // An exact product: the identity would turn -0 into 0.
+            maps.push(match node.parent {
+                Some(parent) => maps[parent] * own,
+                None => own,
+            });
+        }
+        maps
+    }
+
+    /// Returns the indices of the nodes that show each object, by the name of the object.
+    pub fn nodes_of_objects(&self) -> BTreeMap<&str, Vec<usize>> {
+        let mut nodes: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+        for (i, node) in self.nodes.iter().enumerate() {
+            if let Some(object) = &node.object {
+                nodes.entry(object).or_default().push(i);
+            }
+        }
+        nodes
+    }
+
+    /// Returns the indices of the nodes that show an object.
+    pub fn nodes_of(&self, object: &str) -> Vec<usize> {
+        let shows = |&i: &usize| self.nodes[i].object.as_deref() == Some(object);
+        (0..self.nodes.len()).filter(shows).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,160 @@
+//! The instances of objects: each object once for each node that shows it.
+
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use glam::{DAffine3, DMat3, DVec3};
+use mesh::{Domain, Mesh, Rule, Value};
+use rayon::prelude::*;
+
+use crate::{Geometry, Object, Scene};
+
+/// An object at one place in the scene.
+#[derive(Clone, Debug)]
+pub struct Instance<'s> {
+    /// The object.
+    pub object: &'s Object,
+    /// A name that is unique among all instances: the name of the object if it has one instance, and otherwise the
+    /// name of the node, if necessary with a number.
+    pub name: String,
+    /// The map from the space of the object to the scene.
+    pub to_scene: DAffine3,
+}
+
+impl Instance<'_> {
+    /// Returns the object with points in scene space, under the name of the instance. Only meshes are placed.
+    pub fn placed(&self) -> Object {
+        let geometry = match &self.object.geometry {
+            Geometry::Mesh(mesh) if self.to_scene != DAffine3::IDENTITY => {
+                Geometry::Mesh(Arc::new(transformed(mesh, &self.to_scene)))
+            }
+            geometry => geometry.clone(),
+        };
+        Object {
+            name: self.name.clone(),
+            geometry,
+            materials: self.object.materials.clone(),
+        }
+    }
+}
+
+impl Scene {
+    /// Returns all instances: those of the first object in the order of its nodes, then those of the next object. An
+    /// object that no node shows has one instance.
+    pub fn instances(&self) -> Vec<Instance<'_>> {
+        let graph = self.graph();
+        let nodes = graph.nodes_of_objects();
+        let to_scene = graph.to_scene();
+        let nodes_of = |object: &Object| nodes.get(object.name.as_str()).map_or(&[][..], |n| n);
+        let mut taken: BTreeSet<String> = (self.objects().iter())
+            .filter(|object| nodes_of(object).len() <= 1)
+            .map(|object| object.name.clone())
+            .collect();
+        let mut instances = Vec::new();
+        for object in self.objects() {
+            let nodes = nodes_of(object);
+            if nodes.len() <= 1 {
+                instances.push(Instance {
+                    object,
+                    name: object.name.clone(),
+                    to_scene: nodes.first().map_or(DAffine3::IDENTITY, |&i| to_scene[i]),
+                });
+                continue;
+            }
+            // The numbers continue, so that many instances are named in linear time.
+            let mut number = 1;
+            for &i in nodes {
+                let node = graph.nodes()[i]
+                    .name
+                    .as_deref()
+                    .filter(|name| !name.is_empty());
+                let wanted = node.unwrap_or(&object.name);
+                let mut name = wanted.to_owned();
+                while !taken.insert(name.clone()) {
+                    number += 1;
+                    name = format!("{wanted}.{number}");
+                }
+                instances.push(Instance {
+                    object,
+                    name,
+                    to_scene: to_scene[i],
+                });
+            }
+        }
+        instances
+    }
+
+    /// Returns the scene without nodes: each instance is an object with points in scene space. Cameras and lights are
+    /// left out.
+    pub fn placed(&self) -> Cow<'_, Self> {
+        if self.graph().is_empty() {
+            return Cow::Borrowed(self);
+        }
+        let objects = self.instances().iter().map(Instance::placed).collect();
+        Cow::Owned(Self {
+            objects,
+            graph: Arc::default(),
+        })
+    }
+
+    /// Returns the size of the meshes of [`placed`](Self::placed) in bytes.
+    pub fn placed_bytes(&self) -> u64 {
+        let meshes = self.instances();
+        let meshes = meshes
+            .iter()
+            .filter_map(|instance| instance.object.as_mesh());
+        meshes.fold(0, |sum, mesh| sum.saturating_add(mesh.bytes() as u64))
+    }
+}
+
+/// Returns a mesh with all points and normals transformed. All ids stay the same. If the map mirrors, faces are
+/// reversed as by [`Mesh::reverse`], but no attribute is dropped.
+///
+/// Normals are multiplied by the cofactors of the map, which are its inverse transpose times its determinant
+/// (Turkowski, "Properties of Surface-Normal Transformations", 1990). The inverse transpose of a map that mirrors
+/// points to the wrong side by its determinant, and reversing the faces negates normals again.
+pub fn transformed(mesh: &Mesh, map: &DAffine3) -> Mesh {
+    let mut mesh = mesh.clone();
+    let points = mesh.positions_mut().par_iter_mut().with_min_len(4096);
+    points.for_each(|p| *p = map.transform_point3(*p));
+    let DMat3 {
+        x_axis: x,
+        y_axis: y,
+        z_axis: z,
+    } = map.matrix3;
+    let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
+    let is_mirror = map.matrix3.determinant() < 0.0;
+    let columns: Vec<(Domain, String, Rule)> = (mesh.attributes().iter())
+        .map(|(domain, column)| (domain, column.name.clone(), column.rule))
+        .filter(|(.., rule)| *rule == Rule::Normal || is_mirror && *rule == Rule::Drop)
+        .collect();
+    for (domain, name, rule) in &columns {
+        let mut column = mesh.remove_column(*domain, name).expect("listed above");
+        if *rule == Rule::Drop {
+            // No element is removed, so every value still has its element.
+            column.rule = Rule::Copy;
+        } else if let Some(normals) = DVec3::of_mut(&mut column.values) {
+            let normals = normals.par_iter_mut().with_min_len(4096);
+            normals.for_each(|n| {
+                let image = cofactors * *n;
+                let largest = image.abs().max_element();
+                *n = if largest > 0.0 {
+                    (image / largest).normalize()
+                } else {
+                    DVec3::ZERO
+                };
+            });
+        }
+        mesh.insert_column(*domain, column);
+    }
+    if is_mirror {
+        mesh.reverse();
+        for (domain, name, _) in columns.iter().filter(|(.., rule)| *rule == Rule::Drop) {
+            let mut column = mesh.remove_column(*domain, name).expect("listed above");
+            column.rule = Rule::Drop;
+            mesh.insert_column(*domain, column);
+        }
+    }
+    mesh
+}

@@ -1,0 +1,135 @@
+//! Moving objects by changing the placements of their nodes.
+//!
+//! ```text
+//!   scene <-- P -- parent <-- L -- node <-- points of the object
+//! ```
+//!
+//! A map M of the scene moves a point from P L p to M P L p. So the new placement of the node is P'^-1 M P L, where P'
+//! places the parent after the move. If the parent has moved by M itself, P' = M P, and the placement does not change.
+
+use glam::{DAffine3, DVec3};
+use op::{Context, OpError};
+use scene::{Instance, Placement, Scene};
+
+use super::{About, Transform};
+use crate::transform::map::Map;
+
+impl Transform {
+    /// Moves the objects that nodes place, and removes them from `names`. Returns the number of their points.
+    pub(super) fn move_nodes(
+        &self,
+        scene: &mut Scene,
+        names: &mut Vec<String>,
+        map: &Map,
+        cx: &Context,
+    ) -> Result<usize, OpError> {
+        let graph = scene.graph();
+        // For each node, the map of the scene that it must move by.
+        let mut maps: Vec<Option<DAffine3>> = vec![None; graph.nodes().len()];
+        let mut n_points = 0;
+        let nodes_of = graph.nodes_of_objects();
+        names.retain(|name| !nodes_of.contains_key(name.as_str()));
+        let is_target = |name: &String| cx.on.is_none_or(|on| on.contains(name));
+        let instances = scene.instances();
+        for instances in instances.chunk_by(|a, b| a.object.name == b.object.name) {
+            let object = instances[0].object;
+            let Some(nodes) = nodes_of.get(object.name.as_str()) else {
+                continue;
+            };
+            if !is_target(&object.name) {
+                continue;
+            }
+            let center = if self.about == About::Center {
+                self.center(instances.iter().flat_map(points))
+            } else {
+                self.center(std::iter::empty())
+            };
+            for &i in nodes {
+                maps[i] = Some(map.affine(center));
+            }
+            n_points += object.as_mesh().map_or(0, |mesh| mesh.n_vertices());
+        }
+        if cx.on.is_none() && self.about != About::Center {
+            let affine = map.affine(self.center(std::iter::empty()));
+            for (map, node) in maps.iter_mut().zip(graph.nodes()) {
+                if node.parent.is_none() {
+                    *map = Some(affine);
+                }
+            }
+        }
+        move_by(scene, &maps, map.only_moves())?;
+        Ok(n_points)
+    }
+}
+
+/// Returns the points of an instance in scene space.
+fn points<'i>(instance: &'i Instance) -> impl Iterator<Item = DVec3> + use<'i> {
+    let points = instance
+        .object
+        .as_mesh()
+        .map_or(&[][..], |mesh| mesh.positions());
+    points
+        .iter()
+        .map(|&p| instance.to_scene.transform_point3(p))
+}
+
+/// Moves each node by its map of the scene. A node without a map moves along with its parent. `only_moves` says that
+/// the maps neither scale nor rotate.
+fn move_by(scene: &mut Scene, maps: &[Option<DAffine3>], only_moves: bool) -> Result<(), OpError> {
+    let old = scene.graph().to_scene();
+    let nodes = scene.graph().nodes();
+    let mut placements: Vec<Placement> = nodes.iter().map(|node| node.placement).collect();
+    let mut new: Vec<DAffine3> = Vec::with_capacity(nodes.len());
+    // The map of the scene by which each node has moved.
+    let mut moved: Vec<Option<DAffine3>> = Vec::with_capacity(nodes.len());
+    for (i, node) in nodes.iter().enumerate() {
+        let of_parent = node.parent.and_then(|parent| moved[parent]);
+        let own = maps[i].filter(|map| Some(*map) != of_parent);
+        if let Some(map) = own {
+            if !map.is_finite() {
+                return Err(OpError::overflow("Transform", "scale, rotate and move"));
+            }
+            let parent = node.parent.map_or(DAffine3::IDENTITY, |parent| new[parent]);
+            let placed = if only_moves && of_parent.is_none() {
+                // The scale and the rotation keep their exact numbers.
+                let shift = parent.matrix3.inverse() * map.translation;
+                shift
+                    .is_finite()
+                    .then(|| translated(&node.placement, shift))
+            } else {
+                Placement::of(&(parent.inverse() * map * old[i]))
+            };
+            placements[i] = placed.ok_or_else(|| {
+                let name = node.name.as_deref().or(node.object.as_deref()).unwrap_or_default();
+                OpError::Object(format!(
+                    "the node \"{name}\" cannot store the result as a scale, a rotation and a translation: use \
+                     `space: Object`, or read the file with `placements: Bake`"
+                ))
+            })?;
+        }
+        moved.push(maps[i].or(of_parent));
+        let own = placements[i].to_affine();
+        new.push(node.parent.map_or(own, |parent| new[parent] * own));
+        if !new[i].is_finite() {
+            return Err(OpError::overflow("Transform", "scale, rotate and move"));
+        }
+    }
+    let graph = scene.graph_mut();
+    for (i, placement) in placements.into_iter().enumerate() {
+        graph.set_placement(i, placement);
+    }
+    Ok(())
+}
+
+/// Returns a placement that is moved by `shift` in the space of the parent.
+fn translated(placement: &Placement, shift: DVec3) -> Placement {
+    let mut moved = *placement;
+    let translation = match &mut moved {
+        Placement::Matrix(matrix) => &mut matrix[12..15],
+        Placement::Parts { translation, .. } => &mut translation[..],
+    };
+    for (x, shift) in translation.iter_mut().zip(shift.to_array()) {
+        *x += shift;
+    }
+    moved
+}

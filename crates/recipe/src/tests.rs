@@ -31,7 +31,7 @@ impl<F: Fn(&Path, &Files) -> Result<Vec<Object>, String> + Sync> Reader for Obje
     fn scene(&self, path: &Path, files: &Files) -> Result<Scene, String> {
         let mut scene = Scene::new();
         let appended = scene.append((self.0)(path, files)?, Graph::default());
-        appended.map(|()| scene).map_err(|error| error.to_string())
+        appended.map(|_| scene).map_err(|error| error.to_string())
     }
 
     fn compare_pictures(

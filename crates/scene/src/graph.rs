@@ -28,6 +28,9 @@ pub struct Graph {
     pub cameras: Vec<String>,
     /// The lights that nodes refer to, as JSON objects of the glTF extension `KHR_lights_punctual`.
     pub lights: Vec<String>,
+    /// Other parts of the file, as JSON objects of glTF by their name: `asset` with its copyright and extras, `scene` with
+    /// its name and extras, and `root` with the extras of the document.
+    pub document: BTreeMap<String, String>,
     /// The labels of meshes, by the name of the object.
     labels: BTreeMap<String, MeshLabel>,
 }
@@ -66,7 +69,7 @@ impl Graph {
         &self.nodes
     }
 
-    /// Whether the graph has neither nodes nor cameras, lights and labels.
+    /// Whether the graph has neither nodes nor any other parts.
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
     }

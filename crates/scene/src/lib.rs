@@ -157,22 +157,23 @@ impl Scene {
         Ok(())
     }
 
-    /// Appends objects and the nodes that place them.
+    /// Appends objects and the nodes that place them. Returns the number of parts of the document that are not kept, as
+    /// [`Graph::append`].
     ///
     /// # Errors
     ///
     /// [`DuplicateName`] if the scene already has an object with one of the names, or two of the objects have the same
     /// name. The scene is unchanged.
-    pub fn append(&mut self, objects: Vec<Object>, graph: Graph) -> Result<(), DuplicateName> {
+    pub fn append(&mut self, objects: Vec<Object>, graph: Graph) -> Result<usize, DuplicateName> {
         let mut names: BTreeSet<&str> = self.objects.iter().map(|o| o.name.as_str()).collect();
         if let Some(object) = objects.iter().find(|o| !names.insert(&o.name)) {
             return Err(DuplicateName(object.name.clone()));
         }
         self.objects.extend(objects);
-        if !graph.is_empty() {
-            self.graph_mut().append(graph);
+        if graph.is_empty() {
+            return Ok(0);
         }
-        Ok(())
+        Ok(self.graph_mut().append(graph))
     }
 
     /// Removes an object and returns it. Its nodes are removed, unless they have children, a camera or a light.

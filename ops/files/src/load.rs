@@ -111,7 +111,11 @@ impl Operation for Load {
             }
         }
         let appended = scene.append(loaded.objects, loaded.graph);
-        appended.map_err(|error| OpError::Object(error.to_string()))?;
+        let left_out = appended.map_err(|error| OpError::Object(error.to_string()))?;
+        if left_out > 0 {
+            let what = "parts of the document left out, because an earlier file has them";
+            report = report.count(what, left_out);
+        }
         for note in &loaded.notes {
             match note.kind {
                 NoteKind::LeftOut => report.losses.push(loss(note)),

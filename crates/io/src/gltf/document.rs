@@ -52,6 +52,8 @@ pub(super) struct Document {
     pub(super) nodes: Vec<NodeJson>,
     pub(super) cameras: Vec<Json>,
     pub(super) lights: Vec<Json>,
+    /// The other parts that are kept, by the names of [`Graph::document`](scene::Graph::document).
+    pub(super) kept: BTreeMap<String, String>,
     /// The root nodes of the scene.
     pub(super) roots: Vec<usize>,
     pub(super) textures: Vec<TextureJson>,
@@ -85,6 +87,7 @@ impl Document {
             nodes: pieces(json, "nodes", budget)?,
             cameras: pieces(json, "cameras", budget)?,
             lights: lights(json)?,
+            kept: kept(json),
             roots: roots(json, notes)?,
             textures: pieces(json, "textures", budget)?,
             samplers: pieces(json, "samplers", budget)?,
@@ -97,6 +100,7 @@ impl Document {
             let n = list(json, key)?.len();
             notes.coded(key).left_out(n, None, what);
         }
+        notes.left_out(left_out_extras(json), None, "extras left out");
         Ok(document)
     }
 }
@@ -233,6 +237,69 @@ fn count_extensions<'a>(json: &'a Value, uses: &mut BTreeMap<&'a str, usize>) {
             }
         }
         _ => {}
+    }
+}
+
+/// Returns the parts of the document that are kept as they are: the asset without the members that the writer sets, the
+/// name and the extras of the scene, and the extras of the document.
+fn kept(json: &Value) -> BTreeMap<String, String> {
+    let only = |json: Option<&Value>, keys: &[&str]| -> Json {
+        let members = json.and_then(Value::as_object).into_iter().flatten();
+        let kept = members.filter(|(key, value)| keys.contains(&key.as_str()) && !value.is_null());
+        kept.map(|(key, value)| (key.clone(), value.clone()))
+            .collect()
+    };
+    let mut asset = only(json.get("asset"), &["copyright", "extras"]);
+    if let Some(Value::Object(extras)) = asset.get_mut("extras") {
+        extras.shift_remove("meshwright");
+        if extras.is_empty() {
+            asset.shift_remove("extras");
+        }
+    }
+    let scene = json.get("scene").and_then(Value::as_u64).unwrap_or(0);
+    let scene = json.pointer(&format!("/scenes/{scene}"));
+    let parts = [
+        ("asset", asset),
+        ("scene", only(scene, &["name", "extras"])),
+        ("root", only(Some(json), &["extras"])),
+    ];
+    let parts = parts.into_iter().filter(|(_, members)| !members.is_empty());
+    parts
+        .map(|(name, members)| (name.to_owned(), Value::Object(members).to_string()))
+        .collect()
+}
+
+/// Counts the `extras` that are not kept, such as those of materials and accessors. Parts that are left out as a whole
+/// are not counted.
+fn left_out_extras(json: &Value) -> usize {
+    let members = json.as_object().into_iter().flatten();
+    let of_member = |(key, value): (&String, &Value)| match (key.as_str(), value) {
+        (
+            "asset" | "scenes" | "nodes" | "cameras" | "skins" | "animations" | "extensions"
+            | "extras",
+            _,
+        ) => 0,
+        ("meshes", Value::Array(meshes)) => {
+            let primitives = meshes.iter().filter_map(|mesh| mesh.get("primitives"));
+            primitives.map(count_extras).sum()
+        }
+        (_, value) => count_extras(value),
+    };
+    members.map(of_member).sum()
+}
+
+/// Counts the members `extras`. The recursion is limited by the nesting limit of the JSON parser.
+fn count_extras(json: &Value) -> usize {
+    match json {
+        Value::Array(values) => values.iter().map(count_extras).sum(),
+        Value::Object(members) => {
+            let of_member = |(key, value): (&String, &Value)| match key.as_str() {
+                "extras" => usize::from(!value.is_null()),
+                _ => count_extras(value),
+            };
+            members.iter().map(of_member).sum()
+        }
+        _ => 0,
     }
 }
 

@@ -28,6 +28,8 @@
 //! | `material` | face attribute `material` and the object's materials |
 //! | textures, samplers, images | textures of the materials: the path of an image file, or the bytes of an image |
 //! | cameras, lights | kept in the graph as they are |
+//! | `asset.copyright`, the name of the scene, `extras` of the asset, the scene and the document | kept in the graph as they are |
+//! | other `extras` | left out, with a note |
 //! | skins, animations, morph targets, other scenes | left out, with a note |
 //!
 //! With [`Placements::Bake`](crate::Placements::Bake), each node with a mesh becomes an object, the transforms are applied

@@ -202,6 +202,7 @@ fn graph(
     let mut graph = Graph::default();
     graph.cameras.extend(document.cameras.iter().map(text));
     graph.lights.extend(document.lights.iter().map(text));
+    graph.document.clone_from(&document.kept);
     let objects: BTreeMap<usize, &PlacedMesh> = placed.iter().map(|p| (p.mesh, p)).collect();
     for object in placed {
         let mesh = &document.meshes[object.mesh];

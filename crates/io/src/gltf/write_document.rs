@@ -43,6 +43,7 @@ impl<'a> Writer<'a> {
     ) -> (Vec<u8>, Vec<Piece<'a>>) {
         let length = self.pieces.last().map_or(0, Piece::end);
         let NodeList {
+            kept,
             nodes,
             roots,
             cameras,
@@ -76,6 +77,21 @@ impl<'a> Writer<'a> {
             "samplers": self.materials.samplers,
             "images": self.materials.images,
         });
+        for (name, members) in kept {
+            let part = match name.as_str() {
+                "asset" => &mut document["asset"],
+                "scene" if has_nodes => &mut document["scenes"][0],
+                "root" => &mut document,
+                _ => continue,
+            };
+            for (key, value) in members {
+                match (&mut part[&key], value) {
+                    // The provenance is added to the other extras.
+                    (Value::Object(extras), Value::Object(more)) => extras.extend(more),
+                    (place, value) => *place = value,
+                }
+            }
+        }
         remove_empty(&mut document);
         (document.to_string().into_bytes(), self.pieces)
     }
@@ -219,8 +235,10 @@ fn push(list: &mut Vec<Value>, value: Value) -> usize {
 fn remove_empty(json: &mut Value) {
     match json {
         Value::Object(members) => {
-            members.retain(|_, value| !value.is_null() && *value != json!([]));
-            let members = members.iter_mut().filter(|(key, _)| *key != "extras");
+            let is_extras = |key: &str| key == "extras";
+            members
+                .retain(|key, value| !value.is_null() && (is_extras(key) || *value != json!([])));
+            let members = members.iter_mut().filter(|(key, _)| !is_extras(key));
             members.for_each(|(_, value)| remove_empty(value));
         }
         Value::Array(values) => values.iter_mut().for_each(remove_empty),

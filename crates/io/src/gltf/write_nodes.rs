@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use scene::{Node, Placement, Scene};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use super::document::LIGHTS;
 use super::write_document::Writer;
@@ -17,6 +17,8 @@ pub(super) struct NodeList {
     pub(super) roots: Vec<usize>,
     pub(super) cameras: Vec<Value>,
     pub(super) lights: Vec<Value>,
+    /// The members of other parts of the document, with the names of these parts.
+    pub(super) kept: Vec<(String, Map<String, Value>)>,
 }
 
 impl Writer<'_> {
@@ -34,6 +36,11 @@ impl Writer<'_> {
         ] {
             for text in texts {
                 values.push(parsed(text)?);
+            }
+        }
+        for (name, text) in &graph.document {
+            if let Value::Object(members) = parsed(text)? {
+                list.kept.push((name.clone(), members));
             }
         }
         let mut children: Vec<Vec<usize>> = vec![Vec::new(); graph.nodes().len()];

@@ -36,7 +36,7 @@ fn asset() -> Value {
         { "mesh": 0, "scale": [-1, 1, 1], "extras": "right" },
         { "camera": 0, "name": "eye" },
         { "extensions": light(1), "camera": 1, "matrix": [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0.3, 0, 5, 1] },
-        { "mesh": 2, "extensions": light(0) },
+        { "mesh": 2, "extensions": light(0), "extras": [] },
         { "mesh": 3, "name": "plain" },
     ]);
     json["scenes"][0]["nodes"] = json!([7, 0, 1, 6]);
@@ -256,6 +256,41 @@ fn placed_instances_agree_with_baked_objects() {
         let up = |mesh: &mesh::Mesh| mesh.faces().map(|f| mesh.area_vector(f)).sum::<DVec3>();
         assert!(up(mesh).distance(up(other)) < 1e-12, "{}", object.name);
     }
+}
+
+#[test]
+fn copyright_and_extras_of_the_document_are_kept() {
+    let mut json = asset();
+    json["extras"] = json!({ "a": [] });
+    json["asset"]["copyright"] = json!("2026 Ada");
+    json["asset"]["extras"] = json!({ "meshwright": "an earlier recipe", "source": "a scan" });
+    json["scenes"][0]["name"] = json!("Scene");
+    json["scenes"][0]["extras"] = json!(0);
+    let loaded = read_json(&json).unwrap();
+    assert_eq!(loaded.notes, []);
+    let after = written(&scene_of(loaded));
+    assert_eq!(after["extras"], json["extras"]);
+    assert_eq!(after["asset"]["copyright"], json["asset"]["copyright"]);
+    assert_eq!(after["asset"]["extras"], json!({ "source": "a scan" }));
+    for key in ["name", "extras"] {
+        assert_eq!(after["scenes"][0][key], json["scenes"][0][key]);
+    }
+}
+
+#[test]
+fn extras_that_are_not_kept_are_noted() {
+    let mut json = asset();
+    json["extras"] = json!({ "extras": 1 });
+    json["scenes"][0]["extras"] = json!(0);
+    json["materials"] = json!([{ "extras": {}, "pbrMetallicRoughness": { "extras": [] } }]);
+    json["accessors"][0]["extras"] = json!("x");
+    json["meshes"][0]["primitives"][0]["extras"] = json!("x");
+    let notes = read_json(&json).unwrap().notes;
+    assert_eq!(notes.len(), 1, "{notes:?}");
+    assert_eq!(
+        (notes[0].count, notes[0].what.as_str()),
+        (4, "extras left out")
+    );
 }
 
 #[test]

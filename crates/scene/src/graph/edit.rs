@@ -86,8 +86,9 @@ impl Graph {
         }
     }
 
-    /// Appends the nodes of another graph. Its objects must have other names.
-    pub fn append(&mut self, other: Self) {
+    /// Appends the nodes of another graph. Its objects must have other names. Of different parts of the document with the
+    /// same name, the first is kept. Returns the number of parts that are not kept.
+    pub fn append(&mut self, other: Self) -> usize {
         let (n, cameras, lights) = (self.nodes.len(), self.cameras.len(), self.lights.len());
         self.nodes.extend(other.nodes.into_iter().map(|node| Node {
             parent: node.parent.map(|i| i + n),
@@ -98,13 +99,21 @@ impl Graph {
         self.cameras.extend(other.cameras);
         self.lights.extend(other.lights);
         self.labels.extend(other.labels);
+        let mut left_out = 0;
+        for (name, json) in other.document {
+            let kept = self.document.entry(name).or_insert_with(|| json.clone());
+            left_out += usize::from(*kept != json);
+        }
+        left_out
     }
 
-    /// Returns the nodes that show an object that `is_wanted` accepts, and their ancestors, without cameras and lights.
+    /// Returns the nodes that show an object that `is_wanted` accepts, and their ancestors, without cameras and lights,
+    /// and the parts of the document.
     pub(crate) fn only(&self, is_wanted: impl Fn(&str) -> bool) -> Self {
         let mut graph = Self {
             nodes: self.nodes.clone(),
             labels: self.labels.clone(),
+            document: self.document.clone(),
             ..Self::default()
         };
         graph.labels.retain(|object, _| is_wanted(object));

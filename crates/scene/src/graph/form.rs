@@ -41,6 +41,11 @@ impl Encoder<'_> {
             self.optional_text(label.name.as_deref());
             self.optional_text(label.extras.as_deref());
         }
+        self.len(graph.document.len());
+        for (name, json) in &graph.document {
+            self.text(name);
+            self.text(json);
+        }
     }
 
     fn optional_text(&mut self, text: Option<&str>) {
@@ -88,6 +93,10 @@ impl Decoder<'_> {
                 extras: self.optional_text()?,
             };
             graph.labels.insert(object.to_owned(), label);
+        }
+        for _ in 0..self.len()? {
+            let name = self.text()?.to_owned();
+            graph.document.insert(name, self.text()?.to_owned());
         }
         Ok(graph)
     }

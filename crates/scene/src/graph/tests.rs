@@ -188,6 +188,13 @@ fn appended_graphs_keep_their_references() {
     assert_eq!(nodes(&scene)[9], ("eye", None, Some(7)));
     assert_eq!(scene.graph().nodes()[9].camera, Some(1));
     assert_consistent(&scene);
+    let mut document = Graph::default();
+    for (expected, json) in [(0, "{}"), (0, "{}"), (1, "{ }")] {
+        document
+            .document
+            .insert("asset".to_owned(), json.to_owned());
+        assert_eq!(scene.append(Vec::new(), document.clone()), Ok(expected));
+    }
     let before = scene.clone();
     assert!(scene.append(objects, Graph::default()).is_err());
     assert_eq!(scene, before);
@@ -217,6 +224,8 @@ fn every_part_of_a_graph_changes_the_digest() {
         digest(|g| g.cameras[0] = "{ }".to_owned()),
         digest(|g| g.lights.push("{}".to_owned())),
         digest(|g| g.set_label("body", MeshLabel::default())),
+        digest(|g| drop(g.document.insert("asset".to_owned(), "{}".to_owned()))),
+        digest(|g| drop(g.document.insert("root".to_owned(), "{}".to_owned()))),
     ];
     let unique: std::collections::BTreeSet<_> = all.iter().collect();
     assert_eq!(unique.len(), all.len());

@@ -235,6 +235,46 @@ mod tests {
     }
 
     #[test]
+    fn a_mesh_that_two_nodes_show_is_one_object_unless_it_is_baked() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut twice = Scene::new();
+        let object = scene::Object::mesh("wheel", geometry::shapes::tetrahedron());
+        twice.insert(object).unwrap();
+        for name in ["left", "right"] {
+            twice.graph_mut().push(scene::Node {
+                name: Some(name.to_owned()),
+                object: Some("wheel".to_owned()),
+                ..scene::Node::default()
+            });
+        }
+        let path = folder.path().join("a.glb");
+        let options = mesh_io::WriteOptions::default();
+        mesh_io::write(&store::Disk, &path, &twice, &options).unwrap();
+        let files = files(folder.path());
+        for (text, expected) in [
+            ("(path: \"a.glb\")", &["wheel"][..]),
+            ("(path: \"a.glb\", placements: Bake)", &["left", "right"]),
+        ] {
+            let mut plan = Plan::default();
+            let cx = PlanContext {
+                files: &files,
+                on: None,
+                budget: u64::MAX,
+            };
+            assert_eq!(load(text).plan(&mut plan, &cx), []);
+            let mut scene = Scene::new();
+            let mut cx = Context::new(&NoProgress, &files);
+            load(text).apply(&mut scene, &mut cx).unwrap();
+            let names: Vec<_> = scene.objects().iter().map(|o| o.name.as_str()).collect();
+            let planned: Vec<_> = plan.objects().iter().map(|o| o.name.as_str()).collect();
+            assert_eq!((&names[..], &planned[..]), (expected, expected));
+            let instances: u64 = plan.objects().iter().map(|o| o.instances).sum();
+            assert_eq!(instances, 2);
+            assert_eq!(scene.instances().len(), 2);
+        }
+    }
+
+    #[test]
     fn a_missing_file_is_a_problem_of_the_parameter_path() {
         let files = files(std::path::Path::new("nowhere"));
         let cx = PlanContext {

@@ -77,6 +77,59 @@ fn check(scene: &Scene, text: &str) -> Result<(), String> {
 }
 
 /// Asserts that the expectation `holds` holds, and that `fails` fails with the message.
+#[test]
+fn measures_in_space_see_every_instance_and_counts_see_each_object_once() {
+    let mut scene = Scene::new();
+    scene
+        .insert(Object::mesh("square", shapes::square()))
+        .unwrap();
+    scene
+        .insert(Object::mesh("flat", shapes::square()))
+        .unwrap();
+    for (i, x) in [(0, 0.0), (1, 10.0)] {
+        scene.graph_mut().push(scene::Node {
+            name: Some(format!("node {i}")),
+            placement: scene::Placement::Parts {
+                translation: [x, 0.0, 0.0],
+                rotation: [0.0, 0.0, 0.0, 1.0],
+                scale: [1.0, 2.0, 1.0],
+            },
+            object: Some("square".to_owned()),
+            ..scene::Node::default()
+        });
+    }
+    assert_eq!(check(&scene, "Faces(eq: 2)"), Ok(()));
+    assert_eq!(check(&scene, "Objects(eq: 2)"), Ok(()));
+    assert_eq!(check(&scene, "Area(eq: 5)"), Ok(()));
+    assert_eq!(check(&scene, "Not(Area(eq: 3))"), Ok(()));
+    assert_eq!(
+        check(&scene, "Bounds(min: (0, 0, 0), max: (11, 2, 0))"),
+        Ok(())
+    );
+    let on = ["square".to_owned()];
+    assert_eq!(check_on(&scene, Some(&on), "Area(eq: 4)"), Ok(()));
+    assert_eq!(check_on(&scene, Some(&on), "Faces(eq: 1)"), Ok(()));
+    let on = ["flat".to_owned()];
+    let several = "expected 1 instance of \"square\", found 2".to_owned();
+    let distance = r#"DistanceTo(other: Object("square"), below: 1)"#;
+    assert_eq!(check_on(&scene, Some(&on), distance), Err(several));
+    let unknown = ["door".to_owned()];
+    let missing = Err("no object is named \"door\"".to_owned());
+    assert_eq!(check_on(&scene, Some(&unknown), "Area(eq: 4)"), missing);
+    // With a single instance, the placed mesh is compared.
+    scene.graph_mut().push(scene::Node {
+        object: Some("flat".to_owned()),
+        placement: scene::Placement::Parts {
+            translation: [0.0, 0.0, 3.0],
+            rotation: [0.0, 0.0, 0.0, 1.0],
+            scale: [1.0; 3],
+        },
+        ..scene::Node::default()
+    });
+    let at = "Position(of: Vertices([0]), is: (0, 0, 3))";
+    assert_eq!(check_on(&scene, Some(&["flat".to_owned()]), at), Ok(()));
+}
+
 #[track_caller]
 fn holds_and_fails(scene: &Scene, holds: &str, fails: &str, message: &str) {
     assert_eq!(check(scene, holds), Ok(()), "{holds}");

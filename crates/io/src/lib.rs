@@ -396,6 +396,7 @@ pub fn write(
         .filter(|f| f.can_write())
         .ok_or_else(unknown)?;
     let Placed { scene, losses } = placed(scene, format, path)?;
+    fail_if_lost(path, options, &losses)?;
     let mut report = write_placed(store, path, format, &scene, options)?;
     report.losses.splice(..0, losses);
     Ok(report)

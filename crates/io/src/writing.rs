@@ -180,5 +180,6 @@ pub(crate) fn without_marks(scene: Cow<Scene>) -> Cow<Scene> {
         let inserted = new.insert(object);
         inserted.expect("the names of the objects are those of the scene");
     }
+    new.graph_mut().clone_from(scene.graph());
     Cow::Owned(new)
 }

@@ -213,6 +213,14 @@ fn formats_without_nodes_are_written_with_placed_instances() {
         for loss in [("nodes", 7), ("cameras", 2), ("lights", 2)] {
             assert!(lost.contains(&loss), "{extension}: {lost:?}");
         }
+        let strict = WriteOptions {
+            strict: true,
+            ..WriteOptions::default()
+        };
+        let error = mesh_io::write(&Disk, &path, &scene, &strict)
+            .unwrap_err()
+            .to_string();
+        assert!(error.contains("cameras"), "{error}");
         let flat = scene_of(baked.clone());
         mesh_io::write(&Disk, &expected, &flat, &WriteOptions::default()).unwrap();
         let points = |path| -> Vec<[f64; 3]> {

@@ -56,9 +56,15 @@ impl FileKind {
         if path.extension().is_none_or(|ending| ending != "ron") {
             return None;
         }
-        let text = (size <= MAX_SWEEP).then(|| std::fs::read_to_string(path));
-        let is_sweep = text.is_some_and(|text| text.is_ok_and(|text| is_sweep(&text)));
-        Some(if is_sweep { Self::Sweep } else { Self::Recipe })
+        if size > MAX_SWEEP {
+            return Some(Self::Recipe);
+        }
+        let text = std::fs::read_to_string(path).ok()?;
+        if is_sweep(&text) {
+            Some(Self::Sweep)
+        } else {
+            text.contains("steps").then_some(Self::Recipe)
+        }
     }
 
     fn describe(self) -> &'static str {

@@ -25,7 +25,11 @@ pub(crate) fn is_recipe(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending == "ron")
 }
 
-/// Loads the scene of a mesh file, or runs a recipe up to `stop`. Checks no expectations and writes no files.
+/// The code of notes about missing images.
+const IMAGES: &str = "image-missing";
+
+/// Loads the scene of a mesh file, or runs a recipe up to `stop`. Checks no expectations and writes no files. Missing images
+/// are not reported: only pictures need them, and report them.
 pub(crate) fn load_scene(
     path: &Path,
     options: &ReadOptions,
@@ -44,7 +48,7 @@ pub(crate) fn load_scene(
         return Err(WrongUsage(message).into());
     }
     let (scene, notes) = read_file(path, options)?;
-    for note in &notes {
+    for note in notes.iter().filter(|note| note.code != IMAGES) {
         print_error(&format!("note: {note}\n"));
     }
     Ok(SceneAtStep {

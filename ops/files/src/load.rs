@@ -315,7 +315,7 @@ mod tests {
         let all = "(path: \"a.obj\", duplicates: Drop, degenerate: Drop, isolated: Drop)";
         assert_eq!(counts(all), Ok((3, 1, 4)));
         let strict = counts("(path: \"a.obj\", strict: true)").unwrap_err();
-        assert!(strict.contains("points (`p`) left out"), "{strict}");
+        assert!(strict.contains("1 point (`p`) left out"), "{strict}");
     }
 
     #[test]

@@ -209,7 +209,10 @@ fn losses_of_reading_are_losses_of_the_step() {
         .with("a.gltf", SKINNED)
         .with("warn.ron", recipe(""))
         .with("error.ron", recipe("on_loss: Error,"))
-        .with("allow.ron", recipe("on_loss: Allow([\"skins\"]),"));
+        .with(
+            "allow.ron",
+            recipe("on_loss: Allow([\"skins\", \"nodes\"]),"),
+        );
     let ended = folder.run("run warn.ron").with_code(0);
     assert!(
         ended.stdout.contains("Load: a.gltf: 1 skin left out"),

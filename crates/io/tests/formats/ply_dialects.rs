@@ -22,7 +22,7 @@ fn a_file_of_meshlab_is_read() {
     assert!(
         loaded.notes[0]
             .to_string()
-            .contains("1 non-finite values of `quality`"),
+            .contains("1 non-finite value of `quality`"),
         "{}",
         loaded.notes[0]
     );

@@ -202,29 +202,27 @@ fn shortened(text: &str, most: usize) -> Cow<'_, str> {
 
 /// Formats a number for people, with six significant digits. All digits before the decimal point are kept.
 pub(crate) fn number(x: f64) -> String {
-    let size = x.abs();
-    if size == 0.0 || !x.is_finite() {
+    if x == 0.0 || !x.is_finite() {
         return x.to_string();
     }
-    let exponent = size.log10().floor();
-    if !(-5.0..15.0).contains(&exponent) {
-        return trimmed(&format!("{x:.5e}"));
+    let scientific = format!("{x:.5e}");
+    let exponent = scientific.split_once('e').and_then(|(_, e)| e.parse().ok());
+    match exponent {
+        Some(exponent @ -5..15) => {
+            let decimals = usize::try_from(5 - exponent).unwrap_or(0);
+            trimmed(&format!("{x:.decimals$}"))
+        }
+        _ => trimmed(&scientific),
     }
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "from 0 to 10"
-    )]
-    let decimals = (5.0 - exponent).max(0.0) as usize;
-    trimmed(&format!("{x:.decimals$}"))
 }
 
 /// Removes zeros at the end of the decimals.
 fn trimmed(text: &str) -> String {
     let (digits, exponent) = text.find('e').map_or((text, ""), |e| text.split_at(e));
-    let digits = match digits.contains('.') {
-        true => digits.trim_end_matches('0').trim_end_matches('.'),
-        false => digits,
+    let digits = if digits.contains('.') {
+        digits.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        digits
     };
     let digits = if digits == "-0" { "0" } else { digits };
     format!("{digits}{exponent}")

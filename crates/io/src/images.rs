@@ -192,7 +192,6 @@ pub(crate) fn settle<'a>(
         let mut object = object.clone();
         for texture in object.materials.iter_mut().flat_map(Material::textures_mut) {
             texture.image = match (options.images, format, &texture.image) {
-                (_, _, Image::File(_)) => continue,
                 (Some(Images::Embed), _, Image::Loaded { path, bytes })
                 | (None, Format::Glb, Image::Loaded { path, bytes }) => Image::Embedded {
                     mime: media_type(path.as_ref(), bytes)
@@ -209,7 +208,7 @@ pub(crate) fn settle<'a>(
                 | (None, Format::Obj, Image::Embedded { mime, bytes }) => {
                     Image::File(copies.copy(new_name(path, mime), bytes)?)
                 }
-                (_, _, Image::Embedded { .. }) => continue,
+                (_, _, Image::File(_) | Image::Embedded { .. }) => continue,
             };
         }
         let inserted = settled.insert(object);

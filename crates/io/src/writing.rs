@@ -118,12 +118,11 @@ impl FileVertices {
         let mut numbers: Vec<u32> = Vec::with_capacity(n);
         for (v, &distance) in (0_u32..).zip(distances) {
             let original = v.checked_sub(distance.unsigned_abs());
-            match original.filter(|_| distance > 0) {
-                Some(original) => numbers.push(numbers[original as usize]),
-                None => {
-                    numbers.push(u32::try_from(written.len()).unwrap_or(u32::MAX));
-                    written.push(v);
-                }
+            if let Some(original) = original.filter(|_| distance > 0) {
+                numbers.push(numbers[original as usize]);
+            } else {
+                numbers.push(u32::try_from(written.len()).unwrap_or(u32::MAX));
+                written.push(v);
             }
         }
         Self {

@@ -141,6 +141,8 @@ fn show(path: &Path, scene: Scene) -> anyhow::Result<()> {
 
 /// Converts a note to JSON. The field `text` contains only some of the elements; the list contains all of them.
 pub(crate) fn note_json(note: &Note) -> serde_json::Value {
+    let places = (note.places.iter()).map(|points| points.iter().map(DVec3::to_array).collect());
+    let places: Vec<Vec<_>> = places.collect();
     let mut json = json!({
         "code": note.code,
         "text": note.to_string(),
@@ -148,7 +150,7 @@ pub(crate) fn note_json(note: &Note) -> serde_json::Value {
         "file": note.path.display().to_string(),
         "line": note.line,
         "count": note.count,
-        "places": note.places.iter().map(|p| p.iter().map(|p| p.to_array()).collect()).collect::<Vec<Vec<_>>>(),
+        "places": places,
     });
     let index = |v: &VertexId| v.index();
     match &note.elements {

@@ -132,9 +132,10 @@ fn a_conversion_changes_no_face_and_no_vertex() {
         assert_eq!(ended.stdout, format!("wrote {to}\n"));
         folder.run(&format!("convert {to} back.obj")).with_code(0);
         let text = String::from_utf8(folder.read("back.obj")).unwrap();
-        let lines: String = (text.lines().filter(|line| !line.starts_with('#')))
-            .map(|line| format!("{line}\n"))
+        let lines: Vec<&str> = (text.lines())
+            .filter(|line| !line.starts_with('#'))
             .collect();
+        let lines = lines.join("\n") + "\n";
         assert_eq!(lines, UNCLEAN, "{to}");
     }
     // Repairs are made on request, and named.

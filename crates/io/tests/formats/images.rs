@@ -1,6 +1,6 @@
 //! Images of materials: found beside the model, embedded, copied, or reported as missing.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use mesh_io::{Images, Loaded, ReadOptions, WriteOptions};
 use scene::{Image, Scene};
@@ -33,7 +33,7 @@ fn image(loaded: &Loaded) -> Image {
     let textures: Vec<_> = loaded.objects[0]
         .materials
         .iter()
-        .flat_map(|m| m.textures())
+        .flat_map(scene::Material::textures)
         .collect();
     assert_eq!(textures.len(), 1);
     textures[0].image.clone()
@@ -52,7 +52,7 @@ fn convert(store: &Memory, from: &str, to: &str, images: Option<Images>) -> Vec<
     let report = mesh_io::write(store, to.as_ref(), &scene, &options).unwrap();
     assert_eq!(report.losses, []);
     assert_eq!(
-        report.files.last().map(|path| path.as_path()),
+        report.files.last().map(PathBuf::as_path),
         Some(Path::new(to))
     );
     let files = files_below(store, "out".as_ref()).unwrap();

@@ -40,7 +40,7 @@ impl ElementKind {
 
     /// Returns the selections of this kind that take a selection of `other` elements, such as `EdgesOf` for the edges of
     /// faces. Empty if the kinds are equal.
-    pub fn from_other(self, other: Self) -> &'static [&'static str] {
+    pub fn conversions(self, other: Self) -> &'static [&'static str] {
         match (self, other) {
             (Self::Vertices, Self::Edges) => &["EndsOf"],
             (Self::Vertices, Self::Faces) => &["CornersOf"],

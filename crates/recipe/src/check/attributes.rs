@@ -149,7 +149,8 @@ impl Attributes {
 /// Returns the error for a loss that `on_loss` does not allow.
 pub(crate) fn forbidden(step: &RecipeStep, loss: &Loss) -> Diagnostic {
     let (what, object, name) = (&loss.what, &loss.object, &loss.name);
-    let lost = if loss.reason.is_empty() && object != "" && what.starts_with(object.as_str()) {
+    let lost = if loss.reason.is_empty() && !object.is_empty() && what.starts_with(object.as_str())
+    {
         what.clone()
     } else {
         format!("{} loses {what} of \"{object}\"", step.name)

@@ -34,7 +34,7 @@ pub(super) fn of_other_kind(name: &str, expected: &str) -> Option<WrongKind> {
     let (expected, _) = kinds().find(|(_, (of, _))| *of == expected)?;
     let (found, _) = kinds().find(|(_, (_, variants))| variants.iter().any(|v| v == name))?;
     let (word, found_word) = (expected.word(), found.word());
-    let full = expected.from_other(found).iter();
+    let full = expected.conversions(found).iter();
     let full: Vec<String> = full.map(|outer| format!("`{outer}({name}(..))`")).collect();
     Some(WrongKind {
         message: format!("`{name}` selects {found_word}, expected a selection of {word}"),

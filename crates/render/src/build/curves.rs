@@ -197,9 +197,8 @@ mod tests {
 
     #[test]
     fn a_wireframe_shows_the_cells_of_patches() {
-        let points = std::array::from_fn(|j| {
-            std::array::from_fn(|i| DVec3::new(f64::from(i as u8), f64::from(j as u8), 0.0))
-        });
+        let points =
+            [0.0, 1.0, 2.0, 3.0].map(|y| [0.0, 1.0, 2.0, 3.0].map(|x| DVec3::new(x, y, 0.0)));
         let patches = Geometry::Patches(vec![Patch::new(points).unwrap()]);
         let mut scene = Scene::new();
         scene.insert(Object::new("sheet", patches)).unwrap();

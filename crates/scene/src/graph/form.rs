@@ -80,7 +80,7 @@ impl Decoder<'_> {
             }
             graph.nodes.push(node);
         }
-        if !graph.to_scene().iter().all(|map| map.is_finite()) {
+        if !graph.to_scene().iter().all(glam::DAffine3::is_finite) {
             return Err(DecodeError::Expected("finite placements of nodes"));
         }
         for _ in 0..self.len()? {

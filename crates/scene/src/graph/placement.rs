@@ -37,22 +37,22 @@ impl Placement {
 
     /// Returns the map from the space of the node to the space of its parent. Not finite if a number is not finite or
     /// the rotation is zero.
-    pub fn to_affine(&self) -> DAffine3 {
+    pub fn to_affine(self) -> DAffine3 {
         match self {
-            Self::Matrix(matrix) => DAffine3::from_mat4(DMat4::from_cols_array(matrix)),
+            Self::Matrix(matrix) => DAffine3::from_mat4(DMat4::from_cols_array(&matrix)),
             Self::Parts {
                 translation,
                 rotation,
                 scale,
             } => {
-                let rotation = DQuat::from_array(*rotation);
+                let rotation = DQuat::from_array(rotation);
                 // Files store 32-bit numbers, so the length is only approximately 1.
                 let length = rotation.length();
                 let rotation = DQuat::from_array(rotation.to_array().map(|x| x / length));
                 DAffine3::from_scale_rotation_translation(
-                    DVec3::from_array(*scale),
+                    DVec3::from_array(scale),
                     rotation,
-                    DVec3::from_array(*translation),
+                    DVec3::from_array(translation),
                 )
             }
         }

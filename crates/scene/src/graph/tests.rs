@@ -13,10 +13,6 @@ fn moved(translation: [f64; 3], scale: [f64; 3]) -> Placement {
     }
 }
 
-fn named(name: &str) -> Option<String> {
-    Some(name.to_owned())
-}
-
 /// A car: the node `car` has the children `body`, `left` and `right`. The last two show the wheel, and `left` has a
 /// child with a camera.
 fn car() -> Scene {
@@ -27,15 +23,15 @@ fn car() -> Scene {
     let graph = scene.graph_mut();
     graph.cameras.push("{}".to_owned());
     let car = graph.push(Node {
-        name: named("car"),
+        name: Some("car".to_owned()),
         placement: moved([10.0, 0.0, 0.0], [1.0; 3]),
         ..Node::default()
     });
     let node = |name: &str, placement, object: Option<&str>, parent| Node {
-        name: named(name),
+        name: Some(name.to_owned()),
         parent: Some(parent),
         placement,
-        object: object.and_then(named),
+        object: object.map(str::to_owned),
         ..Node::default()
     };
     graph.push(node(
@@ -138,7 +134,7 @@ fn a_renamed_object_renames_the_node_with_its_name() {
     assert_eq!(nodes(&scene)[2], ("left", Some("tire"), Some(0)));
     assert_consistent(&scene);
     let label = MeshLabel {
-        name: named("Cube.001"),
+        name: Some("Cube.001".to_owned()),
         extras: None,
     };
     scene.graph_mut().set_label("hull", label.clone());
@@ -257,7 +253,7 @@ fn changed_bytes_of_a_graph_are_refused_or_give_a_consistent_graph() {
         }
     }
     let mut unknown = scene;
-    unknown.graph_mut().nodes[1].object = named("door");
+    unknown.graph_mut().nodes[1].object = Some("door".to_owned());
     let mut bytes = Vec::new();
     unknown.encode(&mut |piece| bytes.extend_from_slice(piece));
     let error = Scene::decode(&bytes, usize::MAX, &mut NoArrays).unwrap_err();

@@ -1,7 +1,8 @@
 //! Finds pairs of boundary edges that coincide.
 //!
 //! Edges are sorted into a grid of cubic cells by their midpoints. If the ends of two edges are close together, so are
-//! their midpoints. An edge is therefore compared only with the edges in its cell and the 26 neighboring cells.
+//! their midpoints. An edge is therefore compared only with the edges in its cell and the 26 neighboring cells. The edges
+//! are visited in the order of their cells, so that the neighboring cells are found without searching.
 
 use mesh::{DVec3, HalfEdgeId, Mesh};
 use op::{Context, OpError};
@@ -14,9 +15,12 @@ pub(crate) struct Pairs {
     pub(crate) ambiguous: Vec<HalfEdgeId>,
 }
 
-/// A boundary half-edge with its ends.
+/// A boundary half-edge with its ends, in its cell of the grid.
+#[derive(Clone, Copy)]
 struct Rim {
-    half_edge: HalfEdgeId,
+    cell: [i64; 3],
+    /// The number of the half-edge among all boundary half-edges.
+    number: usize,
     ends: [DVec3; 2],
 }
 
@@ -30,32 +34,31 @@ enum Matches {
 
 impl Pairs {
     pub(crate) fn of(mesh: &Mesh, distance: f64, cx: &Context) -> Result<Self, OpError> {
-        let rim = |h| Rim {
-            half_edge: h,
-            ends: [mesh.origin(h), mesh.target(h)].map(|v| mesh.position(v)),
-        };
         let outer = mesh.half_edges().filter(|&h| mesh.face(h).is_none());
-        let rims: Vec<Rim> = outer.map(rim).collect();
-        let grid = Grid::of(&rims, distance);
+        let outer: Vec<HalfEdgeId> = outer.collect();
+        let rims = sorted_rims(mesh, &outer, distance, cx)?;
         let total = rims.len() as u64;
         cx.advance("find coinciding edges", 0, total)?;
-        let mut matches = Vec::with_capacity(rims.len());
-        for i in 0..rims.len() {
-            matches.push(grid.matches(&rims, i, distance));
-            if matches.len() % 1024 == 0 {
-                cx.advance("find coinciding edges", i as u64, total)?;
+        let mut matches = vec![Matches::None; rims.len()];
+        // The rows of three cells around an edge begin at these places. They only move forward, because the edges are
+        // visited in the order of their cells.
+        let mut begins = [0; 9];
+        for (i, rim) in rims.iter().enumerate() {
+            matches[rim.number] = matches_of(&rims, rim, &mut begins, distance);
+            if (i + 1) % 4096 == 0 {
+                cx.advance("find coinciding edges", i as u64 + 1, total)?;
             }
         }
         let mut result = Self {
             pairs: Vec::new(),
             ambiguous: Vec::new(),
         };
-        for (i, rim) in rims.iter().enumerate() {
+        for (i, &h) in outer.iter().enumerate() {
             match matches[i] {
                 Matches::One(j) if i < j && matches[j] == Matches::One(i) => {
-                    result.pairs.push([rim.half_edge, rims[j].half_edge]);
+                    result.pairs.push([h, outer[j]]);
                 }
-                Matches::Several => result.ambiguous.push(rim.half_edge),
+                Matches::Several => result.ambiguous.push(h),
                 Matches::One(_) | Matches::None => {}
             }
         }
@@ -63,62 +66,78 @@ impl Pairs {
     }
 }
 
-/// Boundary half-edges, sorted by the grid cells of their midpoints.
-struct Grid {
-    least: DVec3,
-    size: f64,
-    /// Cells and indices of half-edges, in order of the cells, then of the indices.
-    cells: Vec<([i64; 3], usize)>,
+/// Returns the boundary half-edges with their ends, sorted by the cells of their midpoints.
+fn sorted_rims(
+    mesh: &Mesh,
+    outer: &[HalfEdgeId],
+    distance: f64,
+    cx: &Context,
+) -> Result<Vec<Rim>, OpError> {
+    let ends = |&h: &HalfEdgeId| [mesh.origin(h), mesh.target(h)].map(|v| mesh.position(v));
+    let midpoints = || outer.iter().map(|h| midpoint(ends(h)));
+    let least = midpoints().reduce(DVec3::min).unwrap_or_default();
+    let most = midpoints().reduce(DVec3::max).unwrap_or_default();
+    // Cells of twice the distance leave room for rounding. The second term limits the number of cells along an axis.
+    let size = (2.0 * distance).max(1e-9 * (most - least).max_element());
+    let size = if size > 0.0 { size } else { 1.0 };
+    let rim = |(number, h)| Rim {
+        cell: cell((midpoint(ends(h)) - least) / size),
+        number,
+        ends: ends(h),
+    };
+    let mut rims: Vec<Rim> = outer.iter().enumerate().map(rim).collect();
+    // Sorts short parts and merges them, so that progress is reported and the run can be cancelled in between. Sorting
+    // two sorted parts merges them.
+    let mut width = 1 << 16;
+    loop {
+        for (i, part) in rims.chunks_mut(width).enumerate() {
+            cx.advance(
+                "sort boundary edges",
+                (i * width) as u64,
+                outer.len() as u64,
+            )?;
+            part.sort_by_key(|rim| (rim.cell, rim.number));
+        }
+        if width >= rims.len() {
+            return Ok(rims);
+        }
+        width *= 2;
+    }
 }
 
-impl Grid {
-    fn of(rims: &[Rim], distance: f64) -> Self {
-        let midpoints = || rims.iter().map(midpoint);
-        let least = midpoints().reduce(DVec3::min).unwrap_or_default();
-        let most = midpoints().reduce(DVec3::max).unwrap_or_default();
-        // Cells of twice the distance leave room for rounding. The second term limits the number of cells along an
-        // axis.
-        let size = (2.0 * distance).max(1e-9 * (most - least).max_element());
-        let mut grid = Self {
-            least,
-            size: if size > 0.0 { size } else { 1.0 },
-            cells: Vec::new(),
-        };
-        grid.cells = midpoints().map(|p| grid.cell(p)).zip(0..).collect();
-        grid.cells.sort_unstable();
-        grid
-    }
+/// Returns the cell of a point, given in units of the size of a cell.
+#[expect(clippy::cast_possible_truncation, reason = "at most 1e12")]
+fn cell(place: DVec3) -> [i64; 3] {
+    // The limit applies only where the division overflows: all of these points are in the last cell.
+    place.to_array().map(|x| x.floor().min(1e12) as i64)
+}
 
-    #[expect(clippy::cast_possible_truncation, reason = "at most 1e12")]
-    fn cell(&self, p: DVec3) -> [i64; 3] {
-        let place = (p - self.least) / self.size;
-        // The limit applies only where the division overflows: all of these points are in the last cell.
-        place.to_array().map(|x| x.floor().min(1e12) as i64)
-    }
-
-    /// Returns the boundary half-edges that coincide with half-edge `i` of `rims`.
-    fn matches(&self, rims: &[Rim], i: usize, distance: f64) -> Matches {
-        let mut matches = Matches::None;
-        let [x, y, z] = self.cell(midpoint(&rims[i]));
-        for (dx, dy) in (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (dx, dy))) {
-            let [first, last] = [z - 1, z + 1].map(|z| [x + dx, y + dy, z]);
-            let begin = self.cells.partition_point(|(cell, _)| *cell < first);
-            let row = self.cells[begin..].iter();
-            for &(_, j) in row.take_while(|(cell, _)| *cell <= last) {
-                if i != j && coincide(&rims[i], &rims[j], distance) {
-                    match matches {
-                        Matches::None => matches = Matches::One(j),
-                        _ => return Matches::Several,
-                    }
+/// Returns the boundary half-edges that coincide with `rim`, by their numbers. `begins` are the places where the rows of
+/// cells around an earlier edge, in the order of the cells, begin.
+fn matches_of(rims: &[Rim], rim: &Rim, begins: &mut [usize; 9], distance: f64) -> Matches {
+    let mut matches = Matches::None;
+    let [x, y, z] = rim.cell;
+    let rows = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [x + dx, y + dy]));
+    for ([x, y], begin) in rows.zip(begins) {
+        let [first, last] = [[x, y, z - 1], [x, y, z + 1]];
+        while rims.get(*begin).is_some_and(|other| other.cell < first) {
+            *begin += 1;
+        }
+        let row = rims[*begin..].iter().take_while(|other| other.cell <= last);
+        for other in row {
+            if other.number != rim.number && coincide(rim, other, distance) {
+                match matches {
+                    Matches::None => matches = Matches::One(other.number),
+                    _ => return Matches::Several,
                 }
             }
         }
-        matches
     }
+    matches
 }
 
-fn midpoint(rim: &Rim) -> DVec3 {
-    0.5 * rim.ends[0] + 0.5 * rim.ends[1]
+fn midpoint(ends: [DVec3; 2]) -> DVec3 {
+    0.5 * ends[0] + 0.5 * ends[1]
 }
 
 /// Whether corresponding ends are within `distance`. Matching half-edges have opposite directions.

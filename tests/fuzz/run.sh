@@ -17,7 +17,7 @@ for target in $targets; do
     for file in "dict/$target.dict" "target/$target.dict"; do
         [ -f "$file" ] && dict="-dict=$file"
     done
-    mkdir -p "target/corpus/$target" "corpus/$target"
-    cargo fuzz run --sanitizer none --fuzz-dir . "$target" "target/corpus/$target" "corpus/$target" -- \
+    mkdir -p "target/corpus/$target"
+    cargo fuzz run --sanitizer none --fuzz-dir . "$target" "target/corpus/$target" $([ -d "corpus/$target" ] && echo "corpus/$target" || true) -- \
         -max_total_time="${2:-60}" -max_len=4096 -timeout=10 -malloc_limit_mb=256 -print_funcs=0 -verbosity=0 $dict
 done

@@ -145,16 +145,17 @@ fn a_conversion_changes_no_face_and_no_vertex() {
     assert!(ended.stdout.contains("reversed"), "{ended:#?}");
 }
 
+/// Returns the codes of the notes in the output of a command.
+fn note_codes(json: &serde_json::Value) -> Vec<&str> {
+    let notes = json["notes"].as_array().unwrap();
+    notes.iter().map(|n| n["code"].as_str().unwrap()).collect()
+}
+
 #[test]
 fn notes_have_codes_in_json() {
     let folder = Folder::new().with("a.obj", format!("{UNCLEAN}f 1 2 2\n"));
     let json = folder.run("info a.obj --format json").with_code(0).json();
-    let codes: Vec<&str> = json["notes"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|n| n["code"].as_str().unwrap())
-        .collect();
+    let codes = note_codes(&json);
     assert!(
         codes.contains(&"faces-reversed") && codes.contains(&"faces-dropped"),
         "{codes:?}"
@@ -169,12 +170,7 @@ fn notes_have_codes_in_json() {
         .with_code(0)
         .json();
     assert_eq!(json["wrote"], serde_json::json!(["b.stl"]));
-    let codes: Vec<&str> = json["notes"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|n| n["code"].as_str().unwrap())
-        .collect();
+    let codes = note_codes(&json);
     assert!(!codes.contains(&"faces-reversed"), "{codes:?}");
 }
 

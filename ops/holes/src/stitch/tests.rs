@@ -150,31 +150,12 @@ fn the_distance_is_required() {
     assert_eq!(parse("(distance: 1e-6)").on_refusal, OnRefusal::Error);
 }
 
-/// Run with `cargo test -p meshwright-ops-holes --release -- --ignored --nocapture growth`.
 #[test]
-#[ignore = "measures time"]
-fn growth_of_cutting_and_stitching_all_edges() {
-    use std::time::Instant;
-    let mut last: Option<[f64; 2]> = None;
-    for side in [100, 141, 200, 282, 400] {
-        let mesh = shapes::grid(side, side);
-        let cut: crate::Cut = op::test::read("(edges: All, on_refusal: Skip)").unwrap();
-        let begin = Instant::now();
-        let apart = applied(&cut, mesh.clone());
-        let cut_time = begin.elapsed().as_secs_f64();
-        let begin = Instant::now();
-        let files = op::Files::default();
-        Pairs::of(&apart, 0.0, &Context::new(&op::NoProgress, &files)).unwrap();
-        println!("pairs {}", begin.elapsed().as_secs_f64());
-        let begin = Instant::now();
-        let whole = applied(&parse("(distance: 0)"), apart);
-        let times = [cut_time, begin.elapsed().as_secs_f64()];
-        assert_eq!(counts(&whole), counts(&mesh));
-        let ratios = last.map(|last| [times[0] / last[0], times[1] / last[1]]);
-        println!(
-            "{} vertices: {times:?} s, growth {ratios:?}",
-            mesh.n_vertices()
-        );
-        last = Some(times);
-    }
+fn stitching_undoes_the_cut_of_all_edges() {
+    let mesh = shapes::grid(30, 20);
+    let cut: crate::Cut = op::test::read("(edges: All, on_refusal: Skip)").unwrap();
+    let apart = applied(&cut, mesh.clone());
+    assert_eq!(apart.n_vertices(), 4 * mesh.n_faces());
+    let whole = applied(&parse("(distance: 0)"), apart);
+    assert_eq!(counts(&whole), counts(&mesh));
 }

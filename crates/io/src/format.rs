@@ -71,6 +71,11 @@ impl Format {
         !matches!(self, Self::Dae)
     }
 
+    /// Whether files of this format can be compressed and quantized: glTF.
+    pub const fn packs(self) -> bool {
+        matches!(self, Self::Gltf | Self::Glb)
+    }
+
     /// The extensions of all formats, as messages list them: `.obj, .gltf, ...`.
     pub fn readable_extensions() -> String {
         list(Self::all())

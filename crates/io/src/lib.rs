@@ -73,6 +73,7 @@ mod mws;
 mod note;
 mod obj;
 mod off;
+mod packing;
 mod parallel;
 mod peek;
 mod placed;
@@ -97,6 +98,7 @@ pub use format::Format;
 pub use images::Images;
 pub use loss::Loss;
 pub use note::{Note, NoteKind};
+pub use packing::{Bits, Compression, PackingReport, Quantization};
 pub use peek::{Peek, PeekGeometry, PeekMesh, PeekObject};
 pub use policy::{CleanupPolicy, NonManifold, Orientation, Placements, Policies};
 pub use polygons::Polygons;
@@ -153,12 +155,16 @@ pub struct WriteOptions {
     /// that they come from are copied next to `.gltf` and `.obj` files. OBJ cannot embed images, so embedded ones
     /// are written to files too.
     pub images: Option<Images>,
+    /// How to compress the geometry of glTF files. If `None`, it is not compressed. Other formats are refused.
+    pub compression: Option<Compression>,
+    /// How to quantize the geometry of glTF files. If `None`, numbers have 32 bits. Other formats are refused.
+    pub quantization: Option<Quantization>,
     /// Whether writing fails if the file would not store everything.
     pub strict: bool,
 }
 
 /// The files that were written.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct WriteReport {
     /// The files. The last one is the requested file.
     pub files: Vec<PathBuf>,
@@ -166,6 +172,8 @@ pub struct WriteReport {
     pub bytes: u64,
     /// What the files do not store of the scene.
     pub losses: Vec<Loss>,
+    /// What compression and quantization did. `None` if neither was requested.
+    pub packing: Option<PackingReport>,
 }
 
 /// Reads the objects of a file.
@@ -395,6 +403,13 @@ pub fn write(
     let format = Format::from_path(path)
         .filter(|f| f.can_write())
         .ok_or_else(unknown)?;
+    if !format.packs() && (options.compression.is_some() || options.quantization.is_some()) {
+        let message = "only .glb and .gltf files can be compressed or quantized".to_owned();
+        return Err(WriteError::Scene {
+            path: path.to_path_buf(),
+            message,
+        });
+    }
     let Placed { scene, losses } = placed(scene, format, path)?;
     fail_if_lost(path, options, &losses)?;
     let mut report = write_placed(store, path, format, &scene, options)?;
@@ -413,6 +428,7 @@ fn write_placed(
     let one = |(bytes, losses)| Written {
         files: vec![(path.to_path_buf(), bytes)],
         losses,
+        packing: None,
     };
     let images::Settled {
         scene,
@@ -437,7 +453,11 @@ fn write_placed(
         Format::Bez => bez::write_bez(scene).map(one),
         Format::Bzc => bez::write_bzc(scene).map(one),
     };
-    let Written { files, losses } = written.map_err(|why| why.in_file(path))?;
+    let Written {
+        files,
+        losses,
+        packing,
+    } = written.map_err(|why| why.in_file(path))?;
     fail_if_lost(path, options, &losses)?;
     let files = files
         .into_iter()
@@ -448,6 +468,7 @@ fn write_placed(
         files,
         bytes,
         losses,
+        packing,
     })
 }
 
@@ -474,6 +495,7 @@ struct Written {
     /// The files in the order in which they are saved.
     files: Vec<(PathBuf, Vec<u8>)>,
     losses: Vec<Loss>,
+    packing: Option<PackingReport>,
 }
 
 /// The bytes of one file, and what the file does not store.

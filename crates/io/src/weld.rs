@@ -21,12 +21,15 @@ const MAX_BUCKETS: usize = 1 << 10;
 /// Counts the vertices with faces whose position, rounded to 32 bits, equals that of an earlier vertex. Formats
 /// that identify vertices by position merge these vertices.
 pub(crate) fn n_merged(mesh: &Mesh) -> usize {
+    n_merged_as(mesh, |position| position.as_vec3().as_dvec3())
+}
+
+/// Counts the vertices with faces whose position equals that of an earlier vertex when both are rounded by `round`.
+pub(crate) fn n_merged_as(mesh: &Mesh, round: impl Fn(DVec3) -> DVec3 + Sync) -> usize {
     let used = parallel::filter(mesh.n_vertices(), |v| {
         mesh.vertex_half_edge(VertexId::new(v)).is_some()
     });
-    let places = parallel::collect(used.len(), |i| {
-        mesh.position(VertexId::new(used[i])).as_vec3().as_dvec3()
-    });
+    let places = parallel::collect(used.len(), |i| round(mesh.position(VertexId::new(used[i]))));
     used.len() - weld(places).0.len()
 }
 

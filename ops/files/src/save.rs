@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use mesh_io::{Format, Images, WriteOptions};
+use mesh_io::{Compression, Format, Images, Quantization, WriteOptions};
 use op::prelude::*;
 use op::{Loss, Operation, target_scene};
 
@@ -23,6 +23,13 @@ pub struct Save {
     /// written to files too.
     #[serde(default)]
     pub images: Option<Images>,
+    /// How to compress the geometry of `.glb` and `.gltf` files without loss. If omitted, it is not compressed.
+    #[serde(default)]
+    pub compress: Option<Compression>,
+    /// The numbers of bits with which the geometry of `.glb` and `.gltf` files is stored. If omitted, numbers are floats
+    /// of 32 bits. `quantize: ()` uses the default of each attribute. The report lists the largest errors.
+    #[serde(default)]
+    pub quantize: Option<Quantization>,
 }
 
 impl Operation for Save {
@@ -50,6 +57,17 @@ impl Operation for Save {
             let problem = Problem::error("OBJ files cannot embed images");
             problems.push(problem.at(["images"]).help("use `images: Copy`"));
         }
+        let format = Format::from_path(Path::new(&self.path));
+        let packs = format.is_none_or(Format::packs);
+        let asked = [
+            ("compress", self.compress.is_some()),
+            ("quantize", self.quantize.is_some()),
+        ];
+        for (field, _) in asked.into_iter().filter(|(_, asked)| *asked && !packs) {
+            let problem =
+                Problem::error("only .glb and .gltf files can be compressed or quantized");
+            problems.push(problem.at([field]));
+        }
         if plan.objects().is_empty() && !plan.incomplete {
             problems.push(Problem::error("no objects to save at this point"));
         }
@@ -65,11 +83,16 @@ impl Operation for Save {
         let options = WriteOptions {
             provenance: cx.files().provenance.clone(),
             images: self.images,
+            compression: self.compress,
+            quantization: self.quantize,
             strict: false,
         };
         let written =
             mesh_io::write(&*cx.files().store, &path, &chosen, &options).map_err(|e| failed(&e))?;
         let mut report = Report::changed(chosen.objects().len());
+        report
+            .notes
+            .extend(written.packing.map(|packing| packing.to_string()));
         report.losses = written
             .losses
             .into_iter()
@@ -185,6 +208,61 @@ mod tests {
         planned.insert("a", PlannedGeometry::Patches(Range::ANY));
         let problems = save.plan(&mut planned, &plan);
         assert_eq!(problems[0].message, "OBJ files cannot embed images");
+    }
+
+    #[test]
+    fn compressed_and_quantized_files_are_read_back_and_reported() {
+        let folder = tempfile::tempdir().unwrap();
+        let files = Files {
+            output: folder.path().into(),
+            ..Files::default()
+        };
+        let mut scene = Scene::new();
+        scene
+            .insert(Object::mesh("ball", shapes::torus(90, 60, 2.0, 1.0)))
+            .unwrap();
+        let mut cx = Context::new(&NoProgress, &files);
+        for (text, words) in [
+            (r#"(path: "a.glb")"#, None),
+            (
+                r#"(path: "b.glb", compress: Meshopt)"#,
+                Some("bytes instead of"),
+            ),
+            (
+                r#"(path: "c.glb", quantize: ())"#,
+                Some("positions by at most"),
+            ),
+            (
+                r#"(path: "d.gltf", compress: Meshopt, quantize: (position: 12))"#,
+                Some("positions by at most"),
+            ),
+        ] {
+            let save: Save = op::test::read(text).unwrap();
+            let report = save.apply(&mut scene, &mut cx).unwrap();
+            match words {
+                Some(words) => assert!(report.notes[0].contains(words), "{:?}", report.notes),
+                None => assert_eq!(report.notes, [""; 0]),
+            }
+            let path = folder.path().join(&save.path);
+            let back =
+                mesh_io::read(&store::Disk, &path, &mesh_io::ReadOptions::default()).unwrap();
+            assert_eq!(back.objects[0].as_mesh().unwrap().n_vertices(), 5400);
+        }
+        assert!(op::test::read::<Save>(r#"(path: "a.glb", quantize: (position: 17))"#).is_err());
+        assert!(op::test::read::<Save>(r#"(path: "a.glb", quantize: (normal: 7))"#).is_err());
+        let plan = PlanContext {
+            files: &files,
+            on: None,
+            budget: u64::MAX,
+        };
+        let mut planned = Plan::default();
+        planned.insert("a", PlannedGeometry::Patches(Range::ANY));
+        let save: Save = op::test::read(r#"(path: "a.ply", compress: Meshopt)"#).unwrap();
+        let problems = save.plan(&mut planned, &plan);
+        assert_eq!(
+            problems[0].message,
+            "only .glb and .gltf files can be compressed or quantized"
+        );
     }
 
     #[test]

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
-use mesh_io::Images;
+use mesh_io::{Compression, Images, Quantization};
 
 pub(crate) use cache::{CacheAction, CacheArgs, CacheCommandArgs, CacheFolder};
 pub(crate) use look::{DiffArgs, Kind, SelectArgs};
@@ -142,6 +142,21 @@ pub(crate) struct ConvertArgs {
     /// and other files get copies
     #[arg(long, value_name = "POLICY", value_parser = read::policy::<Images>)]
     pub(crate) images: Option<Images>,
+    /// Compress the geometry of .glb and .gltf files without loss: Meshopt
+    #[arg(long, value_name = "CODEC", value_parser = read::policy::<Compression>)]
+    pub(crate) compress: Option<Compression>,
+    /// Store the geometry of .glb and .gltf files with fewer bits
+    ///
+    /// The defaults are position=16,normal=8,uv=16,color=8. Each number is from 8 to 16.
+    #[arg(
+        long,
+        value_name = "ATTRIBUTE=BITS,...",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "",
+        value_parser = bits
+    )]
+    pub(crate) quantize: Option<Quantization>,
     /// Output format
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
@@ -165,6 +180,32 @@ pub(crate) struct NewOpArgs {
         value_name = "DIR"
     )]
     pub(crate) meshwright: PathBuf,
+}
+
+/// Reads numbers of bits, such as `position=14,uv=12`.
+fn bits(text: &str) -> Result<Quantization, String> {
+    let mut bits = Quantization::default();
+    for part in text.split(',').filter(|part| !part.is_empty()) {
+        let (name, number) = part
+            .split_once('=')
+            .ok_or_else(|| format!("expected ATTRIBUTE=BITS, found `{part}`"))?;
+        let place = match name {
+            "position" => &mut bits.position,
+            "normal" => &mut bits.normal,
+            "uv" => &mut bits.uv,
+            "color" => &mut bits.color,
+            _ => {
+                return Err(format!(
+                    "expected position, normal, uv or color, found `{name}`"
+                ));
+            }
+        };
+        let number: u32 = number
+            .parse()
+            .map_err(|_| format!("expected a number of bits, found `{number}`"))?;
+        *place = number.try_into()?;
+    }
+    Ok(bits)
 }
 
 /// Arguments that are found to be invalid after parsing. The exit code is 2.

@@ -25,6 +25,8 @@ pub(crate) fn run(args: &ConvertArgs) -> anyhow::Result<bool> {
     let options = mesh_io::WriteOptions {
         provenance: Some(STAMP.to_owned()),
         images: args.images,
+        compression: args.compress,
+        quantization: args.quantize,
         strict: args.read.strict,
     };
     let report = mesh_io::write(&store::Disk, &args.output, &scene, &options)
@@ -41,11 +43,15 @@ pub(crate) fn run(args: &ConvertArgs) -> anyhow::Result<bool> {
             "losses": losses.collect::<Vec<_>>(),
             "wrote": report.files.iter().map(|p| p.display().to_string()).collect::<Vec<_>>(),
             "bytes": report.bytes,
+            "packing": report.packing,
         }))?;
         return Ok(true);
     }
     for loss in &report.losses {
         print(&format!("{loss}\n"))?;
+    }
+    if let Some(packing) = &report.packing {
+        print(&format!("{packing}\n"))?;
     }
     for path in &report.files {
         print(&format!("wrote {}\n", path.display()))?;

@@ -62,6 +62,36 @@ fn a_converted_mesh_is_unchanged() {
 }
 
 #[test]
+fn conversions_can_compress_and_quantize() {
+    let folder = Folder::new().with("square.obj", SQUARE);
+    folder
+        .run("convert square.obj a.glb --compress meshopt --quantize")
+        .with_code(0)
+        .prints(&["bytes instead of", "moved positions by at most"]);
+    let json = folder
+        .run("convert --quantize=position=8,uv=12 square.obj b.gltf --format json")
+        .json();
+    assert!(json["packing"]["position_error"].as_f64().unwrap() < 0.01);
+    for (option, words) in [
+        ("--quantize=position=7", "8 to 16 bits"),
+        ("--quantize=weight=8", "position, normal, uv or color"),
+        ("--compress zip", "zip"),
+    ] {
+        let ended = folder
+            .run(&format!("convert square.obj c.glb {option}"))
+            .with_code(2);
+        assert!(ended.stderr.contains(words), "{ended:#?}");
+    }
+    let ended = folder.run("convert square.obj c.ply --compress meshopt");
+    assert!(
+        ended
+            .with_code(1)
+            .stderr
+            .contains("only .glb and .gltf files")
+    );
+}
+
+#[test]
 fn a_failed_conversion_writes_no_file() {
     let folder = Folder::new()
         .with("square.obj", SQUARE)

@@ -41,8 +41,9 @@
 //!
 //! | extension | support |
 //! | --- | --- |
-//! | `KHR_mesh_quantization` | read: integers instead of floats |
-//! | `EXT_meshopt_compression`, `KHR_meshopt_compression` | read |
+//! | `KHR_mesh_quantization` | read; written on request: integers instead of floats |
+//! | `EXT_meshopt_compression` | read; written on request |
+//! | `KHR_meshopt_compression` | read |
 //! | `KHR_texture_transform` | read and written: the transform of a texture |
 //! | `KHR_materials_emissive_strength`, `KHR_materials_unlit` | read and written |
 //! | `KHR_lights_punctual` | read and written |
@@ -61,6 +62,8 @@
 //! - isolated vertices, empty meshes, tangents, integers, tags, texture coordinates after a gap in
 //!   their numbers, and attributes of edges and faces (except `material`) are lost.
 //!
+//! If [`WriteOptions`](crate::WriteOptions) asks for it, arrays are quantized (`quantize`) and compressed (`compress`).
+//!
 //! Lost content is reported as a [`Loss`](crate::Loss), and content that is left out or changed as a
 //! [`Note`](crate::Note).
 //!
@@ -73,6 +76,7 @@
 mod accessor;
 mod budget;
 mod buffers;
+mod compress;
 mod document;
 mod faces;
 mod fill;
@@ -86,6 +90,7 @@ mod peek;
 mod pieces;
 mod prepare;
 mod primitives;
+mod quantize;
 mod read;
 mod split;
 mod streams;

@@ -26,6 +26,12 @@ pub(super) fn fill(out: &mut [u8], pieces: &[Piece]) {
     }
 }
 
+/// The size of a GLB file with chunks of these sizes.
+pub(super) fn container_length(json: usize, binary: usize) -> usize {
+    let chunk = |length: usize| 8 + length.next_multiple_of(4);
+    12 + chunk(json) + if binary > 0 { chunk(binary) } else { 0 }
+}
+
 /// Creates a GLB file: a header, a JSON chunk and a binary chunk, each padded to a multiple of 4 bytes.
 ///
 /// # Errors
@@ -38,11 +44,7 @@ pub(super) fn container(
 ) -> Result<Vec<u8>, Unwritable> {
     let padded = json.len().next_multiple_of(4);
     let start = 20 + padded + 8;
-    let length = if binary > 0 {
-        start + binary.next_multiple_of(4)
-    } else {
-        start - 8
-    };
+    let length = container_length(json.len(), binary);
     let word = |n: usize| u32::try_from(n).map(u32::to_le_bytes).ok();
     let (Some(all), Some(json_length), Some(binary_length)) =
         (word(length), word(padded), word(binary.next_multiple_of(4)))

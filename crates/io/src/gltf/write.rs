@@ -7,14 +7,14 @@ use std::path::Path;
 
 use scene::{Geometry, Scene};
 
-use super::pieces::{Piece, container, fill};
+use super::pieces::{Piece, container, container_length, fill};
 use super::prepare::PreparedObject;
 use super::write_document::Writer;
 use crate::assets::percent_encoded;
 use crate::error::Unwritable;
-use crate::loss::Losses;
+use crate::loss::{Loss, Losses};
 use crate::writing::dense;
-use crate::{WriteOptions, Written, gzip};
+use crate::{PackingReport, WriteOptions, Written, gzip};
 
 /// Converts `scene` to the bytes of files, and lists what the files do not store. The files are in the order in
 /// which they must be renamed.
@@ -41,33 +41,76 @@ pub(crate) fn write(
         let mut losses = Losses::of(&object.name, &mut losses);
         prepared.push(PreparedObject::new(object, mesh, &mut losses)?);
     }
-    let mut writer = Writer::default();
-    for prepared in &prepared {
-        let mut losses = Losses::of(&prepared.object.name, &mut losses);
-        writer.object(prepared, scene.graph(), &mut losses)?;
-    }
-    writer.nodes(scene)?;
-    let length = writer.pieces.last().map_or(0, Piece::end);
+    let path = path.to_path_buf();
+    let binary_path = gzip::plain(&path).with_extension("bin");
+    let name = binary_path.file_name();
+    let uri = name.map(|name| percent_encoded(&name.to_string_lossy()));
+    let uri = uri.as_deref().filter(|_| !binary);
+    let is_packed = options.compression.is_some() || options.quantization.is_some();
+    let plain = WriteOptions {
+        compression: None,
+        quantization: None,
+        ..options.clone()
+    };
+    let bytes_before = if is_packed {
+        let writer = document(&prepared, scene, &plain, &mut Vec::new())?;
+        let (json, pieces) = writer.into_json(options, uri);
+        let length = pieces.last().map_or(0, Piece::end);
+        if binary {
+            container_length(json.len(), length)
+        } else {
+            json.len() + length
+        }
+    } else {
+        0
+    };
+    let mut writer = document(&prepared, scene, options, &mut losses)?;
+    let packing = is_packed.then(|| PackingReport {
+        bytes_before: bytes_before as u64,
+        ..std::mem::take(&mut writer.quantizer.report)
+    });
+    let (json, pieces) = writer.into_json(options, uri);
+    let length = pieces.last().map_or(0, Piece::end);
     if u32::try_from(length).is_err() {
         let message =
             format!("a glTF file must be smaller than 4 GiB, but the scene needs {length} bytes");
         return Err(Unwritable::scene(message));
     }
-    let path = path.to_path_buf();
+    let mut files = Vec::new();
     if binary {
-        let (json, pieces) = writer.into_json(options, None);
-        let files = vec![(path, container(&json, length, &pieces)?)];
-        return Ok(Written { files, losses });
+        files.push((path, container(&json, length, &pieces)?));
+    } else {
+        if length > 0 {
+            let mut bytes = mesh::zeroed(length);
+            fill(&mut bytes, &pieces);
+            files.push((binary_path, bytes));
+        }
+        files.push((path, json));
     }
-    let binary_path = gzip::plain(&path).with_extension("bin");
-    let name = binary_path.file_name();
-    let uri = name.map(|name| percent_encoded(&name.to_string_lossy()));
-    let (json, pieces) = writer.into_json(options, uri.as_deref());
-    let mut files = vec![(path, json)];
-    if length > 0 {
-        let mut bytes = mesh::zeroed(length);
-        fill(&mut bytes, &pieces);
-        files.insert(0, (binary_path, bytes));
+    let bytes_after = files.iter().map(|(_, bytes)| bytes.len() as u64).sum();
+    let packing = packing.map(|report| PackingReport {
+        bytes_after,
+        ..report
+    });
+    Ok(Written {
+        files,
+        losses,
+        packing,
+    })
+}
+
+/// Builds the document without its bytes.
+fn document<'a>(
+    prepared: &'a [PreparedObject<'a>],
+    scene: &Scene,
+    options: &WriteOptions,
+    losses: &mut Vec<Loss>,
+) -> Result<Writer<'a>, Unwritable> {
+    let mut writer = Writer::new(options);
+    for prepared in prepared {
+        let mut losses = Losses::of(&prepared.object.name, losses);
+        writer.object(prepared, scene.graph(), &mut losses)?;
     }
-    Ok(Written { files, losses })
+    writer.nodes(scene)?;
+    Ok(writer)
 }

@@ -8,17 +8,20 @@ use gltf_json::mesh::Semantic;
 use scene::Graph;
 use serde_json::{Map, Value, json};
 
+use super::compress::{Array, compress};
 use super::document::LIGHTS;
 use super::faces::Faces;
 use super::fill::{Bounds, fill_indices, fill_positions, fill_stream};
+use super::meshopt::{Filter, MESHOPT};
 use super::numbers::type_name;
 use super::pieces::Piece;
 use super::prepare::PreparedObject;
+use super::quantize::{Integers, QUANTIZATION, Quantizer};
 use super::write_materials::MaterialWriter;
 use super::write_nodes::{NodeList, optional_json};
-use crate::WriteOptions;
 use crate::error::Unwritable;
 use crate::loss::Losses;
+use crate::{Compression, WriteOptions};
 
 /// Builds the document, and collects the functions that write the bytes it refers to.
 #[derive(Default)]
@@ -31,9 +34,22 @@ pub(super) struct Writer<'a> {
     pub(super) nodes: NodeList,
     pub(super) pieces: Vec<Piece<'a>>,
     materials: MaterialWriter,
+    pub(super) quantizer: Quantizer<'a>,
+    /// The views of the arrays that can be compressed, with the encoding of each.
+    arrays: BTreeMap<usize, Array>,
+    compression: Option<Compression>,
 }
 
 impl<'a> Writer<'a> {
+    /// Creates a document without content.
+    pub(super) fn new(options: &WriteOptions) -> Self {
+        Self {
+            quantizer: Quantizer::new(options.quantization, options.compression.is_some()),
+            compression: options.compression,
+            ..Self::default()
+        }
+    }
+
     /// Returns the document and the parts of its buffer. The buffer is the file `uri`, or the chunk after the
     /// document if `uri` is `None`.
     pub(super) fn into_json(
@@ -41,7 +57,18 @@ impl<'a> Writer<'a> {
         options: &WriteOptions,
         uri: Option<&str>,
     ) -> (Vec<u8>, Vec<Piece<'a>>) {
-        let length = self.pieces.last().map_or(0, Piece::end);
+        let mut pieces = self.pieces;
+        let mut views = self.views;
+        let length = pieces.last().map_or(0, Piece::end);
+        let mut buffers = vec![json!({ "byteLength": length, "uri": uri })];
+        let mut required = Vec::new();
+        if self.quantizer.uses_extension {
+            required.push(QUANTIZATION);
+        }
+        if self.compression == Some(Compression::Meshopt) && !self.arrays.is_empty() {
+            required.push(MESHOPT[0]);
+            pieces = compress(&mut views, &mut buffers, &pieces, &self.arrays);
+        }
         let NodeList {
             kept,
             nodes,
@@ -52,6 +79,7 @@ impl<'a> Writer<'a> {
         // A scene without nodes is left out.
         let has_nodes = !nodes.is_empty();
         let mut extensions = self.materials.extensions();
+        extensions.extend(&required);
         let lights = (!lights.is_empty()).then(|| {
             extensions.push(LIGHTS);
             json!({ LIGHTS: { "lights": lights } })
@@ -63,13 +91,14 @@ impl<'a> Writer<'a> {
                 "generator": concat!("meshwright ", env!("CARGO_PKG_VERSION")),
                 "version": "2.0",
             },
-            "buffers": (length > 0).then(|| json!([{ "byteLength": length, "uri": uri }])),
-            "bufferViews": self.views,
+            "buffers": (length > 0).then_some(buffers),
+            "bufferViews": views,
             "scene": has_nodes.then_some(0),
             "meshes": self.meshes,
             "nodes": nodes,
             "scenes": has_nodes.then(|| json!([{ "nodes": roots }])),
             "extensionsUsed": extensions,
+            "extensionsRequired": required,
             "extensions": lights,
             "cameras": cameras,
             "materials": self.materials.materials,
@@ -93,7 +122,7 @@ impl<'a> Writer<'a> {
             }
         }
         remove_empty(&mut document);
-        (document.to_string().into_bytes(), self.pieces)
+        (document.to_string().into_bytes(), pieces)
     }
 
     /// Adds the mesh of an object, if the mesh has faces.
@@ -125,7 +154,7 @@ impl<'a> Writer<'a> {
     /// Creates a primitive for each material, in the order of the materials of the object. The primitives share
     /// their vertices.
     fn primitives(&mut self, prepared: &'a PreparedObject<'a>, losses: &mut Losses) -> Vec<Value> {
-        let attributes = self.attributes(prepared);
+        let attributes = self.attributes(prepared, losses);
         let mut primitives = Vec::new();
         for (&material, faces) in &prepared.faces {
             let material = usize::try_from(material).ok();
@@ -148,18 +177,33 @@ impl<'a> Writer<'a> {
         primitives
     }
 
-    fn attributes(&mut self, prepared: &'a PreparedObject<'a>) -> Map<String, Value> {
+    fn attributes(
+        &mut self,
+        prepared: &'a PreparedObject<'a>,
+        losses: &mut Losses,
+    ) -> Map<String, Value> {
         let PreparedObject { mesh, split, .. } = prepared;
         let mut attributes = BTreeMap::new();
-        let fill = move |out: &mut [u8]| fill_positions(out, mesh, split);
-        let positions = self.floats(split.n, Type::Vec3, fill);
-        let Bounds { min, max } = prepared.bounds;
-        self.accessors[positions]["min"] = json!(min);
-        self.accessors[positions]["max"] = json!(max);
+        let quantized = self.quantizer.positions(prepared, losses);
+        let (positions, min, max) = if let Some((integers, [min, max])) = quantized {
+            (self.integers(integers), json!(min), json!(max))
+        } else {
+            let fill = move |out: &mut [u8]| fill_positions(out, mesh, split);
+            let Bounds { min, max } = prepared.bounds;
+            let positions = self.floats(split.n, Type::Vec3, fill);
+            (positions, json!(min), json!(max))
+        };
+        self.accessors[positions]["min"] = min;
+        self.accessors[positions]["max"] = max;
         attributes.insert(Semantic::Positions, positions);
         for stream in &prepared.streams {
-            let fill = move |out: &mut [u8]| fill_stream(out, mesh, split, stream);
-            let accessor = self.floats(split.n, stream.kind, fill);
+            let quantized = self.quantizer.stream(prepared, stream);
+            let accessor = if let Some(integers) = quantized {
+                self.integers(integers)
+            } else {
+                let fill = move |out: &mut [u8]| fill_stream(out, mesh, split, stream);
+                self.floats(split.n, stream.kind, fill)
+            };
             attributes.insert(stream.semantic.clone(), accessor);
         }
         let named = attributes.into_iter();
@@ -169,9 +213,30 @@ impl<'a> Writer<'a> {
     }
 
     fn floats(&mut self, count: usize, kind: Type, fill: impl Fn(&mut [u8]) + 'a) -> usize {
-        let length = count * kind.multiplicity() * size_of::<f32>();
-        let view = self.view(length, Some(ARRAY_BUFFER), fill);
+        let stride = kind.multiplicity() * size_of::<f32>();
+        let view = self.view(count * stride, Some(ARRAY_BUFFER), fill);
+        self.arrays
+            .insert(view, Array::attribute(stride, Filter::None));
         self.accessor(view, count, ComponentType::F32, kind)
+    }
+
+    /// Adds an attribute of normalized integers.
+    fn integers(&mut self, integers: Integers) -> usize {
+        let Integers {
+            bytes,
+            stride,
+            component,
+            kind,
+            filter,
+        } = integers;
+        let count = bytes.len() / stride;
+        let fill = move |out: &mut [u8]| out.copy_from_slice(&bytes);
+        let view = self.view(count * stride, Some(ARRAY_BUFFER), fill);
+        self.views[view]["byteStride"] = json!(stride);
+        self.arrays.insert(view, Array::attribute(stride, filter));
+        let accessor = self.accessor(view, count, component, kind);
+        self.accessors[accessor]["normalized"] = json!(true);
+        accessor
     }
 
     fn indices(&mut self, prepared: &'a PreparedObject<'a>, faces: &'a Faces) -> usize {
@@ -188,6 +253,7 @@ impl<'a> Writer<'a> {
         let length = count * component.size();
         let fill = move |out: &mut [u8]| fill_indices(out, mesh, split, faces, short);
         let view = self.view(length, Some(ELEMENT_ARRAY_BUFFER), fill);
+        self.arrays.insert(view, Array::triangles(component.size()));
         self.accessor(view, count, component, Type::Scalar)
     }
 

@@ -73,6 +73,7 @@ impl Writer<'_> {
                 list.nodes.push(json!({ "mesh": mesh, "name": name }));
             }
         }
+        self.quantizer.place(graph, &mut list.nodes);
         Ok(())
     }
 }

@@ -81,6 +81,7 @@ pub(crate) fn write(
         files,
         bytes,
         losses,
+        packing: None,
     })
 }
 

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4};
 use mesh::{CORNER_NORMAL, Domain, MATERIAL, Mesh, UV, VERTEX_NORMAL};
-use mesh_io::WriteOptions;
+use mesh_io::{Compression, Quantization, WriteOptions};
 use scene::{AlphaMode, Image, Material, Object, Scene, Texture};
 
 use crate::gltf_attributes::add_column;
@@ -30,6 +30,20 @@ pub(crate) fn written(name: &str, scene: &Scene) {
         assert!(back.objects.len() <= scene.objects().len());
         gltf::Gltf::open(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     }
+    let quantized = WriteOptions {
+        quantization: Some(Quantization::default()),
+        ..options
+    };
+    let path = folder.join(format!("{name}_quantized.glb"));
+    mesh_io::write(&store::Disk, &path, scene, &quantized).unwrap();
+    read(&path).unwrap();
+    let compressed = WriteOptions {
+        compression: Some(Compression::Meshopt),
+        ..quantized
+    };
+    let path = folder.join(format!("{name}_compressed.glb"));
+    mesh_io::write(&store::Disk, &path, scene, &compressed).unwrap();
+    read(&path).unwrap();
 }
 
 fn polygon(points: &[[f64; 2]]) -> Mesh {

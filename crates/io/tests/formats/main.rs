@@ -11,6 +11,7 @@ mod gltf_limits;
 mod gltf_materials;
 mod gltf_meshopt;
 mod gltf_nodes;
+mod gltf_packed;
 mod gltf_read;
 mod gltf_valid;
 mod gltf_written;

@@ -15,11 +15,11 @@ use super::input::Input;
 use crate::fault::Fault;
 
 /// The number of elements whose differences are stored together.
-const GROUP: usize = 16;
+pub(super) const GROUP: usize = 16;
 /// The largest size of a block in bytes.
 const BLOCK_BYTES: usize = 8192;
 /// The largest number of elements in a block.
-const BLOCK: usize = 256;
+pub(super) const BLOCK: usize = 256;
 
 /// The number of bits of a difference for each of the four kinds of groups.
 type Bits = [u8; 4];
@@ -39,7 +39,7 @@ enum Channel {
     Bits(u32),
 }
 
-fn elements_in_block(stride: usize) -> usize {
+pub(super) fn elements_in_block(stride: usize) -> usize {
     (BLOCK_BYTES / stride / GROUP * GROUP).min(BLOCK)
 }
 

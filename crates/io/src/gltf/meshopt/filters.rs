@@ -15,7 +15,7 @@ const BLOCK: usize = 1 << 15;
 /// The encoding of the elements before the filter is applied.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "UPPERCASE")]
-pub(super) enum Filter {
+pub(in super::super) enum Filter {
     /// The final values.
     #[default]
     None,
@@ -41,7 +41,7 @@ impl Filter {
     }
 
     /// Decodes elements in place.
-    pub(super) fn apply(self, bytes: &mut [u8], stride: usize) {
+    pub(in super::super) fn apply(self, bytes: &mut [u8], stride: usize) {
         match (self, stride) {
             (Self::None, _) => {}
             (Self::Octahedral, 4) => each(bytes, |bytes: &mut [u8; 4]| {

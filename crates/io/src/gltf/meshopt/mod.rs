@@ -12,6 +12,8 @@
 //! filters appendix B.
 
 mod attributes;
+mod encode_attributes;
+mod encode_triangles;
 mod filters;
 mod indices;
 mod input;
@@ -24,7 +26,9 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use crate::fault::{Fault, Location};
-use filters::Filter;
+pub(super) use encode_attributes::encode as encode_attributes;
+pub(super) use encode_triangles::encode as encode_triangles;
+pub(super) use filters::Filter;
 
 /// The names of the extension.
 pub(super) const MESHOPT: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];

@@ -160,27 +160,27 @@ impl State<'_> {
 }
 
 /// The last 16 values.
-struct Recent<T> {
+pub(super) struct Recent<T> {
     all: [T; 16],
     /// The total number of values so far.
     n: usize,
 }
 
 impl<T: Copy + Default> Recent<T> {
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self {
             all: [T::default(); 16],
             n: 0,
         }
     }
 
-    fn push(&mut self, one: T) {
+    pub(super) fn push(&mut self, one: T) {
         self.all[self.n % 16] = one;
         self.n += 1;
     }
 
     /// The value that was added `back` values before the latest one.
-    fn get(&self, back: u8) -> Option<T> {
+    pub(super) fn get(&self, back: u8) -> Option<T> {
         let place = self.n.checked_sub(1 + usize::from(back))?;
         Some(self.all[place % 16])
     }

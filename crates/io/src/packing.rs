@@ -1,0 +1,141 @@
+//! Making glTF files smaller: compression and quantization.
+
+use std::fmt;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A lossless compression of glTF files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum Compression {
+    /// The extension `EXT_meshopt_compression`. Readers without the extension cannot read the file. The corners of
+    /// triangles can be rotated, such as (a, b, c) to (b, c, a).
+    Meshopt,
+}
+
+/// The numbers of bits of the attributes of quantized glTF files. Each is from 8 to 16.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Quantization {
+    /// The bits of each coordinate. The grid has the same step along all axes and covers the bounding box of the
+    /// object, whose longest side has 2^bits - 1 steps. Defaults to 16.
+    #[serde(default = "Bits::most")]
+    pub position: Bits,
+    /// The bits of each of the two numbers of a normal or a tangent on an octahedron. Defaults to 8.
+    #[serde(default = "Bits::least")]
+    pub normal: Bits,
+    /// The bits of each texture coordinate. A set with coordinates outside of 0 to 1 is not quantized. Defaults to
+    /// 16.
+    #[serde(default = "Bits::most")]
+    pub uv: Bits,
+    /// The bits of each component of a color. Defaults to 8.
+    #[serde(default = "Bits::least")]
+    pub color: Bits,
+}
+
+impl Default for Quantization {
+    fn default() -> Self {
+        let (least, most) = (Bits::least(), Bits::most());
+        Self {
+            position: most,
+            normal: least,
+            uv: most,
+            color: least,
+        }
+    }
+}
+
+/// A number of bits from 8 to 16.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
+#[serde(try_from = "u32", into = "u32")]
+pub struct Bits(#[schemars(range(min = 8, max = 16))] u32);
+
+impl Bits {
+    fn least() -> Self {
+        Self(8)
+    }
+
+    fn most() -> Self {
+        Self(16)
+    }
+
+    /// The number.
+    pub fn get(self) -> u32 {
+        self.0
+    }
+
+    /// The largest integer with this number of bits.
+    pub(crate) fn largest(self) -> u32 {
+        (1 << self.0) - 1
+    }
+
+    /// Whether numbers are stored in one byte.
+    pub(crate) fn is_byte(self) -> bool {
+        self.0 == 8
+    }
+}
+
+impl From<Bits> for u32 {
+    fn from(bits: Bits) -> Self {
+        bits.0
+    }
+}
+
+impl TryFrom<u32> for Bits {
+    type Error = String;
+
+    fn try_from(bits: u32) -> Result<Self, String> {
+        if (8..=16).contains(&bits) {
+            Ok(Self(bits))
+        } else {
+            Err(format!("expected 8 to 16 bits, found {bits}"))
+        }
+    }
+}
+
+/// What compression and quantization did to a file.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct PackingReport {
+    /// The size in bytes that the files would have without compression and quantization, without copied images and
+    /// before gzip.
+    pub bytes_before: u64,
+    /// The size in bytes of the same files as written.
+    pub bytes_after: u64,
+    /// The largest distance between a position and its quantized position, in scene units. `None` if no positions
+    /// are quantized. If the placement of a node shears, this is an upper bound.
+    pub position_error: Option<f64>,
+    /// The largest angle between a normal and its quantized normal, in degrees.
+    pub normal_error: Option<f64>,
+    /// The largest difference between a texture coordinate and its quantized coordinate.
+    pub uv_error: Option<f64>,
+    /// The attributes that should be quantized and could not, as the object, the attribute and the reason.
+    pub unquantized: Vec<(String, String, String)>,
+}
+
+impl fmt::Display for PackingReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            bytes_before,
+            bytes_after,
+            ..
+        } = self;
+        write!(f, "{bytes_after} bytes instead of {bytes_before}")?;
+        let errors = [
+            ("positions", self.position_error, ""),
+            ("normals", self.normal_error, " degrees"),
+            ("texture coordinates", self.uv_error, ""),
+        ];
+        let mut before = "; quantization moved";
+        for (what, error, unit) in errors {
+            if let Some(error) = error {
+                write!(f, "{before} {what} by at most {error:.2e}{unit}")?;
+                before = ",";
+            }
+        }
+        for (object, attribute, reason) in &self.unquantized {
+            write!(f, "; {object}: {attribute} not quantized: {reason}")?;
+        }
+        Ok(())
+    }
+}

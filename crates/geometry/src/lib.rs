@@ -9,21 +9,27 @@
 //! | [`merge_vertices`], [`parts`] | merging vertices, splitting a mesh into parts |
 //! | [`triangulate`], [`fill_hole_triangles`] | triangulation of faces and holes |
 //! | [`bisect`], [`bevel`] | cutting along a plane, beveling |
+//! | [`smooth`](mod@smooth) | smoothing and denoising |
+//! | [`Laplacian`], [`sparse`] | the cotangent Laplacian; sparse symmetric matrices and their solver |
 
 pub mod bevel;
 mod bisect;
 mod curvature;
 pub mod distance;
 mod fill_hole;
+mod laplacian;
 mod measure;
 mod merge;
 mod part;
 pub mod shapes;
+pub mod smooth;
+pub mod sparse;
 pub mod triangulate;
 
 pub use bisect::{Bisection, bisect};
 pub use curvature::{gaussian_curvatures, mean_curvatures, vertex_area};
 pub use fill_hole::fill_hole_triangles;
+pub use laplacian::Laplacian;
 pub use measure::{
     area, bounds, components, genus, n_components, sin_cos_degrees, valences, volume,
 };

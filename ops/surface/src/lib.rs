@@ -1,8 +1,14 @@
 //! Operations that simplify, remesh and smooth surfaces.
 
+mod smooth;
+
 use op::Registry;
 
+pub use smooth::{Smooth, SmoothBoundary, SmoothBy, SmoothWeights};
+
 /// Adds the operations of this group, in the order of the reference.
+#[rustfmt::skip]
 pub fn register(registry: Registry) -> Registry {
     registry
+        .with::<Smooth>()
 }

@@ -1,0 +1,283 @@
+//! The cotangent Laplacian of a surface, and the areas of its vertices.
+//!
+//! ```text
+//!            k                    The weight of the edge i-j is (cot α + cot β) / 2: the stiffness matrix of linear
+//!           /α\                   finite elements. Row i of the matrix times the values u is
+//!          /   \
+//!         i-----j                     sum over j of w(i, j) (u(i) - u(j))
+//!          \   /
+//!           \β/                   which approximates minus the Laplacian of u, times the area of the vertex i.
+//!            l
+//! ```
+//!
+//! Sources: Pinkall, Polthier, "Computing Discrete Minimal Surfaces and Their Conjugates", 1993, for the weights; Bunge,
+//! Herholz, Kazhdan, Botsch, "Polygon Laplacian Made Simple", 2020, for polygons; Sharp, Crane, "A Laplacian for
+//! Nonmanifold Triangle Meshes", 2020, section 4.5, for degenerate triangles.
+
+use mesh::{DVec3, Domain, FaceId, Mesh};
+use progress::{Cancelled, Meter, Progress};
+use rayon::prelude::*;
+
+use crate::sparse::SymmetricMatrix;
+use crate::triangulate::Cutter;
+
+/// The faces with more corners are cut into triangles; the others get a virtual vertex.
+const MAX_CORNERS: usize = 16;
+/// The slack of the triangle inequality after mollification, relative to the mean edge length.
+const SLACK: f64 = 1e-5;
+const FACES: usize = 4096;
+
+/// The cotangent Laplacian of a surface with the areas of its vertices.
+///
+/// # Examples
+///
+/// ```
+/// use geometry::{Laplacian, shapes};
+/// use progress::NoProgress;
+///
+/// let mesh = shapes::icosahedron();
+/// let laplacian = Laplacian::new(&mesh, &NoProgress)?;
+/// // Constants are in the kernel, and the areas add up to the area of the surface.
+/// let zero = laplacian.stiffness.times(&[1.0; 12]);
+/// assert!(zero.iter().all(|x| x.abs() < 1e-14));
+/// assert!((laplacian.areas.iter().sum::<f64>() - geometry::area(&mesh)).abs() < 1e-13);
+/// # Ok::<(), progress::Cancelled>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Laplacian {
+    /// The stiffness matrix, with one row for each vertex. It is positive semidefinite, its rows add up to 0, and the
+    /// entry of an edge is minus its weight. It has no unit.
+    pub stiffness: SymmetricMatrix,
+    /// The diagonal of the lumped mass matrix: the area that belongs to each vertex, in scene unit², at most 1.8e308. 0 for
+    /// vertices without faces, otherwise more than 0 unless the area is below the smallest number.
+    pub areas: Vec<f64>,
+}
+
+impl Laplacian {
+    /// Computes the Laplacian of a mesh. Rows of dead vertices are empty.
+    ///
+    /// A polygon with 4 to 16 corners is divided by a virtual vertex at the mean of its corners, whose value is the mean
+    /// of the values at the corners. So the result does not depend on a triangulation. Linear functions on a flat polygon
+    /// keep their exact gradient. Polygons with more corners are cut into triangles.
+    ///
+    /// If a triangle is degenerate, the same small length is added to the lengths of all edges, so that the triangle
+    /// inequality holds with a slack of 1e-5 of the mean edge length. So all entries are finite for any finite positions.
+    /// If all triangles have this slack, nothing is added.
+    ///
+    /// # Errors
+    ///
+    /// [`Cancelled`] if `progress` cancels.
+    pub fn new(mesh: &Mesh, progress: &dyn Progress) -> Result<Self, Cancelled> {
+        let exponent = exponent(mesh.positions());
+        let points: Vec<DVec3> = mesh
+            .positions()
+            .par_iter()
+            .map(|&p| scaled(p, -exponent))
+            .collect();
+        let n_faces = mesh.domain_len(Domain::Face);
+        let meter = Meter::new(progress, "measure faces", 2 * n_faces as u64).every(65_536);
+        let blocks = || (0..n_faces.div_ceil(FACES)).into_par_iter();
+        let faces = |b: usize| {
+            let all = (b * FACES..n_faces.min((b + 1) * FACES)).map(FaceId::new);
+            all.filter(|&f| mesh.has_face(f))
+        };
+        // The sum and the number of the lengths.
+        let sums: Result<Vec<[f64; 2]>, Cancelled> = blocks()
+            .map(|b| {
+                let (mut sum, mut n, mut pieces) = (0.0, 0.0, Pieces::default());
+                for f in faces(b) {
+                    pieces.set(mesh, &points, f);
+                    for lengths in pieces.triangles.iter().map(|t| lengths(pieces.points(*t))) {
+                        sum += lengths.iter().sum::<f64>();
+                        n += 3.0;
+                    }
+                }
+                meter.add(FACES)?;
+                Ok([sum, n])
+            })
+            .collect();
+        let [sum, n] = sums?
+            .iter()
+            .fold([0.0, 0.0], |a, b| [a[0] + b[0], a[1] + b[1]]);
+        let slack = if sum > 0.0 { SLACK * (sum / n) } else { 1.0 };
+        let missing: Vec<f64> = blocks()
+            .map(|b| {
+                let (mut missing, mut pieces) = (0.0, Pieces::default());
+                for f in faces(b) {
+                    pieces.set(mesh, &points, f);
+                    for [a, b, c] in pieces.triangles.iter().map(|t| lengths(pieces.points(*t))) {
+                        let least = (a + b - c).min(b + c - a).min(c + a - b);
+                        missing = f64::max(missing, slack - least);
+                    }
+                }
+                missing
+            })
+            .collect();
+        let more = missing.into_iter().fold(0.0, f64::max);
+        let parts: Result<Vec<Entries>, Cancelled> = blocks()
+            .map(|b| {
+                let (mut entries, mut pieces) = (Entries::default(), Pieces::default());
+                for f in faces(b) {
+                    pieces.set(mesh, &points, f);
+                    pieces.entries(more, &mut entries);
+                }
+                meter.add(FACES)?;
+                Ok(entries)
+            })
+            .collect();
+        let n = mesh.domain_len(Domain::Vertex);
+        let (mut areas, mut stiffness) = (vec![0.0; n], Vec::new());
+        for part in parts? {
+            for (v, area) in part.areas {
+                areas[v as usize] += area;
+            }
+            stiffness.extend(part.stiffness);
+        }
+        for area in &mut areas {
+            *area = libm::scalbn(*area, 2 * exponent).min(f64::MAX);
+        }
+        let stiffness = SymmetricMatrix::from_entries(n, stiffness);
+        Ok(Self { stiffness, areas })
+    }
+}
+
+/// Returns the power of two just below the largest coordinate.
+pub(crate) fn exponent(points: &[DVec3]) -> i32 {
+    let largest = points.par_iter().map(|p| p.abs().max_element());
+    match largest.reduce(|| 0.0, f64::max) {
+        largest if largest > 0.0 && largest.is_finite() => libm::ilogb(largest),
+        _ => 0,
+    }
+}
+
+/// Returns the point times a power of two, which is exact unless the result is near 0.
+pub(crate) fn scaled(p: DVec3, exponent: i32) -> DVec3 {
+    DVec3::from_array(p.to_array().map(|x| libm::scalbn(x, exponent)))
+}
+
+/// Returns the lengths of the sides: the side opposite of corner i is at i.
+fn lengths([a, b, c]: [DVec3; 3]) -> [f64; 3] {
+    [b.distance(c), c.distance(a), a.distance(b)]
+}
+
+/// Returns half the cotangents of the angles, and the area, of a triangle. `more` is added to its lengths.
+fn half_cotangents(corners: [DVec3; 3], more: f64) -> ([f64; 3], f64) {
+    if more == 0.0 {
+        let [a, b, c] = corners;
+        let double = (b - a).cross(c - a).length();
+        let half_cot = |p: DVec3, q: DVec3, r: DVec3| 0.5 * (q - p).dot(r - p) / double;
+        return (
+            [half_cot(a, b, c), half_cot(b, c, a), half_cot(c, a, b)],
+            0.5 * double,
+        );
+    }
+    let [a, b, c] = lengths(corners).map(|l| l + more);
+    // Heron's formula. The factors are more than 0 by the choice of `more`.
+    let area = 0.25 * ((a + b + c) * (b + c - a) * (c + a - b) * (a + b - c)).sqrt();
+    let half_cot = |a: f64, b: f64, c: f64| (b * b + c * c - a * a) / (8.0 * area);
+    (
+        [half_cot(a, b, c), half_cot(b, c, a), half_cot(c, a, b)],
+        area,
+    )
+}
+
+#[derive(Default)]
+struct Entries {
+    stiffness: Vec<(u32, u32, f64)>,
+    areas: Vec<(u32, f64)>,
+}
+
+/// The triangles of a face.
+#[derive(Default)]
+struct Pieces {
+    /// The vertices of the face.
+    corners: Vec<u32>,
+    /// The positions of the corners, and of the virtual vertex if there is one.
+    positions: Vec<DVec3>,
+    triangles: Vec<[usize; 3]>,
+    has_virtual: bool,
+    cutter: Cutter,
+    /// For each corner, the weight of its edge to the virtual vertex.
+    spokes: Vec<f64>,
+}
+
+impl Pieces {
+    fn set(&mut self, mesh: &Mesh, points: &[DVec3], f: FaceId) {
+        self.corners.clear();
+        let number = |v: mesh::VertexId| u32::try_from(v.index()).expect("ids fit 32 bits");
+        self.corners.extend(mesh.face_vertices(f).map(number));
+        self.positions.clear();
+        self.positions
+            .extend(self.corners.iter().map(|&v| points[v as usize]));
+        self.triangles.clear();
+        let n = self.corners.len();
+        self.has_virtual = (4..=MAX_CORNERS).contains(&n);
+        if self.has_virtual {
+            let mean = self.positions.iter().sum::<DVec3>() / n as f64;
+            self.positions.push(mean);
+            self.triangles.extend((0..n).map(|i| [i, (i + 1) % n, n]));
+        } else if n == 3 {
+            self.triangles.push([0, 1, 2]);
+        } else if n > 3 {
+            let cut = self.cutter.cut(mesh, f);
+            let corners = |t: &[u32; 3]| t.map(|i| i as usize);
+            self.triangles.extend(cut.triangles().iter().map(corners));
+        }
+    }
+
+    fn points(&self, triangle: [usize; 3]) -> [DVec3; 3] {
+        triangle.map(|i| self.positions[i])
+    }
+
+    /// Appends the entries of the face.
+    fn entries(&mut self, more: f64, entries: &mut Entries) {
+        let n = self.corners.len();
+        self.spokes.clear();
+        self.spokes.resize(n, 0.0);
+        for t in 0..self.triangles.len() {
+            let corners = self.triangles[t];
+            let (weights, area) = half_cotangents(self.points(corners), more);
+            for (k, weight) in weights.into_iter().enumerate() {
+                let [i, j] = [corners[(k + 1) % 3], corners[(k + 2) % 3]];
+                if i < n && j < n {
+                    self.edge(i, j, weight, &mut entries.stiffness);
+                } else {
+                    self.spokes[i.min(j)] += weight;
+                }
+            }
+            let third = area / 3.0;
+            for &i in corners.iter().filter(|&&i| i < n) {
+                entries.areas.push((self.corners[i], third));
+            }
+            if self.has_virtual {
+                let share = third / n as f64;
+                entries
+                    .areas
+                    .extend(self.corners.iter().map(|&v| (v, share)));
+            }
+        }
+        if self.has_virtual {
+            // The energy is the sum of s(i) (u(i) - mean of u)² for the weights s of the spokes.
+            let total: f64 = self.spokes.iter().sum();
+            let count = n as f64;
+            for i in 0..n {
+                for j in i + 1..n {
+                    let weight =
+                        (self.spokes[i] + self.spokes[j]) / count - total / (count * count);
+                    self.edge(i, j, weight, &mut entries.stiffness);
+                }
+            }
+        }
+    }
+
+    /// Appends the entries of the energy `weight` times (u(i) - u(j))².
+    fn edge(&self, i: usize, j: usize, weight: f64, entries: &mut Vec<(u32, u32, f64)>) {
+        let [i, j] = [self.corners[i], self.corners[j]];
+        if i != j {
+            entries.extend([(i, j, -weight), (i, i, weight), (j, j, weight)]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

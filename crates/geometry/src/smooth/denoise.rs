@@ -1,0 +1,154 @@
+//! Bilateral filtering of face normals, and vertices that follow the normals.
+//!
+//! ```text
+//!     n(f) <- normalized sum over the faces g around f of  a(g) exp(-|c(f) - c(g)|² / 2 s²) exp(-|n(f) - n(g)|² / 2 t²) n(g)
+//!     x(v) <- x(v) + mean over the faces f of v of  n(f) (n(f) . (c(f) - x(v)))
+//! ```
+//!
+//! Here a, c and n are areas, centers and normals of faces. The length s is the mean distance between centers of adjacent
+//! faces, and t is half the distance between two unit normals with the angle of the method: sin(angle / 2).
+
+use mesh::{DVec3, Domain, FaceId, Mesh, VertexId};
+use progress::Progress;
+use rayon::prelude::*;
+
+use super::{SmoothError, Smoother};
+use crate::sin_cos_degrees;
+
+/// At vertices with more faces than this, only faces that share an edge are neighbors, so that the work stays in
+/// proportion to the number of faces.
+const MAX_FAN: u8 = 64;
+
+pub(super) fn denoise(
+    smoother: &Smoother,
+    mesh: &mut Mesh,
+    angle: f64,
+    vertex_passes: u32,
+    progress: &dyn Progress,
+) -> Result<(), SmoothError> {
+    let passes = u64::from(smoother.smoothing.passes);
+    let normals = filtered_normals(mesh, angle, passes, progress)?;
+    for pass in 0..vertex_passes {
+        progress.report("move vertices", pass.into(), vertex_passes.into())?;
+        let centers = of_faces(mesh, Mesh::face_center);
+        smoother.gather(mesh, |mesh, v, _| {
+            let p = mesh.position(v);
+            let (mut sum, mut n) = (DVec3::ZERO, 0.0);
+            for f in mesh.vertex_faces(v) {
+                let normal = normals[f.index()];
+                sum += normal * normal.dot(centers[f.index()] - p);
+                n += 1.0;
+            }
+            if n > 0.0 { p + sum / n } else { p }
+        });
+    }
+    Ok(())
+}
+
+/// Computes a value for each face index; the default value for dead faces.
+fn of_faces<T: Send + Default>(mesh: &Mesh, value: impl Fn(&Mesh, FaceId) -> T + Sync) -> Vec<T> {
+    let faces = (0..mesh.domain_len(Domain::Face))
+        .into_par_iter()
+        .with_min_len(1024);
+    faces
+        .map(|f| {
+            let f = FaceId::new(f);
+            if mesh.has_face(f) {
+                value(mesh, f)
+            } else {
+                T::default()
+            }
+        })
+        .collect()
+}
+
+fn filtered_normals(
+    mesh: &Mesh,
+    angle: f64,
+    passes: u64,
+    progress: &dyn Progress,
+) -> Result<Vec<DVec3>, SmoothError> {
+    let vectors = of_faces(mesh, Mesh::area_vector);
+    let areas: Vec<f64> = vectors.iter().map(|v| v.length()).collect();
+    let mut normals: Vec<DVec3> = vectors.iter().map(|v| v.normalize_or_zero()).collect();
+    let centers = of_faces(mesh, Mesh::face_center);
+    let fans: Vec<u8> = (0..mesh.domain_len(Domain::Vertex))
+        .into_par_iter()
+        .map(|v| {
+            let v = VertexId::new(v);
+            if !mesh.has_vertex(v) {
+                return 0;
+            }
+            let n = mesh.vertex_half_edges(v).take(usize::from(u8::MAX)).count();
+            u8::try_from(n).expect("at most 255")
+        })
+        .collect();
+    let spread = spread_of_centers(mesh, &centers);
+    // Half of the distance between two unit normals with this angle.
+    let (tolerance, _) = sin_cos_degrees(0.5 * angle);
+    // exp(-|difference|² / 2 s²): a difference of 0 has the weight 1 even if s is 0.
+    let falloff = |square: f64, spread: f64| {
+        if square == 0.0 {
+            1.0
+        } else if spread > 0.0 {
+            libm::exp(-0.5 * square / (spread * spread))
+        } else {
+            0.0
+        }
+    };
+    for pass in 0..passes {
+        progress.report("filter normals", pass, passes)?;
+        let old = &normals;
+        let filtered =
+            (0..old.len())
+                .into_par_iter()
+                .with_min_len(256)
+                .map_init(Vec::new, |around, f| {
+                    neighbors(mesh, &fans, FaceId::new(f), around);
+                    let weighted = around.iter().map(|&g| {
+                        let g = g.index();
+                        let near = falloff(centers[f].distance_squared(centers[g]), spread);
+                        let alike = falloff(old[f].distance_squared(old[g]), tolerance);
+                        areas[g] * near * alike * old[g]
+                    });
+                    let sum: DVec3 = weighted.sum();
+                    sum.try_normalize().unwrap_or(old[f])
+                });
+        normals = filtered.collect();
+    }
+    Ok(normals)
+}
+
+/// Replaces `around` by the face and all faces that share a vertex with it, in ascending order.
+fn neighbors(mesh: &Mesh, fans: &[u8], f: FaceId, around: &mut Vec<FaceId>) {
+    around.clear();
+    if !mesh.has_face(f) {
+        return;
+    }
+    around.push(f);
+    for h in mesh.face_half_edges(f) {
+        around.extend(mesh.face(h.twin()));
+        if fans[mesh.origin(h).index()] <= MAX_FAN {
+            around.extend(mesh.vertex_faces(mesh.origin(h)));
+        }
+    }
+    around.sort_unstable();
+    around.dedup();
+}
+
+/// Returns the mean distance between the centers of adjacent faces.
+fn spread_of_centers(mesh: &Mesh, centers: &[DVec3]) -> f64 {
+    let [sum, n] = mesh::blocks::fold(
+        mesh.domain_len(Domain::Edge),
+        [0.0, 0.0],
+        |e| {
+            let e = mesh::EdgeId::new(e);
+            match mesh.has_edge(e).then(|| mesh.edge_faces(e)) {
+                Some([Some(f), Some(g)]) => [centers[f.index()].distance(centers[g.index()]), 1.0],
+                _ => [0.0, 0.0],
+            }
+        },
+        |a, b| [a[0] + b[0], a[1] + b[1]],
+    );
+    if n > 0.0 { sum / n } else { 0.0 }
+}

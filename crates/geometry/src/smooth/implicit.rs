@@ -1,0 +1,104 @@
+//! A backward Euler step of mean curvature flow.
+
+use mesh::{DVec3, Mesh};
+use progress::Progress;
+use rayon::prelude::*;
+
+use super::{Role, SmoothError, Smoother};
+use crate::sparse::{Factor, SymmetricMatrix};
+use crate::{Laplacian, bounds};
+
+/// The longest time, in squares of the diagonal of the bounding box. After it, the shape has shrunk to less than a
+/// thousandth; the equations are still well conditioned.
+const LONGEST: f64 = 1e3;
+/// The shortest length of a boundary edge, relative to the mean.
+const SHORTEST: f64 = 1e-5;
+
+/// Solves (M + time L) x' = M x, as (M + time L) d = -time L x for the displacements d = x' - x. So the result does not
+/// depend on the distance of the mesh from the origin.
+pub(super) fn step(
+    smoother: &Smoother,
+    mesh: &mut Mesh,
+    time: f64,
+    progress: &dyn Progress,
+) -> Result<(), SmoothError> {
+    let diagonal = bounds(mesh).map_or(0.0, |[min, max]| min.distance(max));
+    // A mesh whose vertices are all at one point stays.
+    if diagonal == 0.0 {
+        return Ok(());
+    }
+    let time = time.min(LONGEST * diagonal * diagonal);
+    if smoother.roles.contains(&Role::Rim) {
+        let (matrix, masses) = rim_laplacian(mesh);
+        solve(smoother, mesh, Role::Rim, &matrix, &masses, time, progress)?;
+    }
+    let Laplacian { stiffness, areas } = Laplacian::new(mesh, progress)?;
+    solve(
+        smoother,
+        mesh,
+        Role::Free,
+        &stiffness,
+        &areas,
+        time,
+        progress,
+    )
+}
+
+/// Moves the vertices with the given role. All other vertices are pinned.
+fn solve(
+    smoother: &Smoother,
+    mesh: &mut Mesh,
+    role: Role,
+    stiffness: &SymmetricMatrix,
+    masses: &[f64],
+    time: f64,
+    progress: &dyn Progress,
+) -> Result<(), SmoothError> {
+    let is_pinned: Vec<bool> = smoother.roles.iter().map(|&r| r != role).collect();
+    if is_pinned.iter().all(|&pinned| pinned) {
+        return Ok(());
+    }
+    let matrix = stiffness.scaled_plus_diagonal(time, masses);
+    let factor = Factor::with_pins(&matrix, &is_pinned, progress)?;
+    let positions = mesh.positions();
+    let force = |i: usize| {
+        let p = positions[i];
+        let row = stiffness.row(i).filter(|&(j, _)| j as usize != i);
+        let terms = row.map(|(j, entry)| -entry * time * (positions[j as usize] - p));
+        terms.fold(DVec3::ZERO, |sum, term| sum + term)
+    };
+    let forces: Vec<DVec3> = (0..positions.len())
+        .into_par_iter()
+        .with_min_len(4096)
+        .map(force)
+        .collect();
+    let mut moves = vec![DVec3::ZERO; positions.len()];
+    factor.solve(&forces, &mut moves)?;
+    for (p, by) in mesh.positions_mut().iter_mut().zip(moves) {
+        *p += by;
+    }
+    Ok(())
+}
+
+/// Returns the Laplacian of the boundary as a set of curves: the weight of an edge is 1 / length. The mass of a vertex is
+/// half the length of its two edges.
+fn rim_laplacian(mesh: &Mesh) -> (SymmetricMatrix, Vec<f64>) {
+    let edges = || mesh.edges().filter(|&e| mesh.is_boundary_edge(e));
+    let lengths = edges().map(|e| mesh.length(e.half_edge()));
+    let (sum, n) = lengths.fold((0.0, 0.0), |(sum, n), length| (sum + length, n + 1.0));
+    let shortest = if sum > 0.0 { SHORTEST * (sum / n) } else { 1.0 };
+    let mut entries = Vec::new();
+    let mut masses = vec![0.0; mesh.positions().len()];
+    for e in edges() {
+        let length = f64::max(mesh.length(e.half_edge()), shortest);
+        let [v, w] = mesh.edge_vertices(e).map(|v| {
+            masses[v.index()] += 0.5 * length;
+            u32::try_from(v.index()).expect("ids fit 32 bits")
+        });
+        if v != w {
+            let weight = 1.0 / length;
+            entries.extend([(v, w, -weight), (v, v, weight), (w, w, weight)]);
+        }
+    }
+    (SymmetricMatrix::from_entries(masses.len(), entries), masses)
+}

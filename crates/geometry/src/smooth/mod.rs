@@ -1,0 +1,350 @@
+//! Smoothing: moves vertices so that noise disappears.
+//!
+//! | method | idea | file |
+//! | --- | --- | --- |
+//! | [`Method::Laplacian`] | move each vertex towards the mean of its neighbors | `explicit.rs` |
+//! | [`Method::Taubin`] | alternate a step that shrinks and one that grows: a low-pass filter | `explicit.rs` |
+//! | [`Method::Implicit`] | one backward Euler step of mean curvature flow | `implicit.rs` |
+//! | [`Method::Denoise`] | filter the normals of the faces, then fit the vertices | `denoise.rs` |
+//!
+//! Every vertex is computed by one task from the positions of the pass before. The result has the same bits for any
+//! number of threads.
+
+mod denoise;
+mod explicit;
+mod implicit;
+#[cfg(test)]
+mod tests;
+
+use mesh::{DVec3, Domain, Mesh, VertexId};
+use progress::{Cancelled, Progress};
+use rayon::prelude::*;
+
+use crate::laplacian::{exponent, scaled};
+use crate::sparse::SolveError;
+use crate::volume;
+
+/// How vertices are moved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Method {
+    /// Moves each vertex by `factor` towards the weighted mean of its neighbors.
+    Laplacian {
+        /// The weights of the neighbors.
+        weights: Weights,
+        /// From 0 to 1.
+        factor: f64,
+    },
+    /// Alternates a Laplacian step with `factor`, and one with a negative factor μ: 1 / factor + 1 / μ = `pass_band`. Taubin, "A
+    /// Signal Processing Approach to Fair Surface Design", 1995. One pass is both steps.
+    Taubin {
+        /// The weights of the neighbors.
+        weights: Weights,
+        /// From 0 to 1. With `pass_band`, it must be [stable](Method::is_stable).
+        factor: f64,
+        /// The frequency below which nothing is removed, from 0 to 1. The frequencies of a mesh are between 0 and 2.
+        pass_band: f64,
+    },
+    /// Solves (M + time L) x' = M x for the [`Laplacian`](crate::Laplacian) L with the vertex areas M: Desbrun, Meyer,
+    /// Schröder, Barr, "Implicit Fairing of Irregular Meshes Using Diffusion and Curvature Flow", 1999.
+    Implicit {
+        /// In scene unit². A time above 1000 times the square of the diagonal of the bounding box acts like this time.
+        time: f64,
+    },
+    /// Filters the normals of the faces with weights that fall with the distance and with the angle between normals, then
+    /// moves the vertices so that the faces have these normals: Zheng, Fu, Au, Tai, "Bilateral Normal Filtering for Mesh
+    /// Denoising", 2011; Sun, Rosin, Martin, Langbein, "Fast and Effective Feature-Preserving Mesh Denoising", 2007.
+    Denoise {
+        /// The angle between two normals at which their weight has fallen to exp(-2) = 0.14, in degrees from 0 to 180.
+        angle: f64,
+        /// The number of passes that move the vertices.
+        vertex_passes: u32,
+    },
+}
+
+impl Method {
+    /// Whether no frequency of a mesh grows without bound.
+    ///
+    /// A Taubin pass multiplies the frequency k by (1 - factor k)(1 - μ k). At the highest frequency, 2, the absolute
+    /// value must be at most 1.
+    pub fn is_stable(&self) -> bool {
+        match *self {
+            Self::Taubin {
+                factor, pass_band, ..
+            } => {
+                let negative = explicit::growing_factor(factor, pass_band);
+                negative < 0.0 && ((1.0 - 2.0 * factor) * (1.0 - 2.0 * negative)).abs() <= 1.0
+            }
+            _ => true,
+        }
+    }
+}
+
+/// The weights of the neighbors of a vertex.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Weights {
+    /// The same weight for all vertices that share an edge with the vertex.
+    #[default]
+    Uniform,
+    /// The weights of the cotangent Laplacian, computed anew for each step. Negative weights count as 0, so that a vertex
+    /// stays between its neighbors.
+    Cotangent,
+}
+
+/// What boundary vertices do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Boundary {
+    /// They stay.
+    #[default]
+    Fixed,
+    /// They are smoothed as a curve, without regard to the surface. With [`Method::Denoise`], they move like all others.
+    Free,
+}
+
+/// How a mesh is smoothed.
+#[derive(Clone, Debug)]
+pub struct Smoothing<'a> {
+    /// The method.
+    pub method: Method,
+    /// How many times.
+    pub passes: u32,
+    /// Whether each vertex may move, by vertex index. All other vertices keep their bits.
+    pub is_free: &'a [bool],
+    /// What boundary vertices do.
+    pub boundary: Boundary,
+    /// Whether the free vertices are moved along their normals at the end, all by the same distance, so that the mesh has
+    /// the volume it had. The mesh must be closed.
+    pub keep_volume: bool,
+}
+
+/// Why a mesh was not smoothed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SmoothError {
+    /// The volume of a mesh with a boundary is not defined.
+    #[error("the volume can only be kept if the mesh is closed, but it has a boundary")]
+    NotClosed,
+    /// No distance along the normals gives the volume.
+    #[error(
+        "the volume was {before}, and moving the free vertices along their normals gives {after} at best; smooth less, or \
+         do not keep the volume"
+    )]
+    Volume {
+        /// The volume before.
+        before: f64,
+        /// The nearest volume that was found.
+        after: f64,
+    },
+    /// The factors of [`Method::Taubin`] amplify the highest frequency.
+    #[error(
+        "this factor and pass band amplify noise: (1 - 2 factor)(1 - 2 μ) must be between -1 and 1; use a factor of at most \
+         0.6"
+    )]
+    Unstable,
+    /// A coordinate would not be finite.
+    #[error("a coordinate would exceed the largest number, 1.8e308")]
+    Overflow,
+    /// The equations of [`Method::Implicit`] were not solved.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+    /// The computation was canceled.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// Smooths the positions of a mesh. Returns the number of vertices that moved. Faces, ids and attributes stay; normals
+/// that the mesh stores are not updated. Vertices without faces stay.
+///
+/// # Errors
+///
+/// A [`SmoothError`]. The mesh is then unchanged.
+///
+/// # Panics
+///
+/// If `is_free` does not have one entry for each vertex index.
+pub fn smooth(
+    mesh: &mut Mesh,
+    smoothing: &Smoothing,
+    progress: &dyn Progress,
+) -> Result<usize, SmoothError> {
+    let n = mesh.domain_len(Domain::Vertex);
+    assert_eq!(smoothing.is_free.len(), n, "one entry for each vertex");
+    if !smoothing.method.is_stable() {
+        return Err(SmoothError::Unstable);
+    }
+    if smoothing.keep_volume && !mesh.is_closed() {
+        return Err(SmoothError::NotClosed);
+    }
+    let before = mesh.positions().to_vec();
+    // Coordinates near 1, so that squares are finite. A power of two does not change the result.
+    let exponent = exponent(&before);
+    let scale = |points: &mut [DVec3], e: i32| {
+        points
+            .par_iter_mut()
+            .with_min_len(4096)
+            .for_each(|p| *p = scaled(*p, e));
+    };
+    scale(mesh.positions_mut(), -exponent);
+    let done = Smoother::new(mesh, smoothing).run(mesh, exponent, progress);
+    scale(mesh.positions_mut(), exponent);
+    let is_finite = |mesh: &Mesh| mesh.positions().par_iter().all(|p| p.is_finite());
+    let is_good = match done {
+        Ok(()) if is_finite(mesh) => Ok(()),
+        Ok(()) => Err(SmoothError::Overflow),
+        Err(error) => Err(error),
+    };
+    if let Err(error) = is_good {
+        mesh.positions_mut().copy_from_slice(&before);
+        return Err(error);
+    }
+    let mut moved = 0;
+    let is_free = smoothing.is_free;
+    for ((p, old), is_free) in mesh.positions_mut().iter_mut().zip(before).zip(is_free) {
+        if !is_free {
+            *p = old;
+        }
+        moved += usize::from(*p != old);
+    }
+    Ok(moved)
+}
+
+/// What a vertex does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Role {
+    Pinned,
+    /// On a boundary that is smoothed as a curve.
+    Rim,
+    Free,
+}
+
+struct Smoother<'a> {
+    smoothing: &'a Smoothing<'a>,
+    roles: Vec<Role>,
+}
+
+impl<'a> Smoother<'a> {
+    fn new(mesh: &Mesh, smoothing: &'a Smoothing<'a>) -> Self {
+        let role = |(v, &is_free): (usize, &bool)| {
+            let v = VertexId::new(v);
+            if !is_free || !mesh.has_vertex(v) || mesh.vertex_half_edge(v).is_none() {
+                return Role::Pinned;
+            }
+            match smoothing.boundary {
+                _ if !mesh.is_boundary_vertex(v) => Role::Free,
+                Boundary::Fixed => Role::Pinned,
+                Boundary::Free => Role::Rim,
+            }
+        };
+        let roles = smoothing.is_free.par_iter().enumerate().with_min_len(4096);
+        Self {
+            smoothing,
+            roles: roles.map(role).collect(),
+        }
+    }
+
+    /// Smooths a mesh whose coordinates were divided by two to the power of `exponent`.
+    fn run(
+        &self,
+        mesh: &mut Mesh,
+        exponent: i32,
+        progress: &dyn Progress,
+    ) -> Result<(), SmoothError> {
+        let volume_before = self.smoothing.keep_volume.then(|| volume(mesh));
+        let passes = u64::from(self.smoothing.passes);
+        if let Method::Denoise {
+            angle,
+            vertex_passes,
+        } = self.smoothing.method
+        {
+            denoise::denoise(self, mesh, angle, vertex_passes, progress)?;
+        } else {
+            for pass in 0..passes {
+                progress.report("smooth", pass, passes)?;
+                match self.smoothing.method {
+                    Method::Laplacian { weights, factor } => {
+                        explicit::step(self, mesh, weights, factor, progress)?;
+                    }
+                    Method::Taubin {
+                        weights,
+                        factor,
+                        pass_band,
+                    } => {
+                        explicit::step(self, mesh, weights, factor, progress)?;
+                        let negative = explicit::growing_factor(factor, pass_band);
+                        explicit::step(self, mesh, weights, negative, progress)?;
+                    }
+                    Method::Implicit { time } => {
+                        let time = libm::scalbn(time, -2 * exponent);
+                        implicit::step(self, mesh, time, progress)?;
+                    }
+                    Method::Denoise { .. } => {}
+                }
+            }
+        }
+        match volume_before {
+            Some(before) => self.restore_volume(mesh, before),
+            None => Ok(()),
+        }
+    }
+
+    /// Computes new positions for all vertices that are not pinned, from the old ones.
+    fn gather(&self, mesh: &mut Mesh, position: impl Fn(&Mesh, VertexId, Role) -> DVec3 + Sync) {
+        let roles = self.roles.par_iter().enumerate().with_min_len(1024);
+        let new: Vec<DVec3> = roles
+            .map(|(v, &role)| match role {
+                Role::Pinned => mesh.positions()[v],
+                role => position(mesh, VertexId::new(v), role),
+            })
+            .collect();
+        mesh.positions_mut().copy_from_slice(&new);
+    }
+
+    /// Moves the free vertices along their normals until the mesh has the volume. The step follows from the derivative of
+    /// the volume, which is the area of the free vertices.
+    fn restore_volume(&self, mesh: &mut Mesh, target: f64) -> Result<(), SmoothError> {
+        const STEPS: usize = 50;
+        let area_vector = |v: VertexId| {
+            let faces = mesh.vertex_faces(v).map(|f| mesh.area_vector(f));
+            faces.sum::<DVec3>() / 3.0
+        };
+        let vectors: Vec<DVec3> = self
+            .roles
+            .par_iter()
+            .enumerate()
+            .map(|(v, &role)| match role {
+                Role::Pinned => DVec3::ZERO,
+                _ => area_vector(VertexId::new(v)),
+            })
+            .collect();
+        let slope = mesh::blocks::sum(vectors.len(), |v| vectors[v].length());
+        let start = mesh.positions().to_vec();
+        let volume_at = |distance: f64, mesh: &mut Mesh| {
+            let moved = start.par_iter().zip(&vectors).with_min_len(4096);
+            let moved: Vec<DVec3> = moved
+                .map(|(p, n)| *p + distance * n.normalize_or_zero())
+                .collect();
+            mesh.positions_mut().copy_from_slice(&moved);
+            volume(mesh)
+        };
+        let (mut distance, mut best) = (0.0, volume(mesh));
+        // The secant method, which starts with the derivative.
+        let (mut at, mut error, mut slope) = (0.0, target - best, slope);
+        for _ in 0..STEPS {
+            if error.abs() <= 1e-14 * target.abs() || slope == 0.0 || !slope.is_finite() {
+                break;
+            }
+            let step = error / slope;
+            let found = volume_at(at + step, mesh);
+            slope = (found - (target - error)) / step;
+            (at, error) = (at + step, target - found);
+            if error.abs() < (target - best).abs() {
+                (distance, best) = (at, found);
+            }
+        }
+        volume_at(distance, mesh);
+        if (target - best).abs() <= 1e-9 * target.abs() {
+            Ok(())
+        } else {
+            let [before, after] = [target, best];
+            Err(SmoothError::Volume { before, after })
+        }
+    }
+}

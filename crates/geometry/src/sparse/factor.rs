@@ -1,0 +1,331 @@
+//! The numbers of the factor, and solutions.
+//!
+//! Each supernode has a front: a dense symmetric matrix of the rows of the supernode. It is the sum of entries of the
+//! matrix and of the updates of the children. Eliminating the pivots gives the columns of L and the update for the
+//! parent:
+//!
+//! ```text
+//!     | P      |   pivots        | L      |
+//!     |        |          -->    |        |        U = Q - R P^-1 R^T
+//!     | R    Q |                 | R'   U |
+//! ```
+
+mod front;
+
+use progress::{Meter, Progress};
+use rayon::prelude::*;
+
+use super::order::minimum_degree;
+use super::symbolic::{Supernode, Symbolic, inverse};
+use super::{Entry, SolveError, SymmetricMatrix};
+use front::{Front, Update};
+
+/// The largest number of entries of a factor: 16 GiB.
+const MAX_ENTRIES: u64 = 1 << 31;
+/// The largest accepted residual, relative to the size of the terms of the equations.
+const MAX_RESIDUAL: f64 = 1e-9;
+/// A solution is refined until its residual is at most this.
+const GOOD_RESIDUAL: f64 = 1e-14;
+const REFINEMENTS: usize = 3;
+/// The task in progress reports.
+const TASK: &str = "factor the matrix";
+
+/// The factorization of a symmetric positive definite matrix, for any number of right-hand sides. Unknowns can be
+/// pinned to given values.
+#[derive(Debug)]
+pub struct Factor<'a> {
+    matrix: &'a SymmetricMatrix,
+    /// The rows of the free unknowns, and the place of each row among them.
+    free: Vec<u32>,
+    symbolic: Symbolic,
+    /// The entries of L of consecutive supernodes. The entries of a supernode are one slice, column by column.
+    values: Vec<Vec<f64>>,
+    /// The part of `values` and the start in it, for each supernode.
+    places: Vec<(usize, usize)>,
+    diagonal: Vec<f64>,
+}
+
+impl std::fmt::Debug for Symbolic {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} supernodes", self.supernodes.len())
+    }
+}
+
+impl<'a> Factor<'a> {
+    /// Factors a symmetric positive definite matrix.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::NotPositiveDefinite`], [`SolveError::TooLarge`], or [`SolveError::Cancelled`].
+    pub fn new(matrix: &'a SymmetricMatrix, progress: &dyn Progress) -> Result<Self, SolveError> {
+        Self::with_pins(matrix, &vec![false; matrix.len()], progress)
+    }
+
+    /// Factors the part of a symmetric matrix that belongs to the unknowns that are not pinned. This part must be
+    /// positive definite.
+    ///
+    /// # Errors
+    ///
+    /// The same as for [`new`](Self::new).
+    ///
+    /// # Panics
+    ///
+    /// If `is_pinned` does not have one entry for each row.
+    pub fn with_pins(
+        matrix: &'a SymmetricMatrix,
+        is_pinned: &[bool],
+        progress: &dyn Progress,
+    ) -> Result<Self, SolveError> {
+        assert_eq!(is_pinned.len(), matrix.len(), "one entry for each row");
+        let rows = 0..u32::try_from(matrix.len()).expect("rows fit 32 bits");
+        let free: Vec<u32> = rows.filter(|&i| !is_pinned[i as usize]).collect();
+        let mut place = vec![u32::MAX; matrix.len()];
+        for (at, &i) in (0..).zip(&free) {
+            place[i as usize] = at;
+        }
+        let neighbors = |at: usize| {
+            let row = matrix.row(free[at] as usize);
+            row.map(|(j, _)| place[j as usize])
+                .filter(|&j| j != u32::MAX)
+        };
+        let graph = (0..free.len()).map(|at| neighbors(at).filter(|&j| j as usize != at).collect());
+        let order = minimum_degree(graph.collect(), progress)?;
+        let symbolic = Symbolic::new(&order, neighbors);
+        let needed = symbolic.n_entries();
+        if needed > MAX_ENTRIES {
+            let limit = MAX_ENTRIES;
+            return Err(SolveError::TooLarge { needed, limit });
+        }
+        let position = inverse(&symbolic.order);
+        let mut factor = Self {
+            matrix,
+            diagonal: vec![0.0; free.len()],
+            free,
+            values: Vec::new(),
+            places: Vec::with_capacity(symbolic.supernodes.len()),
+            symbolic,
+        };
+        let column = |j: usize| {
+            let row = factor.free[factor.symbolic.order[j] as usize];
+            let entries = matrix.row(row as usize);
+            entries.filter_map(|(i, a)| match place[i as usize] {
+                u32::MAX => None,
+                i => Some((position[i as usize], a)),
+            })
+        };
+        let (values, diagonals) = factor.eliminate(column, progress)?;
+        let (mut s, supernodes) = (0, &factor.symbolic.supernodes);
+        for (part, (values, pivots)) in values.iter().zip(&diagonals).enumerate() {
+            let (mut start, mut at) = (0, 0);
+            while start < values.len() {
+                let n = supernodes[s].columns.len();
+                factor.diagonal[supernodes[s].columns.clone()].copy_from_slice(&pivots[at..at + n]);
+                factor.places.push((part, start));
+                start += n * supernodes[s].rows.len();
+                at += n;
+                s += 1;
+            }
+        }
+        factor.values = values;
+        Ok(factor)
+    }
+
+    /// Returns the number of stored entries of L.
+    pub fn n_entries(&self) -> u64 {
+        self.symbolic.n_entries()
+    }
+
+    /// Computes the numbers. Returns the entries of L and of D in parts that belong to consecutive supernodes.
+    #[expect(clippy::type_complexity, reason = "two lists of parts")]
+    fn eliminate<I: Iterator<Item = (u32, f64)>>(
+        &self,
+        column: impl Fn(usize) -> I + Sync,
+        progress: &dyn Progress,
+    ) -> Result<(Vec<Vec<f64>>, Vec<Vec<f64>>), SolveError> {
+        let supernodes = &self.symbolic.supernodes;
+        let units = units(supernodes);
+        let total = supernodes.iter().map(Supernode::work).sum();
+        let meter = Meter::new(progress, TASK, total).every(10_000_000);
+        let n = self.free.len();
+        // First the subtrees in parallel, then the supernodes above them one after another. The parallel loops inside
+        // a large front compute each number the same way.
+        let subtrees: Result<Vec<_>, SolveError> = units
+            .par_iter()
+            .map(|unit| {
+                let mut front = Front::new(n);
+                if !unit.is_subtree {
+                    return Ok((front, Vec::new()));
+                }
+                let mut updates = Vec::new();
+                for s in &supernodes[unit.range.clone()] {
+                    meter.add(usize::try_from(s.work()).unwrap_or(usize::MAX))?;
+                    front
+                        .eliminate(s, &column, &mut updates)
+                        .map_err(|e| self.at_row(e))?;
+                }
+                front.finish();
+                Ok((front, updates))
+            })
+            .collect();
+        let mut updates: Vec<Update> = Vec::new();
+        let (mut values, mut diagonals) = (Vec::new(), Vec::new());
+        let mut top = Front::new(n);
+        for (unit, (mut front, from_subtree)) in units.iter().zip(subtrees?) {
+            if unit.is_subtree {
+                updates.extend(from_subtree);
+            } else {
+                let s = &supernodes[unit.range.start];
+                meter.add(usize::try_from(s.work()).unwrap_or(usize::MAX))?;
+                top.eliminate(s, &column, &mut updates)
+                    .map_err(|e| self.at_row(e))?;
+                front.values = std::mem::take(&mut top.values);
+                front.pivots = std::mem::take(&mut top.pivots);
+            }
+            values.push(front.values);
+            diagonals.push(front.pivots);
+        }
+        Ok((values, diagonals))
+    }
+
+    /// Converts the column of the factor in an error to the row of the matrix.
+    fn at_row(&self, (column, pivot): (usize, f64)) -> SolveError {
+        let row = self.free[self.symbolic.order[column] as usize] as usize;
+        SolveError::NotPositiveDefinite { row, pivot }
+    }
+
+    /// Solves the equations of the free unknowns for the right-hand side `b`. The pinned entries of `x` are given and
+    /// keep their bits; the free entries are replaced by the solution. The residual of the free rows is checked.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Residual`] if the residual is larger than 1e-9 times the largest term of the equations. `x` is then
+    /// unspecified.
+    ///
+    /// # Panics
+    ///
+    /// If `b` or `x` does not have one entry for each row.
+    pub fn solve<T: Entry>(&self, b: &[T], x: &mut [T]) -> Result<(), SolveError> {
+        let n = self.matrix.len();
+        assert!(b.len() == n && x.len() == n, "one entry for each row");
+        for &i in &self.free {
+            x[i as usize] = T::default();
+        }
+        // With the free unknowns at 0, the residual is the right-hand side without the terms of the pinned ones.
+        let (mut residual, _) = self.residual(b, x);
+        let mut best = f64::INFINITY;
+        for _ in 0..=REFINEMENTS {
+            let step = self.substitute(&residual);
+            for (&i, &step) in self.free.iter().zip(&step) {
+                x[i as usize] = x[i as usize] + step;
+            }
+            let (next, size) = self.residual(b, x);
+            let largest = next.iter().map(|r| r.magnitude()).fold(0.0, f64_max);
+            let relative = if largest == 0.0 { 0.0 } else { largest / size };
+            residual = next;
+            if !relative.is_finite() {
+                return Err(SolveError::Residual(relative));
+            }
+            let is_stuck = relative > 0.5 * best;
+            best = relative;
+            if relative <= GOOD_RESIDUAL || is_stuck {
+                break;
+            }
+        }
+        if best <= MAX_RESIDUAL {
+            Ok(())
+        } else {
+            Err(SolveError::Residual(best))
+        }
+    }
+
+    /// Returns b - A x for the free rows, and the largest sum of absolute terms of a row.
+    fn residual<T: Entry>(&self, b: &[T], x: &[T]) -> (Vec<T>, f64) {
+        let rows = self.free.par_iter().with_min_len(4096).map(|&i| {
+            let (mut r, mut size) = (b[i as usize], b[i as usize].magnitude());
+            for (j, a) in self.matrix.row(i as usize) {
+                let term = x[j as usize] * a;
+                r = r - term;
+                size += term.magnitude();
+            }
+            (r, size)
+        });
+        let rows: Vec<(T, f64)> = rows.collect();
+        let size = rows.iter().map(|r| r.1).fold(0.0, f64_max);
+        (rows.into_iter().map(|r| r.0).collect(), size)
+    }
+
+    /// Solves L D L^T x = b for the free unknowns.
+    fn substitute<T: Entry>(&self, b: &[T]) -> Vec<T> {
+        let order = &self.symbolic.order;
+        let mut x: Vec<T> = order.iter().map(|&i| b[i as usize]).collect();
+        let columns = |s: usize| {
+            let supernode = &self.symbolic.supernodes[s];
+            let (part, start) = self.places[s];
+            let m = supernode.rows.len();
+            let values = &self.values[part][start..start + m * supernode.columns.len()];
+            let columns = supernode.columns.clone().enumerate();
+            columns
+                .zip(values.chunks_exact(m))
+                .map(|((c, j), column)| (j, &supernode.rows[c + 1..], &column[c + 1..]))
+        };
+        for s in 0..self.places.len() {
+            for (j, rows, entries) in columns(s) {
+                let xj = x[j];
+                for (&i, &l) in rows.iter().zip(entries) {
+                    x[i as usize] = x[i as usize] - xj * l;
+                }
+            }
+        }
+        for (x, d) in x.iter_mut().zip(&self.diagonal) {
+            *x = *x * (1.0 / d);
+        }
+        for s in (0..self.places.len()).rev() {
+            for (j, rows, entries) in columns(s).rev() {
+                let mut xj = x[j];
+                for (&i, &l) in rows.iter().zip(entries) {
+                    xj = xj - x[i as usize] * l;
+                }
+                x[j] = xj;
+            }
+        }
+        let mut solution = vec![T::default(); x.len()];
+        for (&i, &x) in order.iter().zip(&x) {
+            solution[i as usize] = x;
+        }
+        solution
+    }
+}
+
+/// Returns the larger number, or NaN if one is NaN.
+fn f64_max(a: f64, b: f64) -> f64 {
+    if a > b || a.is_nan() { a } else { b }
+}
+
+/// A subtree that one task computes, or one supernode above all subtrees.
+struct Unit {
+    range: std::ops::Range<usize>,
+    is_subtree: bool,
+}
+
+/// Divides the tree into subtrees with little work each, and the supernodes above them.
+fn units(supernodes: &[Supernode]) -> Vec<Unit> {
+    let mut work: Vec<u64> = supernodes.iter().map(Supernode::work).collect();
+    let mut first: Vec<usize> = (0..supernodes.len()).collect();
+    let limit = work.iter().sum::<u64>() / 64;
+    for (s, supernode) in supernodes.iter().enumerate() {
+        if let Some(parent) = supernode.parent {
+            work[parent] += work[s];
+            first[parent] = first[parent].min(first[s]);
+        }
+    }
+    let mut units = Vec::new();
+    for (s, supernode) in supernodes.iter().enumerate() {
+        let is_subtree = work[s] <= limit;
+        if is_subtree && supernode.parent.is_some_and(|p| work[p] <= limit) {
+            continue;
+        }
+        let range = if is_subtree { first[s] } else { s }..s + 1;
+        units.push(Unit { range, is_subtree });
+    }
+    units
+}

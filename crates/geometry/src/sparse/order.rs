@@ -1,0 +1,313 @@
+//! A fill-reducing ordering: approximate minimum degree.
+//!
+//! Source: Amestoy, Davis, Duff, "An Approximate Minimum Degree Ordering Algorithm", 1996. The graph of the remaining
+//! matrix is kept as a quotient graph: an eliminated vertex p becomes an element, which stands for the clique of its
+//! neighbors:
+//!
+//! ```text
+//!     a --- p --- b               a ..... b
+//!           |            -->       '. p .'       p is an element with the members a, b and c
+//!           c                        'c'
+//! ```
+//!
+//! Vertices with the same neighbors are merged into one supervariable. Ties are broken by the order of insertion, which
+//! depends on nothing but the graph.
+
+use progress::{Cancelled, Progress};
+
+/// The end of a linked list.
+const NONE: u32 = u32::MAX;
+
+/// Returns the numbers from 0 to n - 1 in an order in which Gaussian elimination creates few nonzero entries. `neighbors[i]`
+/// has the columns of row i without i itself.
+pub(super) fn minimum_degree(
+    neighbors: Vec<Vec<u32>>,
+    progress: &dyn Progress,
+) -> Result<Vec<u32>, Cancelled> {
+    let n = neighbors.len();
+    let mut graph = Quotient::new(neighbors);
+    let mut done = 0;
+    let mut reported = 0;
+    while done < n {
+        if done >= reported {
+            progress.report("order the unknowns", done as u64, n as u64)?;
+            reported = done + 4096;
+        }
+        done += graph.eliminate(n - done);
+    }
+    Ok(graph.order())
+}
+
+struct Quotient {
+    /// The adjacent variables of each variable that are in no common element.
+    variables: Vec<Vec<u32>>,
+    /// The adjacent elements of each variable.
+    elements: Vec<Vec<u32>>,
+    /// The variables of each element; empty if it was absorbed by another element.
+    members: Vec<Vec<u32>>,
+    /// The weight of the members of each element, which does not change.
+    size: Vec<u32>,
+    /// The number of rows that each variable stands for; 0 if it was eliminated or merged.
+    weight: Vec<u32>,
+    /// The variables that were merged into each variable, as linked lists.
+    first_merged: Vec<u32>,
+    next_merged: Vec<u32>,
+    degree: Vec<u32>,
+    buckets: Buckets,
+    /// The eliminated variables, in order.
+    pivots: Vec<u32>,
+    /// For each element, `stamp` plus the weight of its members outside of the new element.
+    outside: Vec<u64>,
+    /// For each variable, the stamp of the last list that contained it.
+    mark: Vec<u64>,
+    stamp: u64,
+    /// The hash, and the variable, of each member of the new element.
+    hashes: Vec<(u64, u32)>,
+}
+
+/// The variables by their degree: doubly linked lists.
+struct Buckets {
+    first: Vec<u32>,
+    next: Vec<u32>,
+    previous: Vec<u32>,
+    lowest: usize,
+}
+
+impl Buckets {
+    fn insert(&mut self, v: u32, degree: u32) {
+        let first = &mut self.first[degree as usize];
+        self.next[v as usize] = *first;
+        self.previous[v as usize] = NONE;
+        if *first != NONE {
+            self.previous[*first as usize] = v;
+        }
+        *first = v;
+        self.lowest = self.lowest.min(degree as usize);
+    }
+
+    fn remove(&mut self, v: u32, degree: u32) {
+        let (next, previous) = (self.next[v as usize], self.previous[v as usize]);
+        if next != NONE {
+            self.previous[next as usize] = previous;
+        }
+        if previous == NONE {
+            self.first[degree as usize] = next;
+        } else {
+            self.next[previous as usize] = next;
+        }
+    }
+
+    fn lowest(&mut self) -> u32 {
+        while self.first[self.lowest] == NONE {
+            self.lowest += 1;
+        }
+        self.first[self.lowest]
+    }
+}
+
+impl Quotient {
+    fn new(variables: Vec<Vec<u32>>) -> Self {
+        let n = variables.len();
+        let lists = || vec![NONE; n];
+        let degree: Vec<u32> = variables
+            .iter()
+            .map(|list| u32::try_from(list.len()).expect("rows fit 32 bits"))
+            .collect();
+        let mut buckets = Buckets {
+            first: lists(),
+            next: lists(),
+            previous: lists(),
+            lowest: n,
+        };
+        let rows = u32::try_from(n).expect("rows fit 32 bits");
+        for (v, &d) in (0..rows).zip(&degree).rev() {
+            buckets.insert(v, d);
+        }
+        Self {
+            variables,
+            elements: vec![Vec::new(); n],
+            members: vec![Vec::new(); n],
+            size: vec![0; n],
+            weight: vec![1; n],
+            first_merged: lists(),
+            next_merged: lists(),
+            degree,
+            buckets,
+            pivots: Vec::new(),
+            outside: vec![0; n],
+            mark: vec![0; n],
+            stamp: 1,
+            hashes: Vec::new(),
+        }
+    }
+
+    /// Eliminates a variable with the lowest degree, and all variables that become equal to it. `remaining` is the number
+    /// of rows that are not eliminated. Returns the number of eliminated rows.
+    fn eliminate(&mut self, remaining: usize) -> usize {
+        let p = self.buckets.lowest();
+        self.buckets.remove(p, self.degree[p as usize]);
+        let mut members = self.new_element(p);
+        let mut eliminated = self.weight[p as usize];
+        self.weight[p as usize] = 0;
+        self.pivots.push(p);
+        self.measure_elements(&members);
+        self.hashes.clear();
+        for &i in &members {
+            let (d, hash) = self.update(i, p);
+            if self.elements[i as usize].len() == 1 && self.variables[i as usize].is_empty() {
+                // All neighbors of i are members of p, so eliminating i next creates no entries.
+                eliminated += self.weight[i as usize];
+                self.merge(i, p);
+            } else {
+                self.hashes.push((hash, i));
+                self.degree[i as usize] = d;
+            }
+        }
+        self.merge_equal();
+        members.retain(|&i| self.weight[i as usize] > 0);
+        let left = u32::try_from(remaining).expect("rows fit 32 bits") - eliminated;
+        let size: u32 = members.iter().map(|&i| self.weight[i as usize]).sum();
+        for &i in &members {
+            let (degree, weight) = (&mut self.degree[i as usize], self.weight[i as usize]);
+            *degree = (*degree + size - weight).min(left - weight);
+            self.buckets.insert(i, *degree);
+        }
+        self.members[p as usize] = members;
+        self.size[p as usize] = size;
+        eliminated as usize
+    }
+
+    /// Returns the members of the new element p: the neighbors of p. Absorbs the elements of p. The members are removed
+    /// from the buckets and marked with the stamp.
+    fn new_element(&mut self, p: u32) -> Vec<u32> {
+        self.stamp += 1;
+        self.mark[p as usize] = self.stamp;
+        let mut members = Vec::new();
+        let variables = std::mem::take(&mut self.variables[p as usize]);
+        let elements = std::mem::take(&mut self.elements[p as usize]);
+        let lists = elements
+            .iter()
+            .map(|&e| std::mem::take(&mut self.members[e as usize]));
+        for i in lists.flatten().chain(variables) {
+            if self.weight[i as usize] > 0 && self.mark[i as usize] != self.stamp {
+                self.mark[i as usize] = self.stamp;
+                self.buckets.remove(i, self.degree[i as usize]);
+                members.push(i);
+            }
+        }
+        members
+    }
+
+    /// Sets `outside` of all elements of the members.
+    fn measure_elements(&mut self, members: &[u32]) {
+        // All later values are above all earlier values, so nothing has to be cleared.
+        let base = self.stamp << 32;
+        for &i in members {
+            for &e in &self.elements[i as usize] {
+                let outside = &mut self.outside[e as usize];
+                if *outside < base {
+                    *outside = base + u64::from(self.size[e as usize]);
+                }
+                *outside -= u64::from(self.weight[i as usize]);
+            }
+        }
+    }
+
+    /// Removes from the lists of i what the new element p covers. Returns the degree of i outside of p, as an upper
+    /// bound, and a hash of the lists.
+    fn update(&mut self, i: u32, p: u32) -> (u32, u64) {
+        let base = self.stamp << 32;
+        let (mut degree, mut hash) = (0_u64, u64::from(p));
+        let (outside, list) = (&self.outside, &self.members);
+        self.elements[i as usize].retain(|&e| {
+            // An element without members was absorbed. One without members outside of p is covered by p.
+            let more = outside[e as usize].saturating_sub(base);
+            let keep = !list[e as usize].is_empty() && more > 0;
+            if keep {
+                degree += more;
+                hash += u64::from(e);
+            }
+            keep
+        });
+        self.elements[i as usize].push(p);
+        let (weight, mark, stamp) = (&self.weight, &self.mark, self.stamp);
+        self.variables[i as usize].retain(|&j| {
+            let keep = weight[j as usize] > 0 && mark[j as usize] != stamp;
+            if keep {
+                degree += u64::from(weight[j as usize]);
+                hash += u64::from(j);
+            }
+            keep
+        });
+        let most = u64::from(u32::MAX / 2);
+        (u32::try_from(degree.min(most)).expect("limited"), hash)
+    }
+
+    /// Merges the members of the new element that have the same neighbors.
+    fn merge_equal(&mut self) {
+        let mut hashes = std::mem::take(&mut self.hashes);
+        hashes.sort_unstable();
+        for same in hashes.chunk_by(|a, b| a.0 == b.0) {
+            for (at, &(_, i)) in same.iter().enumerate() {
+                if self.weight[i as usize] == 0 {
+                    continue;
+                }
+                self.stamp += 1;
+                for &j in self.variables[i as usize]
+                    .iter()
+                    .chain(&self.elements[i as usize])
+                {
+                    self.mark[j as usize] = self.stamp;
+                }
+                for &(_, j) in &same[at + 1..] {
+                    if self.weight[j as usize] > 0 && self.has_marked_lists_like(j, i) {
+                        self.merge(j, i);
+                    }
+                }
+            }
+        }
+        self.hashes = hashes;
+    }
+
+    /// Whether the lists of `j` have the same lengths as those of `i`, and only marked entries. Variables and elements
+    /// have different numbers.
+    fn has_marked_lists_like(&self, j: u32, i: u32) -> bool {
+        let [i, j] = [i as usize, j as usize];
+        let lists = self.variables[j].iter().chain(&self.elements[j]);
+        self.variables[i].len() == self.variables[j].len()
+            && self.elements[i].len() == self.elements[j].len()
+            && lists
+                .into_iter()
+                .all(|&k| self.mark[k as usize] == self.stamp)
+    }
+
+    /// Merges the variable `i` into `into`.
+    fn merge(&mut self, i: u32, into: u32) {
+        let weight = std::mem::take(&mut self.weight[i as usize]);
+        if self.weight[into as usize] > 0 {
+            self.weight[into as usize] += weight;
+        }
+        self.variables[i as usize] = Vec::new();
+        self.elements[i as usize] = Vec::new();
+        self.next_merged[i as usize] = self.first_merged[into as usize];
+        self.first_merged[into as usize] = i;
+    }
+
+    /// Returns all rows: each pivot, followed by the variables that were merged into it.
+    fn order(self) -> Vec<u32> {
+        let mut order = Vec::with_capacity(self.weight.len());
+        let mut stack = Vec::new();
+        for p in self.pivots {
+            stack.push(p);
+            while let Some(i) = stack.pop() {
+                order.push(i);
+                let mut j = self.first_merged[i as usize];
+                while j != NONE {
+                    stack.push(j);
+                    j = self.next_merged[j as usize];
+                }
+            }
+        }
+        order
+    }
+}

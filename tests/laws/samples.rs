@@ -135,6 +135,7 @@ const MORE_STEPS: &[&str] = &[
     "Smooth(by: Denoise(angle: 0), boundary: Free, keep_volume: true)",
     "VertexNormals(weight: Angle)",
     "VertexNormals(weight: Uniform)",
+    r#"Tangents(uv: "uv1")"#,
     r#"Picture(path: "b/a.png", size: (32, 24), views: [Fit(from: Front), Fit(from: Top, projection: Orthographic)], style: (shading: Flat, background: Transparent))"#,
     r#"Picture(path: "valence.png", size: (48, 36), color_by: (of: Valence))"#,
     r#"Picture(path: "a.gif", size: (24, 18), turntable: (frames: 3), style: (shading: Matcap, boundary: (), ids: Vertices))"#,

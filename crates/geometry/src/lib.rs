@@ -11,6 +11,7 @@
 //! | [`bisect`], [`bevel`] | cutting along a plane, beveling |
 //! | [`smooth`](mod@smooth) | smoothing and denoising |
 //! | [`Laplacian`], [`sparse`] | the cotangent Laplacian; sparse symmetric matrices and their solver |
+//! | [`tangents`] | tangents for normal maps |
 
 pub mod bevel;
 mod bisect;
@@ -24,6 +25,7 @@ mod part;
 pub mod shapes;
 pub mod smooth;
 pub mod sparse;
+mod tangent;
 pub mod triangulate;
 
 pub use bisect::{Bisection, bisect};
@@ -35,3 +37,4 @@ pub use measure::{
 };
 pub use merge::{MergeError, Merged, clusters, merge_clusters, merge_vertices};
 pub use part::{face_components, parts, separated};
+pub use tangent::{Tangents, tangents};

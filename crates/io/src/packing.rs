@@ -105,7 +105,7 @@ pub struct PackingReport {
     /// The largest distance between a position and its quantized position, in scene units. `None` if no positions
     /// are quantized. If the placement of a node shears, this is an upper bound.
     pub position_error: Option<f64>,
-    /// The largest angle between a normal and its quantized normal, in degrees.
+    /// The largest angle between a normal or a tangent and its quantized direction, in degrees.
     pub normal_error: Option<f64>,
     /// The largest difference between a texture coordinate and its quantized coordinate.
     pub uv_error: Option<f64>,

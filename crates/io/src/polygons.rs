@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use glam::{DAffine3, DVec3};
 use mesh::{
-    Attribute, Attributes, BuildError, BuildOutput, CORNER_NORMAL, Column, Domain, Elements,
-    HalfEdgeId, Id, Mesh, Rule, Value, Values, VertexId,
+    Attribute, Attributes, BuildError, BuildOutput, CORNER_NORMAL, CORNER_TANGENT, Column, Domain,
+    Elements, HalfEdgeId, Id, Mesh, Rule, Value, Values, VertexId,
 };
 use scene::Material;
 
@@ -161,6 +161,7 @@ impl Polygons {
             let vertices = built.mesh.attributes();
             if domain == Domain::Corner
                 && !column.name.starts_with("uv")
+                && column.name != CORNER_TANGENT.name
                 && vertices.column(Domain::Vertex, &column.name).is_none()
                 && let Some(values) = vertex_values(&built.mesh, &column.values, |a, b| {
                     column.values.are_equal(a, b)

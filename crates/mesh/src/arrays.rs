@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use crate::attribute::{
-    Attribute, Attributes, CORNER_NORMAL, Column, VERTEX_NORMAL, Value, Values,
+    Attribute, Attributes, CORNER_NORMAL, CORNER_TANGENT, Column, TANGENT, VERTEX_NORMAL, Value,
+    Values,
 };
 use crate::journal::{Entry, Journal};
 use crate::marks::Marks;
@@ -352,10 +353,13 @@ impl Mesh {
         removed
     }
 
-    /// Removes [`VERTEX_NORMAL`] and [`CORNER_NORMAL`], which are wrong after the shape has changed.
+    /// Removes [`VERTEX_NORMAL`], [`CORNER_NORMAL`], [`TANGENT`] and [`CORNER_TANGENT`], which are wrong after the shape has
+    /// changed.
     pub fn remove_normals(&mut self) {
         self.remove_column(Domain::Vertex, VERTEX_NORMAL.name);
         self.remove_column(Domain::Corner, CORNER_NORMAL.name);
+        self.remove_column(Domain::Vertex, TANGENT.name);
+        self.remove_column(Domain::Corner, CORNER_TANGENT.name);
     }
 
     /// Returns the flags of a tag by element index; `None` if the mesh has no tag of this name in this domain.

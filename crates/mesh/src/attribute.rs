@@ -28,6 +28,9 @@ pub const VERTEX_NORMAL: Attribute<VertexId, DVec3> = Attribute::new("normal", R
 pub const CORNER_NORMAL: Attribute<HalfEdgeId, DVec3> = Attribute::new("normal", Rule::Normal);
 /// Unit vectors at vertices that are tangent to the surface. The direction in the tangent plane is arbitrary.
 pub const TANGENT: Attribute<VertexId, DVec3> = Attribute::new("tangent", Rule::Normal);
+/// Tangents of corners for normal maps: a unit vector along the u axis of texture coordinates and, as the fourth number,
+/// the sign s of the bitangent s n x t along the v axis (v points upwards), where n is the normal.
+pub const CORNER_TANGENT: Attribute<HalfEdgeId, DVec4> = Attribute::new("tangent", Rule::Drop);
 /// Red, green, blue and alpha of vertices, from 0 to 1.
 pub const COLOR: Attribute<VertexId, DVec4> = Attribute::new("color", Rule::Interpolate);
 /// The index of a face's material in the material list of its object, from 0; -1 for none.

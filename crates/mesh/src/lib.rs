@@ -123,8 +123,8 @@ mod zeroed;
 
 pub use arrays::{Connectivity, Mesh};
 pub use attribute::{
-    Attribute, Attributes, COLOR, CORNER_NORMAL, CREASE, Column, MATERIAL, Rule, SMOOTHING,
-    Sources, TANGENT, UV, VERTEX_NORMAL, VERTEX_SHARPNESS, Value, Values,
+    Attribute, Attributes, COLOR, CORNER_NORMAL, CORNER_TANGENT, CREASE, Column, MATERIAL, Rule,
+    SMOOTHING, Sources, TANGENT, UV, VERTEX_NORMAL, VERTEX_SHARPNESS, Value, Values,
 };
 pub use build::{BuildError, BuildOutput, BuildReport, Elements, NonManifold, Repair, build};
 pub use compact::Renumbering;

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use mesh::{CORNER_NORMAL, Domain, Rule, VERTEX_NORMAL};
+use mesh::{CORNER_NORMAL, CORNER_TANGENT, Domain, Rule, TANGENT, VERTEX_NORMAL};
 
 use crate::{Files, Loss};
 
@@ -244,10 +244,12 @@ impl MeshPlan {
             .retain(|a| a.domain != domain || a.name != name);
     }
 
-    /// Removes the normals of vertices and corners. For operations that change the shape.
+    /// Removes the normals and tangents of vertices and corners. For operations that change the shape.
     pub fn drop_normals(&mut self) {
         self.drop_attribute(Domain::Vertex, VERTEX_NORMAL.name);
         self.drop_attribute(Domain::Corner, CORNER_NORMAL.name);
+        self.drop_attribute(Domain::Vertex, TANGENT.name);
+        self.drop_attribute(Domain::Corner, CORNER_TANGENT.name);
     }
 
     /// Returns the size of the mesh in bytes.

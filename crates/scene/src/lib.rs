@@ -23,7 +23,7 @@ pub use digest::Digest;
 pub use error_location::ErrorLocation;
 pub use graph::{Graph, MeshLabel, Node, Placement};
 pub use material::{AlphaMode, Filter, Image, Material, Sampler, Texture, TextureTransform, Wrap};
-pub use placed::{Instance, transformed};
+pub use placed::{Instance, transform_tangents, transformed};
 
 /// A list of objects in the order of their creation, and the nodes that place them.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -4,8 +4,8 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use glam::{DAffine3, DMat3, DVec3};
-use mesh::{Domain, Mesh, Rule, Value};
+use glam::{DAffine3, DMat3, DVec3, DVec4};
+use mesh::{CORNER_TANGENT, Domain, Mesh, Rule, Value};
 use rayon::prelude::*;
 
 use crate::{Geometry, Object, Scene};
@@ -116,6 +116,7 @@ impl Scene {
 /// points to the wrong side by its determinant, and reversing the faces negates normals again.
 pub fn transformed(mesh: &Mesh, map: &DAffine3) -> Mesh {
     let mut mesh = mesh.clone();
+    transform_tangents(&mut mesh, &map.matrix3);
     let points = mesh.positions_mut().par_iter_mut().with_min_len(4096);
     points.for_each(|p| *p = map.transform_point3(*p));
     let DMat3 {
@@ -157,4 +158,30 @@ pub fn transformed(mesh: &Mesh, map: &DAffine3) -> Mesh {
         }
     }
     mesh
+}
+
+/// Transforms the directions of [`CORNER_TANGENT`], if the mesh has such tangents. A map that mirrors negates their
+/// signs.
+pub fn transform_tangents(mesh: &mut Mesh, linear: &DMat3) {
+    if mesh.get(CORNER_TANGENT).is_none() {
+        return;
+    }
+    let Some(mut column) = mesh.remove_column(Domain::Corner, CORNER_TANGENT.name) else {
+        return;
+    };
+    let sign = if linear.determinant() < 0.0 {
+        -1.0
+    } else {
+        1.0
+    };
+    let tangents = DVec4::of_mut(&mut column.values).into_iter().flatten();
+    for tangent in tangents {
+        let image = *linear * tangent.truncate();
+        let largest = image.abs().max_element();
+        if largest > 0.0 {
+            let direction = (image / largest).normalize();
+            *tangent = direction.extend(sign * tangent.w);
+        }
+    }
+    mesh.insert_column(Domain::Corner, column);
 }

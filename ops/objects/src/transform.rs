@@ -119,6 +119,7 @@ impl Transform {
                 }
                 if !map.only_moves() {
                     transform_normals(mesh, map);
+                    scene::transform_tangents(mesh, map.linear());
                 }
                 let mut report = Report::changed(mesh.n_vertices());
                 if map.mirrors() {

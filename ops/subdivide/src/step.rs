@@ -103,7 +103,6 @@ impl Step<'_> {
             plan.degrees = Range::exactly(3);
         }
         plan.drop_normals();
-        plan.drop_attribute(Domain::Vertex, TANGENT.name);
 
         if let Some(faces) = self.faces
             && faces.count(plan).max == 0

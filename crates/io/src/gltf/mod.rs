@@ -21,10 +21,11 @@
 //! | points, lines | left out, with a note |
 //! | `POSITION` | positions; vertices at exactly the same position are merged |
 //! | `NORMAL` | vertex attribute `normal` if the corners of each vertex agree, otherwise corner attribute |
+//! | `TANGENT` | corner attribute `tangent` with four numbers |
 //! | `TEXCOORD_0`, `TEXCOORD_n` | corner attributes `uv` and `uvn`, with v replaced by 1 - v, because v points upwards in the scene |
 //! | `COLOR_0` | vertex or corner attribute `color`; alpha defaults to 1 |
 //! | `_NAME` | vertex or corner attribute `NAME` with 1 to 4 floats |
-//! | `TANGENT`, `COLOR_1`, `JOINTS_n`, `WEIGHTS_n` | left out, with a note |
+//! | `COLOR_1`, `JOINTS_n`, `WEIGHTS_n` | left out, with a note |
 //! | `material` | face attribute `material` and the object's materials |
 //! | textures, samplers, images | textures of the materials: the path of an image file, or the bytes of an image |
 //! | cameras, lights | kept in the graph as they are |
@@ -59,7 +60,7 @@
 //! - faces are ordered by material,
 //! - vertices at exactly the same position are merged,
 //! - normals are normalized, and colors are clamped to 0 to 1,
-//! - isolated vertices, empty meshes, tangents, integers, tags, texture coordinates after a gap in
+//! - isolated vertices, empty meshes, tangents of vertices, tangents without normals, integers, tags, texture coordinates after a gap in
 //!   their numbers, and attributes of edges and faces (except `material`) are lost.
 //!
 //! If [`WriteOptions`](crate::WriteOptions) asks for it, arrays are quantized (`quantize`) and compressed (`compress`).

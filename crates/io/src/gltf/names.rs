@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! NORMAL <-> normal    TEXCOORD_0 <-> uv     TEXCOORD_n <-> uvn
-//! COLOR_0 <-> color    _any_name  <-> any_name
+//! COLOR_0 <-> color    TANGENT <-> tangent   _any_name  <-> any_name
 //! ```
 //!
 //! If the rest of `_name` is a reserved name of a mesh, the reader keeps the underscore: `_uv` in a file becomes
@@ -14,6 +14,7 @@ use gltf_json::mesh::Semantic;
 pub(super) fn attribute_name(semantic: &Semantic) -> Option<String> {
     match semantic {
         Semantic::Normals => Some("normal".to_owned()),
+        Semantic::Tangents => Some("tangent".to_owned()),
         Semantic::TexCoords(0) => Some("uv".to_owned()),
         Semantic::TexCoords(n) => Some(format!("uv{n}")),
         Semantic::Colors(0) => Some("color".to_owned()),

@@ -7,7 +7,9 @@ use glam::{DVec2, DVec3, DVec4};
 use gltf_json::accessor::Type;
 use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::validation::Checked;
-use mesh::{Attributes, CORNER_NORMAL, Column, Domain, Rule, VERTEX_SHARPNESS, Value};
+use mesh::{
+    Attributes, CORNER_NORMAL, CORNER_TANGENT, Column, Domain, Rule, VERTEX_SHARPNESS, Value,
+};
 
 use super::document::get;
 use super::names::attribute_name;
@@ -215,6 +217,7 @@ fn read_column(
     };
     let kinds: &[Type] = match semantic {
         Semantic::Normals => &[Type::Vec3],
+        Semantic::Tangents => &[Type::Vec4],
         Semantic::TexCoords(_) => &[Type::Vec2],
         Semantic::Colors(_) => &[Type::Vec3, Type::Vec4],
         _ => &[reader.kind(accessor, at)?],
@@ -242,6 +245,7 @@ fn read_column(
     let rule = match name.as_str() {
         "normal" => CORNER_NORMAL.rule,
         "corner" => VERTEX_SHARPNESS.rule,
+        "tangent" => CORNER_TANGENT.rule,
         _ => Rule::Interpolate,
     };
     Ok(Some(Column { name, rule, values }))

@@ -144,7 +144,9 @@ impl<'a> Quantizer<'a> {
     ) -> Option<Integers> {
         let options = self.options?;
         match stream.semantic {
-            Semantic::Normals => Some(self.directions(prepared, stream, options.normal)),
+            Semantic::Normals | Semantic::Tangents => {
+                Some(self.directions(prepared, stream, options.normal))
+            }
             Semantic::Colors(_) => Some(fractions(prepared, stream, options.color).0),
             Semantic::TexCoords(_) => {
                 let PreparedObject { mesh, split, .. } = prepared;

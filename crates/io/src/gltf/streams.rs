@@ -21,6 +21,7 @@ pub(super) struct Stream<'a> {
 #[derive(Clone, Copy, PartialEq)]
 enum Meaning {
     Normal,
+    Tangent,
     Uv,
     Color,
     Custom,
@@ -48,6 +49,13 @@ pub(super) fn streams<'a>(mesh: &'a Mesh, losses: &mut Losses) -> Vec<Stream<'a>
             }
         }
     }
+    // Readers ignore tangents without normals.
+    if !streams
+        .iter()
+        .any(|stream| stream.semantic == Semantic::Normals)
+    {
+        streams.retain(|stream| stream.semantic != Semantic::Tangents);
+    }
     losses.add_columns(mesh, "glTF", |domain, column| {
         let is_material = domain == Domain::Face && column.name == mesh::MATERIAL.name;
         is_material && matches!(column.values, Values::Int(_))
@@ -69,6 +77,9 @@ fn stream(domain: Domain, column: &Column, n_uvs: u32) -> Option<Stream<'_>> {
     };
     let (semantic, meaning) = match (column.name.as_str(), kind) {
         ("normal", Type::Vec3) => (Semantic::Normals, Meaning::Normal),
+        ("tangent", Type::Vec4) if domain == Domain::Corner => {
+            (Semantic::Tangents, Meaning::Tangent)
+        }
         ("color", Type::Vec4) => (Semantic::Colors(0), Meaning::Color),
         (name, Type::Vec2) if domain == Domain::Corner && uv_set(name).is_some() => {
             let set = uv_set(name).filter(|&set| set < n_uvs)?;
@@ -106,6 +117,14 @@ impl Stream<'_> {
                 let normal = unit.unwrap_or_else(|| face_normal(mesh, mesh.face(h)));
                 narrow([normal.x, normal.y, normal.z, 0.0], unit.is_some())
             }
+            Meaning::Tangent => {
+                let w = value[3];
+                let unit = unit(DVec3::new(x, y, z));
+                let is_kept = unit.is_some() && w.abs().to_bits() == 1.0_f64.to_bits();
+                let tangent = unit.unwrap_or(DVec3::X);
+                let sign = if w < 0.0 { -1.0 } else { 1.0 };
+                narrow([tangent.x, tangent.y, tangent.z, sign], is_kept)
+            }
             Meaning::Uv => narrow([x, 1.0 - y, 0.0, 0.0], true),
             Meaning::Color => {
                 let inside = |x: f64| if x.is_nan() { 0.0 } else { x.clamp(0.0, 1.0) };
@@ -120,6 +139,7 @@ impl Stream<'_> {
     pub(super) fn change(&self) -> &'static str {
         match self.meaning {
             Meaning::Normal => "without a direction, written as the normal of the face",
+            Meaning::Tangent => "without a direction or with a sign other than 1 or -1, changed",
             Meaning::Color => "outside of 0 to 1, clamped",
             Meaning::Uv | Meaning::Custom => "not finite in 32 bits, written as 0",
         }

@@ -1,7 +1,7 @@
 //! Compressed and quantized glTF files: the same content within the reported errors.
 
 use glam::{DVec2, DVec3, DVec4};
-use mesh::{Domain, Mesh, UV, VERTEX_NORMAL};
+use mesh::{CORNER_TANGENT, Domain, Mesh, UV, VERTEX_NORMAL};
 use mesh_io::{
     Compression, Loaded, Loss, PackingReport, Placements, Quantization, ReadOptions, WriteError,
     WriteOptions,
@@ -49,6 +49,10 @@ fn torus() -> Mesh {
     mesh.set(UV, uvs);
     let normals = mesh.positions().iter().map(|p| p.normalize()).collect();
     mesh.set(VERTEX_NORMAL, normals);
+    let tangents = geometry::tangents(&mesh, mesh.get(UV).unwrap())
+        .unwrap()
+        .values;
+    mesh.set(CORNER_TANGENT, tangents);
     let colors = mesh.positions().iter();
     let colors = colors
         .map(|p| DVec4::new(p.x / 6.0 + 0.5, 0.25, 1.0, 1.0))
@@ -246,6 +250,12 @@ fn quantized_attributes_are_within_the_reported_errors() {
         let normals = mesh.get(VERTEX_NORMAL).unwrap().iter();
         for (a, b) in normals.zip(plain.get(VERTEX_NORMAL).unwrap()) {
             assert!(mesh::angle_between(*a, *b).to_degrees() <= degrees + 1e-3);
+        }
+        let tangents = plain.get(CORNER_TANGENT).unwrap();
+        for (a, b) in mesh.get(CORNER_TANGENT).unwrap().iter().zip(tangents) {
+            let angle = mesh::angle_between(a.truncate(), b.truncate());
+            assert!(angle.to_degrees() <= degrees + 1e-3);
+            assert!(a.w == b.w);
         }
         let error = packing.uv_error.unwrap();
         assert!(error <= 0.5 / most + 0.5 / 65535.0);

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4};
-use mesh::{CORNER_NORMAL, Domain, MATERIAL, Mesh, UV, VERTEX_NORMAL};
+use mesh::{CORNER_NORMAL, CORNER_TANGENT, Domain, MATERIAL, Mesh, UV, VERTEX_NORMAL};
 use mesh_io::{Compression, Quantization, WriteOptions};
 use scene::{AlphaMode, Image, Material, Object, Scene, Texture};
 
@@ -192,6 +192,8 @@ fn attributes_are_valid() {
     mesh.set(mesh::COLOR, numbers().map(DVec4::splat).collect());
     let normals = (0..n_corners).map(|i| DVec3::AXES[i % 3] * odd[i % 5]);
     mesh.set(CORNER_NORMAL, normals.collect());
+    let tangents = (0..n_corners).map(|i| (DVec3::AXES[i % 3] * odd[i % 5]).extend(odd[i % 8]));
+    mesh.set(CORNER_TANGENT, tangents.collect());
     written("attributes", &scene([Object::mesh("ball", mesh)]));
 
     let mut mesh = shapes::octahedron();

@@ -61,6 +61,11 @@ impl Map {
         }
     }
 
+    /// Returns the map without its translation.
+    pub(crate) fn linear(&self) -> &DMat3 {
+        &self.linear
+    }
+
     /// Whether points are neither scaled nor rotated.
     pub(crate) fn only_moves(&self) -> bool {
         self.linear == DMat3::IDENTITY

@@ -6,8 +6,8 @@ use bezier::{Curve, Patch};
 use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4};
 use mesh::{
-    COLOR, CORNER_NORMAL, CREASE, Column, Domain, MATERIAL, Mesh, Rule, SMOOTHING, TANGENT, UV,
-    VERTEX_NORMAL, VERTEX_SHARPNESS, Value, Values, VertexId,
+    COLOR, CORNER_NORMAL, CORNER_TANGENT, CREASE, Column, Domain, MATERIAL, Mesh, Rule, SMOOTHING,
+    TANGENT, UV, VERTEX_NORMAL, VERTEX_SHARPNESS, Value, Values, VertexId,
 };
 use scene::{AlphaMode, Geometry, Image, Material, Object, Texture};
 
@@ -28,6 +28,12 @@ fn base() -> Mesh {
 /// Unsorted numbers that fit in 32 bits.
 fn number(i: usize) -> f64 {
     [0.5, -0.25, 3.0, 0.0, 0.75][i * 7 % 5]
+}
+
+/// Unit vectors perpendicular to [`unit`], with signs.
+fn tangent(i: usize) -> DVec4 {
+    let sign = if i % 5 < 2 { -1.0 } else { 1.0 };
+    [DVec3::Z, DVec3::X, DVec3::NEG_Y][i % 3].extend(sign)
 }
 
 fn unit(i: usize) -> DVec3 {
@@ -200,6 +206,9 @@ fn geometry() -> Vec<Feature> {
 #[expect(clippy::too_many_lines, reason = "a list")]
 fn attributes() -> Vec<Feature> {
     use Domain::{Corner, Edge, Face, Vertex};
+    let mut tangents = base();
+    tangents.set(CORNER_NORMAL, (0..24).map(unit).collect());
+    tangents.set(CORNER_TANGENT, (0..24).map(tangent).collect());
     let mut both = base();
     both.set(VERTEX_NORMAL, (0..6).map(unit).collect());
     both.set(CORNER_NORMAL, (0..24).map(unit).collect());
@@ -284,6 +293,11 @@ fn attributes() -> Vec<Feature> {
             "face colors",
             key(Face, "color"),
             with(Face, "color", Rule::Copy, color),
+        ),
+        feature(
+            "corner tangents with corner normals",
+            key(Corner, "tangent"),
+            one(tangents),
         ),
         feature(
             "vertex tangents",

@@ -1,0 +1,175 @@
+//! Tangents for normal maps by the `MikkTSpace` algorithm.
+//!
+//! ```text
+//!        v  b = w n x t             t: tangent, along u
+//!        ^                          b: bitangent, along v
+//!        |                          n: normal, towards the reader
+//!        n----> u  t                w: 1, or -1 if the texture is mirrored
+//! ```
+//!
+//! Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008. All tools that bake or show normal maps use this
+//! algorithm, and a normal map is only right with the tangents for which it was made.
+
+use bevy_mikktspace::{Geometry, Ops, TangentSpace, generate_tangents};
+use mesh::{CORNER_NORMAL, DVec2, DVec3, DVec4, HalfEdgeId, Mesh, VERTEX_NORMAL};
+
+use crate::triangulate::Cutter;
+
+/// The tangents of a mesh.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tangents {
+    /// For each half-edge with a face, the unit tangent of its corner and the sign of the bitangent, 1 or -1. Zero for
+    /// other half-edges.
+    pub values: Vec<DVec4>,
+    /// The number of corners at which texture coordinates define no direction. Their tangents are arbitrary unit
+    /// vectors perpendicular to the normals.
+    pub n_arbitrary: usize,
+}
+
+/// Computes the tangents of a dense mesh from `uvs`, the texture coordinates of its half-edges with v upwards, and
+/// from its corner normals or else its vertex normals. Returns `None` if it has no normals.
+///
+/// The computation uses 32-bit numbers. Polygons are triangulated, as by the glTF writer. Corners share a tangent if
+/// they have the same position, normal and texture coordinates and their faces are connected.
+pub fn tangents(mesh: &Mesh, uvs: &[DVec2]) -> Option<Tangents> {
+    let normals = match (mesh.get(CORNER_NORMAL), mesh.get(VERTEX_NORMAL)) {
+        (Some(normals), _) => Normals::Corners(normals),
+        (_, Some(normals)) => Normals::Vertices(normals),
+        (None, None) => return None,
+    };
+    let mut corners = Corners {
+        mesh,
+        uvs,
+        normals,
+        triangles: triangles(mesh),
+        found: vec![None; mesh.n_half_edges()],
+    };
+    // There are no errors.
+    let Ok(()) = generate_tangents(&mut corners) else {
+        return None;
+    };
+    let mut values = vec![DVec4::ZERO; mesh.n_half_edges()];
+    let mut n_arbitrary = 0;
+    for f in mesh.faces() {
+        for h in mesh.face_half_edges(f) {
+            let normal = corners.unit_normal(h);
+            let found = corners.found[h.index()].map(|t| DVec4::from(t.map(f64::from)));
+            let good = found.filter(|t| is_tangent(*t, normal));
+            n_arbitrary += usize::from(good.is_none());
+            values[h.index()] = good.unwrap_or_else(|| normal.any_orthonormal_vector().extend(1.0));
+        }
+    }
+    Some(Tangents {
+        values,
+        n_arbitrary,
+    })
+}
+
+/// Whether a tangent is a unit vector perpendicular to the normal.
+fn is_tangent(tangent: DVec4, normal: DVec3) -> bool {
+    const ROUNDING: f64 = 1e-3;
+    let direction = tangent.truncate();
+    (direction.length_squared() - 1.0).abs() < ROUNDING && direction.dot(normal).abs() < ROUNDING
+}
+
+fn triangles(mesh: &Mesh) -> Vec<[HalfEdgeId; 3]> {
+    let mut cutter = Cutter::default();
+    let mut triangles = Vec::with_capacity(mesh.n_faces());
+    let mut corners = Vec::new();
+    for f in mesh.faces() {
+        corners.clear();
+        corners.extend(mesh.face_half_edges(f));
+        if let &[a, b, c] = corners.as_slice() {
+            triangles.push([a, b, c]);
+            continue;
+        }
+        let cut = cutter.cut(mesh, f);
+        let cut = cut.triangles().iter();
+        triangles.extend(cut.map(|triangle| triangle.map(|k| corners[k as usize])));
+    }
+    triangles
+}
+
+enum Normals<'a> {
+    Corners(&'a [DVec3]),
+    Vertices(&'a [DVec3]),
+}
+
+/// The corners of a mesh as the algorithm reads them, and the tangents that it writes.
+struct Corners<'a> {
+    mesh: &'a Mesh,
+    uvs: &'a [DVec2],
+    normals: Normals<'a>,
+    triangles: Vec<[HalfEdgeId; 3]>,
+    found: Vec<Option<[f32; 4]>>,
+}
+
+impl Corners<'_> {
+    /// The normal of a corner; that of the face if it has no direction.
+    fn unit_normal(&self, h: HalfEdgeId) -> DVec3 {
+        let normal = match self.normals {
+            Normals::Corners(normals) => normals[h.index()],
+            Normals::Vertices(normals) => normals[self.mesh.origin(h).index()],
+        };
+        let of_face = || {
+            let face = self.mesh.face(h)?;
+            self.mesh.area_vector(face).try_normalize()
+        };
+        normal.try_normalize().or_else(of_face).unwrap_or(DVec3::Z)
+    }
+}
+
+impl Geometry<Libm> for Corners<'_> {
+    fn num_faces(&self) -> usize {
+        self.triangles.len()
+    }
+
+    fn num_vertices_of_face(&self, _: usize) -> usize {
+        3
+    }
+
+    fn position(&self, face: usize, corner: usize) -> [f32; 3] {
+        let v = self.mesh.origin(self.triangles[face][corner]);
+        self.mesh.position(v).as_vec3().to_array()
+    }
+
+    fn normal(&self, face: usize, corner: usize) -> [f32; 3] {
+        self.unit_normal(self.triangles[face][corner])
+            .as_vec3()
+            .to_array()
+    }
+
+    fn tex_coord(&self, face: usize, corner: usize) -> [f32; 2] {
+        self.uvs[self.triangles[face][corner].index()]
+            .as_vec2()
+            .to_array()
+    }
+
+    fn set_tangent(&mut self, tangent: Option<TangentSpace>, face: usize, corner: usize) {
+        let found = &mut self.found[self.triangles[face][corner].index()];
+        // A corner of a polygon can belong to several triangles. The first one that has a tangent counts.
+        if found.is_none() {
+            *found = tangent.map(|tangent| tangent.tangent_encoded());
+        }
+    }
+}
+
+/// The same results on all platforms.
+struct Libm;
+
+impl Ops for Libm {
+    fn sqrt(x: f32) -> f32 {
+        x.sqrt()
+    }
+
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the algorithm uses 32-bit numbers"
+    )]
+    fn acos(x: f32) -> f32 {
+        libm::acos(f64::from(x)) as f32
+    }
+}
+
+#[cfg(test)]
+mod tests;

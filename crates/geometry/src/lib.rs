@@ -9,6 +9,7 @@
 //! | [`merge_vertices`], [`parts`] | merging vertices, splitting a mesh into parts |
 //! | [`triangulate`], [`fill_hole_triangles`] | triangulation of faces and holes |
 //! | [`bisect`], [`bevel`] | cutting along a plane, beveling |
+//! | [`deform`] | moving points by closed formulas, falloff, noise |
 //! | [`smooth`](mod@smooth) | smoothing and denoising |
 //! | [`Laplacian`], [`sparse`] | the cotangent Laplacian; sparse symmetric matrices and their solver |
 //! | [`tangents`] | tangents for normal maps |
@@ -16,6 +17,7 @@
 pub mod bevel;
 mod bisect;
 mod curvature;
+pub mod deform;
 pub mod distance;
 mod fill_hole;
 mod laplacian;

@@ -19,5 +19,6 @@ pub fn registry() -> Registry {
         .with_group(ops_subdivide::register)
         .with_group(ops_solids::register)
         .with_group(ops_surface::register)
+        .with_group(ops_deform::register)
         .with_group(ops_pictures::register)
 }

@@ -1,0 +1,137 @@
+//! Bend, twist and taper.
+
+use mesh::DVec3;
+
+use crate::sin_cos_degrees;
+
+/// The coordinates of a deformation: an origin and three orthogonal unit vectors, right-handed. The deformation changes
+/// along the third, the axis, from the height `from` to the height `to`. Below `from` and above `to`, space moves rigidly
+/// or, for [`Taper`], is scaled uniformly.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// The origin.
+    pub origin: DVec3,
+    /// The unit vectors.
+    pub axes: [DVec3; 3],
+    /// The height at which the deformation starts.
+    pub from: f64,
+    /// The height at which the deformation is complete. At least `from`.
+    pub to: f64,
+}
+
+impl Frame {
+    /// Returns the coordinates of a point.
+    fn local(&self, p: DVec3) -> DVec3 {
+        let p = p - self.origin;
+        DVec3::from_array(self.axes.map(|axis| axis.dot(p)))
+    }
+
+    /// Returns the point with these coordinates.
+    fn global(&self, p: DVec3) -> DVec3 {
+        let [x, y, z] = self.axes;
+        self.origin + p.x * x + p.y * y + p.z * z
+    }
+
+    /// Returns how much of the deformation applies at a height: from 0 to 1. If `from` equals `to`, a step.
+    fn part(&self, height: f64) -> f64 {
+        if height <= self.from {
+            0.0
+        } else if height >= self.to {
+            1.0
+        } else {
+            (height - self.from) / (self.to - self.from)
+        }
+    }
+}
+
+/// Rotates around the axis, the further the higher: (x, y, z) moves to (x cos θ - y sin θ, x sin θ + y cos θ, z), where θ
+/// grows linearly from 0 at `from` to the angle at `to`. Keeps all volumes. The inverse has the opposite angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Twist {
+    /// The coordinates.
+    pub frame: Frame,
+    /// The angle at `to`, in degrees.
+    pub angle: f64,
+}
+
+impl Twist {
+    /// Returns the place where a point moves to.
+    pub fn point(&self, p: DVec3) -> DVec3 {
+        let p = self.frame.local(p);
+        let (s, c) = sin_cos_degrees(self.angle * self.frame.part(p.z));
+        self.frame
+            .global(DVec3::new(c * p.x - s * p.y, s * p.x + c * p.y, p.z))
+    }
+}
+
+/// Scales around the axis, the further the higher: (x, y, z) moves to (s x, s y, z), where s changes linearly from 1 at
+/// `from` to the factor at `to`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Taper {
+    /// The coordinates.
+    pub frame: Frame,
+    /// The factor at `to`.
+    pub factor: f64,
+}
+
+impl Taper {
+    /// Returns the factor at a height.
+    fn factor_at(&self, height: f64) -> f64 {
+        let part = self.frame.part(height);
+        (1.0 - part) + self.factor * part
+    }
+
+    /// Returns the place where a point moves to.
+    pub fn point(&self, p: DVec3) -> DVec3 {
+        let p = self.frame.local(p);
+        let factor = self.factor_at(p.z);
+        self.frame
+            .global(DVec3::new(factor * p.x, factor * p.y, p.z))
+    }
+}
+
+/// Bends the axis into an arc of a circle, towards the first unit vector:
+///
+/// ```text
+///     to    |                     .--  to      The axis keeps its length. With d = z - from, limited to the range, and
+///           |                   /              θ = angle d / (to - from), a point moves to
+///           |         -->      |                   x' = x cos θ + (1 - cos θ) / k + (z - from - d) sin θ
+///     from  |                  |   from            z' = from - x sin θ + sin θ / k + (z - from - d) cos θ
+///                                              where k = angle / (to - from) is the curvature.
+/// ```
+///
+/// The plane at `from` stays. Volumes change by the factor 1 - k x: beyond the center of the circle, at x = 1 / k, the result
+/// turns inside out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bend {
+    /// The coordinates.
+    pub frame: Frame,
+    /// The angle between the ends of the axis, in degrees. A negative angle bends to the other side.
+    pub angle: f64,
+}
+
+impl Bend {
+    /// Returns the place where a point moves to.
+    pub fn point(&self, p: DVec3) -> DVec3 {
+        let Frame { from, to, .. } = self.frame;
+        let p = self.frame.local(p);
+        let part = self.frame.part(p.z);
+        let length = part * (to - from);
+        let beyond = p.z - from - length;
+        let (s, c) = sin_cos_degrees(self.angle * part);
+        // The chord of the arc has the direction of half the angle. Its length is 2 sin(θ / 2) / k, which is `length`
+        // times a factor that tends to 1 for small angles.
+        let (half_sin, half_cos) = sin_cos_degrees(0.5 * self.angle * part);
+        let half_angle = (0.5 * self.angle * part).to_radians();
+        let chord = if half_angle == 0.0 {
+            length
+        } else {
+            length * (half_sin / half_angle)
+        };
+        self.frame.global(DVec3::new(
+            p.x * c + chord * half_sin + beyond * s,
+            p.y,
+            from - p.x * s + chord * half_cos + beyond * c,
+        ))
+    }
+}

@@ -1,0 +1,68 @@
+//! Weights that fall with the distance from selected points.
+
+use mesh::DVec3;
+use rayon::prelude::*;
+
+/// Returns a weight for each point: 1 for selected points, and (1 - (d / radius)²)² for a point at the distance d from the
+/// nearest selected point; 0 from `radius` on. The weight and its derivative are continuous at both ends.
+pub fn falloff(points: &[DVec3], is_selected: &[bool], radius: f64) -> Vec<f64> {
+    let selected = points.iter().zip(is_selected).filter(|p| *p.1);
+    let mut selected: Vec<DVec3> = selected.map(|p| *p.0).collect();
+    sort(&mut selected, 0);
+    let weight = |(p, &is_selected): (&DVec3, &bool)| {
+        if is_selected {
+            return 1.0;
+        }
+        let square = nearest(&selected, *p, radius * radius, 0) / (radius * radius);
+        if square < 1.0 {
+            (1.0 - square) * (1.0 - square)
+        } else {
+            0.0
+        }
+    };
+    points
+        .par_iter()
+        .zip(is_selected)
+        .with_min_len(256)
+        .map(weight)
+        .collect()
+}
+
+/// The longest part that is searched point by point.
+const LEAF: usize = 16;
+
+/// Sorts points as a balanced tree (Bentley, "Multidimensional Binary Search Trees Used for Associative Searching",
+/// 1975): the middle point divides each part along `axis`, and its halves are divided along the next axis.
+fn sort(points: &mut [DVec3], axis: usize) {
+    if points.len() > LEAF {
+        let middle = points.len() / 2;
+        points.select_nth_unstable_by(middle, |a, b| a[axis].total_cmp(&b[axis]));
+        let (left, right) = points.split_at_mut(middle);
+        sort(left, (axis + 1) % 3);
+        sort(&mut right[1..], (axis + 1) % 3);
+    }
+}
+
+/// Returns the squared distance to the nearest point of a tree, or `best` if no point is nearer.
+fn nearest(tree: &[DVec3], p: DVec3, best: f64, axis: usize) -> f64 {
+    if tree.len() <= LEAF {
+        let squares = tree.iter().map(|q| q.distance_squared(p));
+        return squares.fold(best, f64::min);
+    }
+    let middle = tree.len() / 2;
+    let (left, right) = (&tree[..middle], &tree[middle + 1..]);
+    let offset = p[axis] - tree[middle][axis];
+    let (near, far) = if offset < 0.0 {
+        (left, right)
+    } else {
+        (right, left)
+    };
+    let next = (axis + 1) % 3;
+    let best = f64::min(best, tree[middle].distance_squared(p));
+    let best = nearest(near, p, best, next);
+    if offset * offset < best {
+        nearest(far, p, best, next)
+    } else {
+        best
+    }
+}

@@ -1,0 +1,55 @@
+//! Deformations: closed formulas that move points.
+//!
+//! | items | contents |
+//! | --- | --- |
+//! | [`Bend`], [`Twist`], [`Taper`] | maps of space along an axis: Barr, "Global and Local Deformations of Solid Primitives", 1984 |
+//! | [`falloff`] | weights that fall with the distance from selected vertices |
+//! | [`noise`] | numbers that look random, with the same bits on every machine |
+//! | [`vertex_directions`] | unit normals to move vertices along |
+
+mod barr;
+mod falloff;
+pub mod noise;
+
+use mesh::{DVec3, Domain, Mesh, VertexId};
+use rayon::prelude::*;
+
+pub use barr::{Bend, Frame, Taper, Twist};
+pub use falloff::falloff;
+
+/// Returns a unit normal for each vertex index: the sum of the area vectors of its faces. Zero for dead vertices, and if
+/// there is no such direction.
+pub fn vertex_directions(mesh: &Mesh) -> Vec<DVec3> {
+    let exponent = crate::laplacian::exponent(mesh.positions());
+    let area_vector = |f| {
+        let corners = mesh
+            .face_vertices(f)
+            .map(|v| crate::laplacian::scaled(mesh.position(v), -exponent));
+        let first = corners.clone().next().unwrap_or_default();
+        let next = corners.clone().cycle().skip(1);
+        let terms = corners.zip(next).map(|(p, q)| (p - first).cross(q - first));
+        terms.sum::<DVec3>()
+    };
+    let direction = |v| {
+        let v = VertexId::new(v);
+        if !mesh.has_vertex(v) {
+            return DVec3::ZERO;
+        }
+        let (mut sum, mut size) = (DVec3::ZERO, 0.0);
+        for vector in mesh.vertex_faces(v).map(area_vector) {
+            sum += vector;
+            size += vector.length();
+        }
+        // A sum that is much shorter than its parts is a rounding error.
+        if sum.length() > 1e-14 * size {
+            sum.normalize_or_zero()
+        } else {
+            DVec3::ZERO
+        }
+    };
+    let vertices = (0..mesh.domain_len(Domain::Vertex)).into_par_iter();
+    vertices.with_min_len(1024).map(direction).collect()
+}
+
+#[cfg(test)]
+mod tests;

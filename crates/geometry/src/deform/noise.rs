@@ -1,0 +1,53 @@
+//! Numbers that look random but depend only on their arguments. Only additions and multiplications of integers and
+//! floating-point numbers are used, so that the bits are the same on every machine.
+
+use mesh::DVec3;
+
+/// Returns a number from -1 to 1, exclusive of 1, for a seed and an index: the generator `SplitMix64` of Steele, Lea, Flood, "Fast
+/// Splittable Pseudorandom Number Generators", 2014.
+pub fn random(seed: u64, index: u64) -> f64 {
+    let bits = mixed(mixed(seed).wrapping_add(index));
+    // 53 bits, which an f64 represents exactly.
+    (bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+}
+
+fn mixed(x: u64) -> u64 {
+    let x = x.wrapping_add(0x9E37_79B9_7F4A_7C15);
+    let x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    let x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    x ^ (x >> 31)
+}
+
+/// Returns smooth noise from -1 to 1 at a point: 0 at all points with integer coordinates, with waves about as long as 1
+/// or 2 between them. The value and its first two derivatives are continuous. Perlin, "Improving Noise", 2002, with
+/// directions that depend on the seed.
+pub fn gradient(seed: u64, p: DVec3) -> f64 {
+    let floor = p.floor();
+    let inside = p - floor;
+    let t = inside
+        .to_array()
+        .map(|t| t * t * t * (t * (t * 6.0 - 15.0) + 10.0));
+    let mut sum = 0.0;
+    for corner in 0..8_u8 {
+        let at = DVec3::from_array([0, 1, 2].map(|axis| f64::from(corner >> axis & 1)));
+        let weight: f64 = (0..3)
+            .map(|i| if at[i] > 0.0 { t[i] } else { 1.0 - t[i] })
+            .product();
+        sum += weight * slope(seed, floor + at, inside - at);
+    }
+    sum
+}
+
+/// Returns the product of the offset from a corner of the lattice and the gradient there: one of the twelve directions
+/// from the center of a cube to its edges.
+fn slope(seed: u64, corner: DVec3, offset: DVec3) -> f64 {
+    // Adding 0 turns -0 into 0, which must have the same direction.
+    let cell = corner.to_array().map(|x| (x + 0.0).to_bits());
+    let hash = cell
+        .iter()
+        .fold(mixed(seed), |hash, &bits| mixed(hash ^ bits));
+    let [x, y, z] = offset.to_array();
+    let [a, b] = [[x, y], [y, z], [z, x]][(hash % 3) as usize];
+    let sign = |bit: u64, value: f64| if hash >> bit & 1 == 0 { value } else { -value };
+    sign(60, a) + sign(61, b)
+}

@@ -1,0 +1,27 @@
+//! Operations that move vertices and keep the faces.
+
+mod bend;
+mod displace;
+mod move_vertices;
+mod moved;
+mod taper;
+mod twist;
+
+use op::Registry;
+
+pub use bend::Bend;
+pub use displace::{Displace, DisplaceBy};
+pub use move_vertices::{MoveBy, MoveVertices};
+pub use taper::Taper;
+pub use twist::Twist;
+
+/// Adds the operations of this group, in the order of the reference.
+#[rustfmt::skip]
+pub fn register(registry: Registry) -> Registry {
+    registry
+        .with::<MoveVertices>()
+        .with::<Displace>()
+        .with::<Bend>()
+        .with::<Twist>()
+        .with::<Taper>()
+}

@@ -1,0 +1,111 @@
+//! What the operations of this group share: coordinates along an axis, and moving vertices in parallel.
+
+use geometry::deform::Frame;
+use mesh::{DVec3, VertexId};
+use op::Axis;
+use op::prelude::*;
+use rayon::prelude::*;
+
+/// Moves the vertices of `mask` to new positions, and removes the normals. The report counts the vertices that moved.
+/// `parameters` names the parameters that can make a coordinate too large.
+pub(crate) fn moved(
+    mesh: &mut Mesh,
+    mask: &[bool],
+    operation: &str,
+    parameters: &str,
+    position: impl Fn(VertexId, DVec3) -> DVec3 + Sync,
+) -> Result<Report, OpError> {
+    let places = mesh
+        .positions()
+        .par_iter()
+        .zip(mask)
+        .enumerate()
+        .with_min_len(1024);
+    let new: Vec<DVec3> = places
+        .map(|(v, (&p, &is_selected))| {
+            if is_selected {
+                position(VertexId::new(v), p)
+            } else {
+                p
+            }
+        })
+        .collect();
+    if !new.par_iter().all(|p| p.is_finite()) {
+        return Err(OpError::overflow(operation, parameters));
+    }
+    let moved = new
+        .iter()
+        .zip(mesh.positions())
+        .filter(|(p, q)| p != q)
+        .count();
+    mesh.positions_mut().copy_from_slice(&new);
+    mesh.remove_normals();
+    Ok(Report::changed(moved))
+}
+
+/// The part of an axis along which a deformation changes.
+#[derive(Clone, Copy)]
+pub(crate) struct Stretch {
+    pub(crate) axis: Axis,
+    pub(crate) about: Vector,
+    pub(crate) from: Option<Distance>,
+    pub(crate) to: Option<Distance>,
+}
+
+impl Stretch {
+    /// Returns the problem of a range that ends before it starts.
+    pub(crate) fn problems(&self) -> Vec<Problem> {
+        match (self.from, self.to) {
+            (Some(from), Some(to)) if from > to => {
+                let message = format!(
+                    "`from` must not exceed `to`, found {} and {}",
+                    from.get(),
+                    to.get()
+                );
+                vec![Problem::error(message).at(["from"])]
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// Returns the coordinates with the unit vectors `towards`, axis × `towards`, and axis. Missing ends are the ends of the
+    /// bounding box.
+    pub(crate) fn frame(&self, mesh: &Mesh, towards: Axis) -> Result<Frame, OpError> {
+        let axis = unit(self.axis);
+        let [min, max] = geometry::bounds(mesh).unwrap_or_default();
+        let from = self.from.map_or(axis.dot(min), Distance::get);
+        let to = self.to.map_or(axis.dot(max), Distance::get);
+        if from > to {
+            return Err(OpError::Parameter(format!(
+                "`from` must not exceed `to`, found {from} and {to}; an omitted end is the end of the bounding box"
+            )));
+        }
+        let about: DVec3 = self.about.into();
+        let towards = unit(towards);
+        Ok(Frame {
+            // Heights along the axis are coordinates of the scene.
+            origin: about - axis * axis.dot(about),
+            axes: [towards, axis.cross(towards), axis],
+            from,
+            to,
+        })
+    }
+}
+
+/// Returns the unit vector of an axis.
+pub(crate) fn unit(axis: Axis) -> DVec3 {
+    match axis {
+        Axis::X => DVec3::X,
+        Axis::Y => DVec3::Y,
+        Axis::Z => DVec3::Z,
+    }
+}
+
+/// Returns the axis after this one: x, y, z, x.
+pub(crate) fn next(axis: Axis) -> Axis {
+    match axis {
+        Axis::X => Axis::Y,
+        Axis::Y => Axis::Z,
+        Axis::Z => Axis::X,
+    }
+}

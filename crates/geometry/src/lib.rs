@@ -8,6 +8,7 @@
 //! | [`distance`] | the distance between two surfaces |
 //! | [`merge_vertices`], [`parts`] | merging vertices, splitting a mesh into parts |
 //! | [`triangulate`], [`fill_hole_triangles`] | triangulation of faces and holes |
+//! | [`simplify`] | fewer triangles for nearly the same surface |
 //! | [`bisect`], [`bevel`] | cutting along a plane, beveling |
 //! | [`deform`] | moving points by closed formulas, falloff, noise |
 //! | [`smooth`](mod@smooth) | smoothing and denoising |
@@ -25,6 +26,7 @@ mod measure;
 mod merge;
 mod part;
 pub mod shapes;
+pub mod simplify;
 pub mod smooth;
 pub mod sparse;
 mod tangent;

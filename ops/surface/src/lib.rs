@@ -1,14 +1,20 @@
 //! Operations that simplify, remesh and smooth surfaces.
 
+mod lods;
+mod simplify;
 mod smooth;
 
 use op::Registry;
 
+pub use lods::Lods;
+pub use simplify::Simplify;
 pub use smooth::{Smooth, SmoothBoundary, SmoothBy, SmoothWeights};
 
 /// Adds the operations of this group, in the order of the reference.
 #[rustfmt::skip]
 pub fn register(registry: Registry) -> Registry {
     registry
+        .with::<Simplify>()
+        .with::<Lods>()
         .with::<Smooth>()
 }

@@ -20,7 +20,7 @@
 
 mod piece;
 mod surface;
-mod triangle;
+pub(crate) mod triangle;
 
 use mesh::{DVec3, Domain, Element, FaceId, Mesh, VertexId, blocks};
 

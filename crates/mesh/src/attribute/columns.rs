@@ -213,7 +213,14 @@ impl Column {
                     add(i.index(), weight);
                 }
             });
-            self.values.set(to.index(), &mean);
+            self.set_mean(to, &mean);
+        }
+    }
+
+    /// Sets the value of element `to` to the first value of `mean`. Does nothing if the rule does not interpolate.
+    pub(crate) fn set_mean<I: Id>(&mut self, to: I, mean: &Values) {
+        if matches!(self.rule, Rule::Interpolate | Rule::Normal) {
+            self.values.set(to.index(), mean);
             self.normalize(to.index());
         }
     }

@@ -1,0 +1,81 @@
+//! The edges that simplification keeps as lines, and what they mean for vertices.
+
+use mesh::{CREASE, Column, Domain, EdgeId, FaceId, Mesh, Values, VertexId};
+use rayon::prelude::*;
+
+/// How a vertex may move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// On no line: it may move anywhere.
+    Inside,
+    /// On one line: it may merge with its neighbors on the line.
+    Line,
+    /// At the end of a line, where lines meet, where the values on a line change, or pinned: it stays in place.
+    Fixed,
+}
+
+/// Returns, for each edge, whether it is a part of a line: a boundary, a seam, a border between face tags or
+/// materials, an edge with a tag or a crease, or one of the `features`. The mesh must be dense.
+pub(super) fn lines(mesh: &Mesh, features: &[EdgeId]) -> Vec<bool> {
+    let faces: Vec<&Column> = labels(mesh, Domain::Face).collect();
+    let tags: Vec<&[bool]> = labels(mesh, Domain::Edge)
+        .filter_map(|column| match &column.values {
+            Values::Tag(tag) => Some(tag.as_slice()),
+            _ => None,
+        })
+        .collect();
+    let creases = mesh.get(CREASE);
+    let differ = |f: FaceId, g: FaceId| {
+        let mut columns = faces.iter();
+        columns.any(|column| !column.values.are_equal(f.index(), g.index()))
+    };
+    let mut lines: Vec<bool> = (0..mesh.n_edges())
+        .into_par_iter()
+        .map(EdgeId::new)
+        .map(|e| match mesh.edge_faces(e) {
+            [Some(f), Some(g)] => {
+                mesh.is_seam(e)
+                    || differ(f, g)
+                    || tags.iter().any(|tag| tag[e.index()])
+                    || creases.is_some_and(|creases| creases[e.index()] > 0.0)
+            }
+            _ => true,
+        })
+        .collect();
+    for e in features {
+        lines[e.index()] = true;
+    }
+    lines
+}
+
+/// Returns how each vertex may move. The mesh must be dense.
+pub(super) fn kinds(mesh: &Mesh, lines: &[bool], pinned: &[VertexId]) -> Vec<Kind> {
+    let columns = mesh.attributes().of(Domain::Edge);
+    let mut kinds: Vec<Kind> = (0..mesh.n_vertices())
+        .into_par_iter()
+        .map(VertexId::new)
+        .map(|v| {
+            let mut around = mesh
+                .vertex_half_edges(v)
+                .map(|h| h.edge().index())
+                .filter(|&e| lines[e]);
+            match (around.next(), around.next(), around.next()) {
+                (None, ..) => Kind::Inside,
+                (Some(e), Some(f), None) if columns.iter().all(|c| c.values.are_equal(e, f)) => {
+                    Kind::Line
+                }
+                _ => Kind::Fixed,
+            }
+        })
+        .collect();
+    for v in pinned {
+        kinds[v.index()] = Kind::Fixed;
+    }
+    kinds
+}
+
+/// Returns the columns of a domain whose values are labels, which have no mean: tags and whole numbers.
+pub(super) fn labels(mesh: &Mesh, domain: Domain) -> impl Iterator<Item = &Column> {
+    let is_label = |column: &&Column| matches!(column.values, Values::Tag(_) | Values::Int(_));
+    mesh.attributes().of(domain).iter().filter(is_label)
+}

@@ -1,0 +1,177 @@
+//! Quadrics: sums of squared distances, as functions of a point.
+
+use std::ops::Add;
+
+use mesh::DVec3;
+
+/// A weighted sum of squared distances from a point p to planes: pᵀ A p + 2 b·p + c, with a symmetric matrix A.
+/// Source: Garland, Heckbert, "Surface Simplification Using Quadric Error Metrics", 1997.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Quadric {
+    /// The diagonal of A.
+    diagonal: DVec3,
+    /// The entries yz, xz and xy of A.
+    mixed: DVec3,
+    b: DVec3,
+    c: f64,
+}
+
+impl Quadric {
+    /// Returns the squared distance to the plane through `point` with the unit normal `n`, times `weight`.
+    pub(super) fn plane(n: DVec3, point: DVec3, weight: f64) -> Self {
+        let offset = -n.dot(point);
+        Self {
+            diagonal: weight * n * n,
+            mixed: weight * DVec3::new(n.y * n.z, n.x * n.z, n.x * n.y),
+            b: (weight * offset) * n,
+            c: weight * offset * offset,
+        }
+    }
+
+    /// Returns the value at `p`, at least 0.
+    pub(super) fn at(&self, p: DVec3) -> f64 {
+        let m = self.mixed;
+        let mixed = DVec3::new(
+            m.z * p.y + m.y * p.z,
+            m.z * p.x + m.x * p.z,
+            m.y * p.x + m.x * p.y,
+        );
+        // Rounding can make the value negative.
+        at_least_zero((self.diagonal * p + mixed + 2.0 * self.b).dot(p) + self.c)
+    }
+
+    /// Returns the point with the lowest value, or `None` if many points have this value.
+    pub(super) fn lowest(&self) -> Option<DVec3> {
+        let (d, m) = (self.diagonal, self.mixed);
+        // The columns of the adjugate of A, which is symmetric too.
+        let x = DVec3::new(
+            d.y * d.z - m.x * m.x,
+            m.y * m.x - m.z * d.z,
+            m.z * m.x - m.y * d.y,
+        );
+        let y = DVec3::new(x.y, d.x * d.z - m.y * m.y, m.z * m.y - d.x * m.x);
+        let z = DVec3::new(x.z, y.z, d.x * d.y - m.z * m.z);
+        let determinant = d.x * x.x + m.z * x.y + m.y * x.z;
+        let trace = d.element_sum();
+        (determinant > 1e-15 * trace * trace * trace)
+            .then(|| -(self.b.x * x + self.b.y * y + self.b.z * z) / determinant)
+    }
+}
+
+impl Add for Quadric {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            diagonal: self.diagonal + other.diagonal,
+            mixed: self.mixed + other.mixed,
+            b: self.b + other.b,
+            c: self.c + other.c,
+        }
+    }
+}
+
+/// The area that a vertex stands for, with the mean squared distance of the area from a point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Spread {
+    pub(super) area: f64,
+    /// The integral of the position over the area.
+    first: DVec3,
+    /// The integral of the squared length of the position over the area.
+    second: f64,
+}
+
+impl Spread {
+    /// Returns an area that lies at one point.
+    pub(super) fn at_point(point: DVec3, area: f64) -> Self {
+        Self {
+            area,
+            first: area * point,
+            second: area * point.length_squared(),
+        }
+    }
+
+    /// Returns the integral of the squared distance from `p` over the area, at least 0.
+    pub(super) fn at(&self, p: DVec3) -> f64 {
+        at_least_zero((self.area * p - 2.0 * self.first).dot(p) + self.second)
+    }
+
+    /// Returns this integral, times `weight`, as a quadric.
+    pub(super) fn quadric(&self, weight: f64) -> Quadric {
+        Quadric {
+            diagonal: DVec3::splat(weight * self.area),
+            mixed: DVec3::ZERO,
+            b: -weight * self.first,
+            c: weight * self.second,
+        }
+    }
+}
+
+impl Add for Spread {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            area: self.area + other.area,
+            first: self.first + other.first,
+            second: self.second + other.second,
+        }
+    }
+}
+
+fn at_least_zero(value: f64) -> f64 {
+    if value > 0.0 { value } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn point() -> impl Strategy<Value = DVec3> {
+        (-1.0..1.0, -1.0..1.0, -1.0..1.0).prop_map(|(x, y, z)| DVec3::new(x, y, z))
+    }
+
+    proptest! {
+        #[test]
+        fn a_quadric_is_the_sum_of_squared_distances(
+            planes in proptest::collection::vec((point(), point(), 0.1..2.0), 1..6), p in point(),
+        ) {
+            let (mut sum, mut quadric) = (0.0, Quadric::default());
+            for (n, q, weight) in planes {
+                let n = n.normalize_or(DVec3::X);
+                sum += weight * n.dot(p - q) * n.dot(p - q);
+                quadric = quadric + Quadric::plane(n, q, weight);
+            }
+            prop_assert!((quadric.at(p) - sum).abs() < 1e-12);
+        }
+
+        #[test]
+        fn no_point_is_below_the_lowest(
+            planes in proptest::collection::vec((point(), point()), 3..6), p in point(),
+        ) {
+            let quadric = planes.into_iter().fold(Quadric::default(), |sum, (n, q)| {
+                sum + Quadric::plane(n.normalize_or(DVec3::X), q, 1.0)
+            });
+            if let Some(lowest) = quadric.lowest() && lowest.length() < 10.0 {
+                prop_assert!(quadric.at(lowest) <= quadric.at(p) + 1e-9);
+            }
+        }
+
+        #[test]
+        fn a_spread_is_the_integral_of_squared_distances(a in point(), b in point(), p in point()) {
+            let spread = Spread::at_point(a, 2.0) + Spread::at_point(b, 0.5);
+            let expected = 2.0 * p.distance_squared(a) + 0.5 * p.distance_squared(b);
+            prop_assert!((spread.at(p) - expected).abs() < 1e-12);
+            prop_assert!((spread.quadric(3.0).at(p) - 3.0 * expected).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn parallel_planes_have_no_lowest_point() {
+        let planes =
+            Quadric::plane(DVec3::Z, DVec3::ZERO, 1.0) + Quadric::plane(DVec3::Z, DVec3::Z, 1.0);
+        assert_eq!(planes.lowest(), None);
+        assert_eq!(Quadric::default().lowest(), None);
+    }
+}

@@ -1,0 +1,338 @@
+use super::*;
+use crate::distance::{Distance, diagonal};
+use crate::shapes;
+use mesh::{CREASE, DVec2, DVec3, Domain, HalfEdgeId, MATERIAL, UV, VERTEX_NORMAL};
+use progress::NoProgress;
+use proptest::prelude::*;
+
+fn to(faces: usize) -> Options<'static> {
+    Options {
+        faces,
+        ..Options::default()
+    }
+}
+
+fn simplified(mesh: &Mesh, options: &Options) -> Simplified {
+    let simplified = simplify(mesh, options, &NoProgress).unwrap();
+    assert_eq!(simplified.mesh.defects(), []);
+    assert_eq!(
+        simplified.mesh.euler_characteristic(),
+        mesh.euler_characteristic()
+    );
+    assert_eq!(simplified.mesh.n_boundary_loops(), mesh.n_boundary_loops());
+    simplified
+}
+
+/// Returns a mesh whose quadrilaterals are cut in two.
+fn triangles(mesh: &Mesh) -> Mesh {
+    let polygons: Vec<[u32; 3]> = mesh
+        .faces()
+        .flat_map(|f| {
+            let v: Vec<u32> = mesh
+                .face_vertices(f)
+                .map(|v| u32::try_from(v.index()).unwrap())
+                .collect();
+            (2..v.len())
+                .map(move |k| [v[0], v[k - 1], v[k]])
+                .collect::<Vec<_>>()
+        })
+        .collect();
+    Mesh::from_polygons(mesh.positions().to_vec(), &polygons)
+        .unwrap()
+        .0
+}
+
+fn torus() -> Mesh {
+    triangles(&shapes::torus(60, 30, 1.0, 0.4))
+}
+
+/// A square of n × n cells in the plane z = 0, from 0 to 1.
+fn square(n: u32) -> Mesh {
+    let mut mesh = triangles(&shapes::grid(n, n));
+    let [min, max] = crate::bounds(&mesh).unwrap();
+    for p in mesh.positions_mut() {
+        *p = (*p - min) / (max.x - min.x);
+    }
+    mesh
+}
+
+#[test]
+fn the_number_of_faces_is_met() {
+    for faces in [3600, 2001, 500, 100] {
+        let left = simplified(&torus(), &to(faces)).mesh.n_faces();
+        assert!((faces - 1..=faces).contains(&left), "{left} of {faces}");
+    }
+}
+
+#[test]
+fn the_surface_is_near_the_original() {
+    let before = torus();
+    let after = simplified(&before, &to(360)).mesh;
+    let distance = Distance::between(&before, &after, None).unwrap();
+    assert!(
+        distance.at_most() < 0.01 * diagonal(&before, &after),
+        "{distance:?}"
+    );
+    assert!((crate::volume(&after) / crate::volume(&before) - 1.0).abs() < 0.02);
+}
+
+#[test]
+fn no_triangle_of_a_convex_surface_faces_inward() {
+    let sphere = triangles(&shapes::uv_sphere(40, 40));
+    let after = simplified(&sphere, &to(200)).mesh;
+    for f in after.faces() {
+        let center = after
+            .face_vertices(f)
+            .map(|v| after.position(v))
+            .sum::<DVec3>();
+        assert!(after.face_normal(f).dot(center) > 0.0);
+    }
+}
+
+#[test]
+fn a_flat_square_keeps_its_corners_and_its_area() {
+    let after = simplified(&square(20), &to(2)).mesh;
+    assert_eq!((after.n_faces(), after.n_vertices()), (2, 4));
+    assert!((crate::area(&after) - 1.0).abs() < 1e-7);
+}
+
+#[test]
+fn a_cube_of_many_triangles_becomes_a_cube_of_twelve() {
+    let mut cube = shapes::cube();
+    for _ in 0..3 {
+        cube = shapes::fans(&cube);
+    }
+    let cube = triangles(&cube);
+    let volume = crate::volume(&cube);
+    let after = simplified(&cube, &to(12)).mesh;
+    assert_eq!(after.n_faces(), 12);
+    assert!((crate::volume(&after) / volume - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn very_small_and_very_large_meshes_give_the_same_result() {
+    let before = torus();
+    let expected = simplified(&before, &to(500)).mesh;
+    for factor in [-300, 300].map(|exponent| libm::ldexp(1.0, exponent)) {
+        let mut scaled = before.clone();
+        scaled.positions_mut().iter_mut().for_each(|p| *p *= factor);
+        let after = simplified(&scaled, &to(500)).mesh;
+        assert_eq!(after.connectivity(), expected.connectivity());
+        assert!(
+            after
+                .positions()
+                .iter()
+                .zip(expected.positions())
+                .all(|(p, q)| *p == *q * factor)
+        );
+    }
+}
+
+#[test]
+fn a_seam_stays_and_texture_coordinates_do_not_blend_across_it() {
+    // Left of x = 0.5, u is x; right of it, u is x + 10.
+    let mut mesh = square(16);
+    let uv: Vec<DVec2> = (0..mesh.n_half_edges())
+        .map(|h| {
+            let h = HalfEdgeId::new(h);
+            let Some(f) = mesh.face(h) else {
+                return DVec2::ZERO;
+            };
+            let p = mesh.position(mesh.origin(h));
+            let center = mesh
+                .face_vertices(f)
+                .map(|v| mesh.position(v).x)
+                .sum::<f64>()
+                / 3.0;
+            DVec2::new(if center < 0.5 { p.x } else { p.x + 10.0 }, p.y)
+        })
+        .collect();
+    mesh.set(UV, uv);
+    let after = simplified(&mesh, &to(8)).mesh;
+    assert!(after.n_faces() <= 8);
+    let uv = after.get(UV).unwrap();
+    for f in after.faces() {
+        let corners: Vec<HalfEdgeId> = after.face_half_edges(f).collect();
+        let is_left = uv[corners[0].index()].x < 5.0;
+        for h in corners {
+            let p = after.position(after.origin(h));
+            let expected = DVec2::new(if is_left { p.x } else { p.x + 10.0 }, p.y);
+            assert!(uv[h.index()].distance(expected) < 1e-7, "{h}");
+        }
+    }
+}
+
+#[test]
+fn borders_of_materials_creases_features_and_tags_stay() {
+    let mesh = square(12);
+    let middle: Vec<EdgeId> = mesh
+        .edges()
+        .filter(|&e| {
+            mesh.edge_vertices(e)
+                .iter()
+                .all(|&v| mesh.position(v).x == 0.5)
+        })
+        .collect();
+    assert_eq!(middle.len(), 12);
+    let left = |mesh: &Mesh, f: FaceId| {
+        mesh.face_vertices(f)
+            .map(|v| mesh.position(v).x)
+            .sum::<f64>()
+            < 1.5
+    };
+    let mut material = mesh.clone();
+    material.set(
+        MATERIAL,
+        mesh.faces().map(|f| i32::from(left(&mesh, f))).collect(),
+    );
+    let mut crease = mesh.clone();
+    crease.set(
+        CREASE,
+        mesh.edges()
+            .map(|e| if middle.contains(&e) { 2.0 } else { 0.0 })
+            .collect(),
+    );
+    let feature = Options {
+        features: &middle,
+        ..to(4)
+    };
+    for (mesh, options) in [(material, to(4)), (crease, to(4)), (mesh, feature)] {
+        let after = simplified(&mesh, &options).mesh;
+        let on_line = |v| (after.position(v).x - 0.5).abs() < 1e-7;
+        let line = after
+            .edges()
+            .filter(|&e| after.edge_vertices(e).into_iter().all(on_line))
+            .count();
+        assert_eq!((after.n_faces(), line), (4, 1));
+        if let Some(material) = after.get(MATERIAL) {
+            assert!(
+                after
+                    .faces()
+                    .all(|f| material[f.index()] == i32::from(left(&after, f)))
+            );
+        }
+        if let Some(crease) = after.get(CREASE) {
+            assert_eq!(crease.iter().filter(|&&c| c == 2.0).count(), 1);
+        }
+    }
+}
+
+#[test]
+fn vertices_with_different_tags_are_not_merged() {
+    let mut mesh = square(8);
+    let tagged = mesh
+        .vertices()
+        .find(|&v| mesh.position(v) == DVec3::new(0.5, 0.5, 0.0))
+        .unwrap();
+    let mut tip = vec![false; mesh.n_vertices()];
+    tip[tagged.index()] = true;
+    let column = mesh::Column {
+        name: "tip".into(),
+        rule: mesh::Rule::Copy,
+        values: mesh::Values::Tag(tip),
+    };
+    mesh.insert_column(Domain::Vertex, column);
+    let result = simplified(&mesh, &to(4));
+    let tip = result.mesh.tag(Domain::Vertex, "tip").unwrap();
+    assert_eq!(tip.iter().filter(|&&t| t).count(), 1);
+    assert_eq!(result.mesh.n_faces(), 4);
+}
+
+#[test]
+fn pinned_vertices_keep_their_bits() {
+    let mesh = torus();
+    let pinned: Vec<VertexId> = mesh.vertices().step_by(7).collect();
+    let after = simplified(
+        &mesh,
+        &Options {
+            pinned: &pinned,
+            ..to(0)
+        },
+    )
+    .mesh;
+    for v in pinned {
+        assert!(after.positions().contains(&mesh.position(v)));
+    }
+}
+
+#[test]
+fn what_blocks_is_counted() {
+    let tetrahedron = simplified(&shapes::tetrahedron(), &to(0));
+    assert_eq!(tetrahedron.mesh.n_faces(), 4);
+    assert_eq!(
+        tetrahedron
+            .blocked
+            .iter()
+            .map(|&(_, count)| count)
+            .sum::<usize>(),
+        6
+    );
+    let torus = torus();
+    let all: Vec<VertexId> = torus.vertices().collect();
+    let pinned = simplified(
+        &torus,
+        &Options {
+            pinned: &all,
+            ..to(0)
+        },
+    );
+    assert_eq!(pinned.blocked, [(Blocked::Lines, torus.n_edges())]);
+}
+
+#[test]
+fn normals_stay_of_length_one() {
+    let mut mesh = triangles(&shapes::uv_sphere(24, 24));
+    let normals = mesh.positions().iter().map(|p| p.normalize()).collect();
+    mesh.set(VERTEX_NORMAL, normals);
+    let after = simplified(&mesh, &to(100)).mesh;
+    for (n, p) in after
+        .get(VERTEX_NORMAL)
+        .unwrap()
+        .iter()
+        .zip(after.positions())
+    {
+        assert!((n.length() - 1.0).abs() < 1e-12 && n.dot(p.normalize()) > 0.9);
+    }
+}
+
+#[test]
+fn polygons_are_refused_with_the_face() {
+    let refused = simplify(&shapes::cube(), &to(4), &NoProgress).unwrap_err();
+    assert_eq!(refused, SimplifyError::NotTriangle(FaceId::new(0)));
+}
+
+#[test]
+fn it_can_be_cancelled() {
+    struct Never;
+    impl Progress for Never {
+        fn advance(&self, _: &str, _: u64, _: u64) -> bool {
+            false
+        }
+    }
+    let cancelled = simplify(&torus(), &to(10), &Never).unwrap_err();
+    assert_eq!(cancelled, SimplifyError::Cancelled(Cancelled));
+}
+
+proptest! {
+    /// Any soup of triangles, with degenerate ones and any coordinates.
+    #[test]
+    fn soups_of_triangles_keep_the_invariants(
+        points in proptest::collection::vec((0..4_u8, 0..4_u8, 0..4_u8), 4..24),
+        triangles in proptest::collection::vec([0..24_usize, 0..24_usize, 0..24_usize], 1..60),
+        exponent in -1000..1000_i32, faces in 0..20_usize,
+    ) {
+        let scale = libm::ldexp(1.0, exponent);
+        let positions: Vec<DVec3> = points.iter()
+            .map(|&(x, y, z)| scale * DVec3::new(f64::from(x), f64::from(y), f64::from(z)))
+            .collect();
+        let polygons: Vec<[u32; 3]> = triangles.iter()
+            .map(|t| t.map(|v| u32::try_from(v % positions.len()).unwrap()))
+            .filter(|[a, b, c]| a != b && b != c && c != a)
+            .collect();
+        let Ok((mesh, _)) = Mesh::from_polygons(positions, &polygons) else {
+            return Ok(());
+        };
+        let after = simplified(&mesh, &to(faces)).mesh;
+        prop_assert!(after.n_faces() <= mesh.n_faces());
+    }
+}

@@ -60,6 +60,8 @@ pub enum Refusal {
     NonManifold,
     /// The mesh has the largest supported number of elements.
     Full,
+    /// The step could not reach its goal, for example a number of faces.
+    Unreached,
 }
 
 impl From<EditError> for Refusal {

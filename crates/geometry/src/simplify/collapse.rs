@@ -107,7 +107,7 @@ impl<'a> Collapser<'a> {
         let start = self.n_faces;
         let mut visits = 0_u32;
         while self.n_faces > self.options.faces {
-            if visits % 1024 == 0 {
+            if visits.is_multiple_of(1024) {
                 let (done, total) = (start - self.n_faces, start - self.options.faces);
                 progress.report("simplify", done as u64, total as u64)?;
             }

@@ -1,0 +1,260 @@
+//! Simplify: fewer triangles for nearly the same surface.
+//!
+//! ```text
+//!     +---+---+---+---+           +-------+-------+
+//!     | / | / | / | / |           |     /  \      |
+//!     +---+---+---+---+    -->    |  /        \   |
+//!     | / | / | / | / |           | /            \|
+//!     +---+---+---+---+           +---------------+
+//! ```
+
+use geometry::simplify::{Blocked, Options, SimplifyError, simplify};
+use op::Refusal;
+use op::prelude::*;
+
+/// Removes triangles from meshes, and changes the surface as little as possible.
+///
+/// Edges are collapsed until `faces` or `ratio` is reached, first those that change the surface least: the mean squared
+/// distance to the planes of the original triangles decides (Garland, Heckbert, 1997). One of `faces` and `ratio` must
+/// be given. All faces must be triangles.
+///
+/// These are kept:
+///
+/// - Topology: holes, handles and separate parts stay.
+/// - Lines: the boundary, seams of texture coordinates and normals, borders between face tags or materials, edges with
+///   a tag or a crease, and `features`. A line can lose vertices, but its ends, and the vertices where lines meet, keep
+///   their exact positions.
+/// - Attributes: they are interpolated, and never across a line. Normals are interpolated too, so that a simplified mesh
+///   is shaded like the original.
+/// - Vertex tags: vertices with different tags or sharpness are not merged.
+///
+/// No triangle is turned over. Remaining elements are numbered anew, in the order of their old numbers. If the goal cannot
+/// be reached, the step is refused as `Unreached`, with the reasons; with `on_refusal: Skip`, the result is kept.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Simplify {
+    /// The number of faces to reach, for each mesh. The result can have one face fewer. A mesh that has no more
+    /// faces stays as it is.
+    #[serde(default)]
+    pub faces: Option<Count<0>>,
+    /// The number of faces to reach, as a part of the faces of each mesh.
+    #[serde(default)]
+    pub ratio: Option<Fraction>,
+    /// Edges that are kept as lines, for example `Sharp(above: 30)`. If omitted, none in addition to those above.
+    #[serde(default)]
+    pub features: Option<EdgeSelection>,
+    /// Vertices that keep their exact positions, for example `Boundary`. If omitted, none.
+    #[serde(default)]
+    pub pin: Option<VertexSelection>,
+    /// What to do if the number of faces cannot be reached.
+    #[serde(default)]
+    pub on_refusal: OnRefusal,
+}
+
+impl Simplify {
+    /// Returns the number of faces to reach, for a mesh with `n_faces`.
+    fn goal(&self, n_faces: u64) -> u64 {
+        match (self.faces, self.ratio) {
+            (Some(faces), _) => u64::from(faces.get()),
+            (None, Some(ratio)) => part(n_faces, ratio),
+            (None, None) => n_faces,
+        }
+    }
+}
+
+/// Returns a part of a number of faces, rounded up.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_precision_loss,
+    reason = "numbers of faces are below 2^32"
+)]
+pub(crate) fn part(n_faces: u64, ratio: Fraction) -> u64 {
+    (n_faces as f64 * ratio.get()).ceil() as u64
+}
+
+/// Plans that a mesh is reduced to a number of faces between `goal.min` and `goal.max`.
+pub(crate) fn plan_goal(plan: &mut MeshPlan, goal: Range, is_certain: bool) {
+    let least = goal.min.saturating_sub(1).min(plan.faces.min);
+    let most = if is_certain {
+        goal.max.min(plan.faces.max)
+    } else {
+        plan.faces.max
+    };
+    plan.faces = Range {
+        min: least,
+        max: most.max(least),
+    };
+    plan.vertices = plan.vertices.or_less();
+    plan.edges = plan.edges.or_less();
+}
+
+/// Returns the problem of a mesh that certainly has faces with more than three corners.
+pub(crate) fn triangles_problem(name: &str, plan: &MeshPlan) -> Option<Problem> {
+    (plan.degrees.min > 3 && plan.faces.max > 0).then(|| {
+        let least = plan.degrees.min;
+        let message =
+            format!("{name} needs triangles, but the faces have at least {least} corners");
+        Problem::error(message).help("triangulate the faces first, with Triangulate")
+    })
+}
+
+/// Returns the error of an operation for an error of [`simplify`].
+pub(crate) fn error(error: &SimplifyError) -> OpError {
+    match error {
+        SimplifyError::Cancelled(_) => OpError::Cancelled,
+        SimplifyError::NotTriangle(f) => {
+            let message =
+                format!("{f} is not a triangle; triangulate the faces first, with Triangulate");
+            OpError::refused(Refusal::NotTriangle, message).about([*f])
+        }
+    }
+}
+
+/// Returns the refusal of a mesh that could not be reduced to `goal` faces.
+pub(crate) fn unreached(n_faces: usize, goal: u64, blocked: &[(Blocked, usize)]) -> OpError {
+    let reasons: Vec<String> = blocked
+        .iter()
+        .map(|(reason, n)| format!("{n} {reason}"))
+        .collect();
+    let n_edges: usize = blocked.iter().map(|(_, n)| n).sum();
+    let message = format!(
+        "only {n_faces} faces were reached instead of {goal}: of the remaining {n_edges} edges, a collapse of {}",
+        reasons.join(", of ")
+    );
+    OpError::refused(Refusal::Unreached, message)
+}
+
+impl MeshOperation for Simplify {
+    const NAME: &'static str = "Simplify";
+    const SUMMARY: &'static str = "Remove triangles, and change the surface as little as possible";
+    const EXAMPLE: &'static str = "Simplify(ratio: 0.5)";
+    const WORDS: &'static [&'static str] = &["decimate", "reduce", "quadric", "lod", "polycount"];
+
+    fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+        let mut problems = Vec::from_iter(triangles_problem(Self::NAME, plan));
+        if self.faces.is_some() == self.ratio.is_some() {
+            let message = "Simplify needs either `faces` or `ratio`";
+            problems
+                .push(Problem::error(message).help("write, for example, `Simplify(faces: 5000)`"));
+        }
+        let goal = Range {
+            min: self.goal(plan.faces.min),
+            max: self.goal(plan.faces.max),
+        };
+        plan_goal(plan, goal, self.on_refusal == OnRefusal::Error);
+        problems
+    }
+
+    fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+        let features = match &self.features {
+            Some(features) => features.resolve(mesh, cx)?,
+            None => Vec::new(),
+        };
+        let pinned = match &self.pin {
+            Some(pin) => pin.resolve(mesh, cx)?,
+            None => Vec::new(),
+        };
+        let before = mesh.n_faces();
+        let goal = self.goal(before as u64);
+        let options = Options {
+            faces: usize::try_from(goal).unwrap_or(usize::MAX),
+            features: &features,
+            pinned: &pinned,
+        };
+        let simplified = simplify(mesh, &options, cx.progress()).map_err(|e| error(&e))?;
+        let after = simplified.mesh.n_faces();
+        let mut report = Report::changed(before - after);
+        if after as u64 > goal {
+            self.on_refusal
+                .refuse(unreached(after, goal, &simplified.blocked), &mut report)?;
+        }
+        if after < before {
+            mesh.replace(simplified.mesh);
+        }
+        Ok(report)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use geometry::shapes;
+    use op::test::{applied, planned, try_applied};
+
+    fn step(text: &str) -> Simplify {
+        op::test::read(text).unwrap()
+    }
+
+    #[test]
+    fn faces_and_ratio_are_goals() {
+        let icosahedron = shapes::icosahedron();
+        for (text, n) in [
+            ("(faces: 12)", 12),
+            ("(ratio: 0.5)", 10),
+            ("(faces: 20)", 20),
+            ("(faces: 99)", 20),
+        ] {
+            let (plan, problems) = planned(&step(text), &icosahedron);
+            let (mesh, report) = try_applied(&step(text), icosahedron.clone()).unwrap();
+            assert_eq!((mesh.n_faces(), report.changed), (n, 20 - n as u64));
+            assert_eq!(problems, []);
+            assert!(plan.faces.contains(n as u64), "{:?}", plan.faces);
+        }
+    }
+
+    #[test]
+    fn one_goal_must_be_given() {
+        for text in ["()", "(faces: 5, ratio: 0.5)"] {
+            let (_, problems) = planned(&step(text), &shapes::icosahedron());
+            assert_eq!(problems.len(), 1);
+            assert!(problems[0].message.contains("either `faces` or `ratio`"));
+        }
+    }
+
+    #[test]
+    fn an_unreached_goal_is_refused_with_the_reasons() {
+        let refused = try_applied(&step("(faces: 2)"), shapes::tetrahedron()).unwrap_err();
+        assert_eq!(
+            refused.to_string(),
+            "only 4 faces were reached instead of 2: of the remaining 6 edges, a collapse of 6 would change the topology"
+        );
+        let skip = step("(faces: 2, on_refusal: Skip)");
+        let (mesh, report) = try_applied(&skip, shapes::octahedron()).unwrap();
+        assert_eq!(mesh.n_faces(), 4);
+        assert_eq!((report.changed, report.refused[0].count), (4, 1));
+    }
+
+    #[test]
+    fn polygons_are_refused_in_the_plan_and_in_the_run() {
+        let (_, problems) = planned(&step("(faces: 4)"), &shapes::cube());
+        assert_eq!(problems.len(), 1);
+        let refused = try_applied(&step("(faces: 4)"), shapes::cube()).unwrap_err();
+        assert!(matches!(
+            refused,
+            OpError::Refused {
+                reason: Refusal::NotTriangle,
+                ..
+            }
+        ));
+    }
+
+    #[test]
+    fn features_and_pins_are_kept() {
+        let cylinder = shapes::fans(&shapes::cylinder(32, true));
+        let pinned = applied(
+            &step("(faces: 20, pin: All, on_refusal: Skip)"),
+            cylinder.clone(),
+        );
+        assert_eq!(pinned.n_faces(), cylinder.n_faces());
+        let kept = applied(
+            &step("(ratio: 0.5, features: Sharp(above: 40))"),
+            cylinder.clone(),
+        );
+        assert!(
+            kept.positions()
+                .iter()
+                .all(|p| (p.z.abs() - 1.0).abs() < 1e-6)
+        );
+    }
+}

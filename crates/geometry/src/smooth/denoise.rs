@@ -9,7 +9,7 @@
 //! faces, and t is half the distance between two unit normals with the angle of the method: sin(angle / 2).
 
 use mesh::{DVec3, Domain, FaceId, Mesh, VertexId};
-use progress::Progress;
+use progress::{Cancelled, Meter, Progress};
 use rayon::prelude::*;
 
 use super::{SmoothError, Smoother};
@@ -18,6 +18,8 @@ use crate::sin_cos_degrees;
 /// At vertices with more faces than this, only faces that share an edge are neighbors, so that the work stays in
 /// proportion to the number of faces.
 const MAX_FAN: u8 = 64;
+/// The number of faces between two checks for cancellation.
+const CHECK: usize = 1024;
 
 pub(super) fn denoise(
     smoother: &Smoother,
@@ -96,25 +98,29 @@ fn filtered_normals(
             0.0
         }
     };
-    for pass in 0..passes {
-        progress.report("filter normals", pass, passes)?;
+    let total = passes.saturating_mul(normals.len() as u64);
+    let meter = Meter::new(progress, "filter normals", total);
+    for _ in 0..passes {
         let old = &normals;
-        let filtered =
-            (0..old.len())
-                .into_par_iter()
-                .with_min_len(256)
-                .map_init(Vec::new, |around, f| {
-                    neighbors(mesh, &fans, FaceId::new(f), around);
-                    let weighted = around.iter().map(|&g| {
-                        let g = g.index();
-                        let near = falloff(centers[f].distance_squared(centers[g]), spread);
-                        let alike = falloff(old[f].distance_squared(old[g]), tolerance);
-                        areas[g] * near * alike * old[g]
-                    });
-                    let sum: DVec3 = weighted.sum();
-                    sum.try_normalize().unwrap_or(old[f])
+        let filtered: Result<Vec<DVec3>, Cancelled> = (0..old.len())
+            .into_par_iter()
+            .with_min_len(256)
+            .map_init(Vec::new, |around, f| {
+                if f.is_multiple_of(CHECK) {
+                    meter.add(CHECK)?;
+                }
+                neighbors(mesh, &fans, FaceId::new(f), around);
+                let weighted = around.iter().map(|&g| {
+                    let g = g.index();
+                    let near = falloff(centers[f].distance_squared(centers[g]), spread);
+                    let alike = falloff(old[f].distance_squared(old[g]), tolerance);
+                    areas[g] * near * alike * old[g]
                 });
-        normals = filtered.collect();
+                let sum: DVec3 = weighted.sum();
+                Ok(sum.try_normalize().unwrap_or(old[f]))
+            })
+            .collect();
+        normals = filtered?;
     }
     Ok(normals)
 }

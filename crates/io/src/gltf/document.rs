@@ -9,6 +9,7 @@ use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
 use super::budget::Budget;
+use super::draco::{self, DRACO};
 use super::meshopt::{self, Compressed, MESHOPT};
 use super::node_json::NodeJson;
 use super::surface::{
@@ -19,7 +20,8 @@ use crate::note::Notes;
 
 /// The extensions that the reader supports. `KHR_mesh_quantization` allows integers for positions and texture
 /// coordinates.
-const KNOWN_EXTENSIONS: [&str; 7] = [
+const KNOWN_EXTENSIONS: [&str; 8] = [
+    DRACO,
     "KHR_mesh_quantization",
     TRANSFORM,
     STRENGTH,
@@ -31,8 +33,6 @@ const KNOWN_EXTENSIONS: [&str; 7] = [
 
 /// The extension for lights.
 pub(super) const LIGHTS: &str = "KHR_lights_punctual";
-
-const DRACO: &str = "KHR_draco_mesh_compression";
 
 /// A part that is kept as it is.
 pub(super) type Json = Map<String, Value>;
@@ -47,6 +47,8 @@ pub(super) struct Document {
     pub(super) views: Vec<View>,
     /// For each view, how it is compressed; `None` if it is not compressed.
     pub(super) compressed: Vec<Option<Compressed>>,
+    /// The primitives that are compressed as a whole and not decoded yet.
+    pub(super) draco: Vec<draco::Compressed>,
     pub(super) materials: Vec<MaterialJson>,
     pub(super) meshes: Vec<Mesh>,
     pub(super) nodes: Vec<NodeJson>,
@@ -70,7 +72,6 @@ impl Document {
     pub(super) fn new(json: &Value, budget: &Budget, notes: &mut Notes) -> Result<Self, Fault> {
         check_version(json)?;
         check_extensions(json, notes)?;
-        check_draco(json)?;
         let views: Vec<View> = pieces(json, "bufferViews", budget)?;
         // The memory for the additional data about each view.
         let more = views.len() * size_of::<(Option<Compressed>, OnceCell<Vec<u8>>)>();
@@ -79,6 +80,7 @@ impl Document {
         let document = Self {
             fallbacks: meshopt::fallbacks(list(json, "buffers")?, &views, &compressed),
             compressed,
+            draco: draco::compressed(list(json, "meshes")?, list(json, "accessors")?)?,
             accessors: pieces(json, "accessors", budget)?,
             buffers: pieces(json, "buffers", budget)?,
             views,
@@ -153,11 +155,7 @@ fn check_extensions(json: &Value, notes: &mut Notes) -> Result<(), Fault> {
         if known(name) {
             continue;
         }
-        let message = if name == DRACO {
-            draco_message()
-        } else {
-            format!("the file requires the extension \"{name}\", which is not supported")
-        };
+        let message = format!("the file requires the extension \"{name}\", which is not supported");
         return Err(Fault::json(pointer, message));
     }
     let mut uses = BTreeMap::new();
@@ -166,49 +164,9 @@ fn check_extensions(json: &Value, notes: &mut Notes) -> Result<(), Fault> {
     }
     count_extensions(json, &mut uses);
     for (name, count) in uses {
-        // Uncompressed data is read instead.
-        if !known(name) && name != DRACO {
+        if !known(name) {
             let what = format!("uses of the extension \"{name}\" left out");
             notes.coded("extensions").left_out(count.max(1), None, what);
-        }
-    }
-    Ok(())
-}
-
-fn draco_message() -> String {
-    format!(
-        "the file uses the compression {DRACO}, which is not supported: write the file without compression, for \
-        example with `gltf-transform copy`"
-    )
-}
-
-/// Refuses a primitive whose data only exists in compressed form. A file can have uncompressed data too; then the
-/// extension is optional.
-fn check_draco(json: &Value) -> Result<(), Fault> {
-    let accessors = list(json, "accessors")?;
-    let has_data = |accessor: &Value| {
-        let accessor = accessor.as_u64().and_then(|i| usize::try_from(i).ok());
-        // An accessor that does not exist is a different error.
-        let accessor = accessor.and_then(|i| accessors.get(i));
-        accessor.is_none_or(|a| a.get("bufferView").is_some() || a.get("sparse").is_some())
-    };
-    for (i, mesh) in list(json, "meshes")?.iter().enumerate() {
-        let primitives = mesh.get("primitives").and_then(Value::as_array);
-        for (j, primitive) in primitives.into_iter().flatten().enumerate() {
-            if primitive
-                .get("extensions")
-                .and_then(|e| e.get(DRACO))
-                .is_none()
-            {
-                continue;
-            }
-            let attributes = primitive.get("attributes").and_then(Value::as_object);
-            let mut used = attributes.into_iter().flatten().map(|(_, a)| a);
-            let has_indices = primitive.get("indices").is_none_or(has_data);
-            if !has_indices || !used.all(has_data) {
-                let pointer = format!("/meshes/{i}/primitives/{j}/extensions/{DRACO}");
-                return Err(Fault::json(pointer, draco_message()));
-            }
         }
     }
     Ok(())

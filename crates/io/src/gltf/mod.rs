@@ -48,7 +48,8 @@
 //! | `KHR_texture_transform` | read and written: the transform of a texture |
 //! | `KHR_materials_emissive_strength`, `KHR_materials_unlit` | read and written |
 //! | `KHR_lights_punctual` | read and written |
-//! | other required extensions, such as `KHR_draco_mesh_compression` | the file is refused |
+//! | `KHR_draco_mesh_compression` | read |
+//! | other required extensions | the file is refused |
 //! | other optional extensions | left out, with a note |
 //!
 //! The writer uses the same table in the other direction. glTF has a vertex for each side of a seam, so vertices
@@ -79,6 +80,7 @@ mod budget;
 mod buffers;
 mod compress;
 mod document;
+mod draco;
 mod faces;
 mod fill;
 mod materials;

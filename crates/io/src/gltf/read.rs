@@ -11,6 +11,7 @@ use serde_json::Value;
 use super::budget::Budget;
 use super::buffers;
 use super::document::Document;
+use super::draco;
 use super::materials::Materials;
 use super::nodes::placed_meshes;
 use super::primitives::{Triangles, triangles};
@@ -39,13 +40,19 @@ pub(crate) fn read(
     let (json, binary) = buffers::container(&bytes)?;
     let json = parse(json)?;
     let budget = Budget::of(bytes.len());
-    let document = Document::new(&json, &budget, notes)?;
+    let mut document = Document::new(&json, &budget, notes)?;
     drop(json);
     let (buffers, fallbacks) = (&document.buffers, &document.fallbacks);
-    let loaded = buffers::load(buffers, fallbacks, binary, &budget, assets)?;
+    let mut loaded = buffers::load(buffers, fallbacks, binary, &budget, assets)?;
+    let size = loaded.iter().map(|buffer| buffer.len() as u64).sum();
     if document.compressed.iter().any(Option::is_some) {
-        budget.grant_compressed(loaded.iter().map(|buffer| buffer.len() as u64).sum());
+        budget.grant_compressed(size);
     }
+    if !document.draco.is_empty() {
+        // A triangle takes about a byte.
+        budget.grant_compressed(2 * size);
+    }
+    draco::decode(&mut document, &mut loaded, &budget)?;
     objects(
         &Reader::new(&document, &loaded, &budget),
         name,

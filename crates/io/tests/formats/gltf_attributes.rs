@@ -197,7 +197,7 @@ fn quantized_positions_normals_and_coordinates_are_read() {
 #[test]
 fn compressed_files_are_refused_with_advice() {
     for (name, words) in [
-        ("KHR_draco_mesh_compression", "without compression"),
+        ("KHR_other", "\"KHR_other\", which is not supported"),
         ("KHR_something", "\"KHR_something\", which is not supported"),
     ] {
         let mut json = square(&[0, 1, 2], 4);

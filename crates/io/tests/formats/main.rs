@@ -7,6 +7,7 @@ mod dae_nodes;
 mod dae_read;
 mod gltf_attributes;
 mod gltf_broken;
+mod gltf_draco;
 mod gltf_limits;
 mod gltf_materials;
 mod gltf_meshopt;

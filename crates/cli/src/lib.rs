@@ -23,6 +23,7 @@ mod loading;
 mod many;
 mod output;
 mod picture_errors;
+mod pipes;
 mod recording;
 mod scenes;
 mod terminal_picture;

@@ -10,6 +10,7 @@ use walkdir::{DirEntry, WalkDir};
 
 use crate::args::{RecipeArgs, ValueArgs};
 use crate::file_kind::{FileKind, expect_kind};
+use crate::pipes;
 
 /// Reads and checks the recipe given on the command line.
 pub(crate) fn load(args: &RecipeArgs, engine: &Engine) -> anyhow::Result<Loaded> {
@@ -24,8 +25,12 @@ pub(crate) fn load_recipe(
     budget: u64,
     engine: &Engine,
 ) -> anyhow::Result<Loaded> {
-    expect_kind(path, FileKind::Recipe)?;
-    let source = engine.open(path).map_err(anyhow::Error::msg)?;
+    let source = if pipes::is_pipe(path) {
+        pipes::read_recipe()?
+    } else {
+        expect_kind(path, FileKind::Recipe)?;
+        engine.open(path).map_err(anyhow::Error::msg)?
+    };
     load_text(&source, values, out, budget, engine)
 }
 

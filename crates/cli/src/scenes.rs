@@ -12,6 +12,7 @@ use crate::file_kind::{FileKind, expect_kind};
 use crate::listener::{Terminal, catch_interrupts};
 use crate::loading::load_recipe;
 use crate::output::{print_diagnostics, print_error};
+use crate::pipes;
 
 /// A scene at one point of a recipe, or of a file.
 pub(crate) struct SceneAtStep {
@@ -62,6 +63,23 @@ pub(crate) fn read_file(path: &Path, options: &ReadOptions) -> anyhow::Result<(S
     expect_kind(path, FileKind::Mesh)?;
     let loaded = mesh_io::read(&Disk, path, options);
     let loaded = loaded.map_err(|error| anyhow::anyhow!("{error}"))?;
+    into_scene(path, loaded)
+}
+
+/// Like [`read_file`], for standard input if `path` is `-`. `name` is the path of [`pipes::mesh_name`].
+pub(crate) fn read_file_or_input(
+    path: &Path,
+    name: &Path,
+    options: &ReadOptions,
+) -> anyhow::Result<(Scene, Vec<Note>)> {
+    if pipes::is_pipe(path) {
+        into_scene(name, pipes::read_mesh(name, options)?)
+    } else {
+        read_file(path, options)
+    }
+}
+
+fn into_scene(path: &Path, loaded: mesh_io::Loaded) -> anyhow::Result<(Scene, Vec<Note>)> {
     let mut scene = Scene::new();
     let appended = scene.append(loaded.objects, loaded.graph);
     appended.with_context(|| format!("cannot use {}", path.display()))?;

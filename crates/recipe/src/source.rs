@@ -39,9 +39,17 @@ impl Source {
     ///
     /// A message with the path, if the file cannot be read, is too long, or is not UTF-8 text.
     pub fn open_in(store: &dyn Store, path: &Path) -> Result<Self, String> {
-        let shown = path.display();
         let bytes = store.read_stream(path, MAX_BYTES as u64 + 1);
-        let bytes = bytes.map_err(|error| error.to_string())?;
+        Self::from_bytes(path, bytes.map_err(|error| error.to_string())?)
+    }
+
+    /// Creates a source from the bytes of a text. The file `path` is not read.
+    ///
+    /// # Errors
+    ///
+    /// A message with the path, if the text is too long or is not UTF-8 text.
+    pub fn from_bytes(path: &Path, bytes: Vec<u8>) -> Result<Self, String> {
+        let shown = path.display();
         if bytes.len() > MAX_BYTES {
             let mebibytes = MAX_BYTES >> 20;
             return Err(format!(

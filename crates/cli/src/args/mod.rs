@@ -116,8 +116,11 @@ pub(crate) struct OpsArgs {
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct InfoArgs {
-    /// A mesh, patch or curve file
+    /// A mesh, patch or curve file; `-` reads standard input
     pub(crate) file: PathBuf,
+    /// The format of standard input, such as `obj` or `obj.gz`
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) from: Option<String>,
     /// Also show a small picture: pixels if the terminal supports them, otherwise characters
     #[arg(long)]
     pub(crate) picture: bool,
@@ -132,12 +135,19 @@ pub(crate) struct InfoArgs {
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct ConvertArgs {
-    /// The file to read
+    /// The file to read; `-` reads standard input
     pub(crate) input: PathBuf,
+    /// The format of standard input, such as `obj` or `obj.gz`
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) from: Option<String>,
     #[command(flatten)]
     pub(crate) read: ReadArgs,
-    /// The file to write; its extension determines the format
+    /// The file to write; its extension determines the format. `-` writes to standard output, and reports to standard
+    /// error
     pub(crate) output: PathBuf,
+    /// The format of standard output, such as `ply`
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) to: Option<String>,
     /// Images of materials: Embed, Copy (next to the file) or Keep (only the paths); by default, GLB files embed them
     /// and other files get copies
     #[arg(long, value_name = "POLICY", value_parser = read::policy::<Images>)]

@@ -14,12 +14,13 @@ use serde_json::json;
 use crate::args::{Format, InfoArgs};
 use crate::commands::picture::draw_scenes;
 use crate::output::{group_digits, number, point, print, print_json};
-use crate::scenes::{SceneAtStep, read_file};
+use crate::pipes;
+use crate::scenes::{SceneAtStep, read_file_or_input};
 use crate::terminal_picture;
 
 pub(crate) fn run(args: &InfoArgs) -> anyhow::Result<bool> {
-    let path = &args.file;
-    let (scene, notes) = read_file(path, &args.read.options())?;
+    let path = &pipes::mesh_name(&args.file, args.from.as_deref(), "stdin", "--from")?;
+    let (scene, notes) = read_file_or_input(&args.file, path, &args.read.options())?;
     let pictures = args.picture_errors.of(path, BUDGET);
     // The places of notes are in the space of each object.
     let mut unplaced = Scene::new();

@@ -16,13 +16,14 @@ use crate::output::{
     step_notes, step_table,
 };
 use crate::picture_errors::{PictureListener, Pictures};
+use crate::pipes::recipe_name;
 
 pub(crate) fn run(args: &RunArgs, engine: &Engine) -> anyhow::Result<bool> {
     start_threads(args.threads)?;
     let mut loaded = load_to_run(args, engine)?;
     let cache = cache::open(&args.cache)?;
     catch_interrupts();
-    let pictures = (args.picture_errors).of(&args.recipe.recipe, args.recipe.budget);
+    let pictures = (args.picture_errors).of(recipe_name(&args.recipe.recipe), args.recipe.budget);
     let Some(outcome) = execute(args, &loaded, cache.as_ref(), &pictures, &|| true)? else {
         return Ok(false);
     };
@@ -88,7 +89,7 @@ pub(crate) fn execute(
     if !json {
         print_diagnostics(loaded, &loaded.diagnostics);
     }
-    let caching = cache.map(|cache| cache::caching_for(cache, &args.recipe.recipe));
+    let caching = cache.map(|cache| cache::caching_for(cache, recipe_name(&args.recipe.recipe)));
     let run = Run {
         keep_outputs: true,
         cache: caching.as_ref().map(|caching| caching as _),

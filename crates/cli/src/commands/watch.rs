@@ -23,6 +23,7 @@ use crate::cache;
 use crate::file_kind::{FileKind, expect_kind};
 use crate::listener::{catch_interrupts, is_interrupted, lock};
 use crate::output::{print, print_error};
+use crate::pipes;
 use crate::recording::{RecordingDisk, with_real_folder};
 use engine::Loaded;
 
@@ -33,6 +34,7 @@ const SETTLE_TIME: Duration = Duration::from_millis(50);
 const POLL_INTERVAL: Duration = Duration::from_millis(100);
 
 pub(crate) fn run(args: &RunArgs, engine: &Engine) -> anyhow::Result<bool> {
+    pipes::refuse(&args.recipe.recipe, "watch")?;
     expect_kind(&args.recipe.recipe, FileKind::Recipe)?;
     start_threads(args.threads)?;
     let cache = cache::open(&args.cache)?;

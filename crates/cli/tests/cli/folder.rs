@@ -57,20 +57,27 @@ impl Folder {
     }
 
     pub(crate) fn run_all(&self, arguments: &[&str]) -> Ended {
-        self.command(PROGRAM, arguments)
+        self.command(PROGRAM, arguments, b"")
+    }
+
+    /// Runs the program with these arguments, separated by spaces, and this standard input.
+    pub(crate) fn run_with(&self, arguments: &str, input: impl AsRef<[u8]>) -> Ended {
+        let arguments: Vec<&str> = arguments.split_whitespace().collect();
+        self.command(PROGRAM, &arguments, input.as_ref())
     }
 
     /// Runs shell commands; `"$0"` is the program.
     #[cfg(unix)]
     pub(crate) fn shell(&self, commands: &str) -> Ended {
-        self.command("sh", &["-c", commands, PROGRAM])
+        self.command("sh", &["-c", commands, PROGRAM], b"")
     }
 
-    fn command(&self, program: &str, arguments: &[&str]) -> Ended {
+    fn command(&self, program: &str, arguments: &[&str], input: &[u8]) -> Ended {
         let output = Command::new(program)
             .args(arguments)
             .current_dir(self.0.path())
             .env("MESHWRIGHT_CACHE", self.1.path())
+            .write_stdin(input)
             .output()
             .unwrap();
         let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();

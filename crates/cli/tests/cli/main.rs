@@ -15,6 +15,7 @@ mod new_op;
 mod ops;
 mod outputs;
 mod picture;
+mod pipes;
 mod pixels;
 mod readme;
 mod refusals;

@@ -51,10 +51,8 @@ pub(crate) fn load(objects: &mut [Object], assets: &mut Assets, most: u64, notes
                 continue;
             }
             None => {
-                let image = find(path, assets, &mut room).map_err(|why| {
-                    let what = format!("image {} left out: {why}", quoted(path.as_bytes()));
-                    notes.coded("image-missing").left_out(1, None, what);
-                });
+                let image = find(path, assets, &mut room);
+                let image = image.map_err(|why| note_left_out(path, &why, notes));
                 known.insert(path.clone(), image.clone().ok());
                 image.ok()
             }
@@ -67,41 +65,71 @@ pub(crate) fn load(objects: &mut [Object], assets: &mut Assets, most: u64, notes
     notes.coded("image-missing").left_out(n_further, None, what);
 }
 
+/// Notes the images to which materials refer and which do not exist, as [`load`] does, without reading images. `paths`
+/// are the paths of images in files.
+pub(crate) fn note_missing<'p>(
+    paths: impl IntoIterator<Item = &'p str>,
+    assets: &mut Assets,
+    notes: &mut Notes,
+) {
+    let mut known = BTreeSet::new();
+    for path in paths {
+        if known.len() == MAX_IMAGES || !known.insert(path) {
+            continue;
+        }
+        if let Err(why) = located(path, assets) {
+            note_left_out(path, &why, notes);
+        }
+    }
+}
+
+fn note_left_out(path: &str, why: &str, notes: &mut Notes) {
+    let what = format!("image {} left out: {why}", quoted(path.as_bytes()));
+    notes.coded("image-missing").left_out(1, None, what);
+}
+
+/// Finds an image in a folder of [`Assets::image_folders`] or in the folder of the model. Returns its path relative to
+/// the folder of the model.
+///
+/// # Errors
+///
+/// Why there is no such file.
+fn located(path: &str, assets: &mut Assets) -> Result<PathBuf, String> {
+    let mut folders = assets.image_folders.clone();
+    folders.push(PathBuf::new());
+    for folder in folders {
+        let joined = folder.join(path);
+        let name = joined.to_str().and_then(|path| inside(path).ok());
+        if let Some(name) = name.filter(|name| assets.has(name)) {
+            return Ok(name);
+        }
+    }
+    let full = assets.place(&inside(path)?);
+    Err(format!("the file {} does not exist", full.display()))
+}
+
 /// Reads an image from a folder of [`Assets::image_folders`] or the folder of the model.
 ///
 /// # Errors
 ///
 /// Why the image is left out.
 fn find(path: &str, assets: &mut Assets, room: &mut u64) -> Result<Image, String> {
-    let plain = inside(path);
-    let mut folders = assets.image_folders.clone();
-    folders.push(PathBuf::new());
-    for folder in folders {
-        let joined = folder.join(path);
-        let Some(name) = joined.to_str().and_then(|path| inside(path).ok()) else {
-            continue;
-        };
-        if !assets.has(&name) {
-            continue;
-        }
-        let bytes = assets.read(&name, room.saturating_add(1));
-        let bytes = bytes.map_err(|error| error.to_string())?;
-        let left = room.checked_sub(bytes.len() as u64);
-        *room = left.ok_or("the images of the model exceed the memory budget")?;
-        if media_type(&name, &bytes).is_none() {
-            return Err("it is not an image".to_owned());
-        }
-        // A path relative to the model stays as it is written there.
-        let path = if plain.as_ref() == Ok(&name) {
-            path.to_owned()
-        } else {
-            slashed(&name)
-        };
-        let bytes = bytes.into();
-        return Ok(Image::Loaded { path, bytes });
+    let name = located(path, assets)?;
+    let bytes = assets.read(&name, room.saturating_add(1));
+    let bytes = bytes.map_err(|error| error.to_string())?;
+    let left = room.checked_sub(bytes.len() as u64);
+    *room = left.ok_or("the images of the model exceed the memory budget")?;
+    if media_type(&name, &bytes).is_none() {
+        return Err("it is not an image".to_owned());
     }
-    let full = assets.place(&plain?);
-    Err(format!("the file {} does not exist", full.display()))
+    // A path relative to the model stays as it is written there.
+    let path = if inside(path).as_ref() == Ok(&name) {
+        path.to_owned()
+    } else {
+        slashed(&name)
+    };
+    let bytes = bytes.into();
+    Ok(Image::Loaded { path, bytes })
 }
 
 /// The path with `/` as separator.

@@ -361,12 +361,17 @@ pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Pee
     };
     let of = |geometry: Geometry| one(PeekGeometry::of(&geometry));
     let mut notes = Notes::of(path);
+    let mut assets = Assets::of(store, path);
+    let plain =
+        |mesh| vec![PeekObject::new(name.clone(), PeekGeometry::Mesh(mesh)).with_materials(&[])];
     let objects = match format {
-        Format::Obj => Ok(one(obj::peek(&bytes))),
-        Format::Gltf | Format::Glb => gltf::peek(&bytes, &name, options.placements, &mut notes),
-        Format::Ply => ply::peek(&bytes).map(PeekGeometry::Mesh).map(one),
-        Format::Stl => stl::peek(&bytes).map(PeekGeometry::Mesh).map(one),
-        Format::Off => off::peek(&bytes).map(PeekGeometry::Mesh).map(one),
+        Format::Obj => obj::peek(&bytes, &name, &mut assets, &mut notes).map(|object| vec![object]),
+        Format::Gltf | Format::Glb => {
+            gltf::peek(&bytes, &name, options.placements, &mut assets, &mut notes)
+        }
+        Format::Ply => ply::peek(&bytes, &mut notes).map(plain),
+        Format::Stl => stl::peek(&bytes, &mut notes).map(plain),
+        Format::Off => off::peek(&bytes, &mut notes).map(plain),
         Format::Dae => dae::peek(&bytes, &name, &mut notes),
         Format::Mws => mws::peek(&bytes, options.name.as_deref(), options.placements),
         Format::Bez => bez::read_patches(&bytes).map(of),

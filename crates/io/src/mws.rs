@@ -52,6 +52,7 @@ pub(crate) fn peek(
         *instances.entry(&instance.object.name).or_default() += 1;
     }
     let objects = scene.objects().iter().map(|object| PeekObject {
+        materials: Some(object.materials.iter().map(|m| m.name.clone()).collect()),
         name: object.name.clone(),
         geometry: PeekGeometry::of(&object.geometry),
         instances: instances[object.name.as_str()],

@@ -1,7 +1,7 @@
 //! What a file holds, without building its objects. Used to estimate a run before it starts.
 
 use mesh::{COLOR, CORNER_NORMAL, Domain, MATERIAL, Mesh, UV, VERTEX_NORMAL};
-use scene::Geometry;
+use scene::{Geometry, Material};
 
 use crate::{Format, Note};
 
@@ -12,8 +12,9 @@ pub struct Peek {
     pub format: Format,
     /// The objects that reading the file would give, in order and with their names.
     pub objects: Vec<PeekObject>,
-    /// What reading would leave out, as far as the headers show it: for glTF files the content that the JSON lists.
-    /// Reading can leave out more.
+    /// What reading would leave out, as far as it is known without building the objects: unused elements of a PLY file,
+    /// statements of an OBJ file that do not describe polygons, content that the JSON of a glTF file lists, missing
+    /// images and material libraries. Reading can leave out more.
     pub left_out: Vec<Note>,
 }
 
@@ -26,6 +27,8 @@ pub struct PeekObject {
     pub geometry: PeekGeometry,
     /// How often nodes show the object; 1 in a file without nodes.
     pub instances: u64,
+    /// The names of the materials of the object; `None` if they are only known after reading.
+    pub materials: Option<Vec<String>>,
 }
 
 impl PeekObject {
@@ -35,6 +38,15 @@ impl PeekObject {
             name,
             geometry,
             instances: 1,
+            materials: None,
+        }
+    }
+
+    /// Sets the materials.
+    pub(crate) fn with_materials(self, materials: &[Material]) -> Self {
+        Self {
+            materials: Some(materials.iter().map(|m| m.name.clone()).collect()),
+            ..self
         }
     }
 }

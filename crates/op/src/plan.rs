@@ -146,6 +146,8 @@ pub struct MeshPlan {
     pub attributes: Vec<PlannedAttribute>,
     /// Whether the mesh can have attributes that are not listed, like a mesh from a file.
     pub has_unlisted_attributes: bool,
+    /// The names of the materials; `None` if they are unknown.
+    pub materials: Option<Vec<String>>,
 }
 
 /// The size of one attribute value, in bytes: from 1 for a tag to 32.
@@ -161,10 +163,11 @@ impl MeshPlan {
             degrees: Range::between(3, u64::MAX),
             attributes: Vec::new(),
             has_unlisted_attributes: true,
+            materials: None,
         }
     }
 
-    /// Creates the plan of a mesh of known counts and without attributes.
+    /// Creates the plan of a mesh of known counts, without attributes and materials.
     pub const fn counted(vertices: u64, edges: u64, faces: u64, degrees: Range) -> Self {
         Self {
             vertices: Range::exactly(vertices),
@@ -173,10 +176,11 @@ impl MeshPlan {
             degrees,
             attributes: Vec::new(),
             has_unlisted_attributes: false,
+            materials: Some(Vec::new()),
         }
     }
 
-    /// Creates the exact plan of an existing mesh.
+    /// Creates the exact plan of an existing mesh, whose materials are unknown.
     pub fn of(mesh: &mesh::Mesh) -> Self {
         let degrees = || mesh.faces().map(|f| mesh.degree(f) as u64);
         Self {
@@ -195,6 +199,7 @@ impl MeshPlan {
                 })
                 .collect(),
             has_unlisted_attributes: false,
+            materials: None,
         }
     }
 
@@ -217,15 +222,12 @@ impl MeshPlan {
 
     /// Returns an error message if the mesh certainly has no vertex with this number.
     pub fn missing_vertex_message(&self, number: u32) -> Option<String> {
-        let n = self.vertices.max;
-        let limit = if self.vertices.is_exact() {
-            ""
-        } else {
-            "at most "
-        };
-        let noun = if n == 1 { "vertex" } else { "vertices" };
-        (u64::from(number) >= n)
-            .then(|| format!("vertex {number} does not exist: the mesh has {limit}{n} {noun}"))
+        missing_element_message(u64::from(number), self.vertices, ["vertex", "vertices"])
+    }
+
+    /// Returns an error message if the mesh certainly has no face with this number.
+    pub fn missing_face_message(&self, number: u32) -> Option<String> {
+        missing_element_message(u64::from(number), self.faces, ["face", "faces"])
     }
 
     /// Adds an attribute that certainly exists.
@@ -269,6 +271,15 @@ impl MeshPlan {
             sum.plus(count(a.domain).times(ATTRIBUTE_VALUE_BYTES))
         })
     }
+}
+
+fn missing_element_message(number: u64, count: Range, nouns: [&str; 2]) -> Option<String> {
+    let n = count.max;
+    let limit = if count.is_exact() { "" } else { "at most " };
+    let [singular, plural] = nouns;
+    let noun = if n == 1 { singular } else { plural };
+    let message = || format!("{singular} {number} does not exist: the mesh has {limit}{n} {noun}");
+    (number >= n).then(message)
 }
 
 /// The plan of the geometry of an object.

@@ -132,6 +132,7 @@ impl Tessellate {
             degrees,
             attributes: Vec::new(),
             has_unlisted_attributes: false,
+            materials: None,
         };
         if self.uvs {
             plan.provide(Domain::Corner, UV.name);

@@ -132,7 +132,10 @@ impl Load {
         let mut problems = Vec::new();
         for object in &peek.objects {
             let geometry = match object.geometry {
-                PeekGeometry::Mesh(mesh) => PlannedGeometry::Mesh(planned(&mesh)),
+                PeekGeometry::Mesh(mesh) => PlannedGeometry::Mesh(MeshPlan {
+                    materials: object.materials.clone(),
+                    ..planned(&mesh)
+                }),
                 PeekGeometry::Patches { patches } => {
                     PlannedGeometry::Patches(Range::exactly(patches))
                 }
@@ -171,6 +174,7 @@ fn planned(peek: &PeekMesh) -> MeshPlan {
         degrees: Range::between(3, peek.max_degree.max(3)),
         attributes: Vec::new(),
         has_unlisted_attributes: true,
+        materials: None,
     };
     let mut provide_uncertain = |may_exist: bool, domain, name: &str| {
         if may_exist {

@@ -182,6 +182,15 @@ impl Join {
             joined.grow(counts[0], counts[1], counts[2]);
             joined.has_unlisted_attributes |= part.has_unlisted_attributes;
             joined.degrees = joined.degrees.or(part.degrees);
+            joined.materials =
+                joined
+                    .materials
+                    .take()
+                    .zip(part.materials.clone())
+                    .map(|(mut all, of_part)| {
+                        all.extend(of_part);
+                        all
+                    });
             for a in &part.attributes {
                 let is_same = |b: &PlannedAttribute| (b.domain, &b.name) == (a.domain, &a.name);
                 if !joined.attributes.iter().any(is_same) {

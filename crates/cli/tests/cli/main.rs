@@ -3,6 +3,7 @@
 mod batch;
 mod cache;
 mod capsule;
+mod checks;
 mod diff;
 mod faults;
 mod file_kinds;

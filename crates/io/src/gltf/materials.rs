@@ -8,7 +8,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::buffers::data_uri;
-use super::document::get;
+use super::document::{Document, get};
 use super::surface::{
     AlphaJson, Extensions, FILTERS, ImageJson, InfoJson, STRENGTH, SamplerJson, TRANSFORM,
     TransformJson, UNLIT, WRAPS,
@@ -55,8 +55,7 @@ impl<'a> Materials<'a> {
         let reader = self.reader;
         let from = &reader.document.materials[i];
         let here = format!("/materials/{i}");
-        let name = from.name.clone();
-        let mut to = Material::new(name.unwrap_or_else(|| format!("material {i}")));
+        let mut to = Material::new(material_name(reader.document, i));
         let pbr = from.pbr_metallic_roughness.clone().unwrap_or_default();
         to.base_color = pbr.base_color_factor.unwrap_or([1.0; 4]).map(unit);
         to.metallic = unit(pbr.metallic_factor.unwrap_or(1.0));
@@ -160,6 +159,31 @@ impl<'a> Materials<'a> {
             .to_owned();
         Ok(Some(Image::Embedded { mime, bytes }))
     }
+}
+
+/// The name of material `i` of the document, which must exist.
+pub(super) fn material_name(document: &Document, i: usize) -> String {
+    let name = document.materials[i].name.clone();
+    name.unwrap_or_else(|| format!("material {i}"))
+}
+
+/// The paths of the image files to which material `i` of the document refers, in the order in which they are read.
+pub(super) fn image_paths(document: &Document, i: usize) -> Vec<String> {
+    let from = &document.materials[i];
+    let pbr = from.pbr_metallic_roughness.as_ref();
+    let infos = [
+        pbr.and_then(|pbr| pbr.base_color_texture.as_ref()),
+        pbr.and_then(|pbr| pbr.metallic_roughness_texture.as_ref()),
+        from.normal_texture.as_ref(),
+        from.occlusion_texture.as_ref(),
+        from.emissive_texture.as_ref(),
+    ];
+    let path = |info: &InfoJson| {
+        let source = document.textures.get(info.index)?.source?;
+        let uri = document.images.get(source)?.uri.as_deref()?;
+        (!uri.starts_with("data:")).then(|| decoded(uri))
+    };
+    infos.into_iter().flatten().filter_map(path).collect()
 }
 
 /// Decodes a URI reference to a path. A URI with a scheme is returned as it is.

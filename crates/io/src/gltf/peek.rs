@@ -1,5 +1,6 @@
 //! Counts the content of a glTF file from its JSON alone.
 
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
 use gltf_json::Index;
@@ -8,16 +9,19 @@ use gltf_json::validation::Checked;
 
 use super::budget::Budget;
 use super::document::Document;
+use super::materials::{image_paths, material_name};
 use super::nodes::placed_meshes;
 use super::primitives::attributes;
 use super::read::parse;
 use super::views::Reader;
 use crate::Placements;
+use crate::assets::Assets;
 use crate::fault::Fault;
+use crate::images::note_missing;
 use crate::note::Notes;
 use crate::peek::{PeekGeometry, PeekMesh, PeekObject};
 
-/// Returns the counts of the objects of a glTF file from its JSON.
+/// Returns the counts of the objects of a glTF file from its JSON, and notes on content that is left out.
 ///
 /// # Errors
 ///
@@ -26,31 +30,41 @@ pub(crate) fn peek(
     json: &[u8],
     name: &str,
     placements: Placements,
+    assets: &mut Assets,
     notes: &mut Notes,
 ) -> Result<Vec<PeekObject>, Fault> {
     let budget = Budget::of(json.len());
     let document = Document::new(&parse(json)?, &budget, notes)?;
     let reader = Reader::new(&document, &[], &budget);
-    let mut meshes = BTreeMap::new();
+    let mut meshes: BTreeMap<usize, (PeekMesh, BTreeSet<usize>)> = BTreeMap::new();
     let mut objects = Vec::new();
     let (placed, _) = placed_meshes(&document, placements, name, &budget, notes)?;
     for placed in placed {
-        let mesh = match meshes.get(&placed.mesh) {
-            Some(&known) => known,
-            None => peek_mesh(&reader, placed.mesh)?,
+        let (mesh, materials) = match meshes.entry(placed.mesh) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(new) => new.insert(peek_mesh(&reader, placed.mesh)?),
         };
-        meshes.insert(placed.mesh, mesh);
+        let names = materials.iter().map(|&i| material_name(&document, i));
         objects.push(PeekObject {
             name: placed.name,
             instances: placed.instances,
-            geometry: PeekGeometry::Mesh(mesh),
+            geometry: PeekGeometry::Mesh(*mesh),
+            materials: Some(names.collect()),
         });
     }
+    let used: BTreeSet<usize> = meshes.into_values().flat_map(|(_, used)| used).collect();
+    let paths: Vec<String> = used
+        .iter()
+        .flat_map(|&i| image_paths(&document, i))
+        .collect();
+    note_missing(paths.iter().map(String::as_str), assets, notes);
     Ok(objects)
 }
 
-fn peek_mesh(reader: &Reader, index: usize) -> Result<PeekMesh, Fault> {
+/// Returns the counts of a mesh, and the materials that it uses.
+fn peek_mesh(reader: &Reader, index: usize) -> Result<(PeekMesh, BTreeSet<usize>), Fault> {
     let mut counts = PeekMesh::default();
+    let mut materials = BTreeSet::new();
     let mut known = BTreeSet::new();
     for (i, primitive) in reader.document.meshes[index].primitives.iter().enumerate() {
         let here = format!("/meshes/{index}/primitives/{i}");
@@ -77,6 +91,9 @@ fn peek_mesh(reader: &Reader, index: usize) -> Result<PeekMesh, Fault> {
         counts.normals |= has(Semantic::Normals);
         counts.colors |= has(Semantic::Colors(0));
         counts.materials |= primitive.material.is_some();
+        let material = primitive.material.map(|material| material.value());
+        let exists = |&i: &usize| triangles > 0 && i < reader.document.materials.len();
+        materials.extend(material.filter(exists));
     }
-    Ok(counts)
+    Ok((counts, materials))
 }

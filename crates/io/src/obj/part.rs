@@ -172,7 +172,7 @@ impl Indices {
 }
 
 /// Unique names in order of first occurrence.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, PartialEq)]
 pub(super) struct Names {
     pub(super) list: Vec<String>,
     places: BTreeMap<String, usize>,

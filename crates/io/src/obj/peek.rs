@@ -1,33 +1,60 @@
 //! Counting the statements of an OBJ file without keeping them.
 
-use super::file::NO_MATERIAL;
+use scene::{Material, Texture};
+
+use super::file::{LeftOut, NO_MATERIAL, ObjFile};
+use super::material::read_libraries;
 use super::parse::{PART, cut};
+use super::part::Names;
+use super::read::{POLYLINES, note_left_out};
+use super::statement::is_other_statement;
+use crate::assets::Assets;
+use crate::fault::Fault;
+use crate::images::note_missing;
+use crate::note::Notes;
 use crate::parallel;
-use crate::peek::{PeekGeometry, PeekMesh};
-use crate::text::Cursor;
+use crate::peek::{PeekGeometry, PeekMesh, PeekObject};
+use crate::text::{Cursor, TextPosition, name};
 
-/// Returns the counts of an OBJ file. Numbers and indices are not checked, so a broken file has counts too.
-pub(crate) fn peek(bytes: &[u8]) -> PeekGeometry {
-    peek_in_parts(bytes, PART)
-}
-
-fn peek_in_parts(bytes: &[u8], size: usize) -> PeekGeometry {
-    let parts = parallel::consume(cut(bytes, size), |_, part| Counts::of_part(part));
-    let mut all = Counts::default();
-    for part in parts {
-        all.add(&part);
-    }
+/// Returns the counts and the materials of an OBJ file, and notes on statements, images and material libraries that are
+/// left out. Numbers and indices are not checked, so a broken file has counts too.
+///
+/// # Errors
+///
+/// If the path of a library leaves the folder.
+pub(crate) fn peek(
+    bytes: &[u8],
+    name: &str,
+    assets: &mut Assets,
+    notes: &mut Notes,
+) -> Result<PeekObject, Fault> {
+    let all = Counts::of_file(bytes, PART);
+    let file = ObjFile {
+        libraries: all.libraries,
+        material_names: all.materials.list,
+        left_out: all.left_out.into_iter().collect(),
+        ..ObjFile::default()
+    };
+    note_left_out(&file, notes);
     if all.mesh.faces == 0 && all.lines > 0 {
-        return PeekGeometry::Polylines {
-            lines: all.lines,
-            points: all.points,
-        };
+        let (lines, points) = (all.lines, all.points);
+        let geometry = PeekGeometry::Polylines { lines, points };
+        return Ok(PeekObject::new(name.to_owned(), geometry));
     }
-    PeekGeometry::Mesh(all.mesh)
+    notes.left_out(
+        usize::try_from(all.lines).unwrap_or(usize::MAX),
+        None,
+        POLYLINES,
+    );
+    let materials = read_libraries(assets, &file, notes)?;
+    let textures = materials.iter().flat_map(Material::textures);
+    note_missing(textures.filter_map(Texture::path), assets, notes);
+    let object = PeekObject::new(name.to_owned(), PeekGeometry::Mesh(all.mesh));
+    Ok(object.with_materials(&materials))
 }
 
 /// The counts of a part of the text.
-#[derive(Default)]
+#[derive(Debug, Default, PartialEq)]
 struct Counts {
     mesh: PeekMesh,
     lines: u64,
@@ -36,15 +63,41 @@ struct Counts {
     faces_first: bool,
     /// Whether the last `usemtl` sets a material; `None` without `usemtl`.
     material: Option<bool>,
+    materials: Names,
+    /// The text after each `mtllib`, with its position.
+    libraries: Vec<(TextPosition, String)>,
+    /// The number and the first line of each kind of content that is left out, in the order of the lines. Unknown
+    /// statements are not counted.
+    left_out: Vec<(LeftOut, (usize, usize))>,
+    n_lines: usize,
 }
 
 impl Counts {
+    /// Counts a file in parts of about `size` bytes.
+    fn of_file(bytes: &[u8], size: usize) -> Self {
+        let parts = parallel::consume(cut(bytes, size), |_, part| Self::of_part(part));
+        let mut all = Self::default();
+        for part in parts {
+            all.add(part);
+        }
+        all
+    }
+
+    fn leave_out(&mut self, line: usize, count: usize, what: LeftOut) {
+        match self.left_out.iter_mut().find(|(known, _)| *known == what) {
+            Some((_, (n, _))) => *n += count,
+            None if count > 0 => self.left_out.push((what, (count, line))),
+            None => {}
+        }
+    }
+
     fn of_part(bytes: &[u8]) -> Self {
         let mut counts = Self::default();
-        let mesh = &mut counts.mesh;
         let mut cursor = Cursor::new(bytes);
         while !cursor.is_at_end() {
-            match cursor.argument().map_or(&b""[..], |(_, word)| word) {
+            let mesh = &mut counts.mesh;
+            let (place, keyword) = cursor.argument_or_nothing();
+            match keyword {
                 b"v" => {
                     mesh.vertices += 1;
                     // Usually all vertices have colors or none does, so only the first is checked.
@@ -64,6 +117,8 @@ impl Counts {
                         mesh.add_faces(1, degree);
                         mesh.materials |= counts.material == Some(true);
                         counts.faces_first |= counts.material.is_none();
+                    } else {
+                        counts.leave_out(place.line, 1, LeftOut::SmallFaces);
                     }
                 }
                 b"l" => {
@@ -72,17 +127,37 @@ impl Counts {
                 }
                 b"usemtl" => {
                     let name = cursor.rest_of_line();
-                    counts.material = Some(!name.is_empty() && name != NO_MATERIAL);
+                    let is_set = !name.is_empty() && name != NO_MATERIAL;
+                    counts.material = Some(is_set);
+                    if is_set {
+                        counts.materials.index_of_bytes(&name);
+                    }
                 }
-                _ => {}
+                b"mtllib" => {
+                    let words = name(&cursor.rest_of_line());
+                    counts.libraries.push((place, words));
+                }
+                b"p" => {
+                    let n = arguments(&mut cursor);
+                    let n = usize::try_from(n).unwrap_or(usize::MAX);
+                    counts.leave_out(place.line, n, LeftOut::Points);
+                }
+                b"" | b"vt" | b"vn" | b"g" | b"o" | b"s" => {}
+                other => {
+                    let word = name(&other[..other.len().min(40)]);
+                    if is_other_statement(&word) {
+                        counts.leave_out(place.line, 1, LeftOut::Statement(word));
+                    }
+                }
             }
             cursor.skip_line();
         }
+        counts.n_lines = cursor.place().line - 1;
         counts
     }
 
     /// Adds the counts of the next part.
-    fn add(&mut self, next: &Self) {
+    fn add(&mut self, next: Self) {
         let (mesh, other) = (&mut self.mesh, &next.mesh);
         mesh.colors |= mesh.vertices == 0 && other.colors;
         mesh.vertices += other.vertices;
@@ -94,6 +169,17 @@ impl Counts {
         self.material = next.material.or(self.material);
         self.lines += next.lines;
         self.points += next.points;
+        for name in next.materials.list {
+            self.materials.index_of(name);
+        }
+        for (place, words) in next.libraries {
+            let line = place.line + self.n_lines;
+            self.libraries.push((TextPosition { line, ..place }, words));
+        }
+        for (what, (count, line)) in next.left_out {
+            self.leave_out(line + self.n_lines, count, what);
+        }
+        self.n_lines += next.n_lines;
     }
 }
 
@@ -124,27 +210,24 @@ mod tests {
             colors: true,
             materials: true,
         };
-        assert_eq!(peek(text), PeekGeometry::Mesh(expected));
+        assert_eq!(Counts::of_file(text, PART).mesh, expected);
     }
 
     #[test]
     fn counts_do_not_depend_on_the_parts() {
         let text = b"v 0 0 0\nv 1 0 0 1 1 1\nf 1 2 3\nusemtl a\nv 1 1 0\nf 1 2 3 4\nl 1 2\nf 1/1 2 3 \\\n4 5\n\
-            usemtl\nf 1//1 2 3\nl 3 4 5\n";
+            usemtl\nf 1//1 2 3\nl 3 4 5\nmtllib a.mtl\nusemtl b\nlod 3\np 1 2\nlod 4\nf 1 2\np 3\nusemtl a\n";
         for text in [&text[..], &text[..60], &text[20..], &text[24..40]] {
-            let whole = peek_in_parts(text, usize::MAX);
+            let whole = Counts::of_file(text, usize::MAX);
             for size in 1..text.len() {
-                assert_eq!(peek_in_parts(text, size), whole, "{size}");
+                assert_eq!(Counts::of_file(text, size), whole, "{size}");
             }
         }
     }
 
     #[test]
     fn a_file_with_lines_only_is_polylines() {
-        let expected = PeekGeometry::Polylines {
-            lines: 2,
-            points: 5,
-        };
-        assert_eq!(peek(b"v 0 0 0\nv 1 0 0\nl 1 2\nl 1 2 1"), expected);
+        let counts = Counts::of_file(b"v 0 0 0\nv 1 0 0\nl 1 2\nl 1 2 1", PART);
+        assert_eq!((counts.mesh.faces, counts.lines, counts.points), (0, 2, 5));
     }
 }

@@ -18,6 +18,9 @@ use crate::note::Notes;
 use crate::polygons::{OBJECT_TAG, most_tags};
 use crate::{Polygons, Shape, parallel};
 
+/// What is left out of a file with faces.
+pub(super) const POLYLINES: &str = "polylines (`l`) left out: the object is a mesh";
+
 /// Reads an OBJ file from its bytes, and its material libraries.
 ///
 /// # Errors
@@ -32,8 +35,7 @@ pub(crate) fn read(bytes: &[u8], assets: &mut Assets, notes: &mut Notes) -> Resu
         let lines = polylines(&file, notes);
         return Ok(Shape::Geometry(Geometry::Polylines(lines)));
     }
-    let what = "polylines (`l`) left out: the object is a mesh";
-    notes.left_out(n_lines, None, what);
+    notes.left_out(n_lines, None, POLYLINES);
     let materials = read_libraries(assets, &file, notes)?;
     Ok(Shape::Polygons(polygons(file, materials, notes)))
 }
@@ -218,7 +220,7 @@ fn set_tags(polygons: &mut Polygons, file: &ObjFile, notes: &mut Notes) {
     notes.left_out(without_faces, None, what);
 }
 
-fn note_left_out(file: &ObjFile, notes: &mut Notes) {
+pub(super) fn note_left_out(file: &ObjFile, notes: &mut Notes) {
     for (what, &(count, line)) in &file.left_out {
         let text = match what {
             LeftOut::Statement(keyword) => {

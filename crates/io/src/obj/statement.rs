@@ -93,8 +93,7 @@ impl Parser<'_> {
             b"s" => return self.smoothing(place),
             _ => {
                 let word = name(&keyword[..keyword.len().min(40)]);
-                let is_it = |statement: &str| statement == word;
-                let what = if OTHER_STATEMENTS.split(' ').any(is_it) {
+                let what = if is_other_statement(&word) {
                     LeftOut::Statement(word)
                 } else {
                     self.unknown(place, word)?
@@ -320,6 +319,13 @@ fn below_none(place: TextPosition, count: usize, what: &str) -> Result<(), Fault
 
 fn is_exactly(x: f64, value: f64) -> bool {
     x.to_bits() == value.to_bits() || (x - value).abs() == 0.0
+}
+
+/// Whether a word is a statement of the format that the reader leaves out.
+pub(super) fn is_other_statement(word: &str) -> bool {
+    OTHER_STATEMENTS
+        .split(' ')
+        .any(|statement| statement == word)
 }
 
 /// Statements of the format that do not describe polygons: free-form curves and surfaces, display attributes, and

@@ -294,10 +294,7 @@ fn faces(
             }
         }
     }
-    let what = "faces with fewer than 3 corners left out";
-    notes.left_out(small, first_small, what);
-    let (rest, first) = cursor.count_rest();
-    notes.left_out(rest, first, "lines after the last face left out");
+    note_left_out(small, first_small, cursor, notes);
     let n_faces = polygons.n_faces();
     if !colors.values.is_empty() {
         colors.values.resize(n_faces, None);
@@ -316,14 +313,23 @@ fn faces(
     Ok(())
 }
 
+/// Notes the faces with fewer than 3 corners, of which the first is in line `first`, and the lines after the last face.
+fn note_left_out(small: usize, first: Option<usize>, cursor: &mut Cursor, notes: &mut Notes) {
+    let what = "faces with fewer than 3 corners left out";
+    notes.left_out(small, first, what);
+    let (rest, first) = cursor.count_rest();
+    notes.left_out(rest, first, "lines after the last face left out");
+}
+
 // ---- Counts ------------------------------------------------------------------------------------
 
-/// Returns the counts of an OFF file. Numbers and vertex indices are not checked.
+/// Returns the counts of an OFF file, and notes on faces and lines that are left out. Numbers and vertex indices are not
+/// checked.
 ///
 /// # Errors
 ///
 /// If the header or the number of corners of a face breaks the rules of the format, or if the file ends too early.
-pub(crate) fn peek(bytes: &[u8]) -> Result<PeekMesh, Fault> {
+pub(crate) fn peek(bytes: &[u8], notes: &mut Notes) -> Result<PeekMesh, Fault> {
     let mut cursor = Cursor::new(bytes);
     let header = Header::read(&mut cursor)?;
     check_room(&cursor, header.n_vertices, 3, "vertices")?;
@@ -338,12 +344,19 @@ pub(crate) fn peek(bytes: &[u8]) -> Result<PeekMesh, Fault> {
         colors: header.colors,
         ..PeekMesh::default()
     };
+    let (mut small, mut first_small) = (0, None);
     for _ in 0..header.n_faces {
         cursor.skip_empty_lines();
+        let line = cursor.place().line;
         let degree = count(&mut cursor, "corners")? as u64;
         mesh.add_faces(u64::from(degree >= 3), degree);
+        if degree < 3 {
+            small += 1;
+            first_small.get_or_insert(line);
+        }
         cursor.skip_line();
     }
+    note_left_out(small, first_small, &mut cursor, notes);
     mesh.uvs = header.uvs && mesh.faces > 0;
     Ok(mesh)
 }

@@ -8,21 +8,22 @@ use crate::fault::Fault;
 use crate::note::Notes;
 use crate::peek::PeekMesh;
 
-/// Returns the counts of a PLY file. Positions and the vertices of faces are not checked.
+/// Returns the counts of a PLY file, and notes on the elements that are left out. Positions and the vertices of faces are
+/// not checked.
 ///
 /// # Errors
 ///
 /// If the header breaks the rules of the format, or if the file is shorter than the header declares.
-pub(crate) fn peek(bytes: &[u8]) -> Result<PeekMesh, Fault> {
+pub(crate) fn peek(bytes: &[u8], notes: &mut Notes) -> Result<PeekMesh, Fault> {
     let header = parse(bytes)?;
     let roles = Roles::of(&header)?;
     let lists = roles.face.or(roles.strips);
     let wanted = |element: &Element| {
         lists.is_some_and(|(place, _)| header.elements[place].name == element.name)
     };
-    let mut notes = Notes::of("".as_ref());
-    let body = Body::new(bytes, &header, wanted, &mut notes)?;
-    let tables = body.tables(&mut notes)?;
+    let body = Body::new(bytes, &header, wanted, notes)?;
+    let tables = body.tables(notes)?;
+    roles.note_unused(&header, notes);
     let vertices = &header.elements[roles.vertex];
     let mut mesh = PeekMesh {
         vertices: vertices.rows as u64,

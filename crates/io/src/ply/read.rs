@@ -34,12 +34,7 @@ pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
     };
     let body = Body::new(bytes, &header, wanted, notes)?;
     let tables = body.tables(notes)?;
-    for (place, element) in header.elements.iter().enumerate() {
-        if !roles.uses(place) {
-            let what = format!("rows of {element} left out");
-            notes.left_out(element.rows, element.place.line, what);
-        }
-    }
+    roles.note_unused(&header, notes);
     let mut reader = Reader {
         header: &header,
         body: &body,

@@ -2,6 +2,7 @@
 
 use super::header::{Element, Header};
 use crate::fault::Fault;
+use crate::note::Notes;
 use crate::text::TextPosition;
 
 /// The elements that become a mesh, as indices into the header.
@@ -52,6 +53,16 @@ impl Roles {
     pub(super) fn uses(&self, element: usize) -> bool {
         let faces = self.face.or(self.strips).map(|(e, _)| e);
         element == self.vertex || Some(element) == faces
+    }
+
+    /// Notes the elements that do not become a part of the mesh.
+    pub(super) fn note_unused(&self, header: &Header, notes: &mut Notes) {
+        for (place, element) in header.elements.iter().enumerate() {
+            if !self.uses(place) {
+                let what = format!("rows of {element} left out");
+                notes.left_out(element.rows, element.place.line, what);
+            }
+        }
     }
 }
 

@@ -71,6 +71,12 @@ pub(super) fn read(facets: &[u8]) -> Result<Facets, Fault> {
     Ok(found)
 }
 
+/// The number of facets with attribute bytes other than 0.
+pub(super) fn n_colored(facets: &[u8]) -> usize {
+    let n = facets.len() / FACET;
+    parallel::count(n, |i| facets[FACET * i + 48..FACET * (i + 1)] != [0, 0])
+}
+
 #[inline]
 fn number(facet: &[u8], i: usize) -> f32 {
     let bytes = facet[4 * i..].first_chunk();

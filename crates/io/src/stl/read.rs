@@ -15,6 +15,10 @@ use crate::polygons::{OBJECT_TAG, most_tags};
 use crate::text::BYTE_ORDER_MARK;
 use crate::weld::weld;
 
+/// What is left out of binary files.
+const REST: &str = "bytes after the last facet left out";
+const COLORED: &str = "facets with attribute bytes (possibly colors): the bytes left out";
+
 /// Reads an STL file from its bytes.
 ///
 /// # Errors
@@ -25,7 +29,7 @@ pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
         Kind::Text => text::read(bytes)?,
         Kind::Binary(end) => {
             let rest = bytes.len() - end;
-            notes.left_out(rest, None, "bytes after the last facet left out");
+            notes.left_out(rest, None, REST);
             binary::read(&bytes[binary::START..end])?
         }
     };
@@ -84,8 +88,7 @@ fn polygons(facets: Facets, notes: &mut Notes) -> Polygons {
     notes.changed(turned, None, what);
     let what = "facet normals left out because they are not perpendicular to their facets";
     notes.changed(tilted, None, what);
-    let what = "facets with attribute bytes (possibly colors): the bytes left out";
-    notes.left_out(facets.colored, None, what);
+    notes.left_out(facets.colored, None, COLORED);
     let (positions, corners) = weld(facets.corners);
     let n = positions.len();
     let what = format!("corners merged into {n} vertices by equal positions");
@@ -128,15 +131,20 @@ fn set_tags(polygons: &mut Polygons, solids: &[(String, Range<usize>)], notes: &
     notes.left_out(too_many, None, what);
 }
 
-/// Returns the counts of an STL file. The number of vertices is an upper bound, because corners are not compared.
+/// Returns the counts of an STL file, and notes on the bytes of a binary file that are left out. The number of vertices is
+/// an upper bound, because corners are not compared.
 ///
 /// # Errors
 ///
 /// If a binary file is shorter than it declares.
-pub(crate) fn peek(bytes: &[u8]) -> Result<PeekMesh, Fault> {
+pub(crate) fn peek(bytes: &[u8], notes: &mut Notes) -> Result<PeekMesh, Fault> {
     let n = match kind(bytes)? {
         Kind::Text => text::count(bytes),
-        Kind::Binary(_) => binary::count(bytes).unwrap_or(0).into(),
+        Kind::Binary(end) => {
+            notes.left_out(bytes.len() - end, None, REST);
+            notes.left_out(binary::n_colored(&bytes[binary::START..end]), None, COLORED);
+            binary::count(bytes).unwrap_or(0).into()
+        }
     };
     let mut mesh = PeekMesh {
         vertices: 3 * n,

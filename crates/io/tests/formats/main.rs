@@ -23,6 +23,7 @@ mod obj_limits;
 mod obj_oracle;
 mod off_files;
 mod oracles;
+mod peeks;
 mod ply_broken;
 mod ply_dialects;
 mod ply_files;

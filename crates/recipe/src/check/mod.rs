@@ -1,6 +1,7 @@
 //! Checks a recipe without running it: plans every step on the forecast of the scene before it.
 
 mod attributes;
+mod selections;
 
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -13,6 +14,8 @@ use crate::shape::did_you_mean;
 use ron_tree::{Diagnostic, Span, field_span};
 
 use attributes::{Attributes, CertainAttributes, meshes};
+
+use selections::missing_elements;
 
 pub(crate) use attributes::forbidden;
 
@@ -73,6 +76,7 @@ pub fn check(recipe: &Recipe, files: &Files, budget: u64) -> Forecast {
     for (i, step) in recipe.steps.iter().enumerate() {
         let mut found = Vec::new();
         attributes.needs(step, &plan, &mut found);
+        missing_elements(step, &plan, &mut found);
         let files_of = &files[step.scope];
         plan_step(step, &mut plan, files_of, budget, &mut written, &mut found);
         let losses = std::mem::take(&mut plan.losses);

@@ -5,8 +5,11 @@ use std::collections::BTreeMap;
 use glam::{DVec2, DVec3, DVec4};
 use proptest::prelude::*;
 
+use store::{Memory, Store};
+
 use super::super::file::{NONE, Run};
 use super::*;
+use crate::ReadOptions;
 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
@@ -315,6 +318,7 @@ proptest! {
         let expected = in_order(text.as_bytes());
         prop_assert_eq!(&parse_in_parts(text.as_bytes(), size), &expected);
         prop_assert_eq!(&parse_in_parts(text.as_bytes(), 1), &expected);
+        assert_peek_notes_what_reading_leaves_out(text.as_bytes());
     }
 }
 
@@ -326,7 +330,29 @@ proptest! {
     ) {
         assert_independent_of_parts(&bytes);
         assert_independent_of_parts(text.as_bytes());
-        super::super::peek(&bytes);
-        super::super::peek(text.as_bytes());
+        assert_peek_notes_what_reading_leaves_out(&bytes);
+        assert_peek_notes_what_reading_leaves_out(text.as_bytes());
+    }
+}
+
+fn assert_peek_notes_what_reading_leaves_out(bytes: &[u8]) {
+    let (store, path, options) = (Memory::default(), "a.obj".as_ref(), ReadOptions::default());
+    store.write(path, bytes).unwrap();
+    let peek = crate::peek(&store, path, &options);
+    let Ok(read) = crate::read(&store, path, &options) else {
+        return;
+    };
+    let peek = peek.unwrap();
+    for note in &peek.left_out {
+        assert!(
+            read.notes.contains(note),
+            "{note} is not in {:?}",
+            read.notes
+        );
+    }
+    let names = |object: &scene::Object| object.materials.iter().map(|m| m.name.clone()).collect();
+    if let Some(materials) = &peek.objects[0].materials {
+        let read: Vec<String> = names(&read.objects[0]);
+        assert_eq!(materials, &read);
     }
 }

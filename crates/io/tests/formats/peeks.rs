@@ -1,0 +1,154 @@
+//! What [`mesh_io::peek`] knows of the content that reading leaves out.
+
+use mesh_io::{ReadOptions, peek, read};
+use store::{Memory, Store};
+
+/// Checks that peeking at a file notes exactly these contents, each given by a part of its text, and that reading
+/// leaves them out too.
+#[track_caller]
+fn peek_notes(files: &[(&str, &[u8])], expected: &[&str]) {
+    let store = Memory::default();
+    for (path, bytes) in files {
+        store.write(path.as_ref(), bytes).unwrap();
+    }
+    let path = files[0].0.as_ref();
+    let options = ReadOptions::default();
+    let read = read(&store, path, &options).unwrap();
+    let peek = peek(&store, path, &options).unwrap();
+    for note in &peek.left_out {
+        assert!(
+            read.notes.contains(note),
+            "{note} is not in {:?}",
+            read.notes
+        );
+    }
+    let found: Vec<String> = peek.left_out.iter().map(ToString::to_string).collect();
+    assert_eq!(found.len(), expected.len(), "{found:?}");
+    for (note, expected) in found.iter().zip(expected) {
+        assert!(note.contains(expected), "{note}");
+    }
+    for (peek, read) in peek.objects.iter().zip(&read.objects) {
+        if let Some(materials) = &peek.materials {
+            let names: Vec<&String> = read.materials.iter().map(|m| &m.name).collect();
+            assert_eq!(materials.iter().collect::<Vec<_>>(), names);
+        }
+    }
+}
+
+const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+#[test]
+fn statements_materials_and_images_of_obj() {
+    let text = format!(
+        "{TRIANGLE}mtllib a.mtl b.mtl\nusemtl red\nvp 1\nf 1 2 3\nl 1 2\np 1 2\nf 1 2\nvp 2\nusemtl blue\nf 1 2 3\n"
+    );
+    peek_notes(
+        &[
+            ("a.obj", text.as_bytes()),
+            (
+                "a.mtl",
+                b"newmtl red\nmap_Kd red.png\nnewmtl green\nmap_Kd here.png\n",
+            ),
+            ("here.png", b"\x89PNG\r\n"),
+        ],
+        &[
+            "a.obj:6: 2 statements `vp` left out",
+            "a.obj:9: 2 points (`p`) left out",
+            "a.obj:10: 1 face with fewer than 3 corners left out",
+            "1 polyline (`l`) left out",
+            "material library `b.mtl` left out",
+            "image `red.png` left out: the file ./red.png does not exist",
+        ],
+    );
+}
+
+#[test]
+fn elements_and_extra_bytes_of_ply() {
+    let header = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+        element camera 2\nproperty float fov\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    let text = format!("{header}0 0 0\n1 0 0\n0 1 0\n30\n40\n3 0 1 2\nrest\n");
+    peek_notes(
+        &[("a.ply", text.as_bytes())],
+        &[
+            "a.ply:18: 1 line after the last element",
+            "a.ply:7: 2 rows of element `camera`",
+        ],
+    );
+}
+
+#[test]
+fn attribute_bytes_and_extra_bytes_of_stl() {
+    let mut bytes = vec![0; 80];
+    bytes.extend_from_slice(&2_u32.to_le_bytes());
+    for k in 0..2_u8 {
+        for x in [
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            f32::from(k),
+            1.0,
+            0.0,
+            0.0,
+            0.0,
+            1.0,
+            0.0,
+        ] {
+            bytes.extend_from_slice(&f32::to_le_bytes(x));
+        }
+        bytes.extend_from_slice(&[0, k]);
+    }
+    bytes.extend_from_slice(b"more");
+    peek_notes(
+        &[("a.stl", &bytes)],
+        &[
+            "4 bytes after the last facet",
+            "1 facet with attribute bytes",
+        ],
+    );
+}
+
+#[test]
+fn small_faces_and_extra_lines_of_off() {
+    peek_notes(
+        &[(
+            "a.off",
+            b"OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n3 0 1 2\nmore\nlines\n",
+        )],
+        &[
+            "a.off:6: 1 face with fewer than 3 corners",
+            "a.off:8: 2 lines after the last face",
+        ],
+    );
+}
+
+#[test]
+fn images_of_gltf() {
+    let json = r#"{
+        "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0] }], "nodes": [{ "mesh": 0 }],
+        "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 }, "material": 1 }] }],
+        "materials": [
+            { "name": "unused", "pbrMetallicRoughness": { "baseColorTexture": { "index": 1 } } },
+            { "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } }, "normalTexture": { "index": 1 } }
+        ],
+        "textures": [{ "source": 0 }, { "source": 1 }],
+        "images": [{ "uri": "red%20one.png" }, { "uri": "here.png" }],
+        "accessors": [{ "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+            "min": [0, 0, 0], "max": [1, 1, 0] }],
+        "bufferViews": [{ "buffer": 0, "byteLength": 36 }],
+        "buffers": [{ "uri": "a.bin", "byteLength": 36 }]
+    }"#;
+    let bin: Vec<u8> = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]
+        .iter()
+        .flat_map(|x: &f32| x.to_le_bytes())
+        .collect();
+    peek_notes(
+        &[
+            ("a.gltf", json.as_bytes()),
+            ("a.bin", &bin),
+            ("here.png", b"\x89PNG\r\n"),
+        ],
+        &["image `red one.png` left out: the file ./red one.png does not exist"],
+    );
+}

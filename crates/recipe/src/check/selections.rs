@@ -1,0 +1,115 @@
+//! Checks the numbers and names in selections: elements and materials that a mesh certainly does not have.
+//!
+//! Selections are recognized by their syntax, as they can be nested in any parameter.
+
+use op::{MeshPlan, Plan};
+use ron_tree::{Call, Diagnostic, Span, Value, ValueKind};
+
+use super::attributes::meshes;
+use crate::recipe::RecipeStep;
+use crate::shape::did_you_mean;
+
+/// An element or a material that a selection names.
+enum Named<'v> {
+    Vertex(u32),
+    Face(u32),
+    Material(&'v str),
+}
+
+/// Reports each element and each material in the selections of a step that one of its meshes certainly does not have.
+pub(super) fn missing_elements(step: &RecipeStep, plan: &Plan, found: &mut Vec<Diagnostic>) {
+    // If the recipe expects a refusal, the missing element may be the reason for the refusal.
+    if plan.incomplete || step.refused.is_some() {
+        return;
+    }
+    let mut named = Vec::new();
+    collect(&step.value, &mut named);
+    if named.is_empty() {
+        return;
+    }
+    let on = step.on_names();
+    let is_target = |object: &str| on.as_ref().is_none_or(|on| on.iter().any(|n| n == object));
+    let targets = || meshes(plan.objects()).filter(|(object, _)| is_target(object));
+    for (named, span) in named {
+        let missing = targets().find_map(|(object, mesh)| named.missing_in(object, mesh));
+        if let Some((message, help)) = missing {
+            let error = Diagnostic::error(span, message);
+            found.push(match help {
+                Some(help) => error.with_help(help),
+                None => error,
+            });
+        }
+    }
+}
+
+impl Named<'_> {
+    /// Returns the error message if a mesh certainly lacks the element or the material, and a suggestion.
+    fn missing_in(&self, object: &str, mesh: &MeshPlan) -> Option<(String, Option<String>)> {
+        match *self {
+            Self::Vertex(number) => mesh.missing_vertex_message(number).map(|m| (m, None)),
+            Self::Face(number) => mesh.missing_face_message(number).map(|m| (m, None)),
+            Self::Material(name) => {
+                let known = mesh.materials.as_ref()?;
+                if known.iter().any(|known| known == name) {
+                    return None;
+                }
+                let message = format!("\"{object}\" has no material named \"{name}\"");
+                let help = if known.is_empty() {
+                    format!("\"{object}\" has no materials")
+                } else {
+                    did_you_mean(name, known.iter().map(String::as_str))
+                };
+                Some((message, Some(help)))
+            }
+        }
+    }
+}
+
+/// Collects the elements and the materials that the selections in a value name, with their spans.
+fn collect<'v>(value: &'v Value, named: &mut Vec<(Named<'v>, Span)>) {
+    if let ValueKind::Call(call) = &value.kind {
+        match &*call.name.text {
+            "Between" => add(call.body.parts(), Named::Vertex, named),
+            "Path" => {
+                let ends = ["from", "to"].into_iter();
+                add(
+                    ends.filter_map(|end| call.body.field(end)),
+                    Named::Vertex,
+                    named,
+                );
+            }
+            "Vertices" => add(listed(call), Named::Vertex, named),
+            "Faces" => add(listed(call), Named::Face, named),
+            "Material" => {
+                if let Some(name) = call.body.single()
+                    && let Some(text) = name.as_str()
+                {
+                    named.push((Named::Material(text), name.span));
+                }
+            }
+            _ => {}
+        }
+    }
+    value.parts().for_each(|part| collect(part, named));
+}
+
+/// Adds the elements with these numbers.
+fn add<'v>(
+    numbers: impl Iterator<Item = &'v Value>,
+    element: fn(u32) -> Named<'v>,
+    named: &mut Vec<(Named<'v>, Span)>,
+) {
+    for value in numbers {
+        if let ValueKind::Number(number) = &value.kind
+            && let Some(number) = number.to_int().and_then(|n| u32::try_from(n).ok())
+        {
+            named.push((element(number), value.span));
+        }
+    }
+}
+
+/// The items of `Name([..])`.
+fn listed(call: &Call) -> impl Iterator<Item = &Value> {
+    let items = call.body.single().and_then(Value::items);
+    items.into_iter().flatten()
+}

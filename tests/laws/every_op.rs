@@ -57,8 +57,17 @@ impl Case {
         output: &Path,
         progress: &dyn Progress,
     ) -> (Scene, Result<Report, OpError>) {
+        self.run_on(self.scene.clone(), output, progress)
+    }
+
+    /// Like [`run`](Self::run), on another scene.
+    pub(crate) fn run_on(
+        &self,
+        mut scene: Scene,
+        output: &Path,
+        progress: &dyn Progress,
+    ) -> (Scene, Result<Report, OpError>) {
         let files = files(output);
-        let mut scene = self.scene.clone();
         let mut cx = Context::new(progress, &files);
         cx.stream = "sample";
         let result = self.step.apply(&mut scene, &mut cx);

@@ -142,7 +142,7 @@ fn extreme_numbers_give_valid_results_or_errors() {
 }
 
 /// Expectations that measure meshes.
-const MEASURES: &[&str] = &[
+pub(crate) const MEASURES: &[&str] = &[
     "Area(eq: 1, min: 2, max: 3, tolerance: 4)",
     "Volume(eq: 1, min: 2, max: 3, tolerance: 4)",
     "Bounds(min: (1, 2, 3), max: (4, 5, 6), tolerance: 7)",

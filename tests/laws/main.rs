@@ -11,6 +11,7 @@ mod every_op;
 mod extremes;
 mod files;
 mod fixtures;
+mod growth;
 mod layout;
 mod opensubdiv;
 mod random_edits;

@@ -7,7 +7,8 @@
 //! {"event":"progress", "number":1, "what":"..", "done":3, "total":8}      at most ten times per second
 //! {"event":"done", "number":1, "label":"smooth", "vertices":8, "edges":12, "faces":6, "changed":6,
 //!                  "refused":[{"reason":"Boundary", "count":2, "first":".."}],
-//!                  "losses":[{"object":"cow", "name":"uv", "message":".."}], "notes":[".."],
+//!                  "losses":[{"object":"cow", "name":"uv", "message":".."}],
+//!                  "changes":[{"code":"faces-reversed", "count":2, "text":"..", "faces":[3, 7]}], "notes":[".."],
 //!                  "digest":"..", "milliseconds":1.5, "cached":false, "ran_because":"parameters changed: levels 1 -> 2"}
 //! {"event":"problem", "severity":"error", "file":"a.ron", "line":7, "column":9, "message":"..", "help":".."}
 //! {"event":"picture", "path":"a-error-1.png"}                             picture of a problem, with --picture-errors
@@ -24,7 +25,7 @@ use std::io::{self, Write as _};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-use op::Progress;
+use op::{Progress, ReadingChange, ReadingElements};
 use recipe::{Listener, Outcome, StepDone};
 use serde::Serialize;
 use serde_json::{Value as Json, json};
@@ -182,6 +183,7 @@ impl Listener for Events<'_> {
             "changed": done.report.changed,
             "refused": done.report.refused,
             "losses": losses_json(&done.report.losses),
+            "changes": done.report.changes.iter().map(change_json).collect::<Vec<_>>(),
             "notes": done.report.notes,
             "digest": done.digest.map(|digest| digest.to_string()),
             "milliseconds": milliseconds(done.time),
@@ -189,6 +191,20 @@ impl Listener for Events<'_> {
             "ran_because": done.ran.as_ref().map(ToString::to_string),
         }));
     }
+}
+
+/// Converts a change to JSON. The field `text` contains only some of the elements; the list contains all of them.
+fn change_json(change: &ReadingChange) -> Json {
+    let mut json = json!({
+        "code": change.code, "count": change.count, "text": change.message,
+    });
+    match &change.elements {
+        Some(ReadingElements::Vertices(list)) => json["vertices"] = json!(list),
+        Some(ReadingElements::Edges(list)) => json["edges"] = json!(list),
+        Some(ReadingElements::Faces(list)) => json["faces"] = json!(list),
+        None => {}
+    }
+    json
 }
 
 fn milliseconds(time: Duration) -> f64 {

@@ -36,7 +36,7 @@ use std::process::ExitCode;
 use engine::Engine;
 use op::Registry;
 
-use args::{Command, WrongUsage};
+use args::{Command, ReportedUsage, WrongUsage};
 use listener::is_interrupted;
 use output::{print_error, print_json};
 
@@ -83,7 +83,7 @@ pub fn run(registry: Registry) -> ExitCode {
         Command::Completions { shell } => commands::man::completions(shell),
         Command::Man => commands::man::page(),
         Command::Schema => print_json(&recipe::schema(&registry)).map(|()| true),
-        Command::NewOp(args) => commands::new_op::run(&args),
+        Command::NewOp(args) => commands::new_op::run(&args, &registry),
     };
     let result = catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|payload| {
         // An array that does not fit into memory is an error, not a bug.
@@ -96,6 +96,7 @@ pub fn run(registry: Registry) -> ExitCode {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => failure(1),
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
+        Err(error) if error.is::<ReportedUsage>() => failure(2),
         Err(error) => {
             print_error(&format!("error: {error:#}\n"));
             failure(if error.is::<WrongUsage>() {

@@ -114,6 +114,9 @@ pub(crate) fn step_notes(steps: &[StepDone]) -> String {
         for loss in &step.report.losses {
             text += &format!("{label}: {loss}\n");
         }
+        for change in &step.report.changes {
+            text += &format!("{label}: {}\n", change.message);
+        }
         for note in &step.report.notes {
             text += &format!("{label}: {note}\n");
         }
@@ -246,7 +249,8 @@ pub(crate) fn group_digits(n: u64) -> String {
     text
 }
 
-/// Returns a table with the origin of each parameter value, for the recipe and the recipes it calls.
+/// Returns a table with the origin of each parameter value, for the recipe and the recipes it calls, and the notes of the
+/// steps.
 pub(crate) fn explain(recipe: &Recipe) -> String {
     let mut rows = vec![header_row(["parameter", "value", "from"])];
     for scope in &recipe.scopes {
@@ -261,7 +265,18 @@ pub(crate) fn explain(recipe: &Recipe) -> String {
         }
     }
     let order = "(--set overrides presets; presets override the recipe's defaults)";
-    format!("{}{order}\n\n", table(&rows))
+    format!("{}{order}\n\n{}", table(&rows), explain_notes(recipe))
+}
+
+/// Lists the steps that have a note.
+fn explain_notes(recipe: &Recipe) -> String {
+    let mut text = String::new();
+    for (i, step) in recipe.steps.iter().enumerate() {
+        if let Some(note) = &step.note {
+            text += &format!("{} {}: {}\n", i + 1, step.label, escape_control(note));
+        }
+    }
+    if text.is_empty() { text } else { text + "\n" }
 }
 
 /// Lists for each step that it was cached or why it ran, and then the notes of the cache.
@@ -292,7 +307,10 @@ pub(crate) fn origin(origin: &Origin) -> String {
 
 /// Converts losses for serialization as JSON.
 pub(crate) fn losses_json(losses: &[op::Loss]) -> Vec<serde_json::Value> {
-    let json = |l: &op::Loss| serde_json::json!({ "object": l.object, "name": l.name, "message": l.to_string() });
+    let json = |l: &op::Loss| {
+        let object = (!l.object.is_empty()).then_some(&l.object);
+        serde_json::json!({ "object": object, "name": l.name, "message": l.to_string() })
+    };
     losses.iter().map(json).collect()
 }
 

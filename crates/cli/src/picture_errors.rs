@@ -17,7 +17,7 @@ use crate::output::{STAMP, escape_control, print_error, write_atomically};
 impl PictureErrorsArgs {
     /// Creates the pictures of a file's failures. `budget` is the memory for each, in bytes.
     pub(crate) fn of(&self, file: &Path, budget: u64) -> Pictures {
-        self.named(Path::new(file.file_stem().unwrap_or_default()), budget)
+        self.named(Path::new(store::stem(file)), budget)
     }
 
     /// Like [`of`](Self::of), for a name that can contain folders.

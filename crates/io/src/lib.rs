@@ -521,12 +521,9 @@ impl ReadOptions {
     /// The name of an object that has no name in the file.
     fn name_in(&self, path: &Path) -> String {
         let given = self.name.clone();
-        let stem = || {
-            let plain = gzip::plain(path);
-            plain
-                .file_stem()
-                .map(|stem| stem.to_string_lossy().into_owned())
-        };
-        given.or_else(stem).unwrap_or_else(|| "object".to_owned())
+        given.unwrap_or_else(|| match store::stem(path).to_string_lossy() {
+            stem if stem.is_empty() => "object".to_owned(),
+            stem => stem.into_owned(),
+        })
     }
 }

@@ -7,7 +7,7 @@ use mesh::{Column, Domain, Mesh};
 /// Something of a scene that a written file does not store.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Loss {
-    /// The name of the object.
+    /// The name of the object. Empty if the loss concerns the whole scene, such as its cameras.
     pub object: String,
     /// The domain of the lost values; `None` if they belong to the object as a whole.
     pub domain: Option<Domain>,
@@ -21,7 +21,11 @@ pub struct Loss {
 
 impl fmt::Display for Loss {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "object `{}`: ", self.object)?;
+        if self.object.is_empty() {
+            write!(f, "scene: ")?;
+        } else {
+            write!(f, "object `{}`: ", self.object)?;
+        }
         if let Some(domain) = self.domain {
             write!(f, "{domain} ")?;
         }

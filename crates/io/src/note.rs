@@ -10,8 +10,7 @@ use mesh::{Elements, VertexId};
 /// Something in a file that a reader changed or left out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Note {
-    /// A stable name of the kind of note, for programs, such as `faces-reversed`. Notes without a name of their own
-    /// have `left-out` or `changed`.
+    /// A stable name of the kind of note, for programs, such as `faces-reversed`.
     pub code: &'static str,
     /// Whether something is missing from the scene or only has a different form.
     pub kind: NoteKind,

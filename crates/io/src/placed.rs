@@ -42,13 +42,9 @@ pub(crate) fn placed<'s>(
         );
         return Err(crate::error::Unwritable::scene(message).in_file(path));
     }
-    let object = scene
-        .objects()
-        .first()
-        .map_or_else(String::new, |o| o.name.clone());
     let loss = |count: usize, attribute: &str, reason: &str| {
         (count > 0).then(|| Loss {
-            object: object.clone(),
+            object: String::new(),
             domain: None,
             attribute: attribute.to_owned(),
             count,

@@ -74,7 +74,7 @@ pub use plan::{
 };
 pub use progress::{Cancelled, NoProgress, Progress};
 pub use registry::{DuplicateOperation, Entry, Registry, Step};
-pub use report::{Loss, Refused, Report};
+pub use report::{Loss, ReadingChange, ReadingElements, Refused, Report};
 pub use selection::{
     EdgeSelection, ElementKind, Elements, FaceSelection, Region, Select, Selected, VertexSelection,
 };

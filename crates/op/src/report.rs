@@ -16,8 +16,34 @@ pub struct Report {
     pub refused: Vec<Refused>,
     /// Attributes and other data that were lost.
     pub losses: Vec<Loss>,
+    /// What reading a file changed.
+    pub changes: Vec<ReadingChange>,
     /// Other facts, one line each.
     pub notes: Vec<String>,
+}
+
+/// Something that reading a file changed, such as faces that were reversed.
+#[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
+pub struct ReadingChange {
+    /// A stable name of the kind of change, for programs, such as `faces-reversed`.
+    pub code: String,
+    /// The number of elements or values that were changed.
+    pub count: u64,
+    /// The changed elements of the file, if they are known.
+    pub elements: Option<ReadingElements>,
+    /// The change in words, with the file.
+    pub message: String,
+}
+
+/// Elements of a file, by their numbers in it, counted from 0.
+#[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
+pub enum ReadingElements {
+    /// Vertices.
+    Vertices(Vec<u64>),
+    /// Edges, as pairs of vertices.
+    Edges(Vec<[u64; 2]>),
+    /// Faces.
+    Faces(Vec<u64>),
 }
 
 /// The edits that were refused for one reason.
@@ -34,7 +60,7 @@ pub struct Refused {
 /// Data that a step or a file format could not preserve.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub struct Loss {
-    /// The object that lost the data.
+    /// The object that lost the data, or the file. Empty if the loss concerns the whole scene, such as its cameras.
     pub object: String,
     /// The name of the lost data, such as the name of an attribute. Recipes use it to allow the loss.
     pub name: String,
@@ -49,7 +75,11 @@ impl fmt::Display for Loss {
         if self.reason.is_empty() {
             return f.write_str(&self.what);
         }
-        write!(f, "{} lost {}: {}", self.object, self.what, self.reason)
+        let object = match self.object.as_str() {
+            "" => "the scene",
+            object => object,
+        };
+        write!(f, "{object} lost {}: {}", self.what, self.reason)
     }
 }
 
@@ -143,6 +173,7 @@ impl Report {
             self.count_refused(refused.reason, refused.count, || refused.first);
         }
         self.losses.extend(other.losses);
+        self.changes.extend(other.changes);
         self.notes.extend(other.notes);
     }
 }

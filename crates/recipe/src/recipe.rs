@@ -152,6 +152,8 @@ pub struct RecipeStep {
     pub refused: Option<Refusal>,
     /// Which losses the step may cause.
     pub on_loss: OnLoss,
+    /// The comment on the step. Programs show it to people; it has no effect.
+    pub note: Option<String>,
     /// The index of its scope in [`Recipe::scopes`].
     pub scope: usize,
     /// The span of the name of the operation.
@@ -298,12 +300,11 @@ impl Scope {
             if let Param::Path { .. } = parameter.param
                 && let Some(path) = parameter.value.as_str().map(Path::new)
             {
-                let text = |part: Option<&std::ffi::OsStr>| {
-                    part.map(|p| p.to_string_lossy().into_owned())
-                        .unwrap_or_default()
-                };
-                texts.push((format!("{}.stem", parameter.name), text(path.file_stem())));
-                texts.push((format!("{}.name", parameter.name), text(path.file_name())));
+                let name = path.file_name().unwrap_or_default();
+                for (part, text) in [("stem", store::stem(path)), ("name", name)] {
+                    let placeholder = format!("{}.{part}", parameter.name);
+                    texts.push((placeholder, text.to_string_lossy().into_owned()));
+                }
             }
         }
         texts

@@ -227,7 +227,7 @@ fn step_fields(operation: &Json, defined: &mut SchemaGenerator) -> Json {
                 "minItems": 1,
                 "description": "The names of the objects that the step acts on. If omitted, all suitable objects.",
             },
-            "note": { "type": "string", "description": "A comment for readers." },
+            "note": { "type": "string", "description": "A comment on the step, which `meshwright run --explain` and `check --explain` print." },
             "refused": described(
                 &reference::<Refusal>(defined),
                 "The reason for which the step must be refused. The scene stays unchanged.",

@@ -19,6 +19,7 @@ mod disk;
 mod memory;
 mod temporary;
 
+use std::ffi::OsStr;
 use std::fmt::Debug;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -152,6 +153,20 @@ pub trait Store: Debug + Send + Sync {
     fn is_folder(&self, path: &Path) -> bool {
         self.entry(path)
             .is_some_and(|entry| entry.kind == Kind::Folder)
+    }
+}
+
+/// Returns the name of a file without its extension, and without `.gz` after it: `model` for `model.obj.gz`. Empty if
+/// the path has no file name.
+pub fn stem(path: &Path) -> &OsStr {
+    let is_compressed = path
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("gz"));
+    let stem = path.file_stem().unwrap_or_default();
+    if is_compressed {
+        Path::new(stem).file_stem().unwrap_or_default()
+    } else {
+        stem
     }
 }
 

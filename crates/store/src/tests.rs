@@ -13,6 +13,22 @@ fn stores() -> [(Box<dyn Store>, PathBuf, Option<tempfile::TempDir>); 2] {
 }
 
 #[test]
+fn the_stem_of_a_compressed_file_has_no_extension() {
+    for (path, expected) in [
+        ("a/model.obj.gz", "model"),
+        ("a/model.OBJ.GZ", "model"),
+        ("model.obj", "model"),
+        ("model.v2.obj.gz", "model.v2"),
+        ("model.gz", "model"),
+        ("model", "model"),
+        (".gz", ".gz"),
+        ("..", ""),
+    ] {
+        assert_eq!(stem(path.as_ref()), expected, "{path}");
+    }
+}
+
+#[test]
 fn written_files_can_be_read_and_listed() {
     for (store, folder, _guard) in stores() {
         let path = folder.join("a/b/c.txt");

@@ -39,7 +39,9 @@ pub enum Quantity {
     /// The number of edges of each vertex.
     Valence,
     /// The smallest angle of each face, in degrees: 60 in an equilateral triangle, 0 in a sliver.
-    SmallestAngle,
+    #[serde(alias = "SmallestAngle")]
+    #[schemars(extend("aliases" = ["SmallestAngle"]))]
+    MinAngle,
     /// The area of each face, in scene units².
     Area,
     /// The angle between the normals of the two faces at each edge, in degrees: 0 where the surface is flat. Shown as
@@ -187,7 +189,7 @@ impl Quantity {
                 let v = VertexId::new(i);
                 mesh.has_vertex(v).then(|| mesh.valence(v) as f64)
             }),
-            Self::SmallestAngle => faces(&|f| {
+            Self::MinAngle => faces(&|f| {
                 let angles = mesh.face_half_edges(f).map(|h| mesh.corner_angle(h));
                 angles
                     .fold(f64::INFINITY, |min, a| if a < min { a } else { min })
@@ -234,7 +236,7 @@ impl Quantity {
             return [0.0, 1.0];
         };
         match self {
-            Self::SmallestAngle => [0.0, if high > 60.0 { 90.0 } else { 60.0 }],
+            Self::MinAngle => [0.0, if high > 60.0 { 90.0 } else { 60.0 }],
             Self::DihedralAngle => [0.0, if high > 90.0 { 180.0 } else { 90.0 }],
             Self::DistanceTo(_) => [0.0, high],
             // Symmetric about 0, without outliers: at a few sharp corners, curvatures are very large.
@@ -251,7 +253,7 @@ impl Quantity {
     fn title(&self) -> String {
         match self {
             Self::Valence => "valence".to_owned(),
-            Self::SmallestAngle => "smallest angle [°]".to_owned(),
+            Self::MinAngle => "min angle [°]".to_owned(),
             Self::Area => "area".to_owned(),
             Self::DihedralAngle => "dihedral angle [°]".to_owned(),
             Self::MeanCurvature => "mean curvature".to_owned(),

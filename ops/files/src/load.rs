@@ -1,12 +1,12 @@
 //! Load: reads the objects of a file into the scene.
 
-use mesh::Domain;
+use mesh::{Domain, Elements, VertexId};
 use mesh_io::{
     CleanupPolicy, NonManifold, Note, NoteKind, Orientation, Peek, PeekGeometry, PeekMesh,
     Placements, Policies, ReadOptions,
 };
 use op::prelude::*;
-use op::{Loss, Operation};
+use op::{Loss, Operation, ReadingChange, ReadingElements};
 
 /// Reads the objects of a file into the scene.
 ///
@@ -119,7 +119,7 @@ impl Operation for Load {
         for note in &loaded.notes {
             match note.kind {
                 NoteKind::LeftOut => report.losses.push(loss(note)),
-                NoteKind::Changed => report.notes.push(note.to_string()),
+                NoteKind::Changed => report.changes.push(change(note)),
             }
         }
         cx.advance("read", 1, 1)?;
@@ -162,6 +162,26 @@ fn loss(note: &Note) -> Loss {
         note.code,
         note.to_string(),
     )
+}
+
+/// What reading a file changed.
+fn change(note: &Note) -> ReadingChange {
+    let vertex = |v: &VertexId| v.index() as u64;
+    let elements = note.elements.as_ref().map(|elements| match elements {
+        Elements::Vertices(list) => ReadingElements::Vertices(list.iter().map(vertex).collect()),
+        Elements::Edges(list) => ReadingElements::Edges(
+            list.iter()
+                .map(|ends| ends.each_ref().map(vertex))
+                .collect(),
+        ),
+        Elements::Faces(list) => ReadingElements::Faces(list.iter().map(|&f| f as u64).collect()),
+    });
+    ReadingChange {
+        code: note.code.to_owned(),
+        count: note.count as u64,
+        elements,
+        message: note.to_string(),
+    }
 }
 
 /// Returns the plan of the mesh that is read from a file with these counts. Reading can leave out faces and remove
@@ -312,7 +332,7 @@ mod tests {
             Ok::<_, String>((
                 mesh.n_vertices(),
                 mesh.n_faces(),
-                done.notes.len() + done.losses.len(),
+                done.changes.len() + done.losses.len(),
             ))
         };
         assert_eq!(counts("(path: \"a.obj\")").unwrap().1, 3);
@@ -364,6 +384,8 @@ mod tests {
         let report = load("(path: \"a.obj\")")
             .apply(&mut scene, &mut cx)
             .unwrap();
-        assert!(!report.notes.is_empty());
+        let change = &report.changes[0];
+        assert_eq!((change.code.as_str(), change.count), ("edges-split", 1));
+        assert_eq!(change.elements, Some(ReadingElements::Edges(vec![[0, 1]])));
     }
 }

@@ -223,6 +223,11 @@ fn bits(text: &str) -> Result<Quantization, String> {
 #[error("{0}")]
 pub(crate) struct WrongUsage(pub(crate) String);
 
+/// Invalid arguments whose errors have been printed. The exit code is 2.
+#[derive(Debug, thiserror::Error)]
+#[error("invalid arguments")]
+pub(crate) struct ReportedUsage;
+
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
     /// Text for people

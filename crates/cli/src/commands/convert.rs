@@ -51,7 +51,7 @@ pub(crate) fn run(args: &ConvertArgs) -> anyhow::Result<bool> {
     if !human {
         let losses = written.losses.iter().map(|loss| {
             json!({
-                "object": loss.object, "name": loss.attribute, "count": loss.count,
+                "object": (!loss.object.is_empty()).then_some(&loss.object), "name": loss.attribute, "count": loss.count,
                 "domain": loss.domain.map(|d| d.to_string()), "message": loss.to_string(),
             })
         });

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf, absolute};
 
 use anyhow::{Context as _, bail, ensure};
+use op::Registry;
 
 use crate::args::NewOpArgs;
 use crate::output::print;
@@ -29,7 +30,7 @@ type Files = Vec<(PathBuf, String)>;
 
 /// Writes an operation to a group of the workspace in `dir`; without a group, writes a crate to `dir` that depends on
 /// the workspace in the folder `meshwright`.
-pub(crate) fn run(args: &NewOpArgs) -> anyhow::Result<bool> {
+pub(crate) fn run(args: &NewOpArgs, registry: &Registry) -> anyhow::Result<bool> {
     let (name, snake) = (&args.name, module_name(&args.name)?);
     let fill = |text: &str| text.replace("{Name}", name).replace("{name}", &snake);
     // Everything is prepared before anything is written.
@@ -37,6 +38,14 @@ pub(crate) fn run(args: &NewOpArgs) -> anyhow::Result<bool> {
         Some(group) => in_group(group, &snake, &args.dir, fill)?,
         None => in_new_crate(&snake, &args.dir, &args.meshwright, fill)?,
     };
+    if let Some(entry) = registry.get(name) {
+        let taken = entry.name;
+        let help = "choose another name";
+        if taken == name {
+            bail!("an operation is already named `{name}`: {help}");
+        }
+        bail!("`{name}` is an earlier name of the operation `{taken}`: {help}");
+    }
     let mut text = String::new();
     for (path, content) in files {
         let change = if path.exists() { "changed" } else { "wrote" };

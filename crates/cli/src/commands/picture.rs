@@ -14,7 +14,7 @@ use scene::{Geometry, Object, Scene};
 use view::sheet::{Cell, SheetStyle, sheet};
 use view::{Quantity, changed_faces};
 
-use crate::args::{DrawArgs, PictureArgs, WrongUsage};
+use crate::args::{DrawArgs, PictureArgs, ReportedUsage, WrongUsage};
 use crate::commands::batch::inputs;
 use crate::listener::{INTERRUPT, Terminal, catch_interrupts};
 use crate::output::{STAMP, print, print_error, write_atomically};
@@ -62,8 +62,11 @@ pub(crate) fn write_images(picture: &Picture, images: &[Image], path: &Path) -> 
 fn output_path(args: &PictureArgs, first: &Path) -> PathBuf {
     args.out.clone().unwrap_or_else(|| {
         let ending = if args.turntable { "gif" } else { "png" };
-        let stem = first.file_stem().unwrap_or_default();
-        let name = if args.sheet { "sheet".as_ref() } else { stem };
+        let name = if args.sheet {
+            "sheet".as_ref()
+        } else {
+            store::stem(first)
+        };
         PathBuf::from(format!("{}.{ending}", name.display()))
     })
 }
@@ -83,7 +86,7 @@ pub(crate) fn parameters(
     let mut picture: Picture = recipe::read_step(&text).map_err(|wrong| {
         let source = Source::new("options of picture", text.as_str());
         print_error(&recipe::render(&[source], &wrong, false));
-        WrongUsage("invalid options".to_owned())
+        ReportedUsage
     })?;
     let quantity = picture.color_by.as_mut().map(|by| &mut by.of);
     if let Some(Quantity::DistanceTo(path)) = quantity {
@@ -116,7 +119,7 @@ fn fields(args: &DrawArgs, out: &Path, default_size: [u32; 2], further: Vec<Stri
     let up = if args.z_up { "up: Z" } else { "up: Auto" };
     let projection = field_if(args.orthographic, "projection: Orthographic");
     let more = projection.into_iter().chain([up.to_owned()]);
-    let has_own_camera = (args.with.iter()).any(|w| w.contains("camera:") || w.contains("views:"));
+    let has_own_camera = args.with.as_deref().is_some_and(has_camera);
     let camera = |from: Option<&String>| {
         let from = from.map(|from| format!("from: {}", with_case_of::<Side>(from)));
         let fields: Vec<String> = from.into_iter().chain(more.clone()).collect();
@@ -153,6 +156,12 @@ fn fields(args: &DrawArgs, out: &Path, default_size: [u32; 2], further: Vec<Stri
     fields.extend(further);
     fields.extend(args.with.clone());
     fields.join(", ")
+}
+
+/// Whether one of the further parameters is the camera or the list of cameras.
+fn has_camera(with: &str) -> bool {
+    let with = ron_tree::parse(&format!("({with})")).value;
+    with.field("camera").is_some() || with.field("views").is_some()
 }
 
 /// Draws one file.
@@ -316,4 +325,19 @@ fn write(path: &Path, bytes: &[u8], image: &Image) -> anyhow::Result<()> {
     let (path, width, height) = (path.display(), image.width, image.height);
     let printed = print(&format!("wrote {path}, {width} x {height} pixels\n"));
     Ok(printed?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_camera_is_recognized_as_a_parameter() {
+        assert!(has_camera("camera: Fit(up: Z)"));
+        assert!(has_camera("size: (4, 4), views: []"));
+        assert!(has_camera("/* left */ camera : Fit()"));
+        assert!(!has_camera("path: \"camera: a.png\""));
+        assert!(!has_camera("style: (camera: 1)"));
+        assert!(!has_camera("background: White // views: none"));
+    }
 }

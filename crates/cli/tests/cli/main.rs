@@ -10,6 +10,7 @@ mod file_kinds;
 mod files;
 mod folder;
 mod interrupt;
+mod jobs;
 mod memory;
 mod new;
 mod new_op;

@@ -240,6 +240,18 @@ fn a_second_operation_with_the_same_name_is_refused_and_changes_no_files() {
 }
 
 #[test]
+fn the_name_of_an_operation_of_the_program_is_refused() {
+    let folder = small_workspace();
+    let before = content(&folder.path("."));
+    for arguments in ["new-op PokeFaces", "new-op PokeFaces --in faces"] {
+        folder.run(arguments).with_code(1).complains(&[
+            "error: an operation is already named `PokeFaces`: choose another name\n",
+        ]);
+    }
+    assert_eq!(content(&folder.path(".")), before);
+}
+
+#[test]
 fn invalid_names_are_refused_and_change_no_files() {
     let folder = small_workspace();
     let before = content(&folder.path("."));

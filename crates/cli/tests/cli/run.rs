@@ -114,6 +114,47 @@ fn a_run_explains_where_values_come_from() {
 }
 
 #[test]
+fn a_run_prints_the_notes_of_steps() {
+    let folder = Folder::with_recipe(
+        "(recipe: 1, steps: [Cube(), (id: \"soft\", note: \"the maker wants it soft\", run: Triangulate())])",
+    );
+    for command in ["run", "check"] {
+        folder
+            .run(&format!("{command} recipe.ron --explain"))
+            .with_code(0)
+            .prints(&["2 soft: the maker wants it soft\n"]);
+    }
+}
+
+#[test]
+fn changes_by_reading_are_data_in_json() {
+    let folder = Folder::with_recipe("(recipe: 1, steps: [Load(path: \"a.obj\")])").with(
+        "a.obj",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\nv 0 0 1\nf 1 2 3\nf 2 1 4\nf 1 2 5\n",
+    );
+    let events = folder.run("run recipe.ron --format json").events();
+    let done = events.iter().find(|e| e["event"] == "done").unwrap();
+    let change = &done["changes"][0];
+    assert_eq!(change["code"], "edges-split");
+    assert_eq!(change["count"], 1);
+    assert_eq!(change["edges"], serde_json::json!([[0, 1]]));
+    // People read the same change in the list after the table.
+    let text = change["text"].as_str().unwrap();
+    folder.run("run recipe.ron").prints(&[text]);
+}
+
+#[test]
+fn the_stem_of_a_compressed_input_names_the_output() {
+    let recipe = r#"(recipe: 1, params: { "input": Path(default: "model.obj.gz") },
+        steps: [Cube(), Save(path: "{input.stem}.obj")])"#;
+    let folder = Folder::with_recipe(recipe);
+    folder
+        .run("run recipe.ron")
+        .with_code(0)
+        .prints(&["wrote out/model.obj"]);
+}
+
+#[test]
 fn a_path_that_is_set_is_relative_to_the_working_directory_and_names_the_output() {
     let recipe = r#"(recipe: 1,
         params: { "input": Path(default: "triangle.obj") },

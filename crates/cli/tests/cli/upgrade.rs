@@ -18,6 +18,23 @@ fn a_current_recipe_stays_unchanged() {
 }
 
 #[test]
+fn renamed_quantities_are_rewritten() {
+    let old =
+        "(recipe: 1, steps: [Cube(), Picture(path: \"a.png\", color_by: (of: SmallestAngle))])";
+    let folder = Folder::new().with("a.ron", old);
+    folder
+        .run("check a.ron")
+        .with_code(0)
+        .complains(&["`SmallestAngle` was renamed to `MinAngle`"]);
+    folder
+        .run("upgrade a.ron")
+        .with_code(0)
+        .prints(&["a.ron:1: SmallestAngle -> MinAngle"]);
+    let new = old.replace("SmallestAngle", "MinAngle");
+    assert_eq!(folder.read("a.ron"), new.as_bytes());
+}
+
+#[test]
 fn a_newer_recipe_is_refused_and_the_next_one_is_upgraded() {
     let folder = Folder::new()
         .with("a.ron", "(recipe: 7, steps: [])")

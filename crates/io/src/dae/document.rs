@@ -117,8 +117,11 @@ fn place_at(text: &str, at: usize) -> TextPosition {
     }
 }
 
-/// The count and the first line of each kind of note.
-type Tally = BTreeMap<(NoteKind, &'static str), (usize, usize)>;
+/// The code of a note, and its words after the count.
+pub(super) type What = (&'static str, &'static str);
+
+/// The count and the first line of each note, by its kind, words and code.
+type Tally = BTreeMap<(NoteKind, &'static str, &'static str), (usize, usize)>;
 
 /// A file, with its elements by id.
 pub(super) struct Document<'a> {
@@ -162,27 +165,31 @@ impl<'a> Document<'a> {
         })
     }
 
-    pub(super) fn left_out(&self, count: usize, node: Node, what: &'static str) {
+    pub(super) fn left_out(&self, count: usize, node: Node, what: What) {
         self.add(NoteKind::LeftOut, count, node, what);
     }
 
-    pub(super) fn changed(&self, count: usize, node: Node, what: &'static str) {
+    pub(super) fn changed(&self, count: usize, node: Node, what: What) {
         self.add(NoteKind::Changed, count, node, what);
     }
 
-    fn add(&self, kind: NoteKind, count: usize, node: Node, what: &'static str) {
+    fn add(&self, kind: NoteKind, count: usize, node: Node, what: What) {
         if count > 0 {
             // The line is determined only once, because that takes time.
             let mut all = self.tally.borrow_mut();
-            let (sum, _) = all.entry((kind, what)).or_insert_with(|| (0, line(node)));
+            let (sum, _) = all
+                .entry((kind, what.1, what.0))
+                .or_insert_with(|| (0, line(node)));
             *sum = sum.saturating_add(count);
         }
     }
 
     /// Adds notes for everything that was left out or changed.
     pub(super) fn note_all(&self, notes: &mut Notes) {
-        for ((kind, what), (count, line)) in self.tally.take() {
-            notes.add(kind, count, Some(line), what.to_owned());
+        for ((kind, what, code), (count, line)) in self.tally.take() {
+            notes
+                .coded(code)
+                .add(kind, count, Some(line), what.to_owned());
         }
     }
 

@@ -106,7 +106,7 @@ impl<'a, 'd> Geometries<'a, 'd> {
             if matches!(name, "lines" | "linestrips" | "points") {
                 let count = natural(list, "count")?.unwrap_or(1);
                 self.document
-                    .left_out(count, list, "lines and points left out");
+                    .left_out(count, list, ("polylines", "lines and points left out"));
             }
             let Some(shape) = shape(list, self.document)? else {
                 continue;
@@ -195,7 +195,10 @@ impl<'a, 'd> Geometries<'a, 'd> {
                     source: self.source_of(input)?,
                 }),
                 _ => {
-                    let what = "inputs left out: other than normals, colors and texture coordinates, or repeated";
+                    let what = (
+                        "inputs",
+                        "inputs left out: other than normals, colors and texture coordinates, or repeated",
+                    );
                     self.document.left_out(1, input, what);
                 }
             }

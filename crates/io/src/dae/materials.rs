@@ -36,7 +36,11 @@ pub(super) fn material<'a>(
     let mut material = Material::new(name);
     if let Some(instance) = child(node, "instance_effect") {
         match document.follow(instance, "url", &["effect"])? {
-            None => document.left_out(1, instance, "effects in other files left out"),
+            None => document.left_out(
+                1,
+                instance,
+                ("other-files", "effects in other files left out"),
+            ),
             Some(effect) => {
                 let appearance = match known.get(&number_of(effect)) {
                     Some(appearance) => appearance.clone(),
@@ -61,7 +65,10 @@ fn read_effect<'a>(document: &Document<'a>, effect: Node<'a>) -> Result<Material
         let name = profile.tag_name().name();
         name.starts_with("profile_") && name != "profile_COMMON"
     });
-    let what = "profiles of effects other than profile_COMMON left out";
+    let what = (
+        "effect-profiles",
+        "profiles of effects other than profile_COMMON left out",
+    );
     document.left_out(others.count(), effect, what);
     let Some(profile) = child(effect, "profile_COMMON") else {
         return Ok(material);
@@ -83,7 +90,10 @@ fn read_effect<'a>(document: &Document<'a>, effect: Node<'a>) -> Result<Material
         let name = node.tag_name().name();
         name != channel && name != "transparent" && name != "transparency"
     });
-    let what = "parameters of effects other than diffuse color and transparency left out";
+    let what = (
+        "material-values",
+        "parameters of effects other than diffuse color and transparency left out",
+    );
     document.left_out(others.count(), shader, what);
     let scope = Scope {
         document,
@@ -123,7 +133,7 @@ fn opacity(scope: &Scope, shader: Node) -> Result<Option<f64>, Fault> {
     let color = match scope.channel_value(transparent)? {
         Some(ChannelValue::Color(color)) => color,
         Some(ChannelValue::Texture(_)) => {
-            let what = "transparency textures left out";
+            let what = ("textures", "transparency textures left out");
             scope.document.left_out(1, shader, what);
             return Ok(None);
         }
@@ -142,7 +152,7 @@ fn opacity(scope: &Scope, shader: Node) -> Result<Option<f64>, Fault> {
     // Programs disagree about whether 0 or 1 means opaque. A completely invisible surface is hardly ever
     // intended, so it is made opaque.
     if opacity <= 0.0 {
-        let what = "invisible materials made opaque";
+        let what = ("materials-opaque", "invisible materials made opaque");
         scope.document.changed(1, shader, what);
         return Ok(None);
     }
@@ -166,7 +176,7 @@ impl<'a> Scope<'a, '_> {
         if let Some(texture) = child(channel, "texture") {
             let sid = texture.attribute("texture");
             let path = sid.and_then(|sid| self.texture_path(sid));
-            let what = "textures without an image file left out";
+            let what = ("textures", "textures without an image file left out");
             let is_missing = usize::from(path.is_none());
             self.document.left_out(is_missing, texture, what);
             return Ok(path.map(ChannelValue::Texture));

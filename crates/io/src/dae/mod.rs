@@ -105,7 +105,7 @@ fn each_object<T>(
             surfaces.insert(id, surface);
         }
         let Some(Some(surface)) = surfaces.get(&id) else {
-            let what = "geometries without polygons left out";
+            let what = ("meshes-empty", "geometries without polygons left out");
             document.left_out(1, placed.geometry, what);
             continue;
         };
@@ -156,7 +156,10 @@ impl Object<'_, '_> {
     fn polygons(self) -> Result<Polygons, Fault> {
         let mut polygons = self.surface.polygons.clone();
         let lost = polygons.apply_transform(&self.placed.to_scene);
-        let what = "normals left out: the transform of the node is singular";
+        let what = (
+            "normals",
+            "normals left out: the transform of the node is singular",
+        );
         self.document.left_out(lost, self.placed.geometry, what);
         if self.surface.symbols.is_empty() {
             return Ok(polygons);
@@ -170,7 +173,10 @@ impl Object<'_, '_> {
             let same_id = same_id.filter(|node| document::is(**node, "material"));
             let node = self.placed.materials.get(symbol).or(same_id);
             let Some(&node) = node else {
-                let what = "materials that the file does not define: replaced by white materials";
+                let what = (
+                    "material-missing",
+                    "materials that the file does not define: replaced by white materials",
+                );
                 self.document.changed(1, self.placed.geometry, what);
                 place_of_symbol.push(next);
                 polygons.materials.push(Material::new(*symbol));
@@ -216,7 +222,9 @@ fn note_asset(document: &Document, notes: &mut Notes) -> Result<(), Fault> {
     if meter != 1.0 || up != "Y_UP" {
         let up = up.chars().take(20).collect::<String>();
         let what = format!("coordinate system kept as in the file: up_axis {up}, unit {meter} m");
-        notes.changed(1, unit.or(axis).map(line), what);
+        notes
+            .coded("coordinate-system")
+            .changed(1, unit.or(axis).map(line), what);
     }
     Ok(())
 }
@@ -225,15 +233,22 @@ fn note_asset(document: &Document, notes: &mut Notes) -> Result<(), Fault> {
 fn note_libraries(document: &Document) {
     for library in elements(document.root) {
         let what = match library.tag_name().name() {
-            "library_animations" | "library_animation_clips" => "animations left out",
-            "library_cameras" => "cameras left out",
-            "library_lights" => "lights left out",
-            "library_controllers" => "skins and morphs left out: geometries have their rest pose",
-            name if name.starts_with("library_physics") || name == "library_force_fields" => {
-                "physics elements left out"
+            "library_animations" | "library_animation_clips" => {
+                ("animations", "animations left out")
             }
-            "library_joints" | "library_articulated_systems" => "joints left out",
-            name if name.starts_with("library_kinematics") => "kinematics elements left out",
+            "library_cameras" => ("cameras", "cameras left out"),
+            "library_lights" => ("lights", "lights left out"),
+            "library_controllers" => (
+                "skins",
+                "skins and morphs left out: geometries have their rest pose",
+            ),
+            name if name.starts_with("library_physics") || name == "library_force_fields" => {
+                ("physics", "physics elements left out")
+            }
+            "library_joints" | "library_articulated_systems" => ("joints", "joints left out"),
+            name if name.starts_with("library_kinematics") => {
+                ("kinematics", "kinematics elements left out")
+            }
             _ => continue,
         };
         let parts = elements(library).filter(|part| !document::is(*part, "asset"));

@@ -70,14 +70,18 @@ pub(super) fn placed<'a>(
     };
     let other_scenes: Vec<&Node> = scenes.iter().filter(|other| **other != scene).collect();
     let first = other_scenes.first().map(|scene| line(**scene));
-    notes.left_out(other_scenes.len(), first, "other scenes left out");
+    notes
+        .coded("scenes")
+        .left_out(other_scenes.len(), first, "other scenes left out");
     let placed = Walk::of(document).run(scene)?;
     let used = placed.iter().map(|placed| number_of(placed.geometry));
     let used: BTreeSet<u32> = used.collect();
     let mut unused = geometries().filter(|geometry| !used.contains(&number_of(*geometry)));
     if let Some(first) = unused.next() {
         let what = "geometries left out: not used by any node of the scene";
-        notes.left_out(1 + unused.count(), line(first), what);
+        notes
+            .coded("meshes-unused")
+            .left_out(1 + unused.count(), line(first), what);
     }
     Ok(placed)
 }
@@ -157,9 +161,11 @@ impl<'a, 'd> Walk<'a, 'd> {
             } else if is(part, "instance_node") {
                 match self.document.follow(part, "url", &["node"])? {
                     Some(node) => open.push(Step::Enter(node, to_scene)),
-                    None => self
-                        .document
-                        .left_out(1, part, "nodes in other files left out"),
+                    None => self.document.left_out(
+                        1,
+                        part,
+                        ("other-files", "nodes in other files left out"),
+                    ),
                 }
             }
         }
@@ -175,8 +181,11 @@ impl<'a, 'd> Walk<'a, 'd> {
                 _ => continue,
             };
             let Some(geometry) = geometry else {
-                self.document
-                    .left_out(1, instance, "geometries in other files left out");
+                self.document.left_out(
+                    1,
+                    instance,
+                    ("other-files", "geometries in other files left out"),
+                );
                 continue;
             };
             // Several copies of the name of an object are stored.
@@ -230,9 +239,11 @@ impl<'a, 'd> Walk<'a, 'd> {
                 Some(material) => {
                     materials.entry(symbol).or_insert(material);
                 }
-                None => self
-                    .document
-                    .left_out(1, bound, "materials in other files left out"),
+                None => self.document.left_out(
+                    1,
+                    bound,
+                    ("other-files", "materials in other files left out"),
+                ),
             }
         }
         Ok(materials)
@@ -253,7 +264,8 @@ impl<'a, 'd> Walk<'a, 'd> {
                 "rotate" => DAffine3::from_mat3(rotation(exactly(part)?)),
                 "lookat" => look_at(part)?,
                 "skew" => {
-                    self.document.left_out(1, part, "skews of nodes left out");
+                    self.document
+                        .left_out(1, part, ("skews", "skews of nodes left out"));
                     continue;
                 }
                 _ => continue,

@@ -30,7 +30,11 @@ pub(super) fn shape(list: Node, document: &Document) -> Result<Option<Shape>, Fa
         return Err(error_at(list, "expected indices in <p>, found none"));
     }
     if empty {
-        document.left_out(1, list, "empty lists of polygons left out");
+        document.left_out(
+            1,
+            list,
+            ("primitives-empty", "empty lists of polygons left out"),
+        );
         return Ok(None);
     }
     Ok(Some(shape))
@@ -78,7 +82,7 @@ impl Shape {
             }
             starts.push(outline.indices.len() / stride);
         }
-        document.left_out(holes, list, "holes of polygons left out");
+        document.left_out(holes, list, ("holes", "holes of polygons left out"));
         let n = outline.indices.len() / stride;
         let lists = starts.windows(2).map(|ends| ends[0]..ends[1]);
         let count = natural(list, "count")?;
@@ -133,7 +137,10 @@ impl Shape {
                 outline.lists.len()
             }
         };
-        let what = "polygons with fewer than 3 corners left out";
+        let what = (
+            "faces-too-small",
+            "polygons with fewer than 3 corners left out",
+        );
         document.left_out(small, list, what);
         if count.is_some_and(|count| count != found) {
             let count = required(list, "count")?;

@@ -102,7 +102,9 @@ impl Document {
             let n = list(json, key)?.len();
             notes.coded(key).left_out(n, None, what);
         }
-        notes.left_out(left_out_extras(json), None, "extras left out");
+        notes
+            .coded("extras")
+            .left_out(left_out_extras(json), None, "extras left out");
         Ok(document)
     }
 }

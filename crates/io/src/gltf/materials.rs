@@ -40,7 +40,9 @@ impl<'a> Materials<'a> {
     /// Adds notes for what was left out.
     pub(super) fn note(self, notes: &mut Notes) {
         let what = "textures without a supported image left out";
-        notes.left_out(self.without_picture, None, what);
+        notes
+            .coded("textures")
+            .left_out(self.without_picture, None, what);
     }
 
     /// Converts material `i` of the document, which must exist.

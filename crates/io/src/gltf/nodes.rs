@@ -51,7 +51,7 @@ pub(super) fn placed_meshes(
     let skinned = nodes.iter().map(|node| &document.nodes[node.index]);
     let skinned = skinned.filter(|node| node.mesh.is_some() && node.skin.is_some());
     let what = "skinned meshes read in their rest pose";
-    notes.changed(skinned.count(), None, what);
+    notes.coded("skins").changed(skinned.count(), None, what);
     let mut names = Names::default();
     match placements {
         Placements::Bake => {

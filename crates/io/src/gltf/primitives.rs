@@ -326,14 +326,28 @@ impl LeftOut {
     }
 
     fn note(self, notes: &mut Notes) {
-        notes.left_out(self.morphs, None, "morph targets left out");
-        notes.left_out(self.points, None, "primitives of points left out");
-        notes.left_out(self.lines, None, "primitives of lines left out");
-        notes.left_out(self.empty, None, "primitives without positions left out");
+        notes
+            .coded("morphs")
+            .left_out(self.morphs, None, "morph targets left out");
+        notes
+            .coded("points")
+            .left_out(self.points, None, "primitives of points left out");
+        notes
+            .coded("polylines")
+            .left_out(self.lines, None, "primitives of lines left out");
+        notes.coded("primitives-empty").left_out(
+            self.empty,
+            None,
+            "primitives without positions left out",
+        );
         let what = "attributes that only some primitives of a mesh have: set to 0 in the others";
-        notes.changed(self.partial, None, what);
+        notes
+            .coded("attributes-partial")
+            .changed(self.partial, None, what);
         for (name, count) in self.attributes {
-            notes.left_out(count, None, format!("attributes {name} left out"));
+            notes
+                .coded("attributes")
+                .left_out(count, None, format!("attributes {name} left out"));
         }
     }
 }

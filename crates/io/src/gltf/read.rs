@@ -77,7 +77,7 @@ fn objects(
     }
     let unused = document.meshes.len() - uses.len();
     let what = "meshes left out: not used by any node of the scene";
-    notes.left_out(unused, None, what);
+    notes.coded("meshes-unused").left_out(unused, None, what);
     let mut meshes = BTreeMap::new();
     let mut materials = Materials::new(reader);
     let mut objects = Vec::new();
@@ -171,7 +171,11 @@ fn polygons(
     } = triangles;
     let n = positions.len();
     let (positions, vertex_of, unused) = weld(positions, &order);
-    notes.left_out(unused, None, "vertices left out: not used by any triangle");
+    notes.coded("vertices-unused").left_out(
+        unused,
+        None,
+        "vertices left out: not used by any triangle",
+    );
     let mut polygons = Polygons {
         positions,
         offsets: Polygons::even_offsets(order.len() / 3, 3),
@@ -189,7 +193,7 @@ fn polygons(
     }
     polygons.corners = order;
     let lost = polygons.apply_transform(to_scene);
-    notes.left_out(
+    notes.coded("normals").left_out(
         lost,
         None,
         "normals left out: the transform of the node is singular",

@@ -63,7 +63,9 @@ pub(super) fn read_libraries(
                             materials.push(material);
                         } else {
                             let what = format!("repeated material `{}` left out", material.name);
-                            library_notes.left_out(1, None, what);
+                            library_notes
+                                .coded("materials-repeated")
+                                .left_out(1, None, what);
                         }
                     }
                     notes.append(library_notes);
@@ -77,7 +79,7 @@ pub(super) fn read_libraries(
         }
     }
     let what = "names of material libraries left out: too many";
-    notes.left_out(further, None, what);
+    notes.coded("too-many-names").left_out(further, None, what);
     for used in &file.material_names {
         if known.insert(used.clone()) {
             let what =
@@ -126,7 +128,7 @@ fn read_library(bytes: &[u8], notes: &mut Notes) -> Vec<Material> {
     let text = name(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes));
     let text = text.replace("\r\n", "\n").replace('\r', "\n");
     if let Err(error) = check_encoding(bytes) {
-        notes.left_out(
+        notes.coded("material-library-unreadable").left_out(
             1,
             1,
             format!("material library left out: {}", error.message),
@@ -158,7 +160,7 @@ fn without_broken_lines(text: &str, notes: &mut Notes) -> String {
             }
             Err(why) => {
                 let what = format!("line {} left out: {why}", quoted(line.trim().as_bytes()));
-                notes.left_out(1, i + 1, what);
+                notes.coded("material-lines").left_out(1, i + 1, what);
             }
         }
     }

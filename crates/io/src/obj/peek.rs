@@ -41,11 +41,8 @@ pub(crate) fn peek(
         let geometry = PeekGeometry::Polylines { lines, points };
         return Ok(PeekObject::new(name.to_owned(), geometry));
     }
-    notes.left_out(
-        usize::try_from(all.lines).unwrap_or(usize::MAX),
-        None,
-        POLYLINES,
-    );
+    let n_lines = usize::try_from(all.lines).unwrap_or(usize::MAX);
+    notes.coded("polylines").left_out(n_lines, None, POLYLINES);
     let materials = read_libraries(assets, &file, notes)?;
     let textures = materials.iter().flat_map(Material::textures);
     note_missing(textures.filter_map(Texture::path), assets, notes);

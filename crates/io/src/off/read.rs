@@ -171,7 +171,9 @@ fn vertices(
         cursor.skip_line();
     }
     let what = "vertices with extra numbers, which the keyword in the first line does not declare: left out";
-    notes.left_out(extra, first_extra, what);
+    notes
+        .coded("extra-content")
+        .left_out(extra, first_extra, what);
     if header.normals {
         polygons.insert_known(VERTEX_NORMAL, normals);
     }
@@ -299,7 +301,7 @@ fn faces(
     if !colors.values.is_empty() {
         colors.values.resize(n_faces, None);
         let n = colors.values.iter().filter(|color| color.is_none()).count();
-        notes.changed(
+        notes.coded("colors-missing").changed(
             n,
             None,
             "faces without a color set to gray because other faces have colors",
@@ -316,9 +318,11 @@ fn faces(
 /// Notes the faces with fewer than 3 corners, of which the first is in line `first`, and the lines after the last face.
 fn note_left_out(small: usize, first: Option<usize>, cursor: &mut Cursor, notes: &mut Notes) {
     let what = "faces with fewer than 3 corners left out";
-    notes.left_out(small, first, what);
+    notes.coded("faces-too-small").left_out(small, first, what);
     let (rest, first) = cursor.count_rest();
-    notes.left_out(rest, first, "lines after the last face left out");
+    notes
+        .coded("extra-content")
+        .left_out(rest, first, "lines after the last face left out");
 }
 
 // ---- Counts ------------------------------------------------------------------------------------

@@ -75,7 +75,9 @@ impl<'a> Body<'a> {
             at = end;
         }
         let rest = self.bytes.len() - at;
-        notes.left_out(rest, None, "bytes after the last element left out");
+        notes
+            .coded("extra-content")
+            .left_out(rest, None, "bytes after the last element left out");
         Ok(tables)
     }
 
@@ -164,7 +166,9 @@ fn transcoded(
     }
     let (lines, first) = cursor.count_rest();
     let first = first + header.lines;
-    notes.left_out(lines, first, "lines after the last element left out");
+    notes
+        .coded("extra-content")
+        .left_out(lines, first, "lines after the last element left out");
     Ok(out)
 }
 

@@ -60,7 +60,9 @@ impl Roles {
         for (place, element) in header.elements.iter().enumerate() {
             if !self.uses(place) {
                 let what = format!("rows of {element} left out");
-                notes.left_out(element.rows, element.place.line, what);
+                notes
+                    .coded("elements")
+                    .left_out(element.rows, element.place.line, what);
             }
         }
     }

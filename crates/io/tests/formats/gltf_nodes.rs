@@ -213,6 +213,11 @@ fn formats_without_nodes_are_written_with_placed_instances() {
         for loss in [("nodes", 7), ("cameras", 2), ("lights", 2)] {
             assert!(lost.contains(&loss), "{extension}: {lost:?}");
         }
+        // Cameras belong to no object.
+        let mut losses = report.losses.iter();
+        let cameras = losses.find(|l| l.attribute == "cameras").unwrap();
+        assert!(cameras.object.is_empty());
+        assert!(cameras.to_string().starts_with("scene: `cameras` (2): "));
         let strict = WriteOptions {
             strict: true,
             ..WriteOptions::default()

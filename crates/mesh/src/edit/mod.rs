@@ -48,9 +48,10 @@ pub enum EditError {
     /// The edit needs a face on both sides.
     #[error("{0} is on the boundary")]
     Boundary(EdgeId),
-    /// The edit needs a half-edge without a face, but the given half-edge of this edge has one.
-    #[error("{0} is not on the boundary")]
-    NotBoundary(EdgeId),
+    /// The edit needs a half-edge without a face, but this half-edge has one. The edge can be on the boundary: its
+    /// other half-edge may have no face.
+    #[error("{0} has a face, so it is not a boundary half-edge")]
+    NotBoundary(HalfEdgeId),
     /// The edit needs a vertex inside the surface.
     #[error("{0} is on the boundary")]
     BoundaryVertex(VertexId),
@@ -148,10 +149,12 @@ impl EditError {
             | Self::FewEdges(v)
             | Self::RepeatedVertex(v)
             | Self::Pinch(v) => vec![v.into()],
-            Self::NoSuchHalfEdge(h) | Self::WrongCorner(h) | Self::ShortLoop(h) => vec![h.into()],
+            Self::NoSuchHalfEdge(h)
+            | Self::NotBoundary(h)
+            | Self::WrongCorner(h)
+            | Self::ShortLoop(h) => vec![h.into()],
             Self::NoSuchEdge(e)
             | Self::Boundary(e)
-            | Self::NotBoundary(e)
             | Self::SameFace(e)
             | Self::Vanishes(e)
             | Self::JoinsBoundaries(e)
@@ -194,7 +197,7 @@ impl Mesh {
     /// Checks that `h` is a half-edge without a face.
     fn check_hole(&self, h: HalfEdgeId) -> Result<(), EditError> {
         self.check_half_edge(h)?;
-        require(self.face(h).is_none(), EditError::NotBoundary(h.edge()))
+        require(self.face(h).is_none(), EditError::NotBoundary(h))
     }
 
     /// Checks that there are ids for this many additional half-edges. An edit adds fewer vertices than half-edges,

@@ -153,7 +153,11 @@ pub(crate) fn forbidden(step: &RecipeStep, loss: &Loss) -> Diagnostic {
     {
         what.clone()
     } else {
-        format!("{} loses {what} of \"{object}\"", step.name)
+        let object = match object.as_str() {
+            "" => "the scene".to_owned(),
+            object => format!("\"{object}\""),
+        };
+        format!("{} loses {what} of {object}", step.name)
     };
     let message = format!("{lost}, and `on_loss` does not allow it");
     let help = match &step.on_loss {
@@ -167,9 +171,18 @@ pub(crate) fn forbidden(step: &RecipeStep, loss: &Loss) -> Diagnostic {
     Diagnostic::error(step.span, message).with_help(help)
 }
 
+#[cfg(test)]
+thread_local! {
+    /// The number of objects that checks on this thread have visited.
+    pub(crate) static VISITED: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
+}
+
 /// Returns the objects that are meshes, with their names.
 pub(super) fn meshes(objects: &[PlannedObject]) -> impl Iterator<Item = (&str, &MeshPlan)> {
-    objects.iter().filter_map(|object| match &object.geometry {
+    let objects = objects.iter();
+    #[cfg(test)]
+    let objects = objects.inspect(|_| VISITED.set(VISITED.get() + 1));
+    objects.filter_map(|object| match &object.geometry {
         PlannedGeometry::Mesh(mesh) => Some((object.name.as_str(), mesh)),
         _ => None,
     })

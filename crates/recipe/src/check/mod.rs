@@ -17,6 +17,8 @@ use attributes::{Attributes, CertainAttributes, meshes};
 
 use selections::missing_elements;
 
+#[cfg(test)]
+pub(crate) use attributes::VISITED;
 pub(crate) use attributes::forbidden;
 
 /// The forecast of the scene after a step.

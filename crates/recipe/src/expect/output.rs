@@ -199,7 +199,7 @@ fn digests(
     (path, scene): (&Path, &Scene),
     (other_path, mut other): (&Path, Scene),
 ) -> Result<[Digest; 2], String> {
-    let is_of = |name: &str, path: &Path| path.file_stem().is_some_and(|stem| *stem == *name);
+    let is_of = |name: &str, path: &Path| *store::stem(path) == *name;
     let names =
         |scene: &Scene| -> Vec<String> { scene.objects().iter().map(|o| o.name.clone()).collect() };
     for (name, old) in names(scene).iter().zip(names(&other)) {

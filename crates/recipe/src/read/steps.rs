@@ -83,6 +83,7 @@ impl Reader<'_, '_> {
         // `check_shape` has reported invalid values.
         let refused = envelope("refused").and_then(|reason| Refusal::deserialize(reason).ok());
         let on_loss = envelope("on_loss").and_then(|on_loss| OnLoss::deserialize(on_loss).ok());
+        let note = envelope("note").and_then(Value::as_str);
         // The name can be a part of the label, which seeds random choices. An old name is replaced by the current one,
         // so that the choices are the same.
         let name = entry.as_ref().map_or(name, |entry| entry.name).to_owned();
@@ -91,6 +92,7 @@ impl Reader<'_, '_> {
             on,
             refused,
             on_loss: on_loss.unwrap_or_else(|| self.on_loss.clone()),
+            note: note.map(str::to_owned),
             ..self.bare_step(id, name, run_of(value), span)
         })
     }
@@ -138,6 +140,7 @@ impl Reader<'_, '_> {
             on: None,
             refused: None,
             on_loss: self.on_loss.clone(),
+            note: None,
             scope: self.scope,
             span,
             value,

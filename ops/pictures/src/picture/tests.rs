@@ -92,7 +92,7 @@ fn highlights_and_colors_change_the_picture() {
         "marks: [(of: Vertices(All), color: \"blue\", width: 3)]",
         "color_by: (of: Valence)",
         "color_by: (of: MeanCurvature, legend: false)",
-        "color_by: (of: SmallestAngle, map: Gray, range: (0, 90))",
+        "color_by: (of: MinAngle, map: Gray, range: (0, 90))",
         "color_by: (of: DihedralAngle)",
     ] {
         let bytes = written(&format!("path: \"a.png\", {parameter}"), None).unwrap();
@@ -266,7 +266,7 @@ fn scenes_drawn_separately_within_an_extent_look_as_if_drawn_together() {
     });
     for fields in [
         "path: \"a.png\"",
-        "path: \"a.png\", color_by: (of: SmallestAngle)",
+        "path: \"a.png\", color_by: (of: MinAngle)",
         "path: \"a.png\", color_by: (of: Area), views: [Fit(from: Top), Fit(from: Front, projection: Orthographic)]",
         "path: \"a.png\", camera: LookAt(from: (9, 9, 9), to: (0, 0, 0))",
     ] {

@@ -78,8 +78,8 @@ impl<'a> Batch<'a> {
         let mut writers: HashMap<PathBuf, &Input> = HashMap::new();
         for file in &self.inputs {
             let path = Path::new(&file.path);
-            let parts = [path.file_stem(), path.file_name()];
-            let [own_stem, own_name] = parts.map(|part| part.unwrap_or_default().to_string_lossy());
+            let parts = [store::stem(path), path.file_name().unwrap_or_default()];
+            let [own_stem, own_name] = parts.map(|part| part.to_string_lossy());
             for output in &outputs {
                 let output = output.to_string_lossy();
                 let output = output.replace(name, &own_name).replace(stem, &own_stem);

@@ -152,8 +152,8 @@ fn missing_half_edges_and_those_with_a_face_are_refused() {
     let mesh = two_disks(3, 3);
     let (h, g) = boundary_half_edges_at(&mesh, 0, 3);
     let refused = |h, g| checked_edit(&mesh, |m| m.bridge_loops(h, g)).unwrap_err();
-    assert_eq!(refused(h.twin(), g), EditError::NotBoundary(h.edge()));
-    assert_eq!(refused(h, g.twin()), EditError::NotBoundary(g.edge()));
+    assert_eq!(refused(h.twin(), g), EditError::NotBoundary(h.twin()));
+    assert_eq!(refused(h, g.twin()), EditError::NotBoundary(g.twin()));
     assert_eq!(refused(h, h), EditError::SameLoop(h, h));
     let missing = HalfEdgeId::new(99);
     assert_eq!(refused(missing, g), EditError::NoSuchHalfEdge(missing));

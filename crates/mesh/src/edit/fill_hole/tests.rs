@@ -62,7 +62,7 @@ fn every_hole_can_be_filled_from_each_of_its_edges() {
             let one = checked_edit(&mesh, |m| m.fill_hole(h));
             let many = checked_edit(&mesh, |m| crate::geometry::fill_hole_triangles(m, h));
             if mesh.face(h).is_some() {
-                let refused = EditError::NotBoundary(h.edge());
+                let refused = EditError::NotBoundary(h);
                 assert_eq!(one.unwrap_err(), refused);
                 assert_eq!(many.unwrap_err(), refused);
                 continue;

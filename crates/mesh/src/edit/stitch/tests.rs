@@ -174,7 +174,7 @@ fn edges_that_would_give_an_invalid_mesh_are_refused() {
     let h = rim(&mesh, 2, 1);
     assert_eq!(refused(&mesh, h, h), EditError::EdgeListedTwice(h.edge()));
     let inner = h.twin();
-    let not_boundary = EditError::NotBoundary(h.edge());
+    let not_boundary = EditError::NotBoundary(inner);
     assert_eq!(refused(&mesh, h, inner), not_boundary);
     assert_eq!(refused(&mesh, inner, h), not_boundary);
     let missing = HalfEdgeId::new(99);

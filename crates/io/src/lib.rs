@@ -106,6 +106,7 @@ pub use provenance::provenance;
 
 use assets::Assets;
 use note::Notes;
+use peek::PeekRig;
 use placed::{Placed, placed};
 use save::{Content, save};
 use writing::without_marks;
@@ -159,6 +160,9 @@ pub struct WriteOptions {
     pub compression: Option<Compression>,
     /// How to quantize the geometry of glTF files. If `None`, numbers have 32 bits. Other formats are refused.
     pub quantization: Option<Quantization>,
+    /// For glTF, the number of sets of four joints that are written for each vertex of a skinned mesh. If `None`, as many
+    /// as in the file that the mesh was read from, and otherwise 1.
+    pub weight_sets: Option<u32>,
     /// Whether writing fails if the file would not store everything.
     pub strict: bool,
 }
@@ -362,18 +366,29 @@ pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Pee
     let of = |geometry: Geometry| one(PeekGeometry::of(&geometry));
     let mut notes = Notes::of(path);
     let mut assets = Assets::of(store, path);
+    let mut rig = PeekRig::default();
     let plain =
         |mesh| vec![PeekObject::new(name.clone(), PeekGeometry::Mesh(mesh)).with_materials(&[])];
     let objects = match format {
         Format::Obj => obj::peek(&bytes, &name, &mut assets, &mut notes).map(|object| vec![object]),
-        Format::Gltf | Format::Glb => {
-            gltf::peek(&bytes, &name, options.placements, &mut assets, &mut notes)
-        }
+        Format::Gltf | Format::Glb => gltf::peek(
+            &bytes,
+            &name,
+            options.placements,
+            &mut assets,
+            &mut rig,
+            &mut notes,
+        ),
         Format::Ply => ply::peek(&bytes, &mut notes).map(plain),
         Format::Stl => stl::peek(&bytes, &mut notes).map(plain),
         Format::Off => off::peek(&bytes, &mut notes).map(plain),
         Format::Dae => dae::peek(&bytes, &name, &mut notes),
-        Format::Mws => mws::peek(&bytes, options.name.as_deref(), options.placements),
+        Format::Mws => mws::peek(
+            &bytes,
+            options.name.as_deref(),
+            options.placements,
+            &mut rig,
+        ),
         Format::Bez => bez::read_patches(&bytes).map(of),
         Format::Bzc => bez::read_curve(&bytes).map(of),
     };
@@ -383,6 +398,8 @@ pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Pee
     Ok(Peek {
         format,
         objects,
+        skins: rig.skins,
+        animations: rig.animations,
         left_out,
     })
 }

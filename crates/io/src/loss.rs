@@ -1,8 +1,9 @@
 //! What a written file does not store of a scene.
 
+use std::collections::BTreeSet;
 use std::fmt;
 
-use mesh::{Column, Domain, Mesh};
+use mesh::{Column, Domain, Mesh, joint_name, morph_name};
 
 /// Something of a scene that a written file does not store.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -71,8 +72,25 @@ impl<'a> Losses<'a> {
         format: &str,
         is_stored: impl Fn(Domain, &Column) -> bool,
     ) {
+        let lost = |name: &str| {
+            let column = mesh.attributes().column(Domain::Vertex, name);
+            column.is_some_and(|column| !is_stored(Domain::Vertex, column))
+        };
+        // These attributes are counted together.
+        let joints = mesh.attributes().joints().into_iter();
+        let joints: BTreeSet<String> = joints.map(|(joint, _)| joint_name(joint)).collect();
+        let morphs = mesh.attributes().morphs().into_iter();
+        let morphs: BTreeSet<String> = morphs.map(|(target, _)| morph_name(target)).collect();
+        if joints.iter().any(|name| lost(name)) {
+            let reason = format!("{format} cannot store the weights of joints");
+            self.add(Domain::Vertex, "joint weights", mesh.n_vertices(), reason);
+        }
+        let n_morphs = morphs.iter().filter(|name| lost(name)).count();
+        let reason = format!("{format} cannot store morph targets");
+        self.add(None, "morph targets", n_morphs, reason);
         for (domain, column) in mesh.attributes().iter() {
-            if !is_stored(domain, column) {
+            let is_deformer = joints.contains(&column.name) || morphs.contains(&column.name);
+            if !(is_stored(domain, column) || domain == Domain::Vertex && is_deformer) {
                 let kind = column.values.type_name();
                 let reason = format!("{format} cannot store this {domain} attribute ({kind})");
                 let count = column.values.len().max(1);

@@ -15,6 +15,7 @@ use std::collections::BTreeMap;
 use scene::{NoArrays, Scene};
 
 use crate::fault::Fault;
+use crate::peek::PeekRig;
 use crate::{
     Parsed, ParsedObject, PeekGeometry, PeekObject, Placements, Shape, SingleFile, WriteOptions,
 };
@@ -45,8 +46,10 @@ pub(crate) fn peek(
     bytes: &[u8],
     name: Option<&str>,
     placements: Placements,
+    rig: &mut PeekRig,
 ) -> Result<Vec<PeekObject>, Fault> {
     let scene = scene_of(bytes, name, placements)?;
+    *rig = PeekRig::of(scene.graph());
     let mut instances: BTreeMap<&str, u64> = BTreeMap::new();
     for instance in scene.instances() {
         *instances.entry(&instance.object.name).or_default() += 1;

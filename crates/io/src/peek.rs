@@ -1,7 +1,7 @@
 //! What a file holds, without building its objects. Used to estimate a run before it starts.
 
 use mesh::{COLOR, CORNER_NORMAL, Domain, MATERIAL, Mesh, UV, VERTEX_NORMAL};
-use scene::{Geometry, Material};
+use scene::{Geometry, Graph, Material};
 
 use crate::{Format, Note};
 
@@ -12,10 +12,30 @@ pub struct Peek {
     pub format: Format,
     /// The objects that reading the file would give, in order and with their names.
     pub objects: Vec<PeekObject>,
+    /// The number of skins.
+    pub skins: u64,
+    /// The number of animations.
+    pub animations: u64,
     /// What reading would leave out, as far as it is known without building the objects: unused elements of a PLY file,
     /// statements of an OBJ file that do not describe polygons, content that the JSON of a glTF file lists, missing
     /// images and material libraries. Reading can leave out more.
     pub left_out: Vec<Note>,
+}
+
+/// The parts of a graph that deform and move objects.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct PeekRig {
+    pub(crate) skins: u64,
+    pub(crate) animations: u64,
+}
+
+impl PeekRig {
+    pub(crate) fn of(graph: &Graph) -> Self {
+        Self {
+            skins: graph.skins.len() as u64,
+            animations: graph.animations.len() as u64,
+        }
+    }
 }
 
 /// An object that reading a file would give.
@@ -121,6 +141,10 @@ pub struct PeekMesh {
     pub colors: bool,
     /// Whether faces have materials.
     pub materials: bool,
+    /// The largest number of joints that can have weights at vertices.
+    pub joints: u64,
+    /// The number of morph targets.
+    pub targets: u64,
 }
 
 impl PeekMesh {
@@ -133,6 +157,8 @@ impl PeekMesh {
                 || has(Domain::Corner, CORNER_NORMAL.name),
             colors: has(Domain::Vertex, COLOR.name),
             materials: has(Domain::Face, MATERIAL.name),
+            joints: mesh.attributes().joints().len() as u64,
+            targets: mesh.attributes().morphs().len() as u64,
             ..Self::default()
         };
         for f in mesh.faces() {

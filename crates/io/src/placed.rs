@@ -57,6 +57,16 @@ pub(crate) fn placed<'s>(
         loss(nodes.len(), "nodes", reason),
         loss(graph.cameras.len(), "cameras", "the format has no cameras"),
         loss(graph.lights.len(), "lights", "the format has no lights"),
+        loss(
+            graph.skins.len(),
+            "skins",
+            "the format has no skins, so the meshes are posed by the joints",
+        ),
+        loss(
+            graph.animations.len(),
+            "animations",
+            "the format has no animations",
+        ),
     ];
     Ok(Placed {
         scene: scene.placed(),

@@ -3,12 +3,12 @@
 use std::path::Path;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DMat3, DVec3};
 use mesh::{
     Attribute, Attributes, BuildError, BuildOutput, CORNER_NORMAL, CORNER_TANGENT, Column, Domain,
-    Elements, HalfEdgeId, Id, Mesh, Rule, Value, Values, VertexId,
+    Elements, HalfEdgeId, Id, Mesh, Rule, Value, Values, VertexId, joint_name, morph_name,
 };
-use scene::Material;
+use scene::{Material, Pose};
 
 use crate::clean::{SourcePolygons, clean, gather};
 use crate::error::ReadError;
@@ -107,6 +107,7 @@ impl Polygons {
             return 0;
         }
         parallel::change(&mut self.positions, |p| *p = to_scene.transform_point3(*p));
+        self.change_deltas(|_| to_scene.matrix3);
         let normal_matrix = to_scene.matrix3.inverse().transpose();
         let mut lost = 0;
         if let Some(mut column) = self.attributes.remove(Domain::Corner, CORNER_NORMAL.name) {
@@ -119,16 +120,77 @@ impl Polygons {
             }
         }
         if to_scene.matrix3.determinant() < 0.0 {
-            let mut order: Vec<u32> = (0..).take(self.corners.len()).collect();
-            for ends in self.offsets.windows(2) {
-                // The first corner stays first.
-                order[ends[0] as usize + 1..ends[1] as usize].reverse();
-            }
-            let corners = &self.corners;
-            self.corners = order.iter().map(|&c| corners[c as usize]).collect();
-            gather(&mut self.attributes, Domain::Corner, &order);
+            self.reverse_faces();
         }
         lost
+    }
+
+    fn reverse_faces(&mut self) {
+        let mut order: Vec<u32> = (0..).take(self.corners.len()).collect();
+        for ends in self.offsets.windows(2) {
+            // The first corner stays first.
+            order[ends[0] as usize + 1..ends[1] as usize].reverse();
+        }
+        let corners = &self.corners;
+        self.corners = order.iter().map(|&c| corners[c as usize]).collect();
+        gather(&mut self.attributes, Domain::Corner, &order);
+    }
+
+    /// Applies the weights of morph targets, then the joints or else `to_scene`. Returns the number of normals that are
+    /// left out. Removes the weights of joints, which have no meaning without a skin.
+    pub(crate) fn apply_pose(&mut self, pose: &Pose, to_scene: &DAffine3) -> usize {
+        let n = self.positions.len();
+        pose.morph(&self.attributes, &mut self.positions);
+        let maps = pose.blended(&self.attributes, n);
+        let joints = self.attributes.joints().into_iter();
+        let joints: Vec<String> = joints.map(|(joint, _)| joint_name(joint)).collect();
+        let has_joints = !joints.is_empty();
+        for name in joints {
+            self.attributes.remove(Domain::Vertex, &name);
+        }
+        let Some(maps) = maps.filter(|_| has_joints) else {
+            return self.apply_transform(to_scene);
+        };
+        for (p, map) in self.positions.iter_mut().zip(&maps) {
+            *p = map.transform_point3(*p);
+        }
+        self.change_deltas(|v| maps[v].matrix3);
+        if let Some(mut column) = self.attributes.remove(Domain::Corner, CORNER_NORMAL.name) {
+            let normals = DVec3::of_mut(&mut column.values).unwrap_or_default();
+            for (n, &v) in normals.iter_mut().zip(&self.corners) {
+                let DMat3 {
+                    x_axis: x,
+                    y_axis: y,
+                    z_axis: z,
+                } = maps[v as usize].matrix3;
+                let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
+                *n = (cofactors * *n).normalize_or_zero();
+            }
+            self.attributes.insert(Domain::Corner, column);
+        }
+        if maps
+            .first()
+            .is_some_and(|map| map.matrix3.determinant() < 0.0)
+        {
+            self.reverse_faces();
+        }
+        0
+    }
+
+    /// Multiplies the deltas of morph targets by the matrix of each vertex.
+    fn change_deltas(&mut self, matrix: impl Fn(usize) -> DMat3) {
+        let morphs = self.attributes.morphs().into_iter();
+        let morphs: Vec<String> = morphs.map(|(target, _)| morph_name(target)).collect();
+        for name in morphs {
+            let Some(mut column) = self.attributes.remove(Domain::Vertex, &name) else {
+                continue;
+            };
+            let deltas = DVec3::of_mut(&mut column.values).unwrap_or_default();
+            for (v, delta) in deltas.iter_mut().enumerate() {
+                *delta = matrix(v) * *delta;
+            }
+            self.attributes.insert(Domain::Vertex, column);
+        }
     }
 
     /// Builds a mesh of these polygons, and returns it with the materials. A corner attribute becomes a vertex

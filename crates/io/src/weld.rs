@@ -4,12 +4,15 @@
 //! that fits in the processor cache. Buckets are processed in parallel. The result does not depend on the hash: the
 //! first of several equal positions represents them all, and these first positions keep their order.
 
+use std::cmp::Ordering;
 use std::hash::{BuildHasher, RandomState};
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use glam::DVec3;
-use mesh::{Mesh, VertexId};
+use mesh::{Attributes, Domain, Mesh, Values, VertexId};
+use rayon::prelude::*;
 
+use crate::clean::gather;
 use crate::parallel;
 
 /// The number of positions that are hashed and numbered at a time.
@@ -26,11 +29,38 @@ pub(crate) fn n_merged(mesh: &Mesh) -> usize {
 
 /// Counts the vertices with faces whose position equals that of an earlier vertex when both are rounded by `round`.
 pub(crate) fn n_merged_as(mesh: &Mesh, round: impl Fn(DVec3) -> DVec3 + Sync) -> usize {
-    let used = parallel::filter(mesh.n_vertices(), |v| {
-        mesh.vertex_half_edge(VertexId::new(v)).is_some()
-    });
+    let used = vertices_with_faces(mesh);
     let places = parallel::collect(used.len(), |i| round(mesh.position(VertexId::new(used[i]))));
     used.len() - weld(places).0.len()
+}
+
+fn vertices_with_faces(mesh: &Mesh) -> Vec<usize> {
+    parallel::filter(mesh.n_vertices(), |v| {
+        mesh.vertex_half_edge(VertexId::new(v)).is_some()
+    })
+}
+
+/// The positions of these vertices, rounded to 32 bits.
+fn rounded_places(mesh: &Mesh, vertices: &[usize]) -> Vec<DVec3> {
+    parallel::collect(vertices.len(), |i| {
+        mesh.position(VertexId::new(vertices[i]))
+            .as_vec3()
+            .as_dvec3()
+    })
+}
+
+/// As [`n_merged`], for a format that only merges vertices that `compare` as equal.
+pub(crate) fn n_merged_if_equal(
+    mesh: &Mesh,
+    compare: impl Fn(usize, usize) -> Ordering + Sync,
+) -> usize {
+    let used = vertices_with_faces(mesh);
+    let (unique, vertex_of) = weld(rounded_places(mesh, &used));
+    if unique.len() == used.len() {
+        return 0;
+    }
+    let (firsts, _) = split_unequal(&vertex_of, |a, b| compare(used[a], used[b]));
+    used.len() - firsts.len()
 }
 
 /// Returns the distinct positions in order of first occurrence, and for each given position its index in this
@@ -74,6 +104,67 @@ pub(crate) fn weld(positions: Vec<DVec3>) -> (Vec<DVec3>, Vec<u32>) {
     );
     parallel::change(&mut vertex_of, |first| *first = numbers[*first as usize]);
     (unique, vertex_of)
+}
+
+/// As [`weld`], but only merges positions with equal vertex attributes, which are merged too.
+pub(crate) fn weld_equal(
+    positions: &[DVec3],
+    attributes: &mut Attributes,
+) -> (Vec<DVec3>, Vec<u32>) {
+    let (welded, vertex_of) = weld(positions.to_vec());
+    if welded.len() == positions.len() {
+        return (welded, vertex_of);
+    }
+    let columns = attributes.of(Domain::Vertex);
+    let compare = |a: usize, b: usize| {
+        let orders = columns.iter().map(|column| match &column.values {
+            Values::Float(values) => values[a].partial_cmp(&values[b]),
+            Values::Vec3(values) => values[a].to_array().partial_cmp(&values[b].to_array()),
+            _ => None,
+        });
+        let mut orders = orders.flatten();
+        orders
+            .find(|order| order.is_ne())
+            .unwrap_or(Ordering::Equal)
+    };
+    let (firsts, vertex_of) = split_unequal(&vertex_of, compare);
+    gather(attributes, Domain::Vertex, &firsts);
+    let positions = firsts.iter().map(|&v| positions[v as usize]);
+    (positions.collect(), vertex_of)
+}
+
+/// Splits each class of elements into classes of equal elements. Returns the first element of each class, in ascending
+/// order, and for each element the index of its class in this list.
+pub(crate) fn split_unequal(
+    classes: &[u32],
+    compare: impl Fn(usize, usize) -> Ordering + Sync,
+) -> (Vec<u32>, Vec<u32>) {
+    let n = u32::try_from(classes.len()).unwrap_or(u32::MAX);
+    let mut order: Vec<u32> = (0..n).collect();
+    let class = |v: u32| classes[v as usize];
+    let compare = |a: u32, b: u32| {
+        let by_class = class(a).cmp(&class(b));
+        by_class.then_with(|| compare(a as usize, b as usize))
+    };
+    order.par_sort_unstable_by(|&a, &b| compare(a, b).then(a.cmp(&b)));
+    let mut first_of = vec![0; classes.len()];
+    let mut first = 0;
+    for (i, &v) in order.iter().enumerate() {
+        if i == 0 || compare(order[i - 1], v).is_ne() {
+            first = v;
+        }
+        first_of[v as usize] = first;
+    }
+    let mut numbers = vec![0; classes.len()];
+    let mut firsts = Vec::new();
+    for (v, &first) in (0..n).zip(&first_of) {
+        if first == v {
+            numbers[v as usize] = index(firsts.len());
+            firsts.push(v);
+        }
+    }
+    let vertex_of = first_of.iter().map(|&first| numbers[first as usize]);
+    (firsts, vertex_of.collect())
 }
 
 /// For each position, the index of the first equal position.

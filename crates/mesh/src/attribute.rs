@@ -8,6 +8,7 @@
 //! Well-known attributes have constants ([`UV`], [`VERTEX_NORMAL`], ...). Programs may use any other name.
 
 mod columns;
+mod rig;
 mod values;
 
 use std::marker::PhantomData;
@@ -17,6 +18,7 @@ use glam::{DVec2, DVec3, DVec4};
 use crate::{EdgeId, FaceId, HalfEdgeId, VertexId};
 
 pub use columns::{Attributes, Column, Sources};
+pub use rig::{joint_name, joint_of, morph_name, morph_of};
 pub(crate) use values::pop_value;
 pub use values::{Value, Values};
 

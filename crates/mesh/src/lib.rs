@@ -67,6 +67,7 @@
 //! | `validate.rs` | the invariants above, as functions |
 //! | `measure.rs` | areas, normals and angles of single elements |
 //! | `attribute.rs`, `attribute/columns.rs`, `attribute/values.rs` | named columns of values |
+//! | `attribute/rig.rs` | the names of the columns that deform a mesh |
 //! | `marks.rs`, `write.rs`, `journal.rs`, `compact.rs` | dead elements, writing single entries, undo, renumbering |
 //! | `edit/mod.rs`, `edit/flip.rs`, `edit/split.rs` | the reasons for which edits are refused, and two edits |
 //! | `build/mod.rs`, `build/pair.rs`, `build/assemble.rs` | building a mesh from polygons |
@@ -124,7 +125,8 @@ mod zeroed;
 pub use arrays::{Connectivity, Mesh};
 pub use attribute::{
     Attribute, Attributes, COLOR, CORNER_NORMAL, CORNER_TANGENT, CREASE, Column, MATERIAL, Rule,
-    SMOOTHING, Sources, TANGENT, UV, VERTEX_NORMAL, VERTEX_SHARPNESS, Value, Values,
+    SMOOTHING, Sources, TANGENT, UV, VERTEX_NORMAL, VERTEX_SHARPNESS, Value, Values, joint_name,
+    joint_of, morph_name, morph_of,
 };
 pub use build::{BuildError, BuildOutput, BuildReport, Elements, NonManifold, Repair, build};
 pub use compact::Renumbering;

@@ -3,7 +3,9 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use mesh::{CORNER_NORMAL, CORNER_TANGENT, Domain, Rule, TANGENT, VERTEX_NORMAL};
+use mesh::{
+    CORNER_NORMAL, CORNER_TANGENT, DVec3, Domain, Rule, TANGENT, VERTEX_NORMAL, joint_of, morph_of,
+};
 
 use crate::{Files, Loss};
 
@@ -254,6 +256,20 @@ impl MeshPlan {
         self.drop_attribute(Domain::Corner, CORNER_TANGENT.name);
     }
 
+    /// Whether the mesh can have weights of joints.
+    pub fn has_joints(&self) -> bool {
+        let is_joint = |a: &PlannedAttribute| joint_of(&a.name).is_some();
+        (self.attributes.iter()).any(|a| a.domain == Domain::Vertex && is_joint(a))
+    }
+
+    /// Returns the largest number of morph targets that the mesh can have.
+    pub fn n_morphs(&self) -> usize {
+        let is_morph = |a: &&PlannedAttribute| morph_of(&a.name).is_some();
+        (self.attributes.iter())
+            .filter(|a| a.domain == Domain::Vertex && is_morph(a))
+            .count()
+    }
+
     /// Returns the size of the mesh in bytes.
     pub fn bytes(&self) -> Range {
         let count = |domain| match domain {
@@ -268,7 +284,7 @@ impl MeshPlan {
             .plus(self.edges.by(24))
             .plus(self.faces.by(4));
         self.attributes.iter().fold(connectivity, |sum, a| {
-            sum.plus(count(a.domain).times(ATTRIBUTE_VALUE_BYTES))
+            sum.plus(count(a.domain).times(value_bytes(a)))
         })
     }
 }
@@ -280,6 +296,22 @@ fn missing_element_message(number: u64, count: Range, nouns: [&str; 2]) -> Optio
     let noun = if n == 1 { singular } else { plural };
     let message = || format!("{singular} {number} does not exist: the mesh has {limit}{n} {noun}");
     (number >= n).then(message)
+}
+
+/// The size of one value of an attribute, in bytes.
+fn value_bytes(attribute: &PlannedAttribute) -> Range {
+    let name = &attribute.name;
+    let size = match attribute.domain {
+        Domain::Vertex if joint_of(name).is_some() => size_of::<f64>(),
+        Domain::Vertex if morph_of(name).is_some() => size_of::<DVec3>(),
+        _ => return ATTRIBUTE_VALUE_BYTES,
+    };
+    let size = Range::exactly(size as u64);
+    if attribute.certain {
+        size
+    } else {
+        size.or_less()
+    }
 }
 
 /// The plan of the geometry of an object.
@@ -332,6 +364,10 @@ pub struct Plan {
     pub outputs: Vec<PathBuf>,
     /// What the current step certainly loses, apart from attributes of meshes.
     pub losses: Vec<Loss>,
+    /// The number of skins in the scene.
+    pub skins: u64,
+    /// The number of animations in the scene.
+    pub animations: u64,
     /// Whether an earlier step could not be read or planned. The scene can then have objects that are missing
     /// in the plan.
     pub incomplete: bool,

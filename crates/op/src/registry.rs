@@ -9,7 +9,7 @@ use ron_tree::{Value, ValueKind};
 use scene::Scene;
 use schemars::{Schema, SchemaGenerator};
 
-use crate::{Context, OpError, Operation, Plan, PlanContext, Problem, Report};
+use crate::{Context, Loss, OpError, Operation, Plan, PlanContext, Problem, Report};
 
 /// Two operations have the same name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -205,8 +205,19 @@ impl<T: Operation> Step for T {
     }
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
+        let channels = scene.graph().n_channels();
         let mut report = Operation::apply(self, scene, cx)?;
         report.notes.extend(cx.take_notes());
+        let lost = channels.saturating_sub(scene.graph().n_channels());
+        if lost > 0 {
+            let noun = if lost == 1 { "channel" } else { "channels" };
+            report.losses.push(Loss {
+                object: "the scene".to_owned(),
+                name: "animations".to_owned(),
+                what: format!("{lost} animation {noun}"),
+                reason: "the animated nodes were removed".to_owned(),
+            });
+        }
         Ok(report)
     }
 

@@ -123,6 +123,10 @@ impl<'a> Decoder<'a> {
         Ok(taken)
     }
 
+    pub(crate) fn is_at_end(&self) -> bool {
+        self.rest.is_empty()
+    }
+
     pub(crate) fn len(&mut self) -> Result<u64, DecodeError> {
         let bytes = self.take(8)?.try_into().expect("eight bytes");
         Ok(u64::from_le_bytes(bytes))

@@ -13,12 +13,15 @@
 mod edit;
 mod form;
 mod placement;
+mod rig;
+mod rig_form;
 
 use std::collections::BTreeMap;
 
 use glam::DAffine3;
 
 pub use placement::Placement;
+pub use rig::{AnimatedProperty, Animation, AnimationSampler, Channel, Interpolation, Skin};
 
 /// The nodes of a scene, with their cameras and lights. A parent comes before its children.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -28,6 +31,12 @@ pub struct Graph {
     pub cameras: Vec<String>,
     /// The lights that nodes refer to, as JSON objects of the glTF extension `KHR_lights_punctual`.
     pub lights: Vec<String>,
+    /// The skins that nodes refer to.
+    pub skins: Vec<Skin>,
+    /// The animations of nodes.
+    pub animations: Vec<Animation>,
+    /// The numbers of skins and animations, which can share them.
+    pub arrays: Vec<Vec<f32>>,
     /// Other parts of the file, as JSON objects of glTF by their name: `asset` with its copyright and extras, `scene` with
     /// its name and extras, and `root` with the extras of the document.
     pub document: BTreeMap<String, String>,
@@ -50,17 +59,32 @@ pub struct Node {
     pub camera: Option<usize>,
     /// The index of the light in [`Graph::lights`].
     pub light: Option<usize>,
+    /// The index of the skin in [`Graph::skins`] that deforms the object.
+    pub skin: Option<usize>,
+    /// The weights of the morph targets of the object; if empty, those of the [label](MeshLabel::weights).
+    pub weights: Vec<f64>,
     /// Data of other programs, as JSON.
     pub extras: Option<String>,
 }
 
 /// The parts of a mesh in a file that an object does not have.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshLabel {
     /// The name of the mesh, which can differ from the name of the object.
     pub name: Option<String>,
-    /// Data of other programs, as JSON.
+    /// Data of other programs, as JSON. The names of morph targets are in its member `targetNames`.
     pub extras: Option<String>,
+    /// The default weights of the morph targets. The length is the number of targets.
+    pub weights: Vec<f64>,
+    /// The number of sets of four joints for each vertex in the file; 0 if the mesh has no joints.
+    pub weight_sets: u32,
+}
+
+impl MeshLabel {
+    /// Whether the mesh in the file has joints or morph targets.
+    pub fn is_deformed(&self) -> bool {
+        !self.weights.is_empty() || self.weight_sets > 0
+    }
 }
 
 impl Graph {

@@ -10,6 +10,7 @@ mod error_location;
 mod graph;
 mod material;
 mod placed;
+mod pose;
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -21,9 +22,13 @@ use mesh::Mesh;
 pub use decode::{ArraySource, DecodeError, NoArrays};
 pub use digest::Digest;
 pub use error_location::ErrorLocation;
-pub use graph::{Graph, MeshLabel, Node, Placement};
+pub use graph::{
+    AnimatedProperty, Animation, AnimationSampler, Channel, Graph, Interpolation, MeshLabel, Node,
+    Placement, Skin,
+};
 pub use material::{AlphaMode, Filter, Image, Material, Sampler, Texture, TextureTransform, Wrap};
 pub use placed::{Instance, transform_tangents, transformed};
+pub use pose::Pose;
 
 /// A list of objects in the order of their creation, and the nodes that place them.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -5,10 +5,11 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3, DVec4};
-use mesh::{CORNER_TANGENT, Domain, Mesh, Rule, Value};
+use mesh::{CORNER_TANGENT, Domain, HalfEdgeId, Mesh, Rule, Value, morph_of};
 use rayon::prelude::*;
 
-use crate::{Geometry, Object, Scene};
+use crate::pose::posed;
+use crate::{Geometry, Object, Pose, Scene};
 
 /// An object at one place in the scene.
 #[derive(Clone, Debug)]
@@ -18,14 +19,20 @@ pub struct Instance<'s> {
     /// A name that is unique among all instances: the name of the object if it has one instance, and otherwise the
     /// name of the node, if necessary with a number.
     pub name: String,
-    /// The map from the space of the object to the scene.
+    /// The map from the space of the object to the scene. For a skinned mesh, the map of its first joint.
     pub to_scene: DAffine3,
+    /// The deformation of the object.
+    pub pose: Pose,
 }
 
 impl Instance<'_> {
-    /// Returns the object with points in scene space, under the name of the instance. Only meshes are placed.
+    /// Returns the object with points in scene space, under the name of the instance. Only meshes are placed. They are
+    /// deformed by the default weights of morph targets, and by the joints of a skin at their placements.
     pub fn placed(&self) -> Object {
         let geometry = match &self.object.geometry {
+            Geometry::Mesh(mesh) if self.pose.deforms() => {
+                Geometry::Mesh(Arc::new(posed(mesh, &self.pose, &self.to_scene)))
+            }
             Geometry::Mesh(mesh) if self.to_scene != DAffine3::IDENTITY => {
                 Geometry::Mesh(Arc::new(transformed(mesh, &self.to_scene)))
             }
@@ -46,6 +53,23 @@ impl Scene {
         let graph = self.graph();
         let nodes = graph.nodes_of_objects();
         let to_scene = graph.to_scene();
+        let instance = |object, name, node: Option<usize>| {
+            let pose = match &Object::as_mesh(object) {
+                Some(mesh) => {
+                    let node = node.map(|i| &graph.nodes()[i]);
+                    Pose::of(graph, node, &object.name, mesh.attributes(), &to_scene)
+                }
+                None => Pose::default(),
+            };
+            let placed = node.map_or(DAffine3::IDENTITY, |i| to_scene[i]);
+            let first = pose.joints.as_ref().and_then(|joints| joints.first());
+            Instance {
+                object,
+                name,
+                to_scene: first.copied().unwrap_or(placed),
+                pose,
+            }
+        };
         let nodes_of = |object: &Object| nodes.get(object.name.as_str()).map_or(&[][..], |n| n);
         let mut taken: BTreeSet<String> = (self.objects().iter())
             .filter(|object| nodes_of(object).len() <= 1)
@@ -55,11 +79,11 @@ impl Scene {
         for object in self.objects() {
             let nodes = nodes_of(object);
             if nodes.len() <= 1 {
-                instances.push(Instance {
+                instances.push(instance(
                     object,
-                    name: object.name.clone(),
-                    to_scene: nodes.first().map_or(DAffine3::IDENTITY, |&i| to_scene[i]),
-                });
+                    object.name.clone(),
+                    nodes.first().copied(),
+                ));
                 continue;
             }
             // The numbers continue, so that many instances are named in linear time.
@@ -75,18 +99,14 @@ impl Scene {
                     number += 1;
                     name = format!("{wanted}.{number}");
                 }
-                instances.push(Instance {
-                    object,
-                    name,
-                    to_scene: to_scene[i],
-                });
+                instances.push(instance(object, name, Some(i)));
             }
         }
         instances
     }
 
-    /// Returns the scene without nodes: each instance is an object with points in scene space. Cameras and lights are
-    /// left out.
+    /// Returns the scene without nodes: each instance is an object with points in scene space. Cameras, lights, skins and
+    /// animations are left out.
     pub fn placed(&self) -> Cow<'_, Self> {
         if self.graph().is_empty() {
             return Cow::Borrowed(self);
@@ -108,42 +128,87 @@ impl Scene {
     }
 }
 
-/// Returns a mesh with all points and normals transformed. All ids stay the same. If the map mirrors, faces are
-/// reversed as by [`Mesh::reverse`], but no attribute is dropped.
+/// Returns a mesh with all points, normals and deltas of morph targets transformed. All ids stay the same. If the map
+/// mirrors, faces are reversed as by [`Mesh::reverse`], but no attribute is dropped.
 ///
 /// Normals are multiplied by the cofactors of the map, which are its inverse transpose times its determinant
 /// (Turkowski, "Properties of Surface-Normal Transformations", 1990). The inverse transpose of a map that mirrors
 /// points to the wrong side by its determinant, and reversing the faces negates normals again.
 pub fn transformed(mesh: &Mesh, map: &DAffine3) -> Mesh {
-    let mut mesh = mesh.clone();
-    transform_tangents(&mut mesh, &map.matrix3);
-    let points = mesh.positions_mut().par_iter_mut().with_min_len(4096);
-    points.for_each(|p| *p = map.transform_point3(*p));
-    let DMat3 {
-        x_axis: x,
-        y_axis: y,
-        z_axis: z,
-    } = map.matrix3;
-    let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
     let is_mirror = map.matrix3.determinant() < 0.0;
+    let map = LinearMap::of(map);
+    mapped(mesh.clone(), is_mirror, |_| map)
+}
+
+/// A map with its cofactors.
+#[derive(Clone, Copy)]
+pub(crate) struct LinearMap {
+    map: DAffine3,
+    cofactors: DMat3,
+}
+
+impl LinearMap {
+    pub(crate) fn of(map: &DAffine3) -> Self {
+        let DMat3 {
+            x_axis: x,
+            y_axis: y,
+            z_axis: z,
+        } = map.matrix3;
+        Self {
+            map: *map,
+            cofactors: DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)),
+        }
+    }
+
+    fn normal(&self, n: DVec3) -> DVec3 {
+        let image = self.cofactors * n;
+        let largest = image.abs().max_element();
+        if largest > 0.0 {
+            (image / largest).normalize()
+        } else {
+            DVec3::ZERO
+        }
+    }
+}
+
+/// Transforms a mesh by the map of each vertex. If `is_mirror`, the faces are reversed.
+pub(crate) fn mapped(
+    mut mesh: Mesh,
+    is_mirror: bool,
+    map_of: impl Fn(usize) -> LinearMap + Sync,
+) -> Mesh {
+    change_tangents(&mut mesh, |v| map_of(v).map.matrix3);
+    let points = mesh.positions_mut().par_iter_mut().enumerate();
+    let points = points.with_min_len(4096);
+    points.for_each(|(v, p)| *p = map_of(v).map.transform_point3(*p));
+    let is_delta = |domain, name: &str| domain == Domain::Vertex && morph_of(name).is_some();
     let columns: Vec<(Domain, String, Rule)> = (mesh.attributes().iter())
         .map(|(domain, column)| (domain, column.name.clone(), column.rule))
-        .filter(|(.., rule)| *rule == Rule::Normal || is_mirror && *rule == Rule::Drop)
+        .filter(|(domain, name, rule)| {
+            *rule == Rule::Normal || is_mirror && *rule == Rule::Drop || is_delta(*domain, name)
+        })
         .collect();
     for (domain, name, rule) in &columns {
         let mut column = mesh.remove_column(*domain, name).expect("listed above");
-        if *rule == Rule::Drop {
+        let is_delta = is_delta(*domain, name);
+        if *rule == Rule::Drop && is_mirror {
             // No element is removed, so every value still has its element.
             column.rule = Rule::Copy;
-        } else if let Some(normals) = DVec3::of_mut(&mut column.values) {
-            let normals = normals.par_iter_mut().with_min_len(4096);
-            normals.for_each(|n| {
-                let image = cofactors * *n;
-                let largest = image.abs().max_element();
-                *n = if largest > 0.0 {
-                    (image / largest).normalize()
+        }
+        if (*rule == Rule::Normal || is_delta)
+            && let Some(vectors) = DVec3::of_mut(&mut column.values)
+        {
+            let vectors = vectors.par_iter_mut().enumerate().with_min_len(4096);
+            vectors.for_each(|(i, vector)| {
+                let v = match domain {
+                    Domain::Corner => mesh.origin(HalfEdgeId::new(i)).index(),
+                    _ => i,
+                };
+                let map = map_of(v);
+                *vector = if is_delta {
+                    map.map.matrix3 * *vector
                 } else {
-                    DVec3::ZERO
+                    map.normal(*vector)
                 };
             });
         }
@@ -163,20 +228,26 @@ pub fn transformed(mesh: &Mesh, map: &DAffine3) -> Mesh {
 /// Transforms the directions of [`CORNER_TANGENT`], if the mesh has such tangents. A map that mirrors negates their
 /// signs.
 pub fn transform_tangents(mesh: &mut Mesh, linear: &DMat3) {
+    change_tangents(mesh, |_| *linear);
+}
+
+/// As [`transform_tangents`], with the map of each vertex.
+fn change_tangents(mesh: &mut Mesh, linear: impl Fn(usize) -> DMat3) {
     if mesh.get(CORNER_TANGENT).is_none() {
         return;
     }
     let Some(mut column) = mesh.remove_column(Domain::Corner, CORNER_TANGENT.name) else {
         return;
     };
-    let sign = if linear.determinant() < 0.0 {
-        -1.0
-    } else {
-        1.0
-    };
     let tangents = DVec4::of_mut(&mut column.values).into_iter().flatten();
-    for tangent in tangents {
-        let image = *linear * tangent.truncate();
+    for (h, tangent) in tangents.enumerate() {
+        let linear = linear(mesh.origin(HalfEdgeId::new(h)).index());
+        let sign = if linear.determinant() < 0.0 {
+            -1.0
+        } else {
+            1.0
+        };
+        let image = linear * tangent.truncate();
         let largest = image.abs().max_element();
         if largest > 0.0 {
             let direction = (image / largest).normalize();

@@ -14,7 +14,7 @@ use op::{Loss, Operation, ReadingChange, ReadingElements};
 /// curve) and `.mws` (a complete scene); `.gz` after these names, except `.glb` and `.mws`, means compressed by
 /// gzip. An OBJ file becomes one object, and its objects (`o`) and groups (`g`)
 /// become face tags. A glTF file gives an object for each mesh, named after its node if there is only one, and keeps the
-/// nodes, cameras and lights. A COLLADA file gives an object for each node with a mesh. Content that the scene
+/// nodes, cameras, lights, skins, morph targets and animations. A COLLADA file gives an object for each node with a mesh. Content that the scene
 /// cannot hold is counted and listed. Images of materials are read from files next to the model. A corner that repeats the corner before it is removed, and a face that still
 /// visits a vertex twice is left out.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
@@ -129,6 +129,8 @@ impl Operation for Load {
 
 impl Load {
     fn plan_objects(&self, peek: &Peek, plan: &mut Plan) -> Vec<Problem> {
+        plan.skins = plan.skins.saturating_add(peek.skins);
+        plan.animations = plan.animations.saturating_add(peek.animations);
         let mut problems = Vec::new();
         for object in &peek.objects {
             let geometry = match object.geometry {
@@ -184,6 +186,9 @@ fn change(note: &Note) -> ReadingChange {
     }
 }
 
+/// The largest number of joints and of morph targets of a mesh that are planned.
+const MAX_PLANNED: u64 = 1 << 12;
+
 /// Returns the plan of the mesh that is read from a file with these counts. Reading can leave out faces and remove
 /// repeated corners, and splitting can add vertices and edges.
 fn planned(peek: &PeekMesh) -> MeshPlan {
@@ -209,6 +214,15 @@ fn planned(peek: &PeekMesh) -> MeshPlan {
     provide_uncertain(peek.normals, Domain::Corner, mesh::CORNER_NORMAL.name);
     provide_uncertain(peek.colors, Domain::Vertex, mesh::COLOR.name);
     provide_uncertain(peek.materials, Domain::Face, mesh::MATERIAL.name);
+    // Targets can be left out, and a joint has weights only if a vertex uses it.
+    let deformers = |n: u64, name: fn(usize) -> String| {
+        let n = usize::try_from(n.min(MAX_PLANNED)).unwrap_or(0);
+        (0..n).map(name)
+    };
+    let joints = deformers(peek.joints, mesh::joint_name);
+    for name in joints.chain(deformers(peek.targets, mesh::morph_name)) {
+        provide_uncertain(true, Domain::Vertex, &name);
+    }
     plan
 }
 

@@ -30,6 +30,40 @@ pub struct Save {
     /// of 32 bits. `quantize: ()` uses the default of each attribute. The report lists the largest errors.
     #[serde(default)]
     pub quantize: Option<Quantization>,
+    /// For `.gltf` and `.glb`, the number of sets of four joints that are written for each vertex of a skinned mesh. If
+    /// omitted, as many as in the file that the mesh comes from, and otherwise 1.
+    #[serde(default)]
+    pub weight_sets: Option<Count<1, 8>>,
+}
+
+impl Save {
+    /// Adds the losses of skins, morph targets and animations in formats without them.
+    fn plan_losses(&self, plan: &mut Plan) {
+        let format = Format::from_path(Path::new(&self.path));
+        if matches!(
+            format,
+            None | Some(Format::Gltf | Format::Glb | Format::Mws)
+        ) {
+            return;
+        }
+        let morphs = plan.objects().iter().map(|object| match &object.geometry {
+            PlannedGeometry::Mesh(mesh) if format != Some(Format::Ply) => mesh.n_morphs() as u64,
+            _ => 0,
+        });
+        let counts = [
+            ("skins", plan.skins),
+            ("animations", plan.animations),
+            ("morph targets", morphs.sum()),
+        ];
+        for (name, count) in counts.into_iter().filter(|(_, count)| *count > 0) {
+            plan.losses.push(Loss {
+                object: self.path.clone(),
+                name: name.to_owned(),
+                what: format!("\"{name}\" ({count})"),
+                reason: format!("the format has no {name}"),
+            });
+        }
+    }
 }
 
 impl Operation for Save {
@@ -68,6 +102,7 @@ impl Operation for Save {
                 Problem::error("only .glb and .gltf files can be compressed or quantized");
             problems.push(problem.at([field]));
         }
+        self.plan_losses(plan);
         if plan.objects().is_empty() && !plan.incomplete {
             problems.push(Problem::error("no objects to save at this point"));
         }
@@ -85,6 +120,7 @@ impl Operation for Save {
             images: self.images,
             compression: self.compress,
             quantization: self.quantize,
+            weight_sets: self.weight_sets.map(Count::get),
             strict: false,
         };
         let written =

@@ -9,6 +9,7 @@
 
 mod attributes;
 mod parts;
+mod skin;
 
 use std::sync::Arc;
 
@@ -16,6 +17,8 @@ use mesh::Domain;
 use op::prelude::*;
 use op::{Operation, PlannedAttribute, PlannedObject, check_name, named_object};
 use scene::Object;
+
+use crate::join::skin::KeptSkin;
 
 /// Joins meshes into one object.
 ///
@@ -110,7 +113,8 @@ impl Operation for Join {
             object.as_mesh().map(|_| object).ok_or_else(wrong_kind)
         };
         let parts: Vec<&Object> = self.objects.iter().map(part).collect::<Result<_, _>>()?;
-        let placed = placed(scene, &parts, cx)?;
+        let kept = KeptSkin::of(scene, &parts);
+        let placed = placed(scene, &parts, kept.as_ref(), cx)?;
         let (joined, mut report) = match &placed {
             Some(placed) => self.joined(&placed.iter().collect::<Vec<_>>(), cx)?,
             None => self.joined(&parts, cx)?,
@@ -118,12 +122,21 @@ impl Operation for Join {
         if let Some(placed) = placed {
             report = report.count("instances, whose placements were applied", placed.len());
         }
+        let mut joined = joined;
+        skin::report(scene, &parts, kept.as_ref(), &mut joined, &mut report);
 
         // After all checks, the result replaces the first part, and the other parts are removed.
         let (first, others) = self.objects.split_first().expect("at least one");
         let (geometry, materials) = scene.parts_mut(first).expect("found above");
         (*geometry, *materials) = (joined.geometry, joined.materials);
-        scene.unplace(first);
+        match kept {
+            Some(kept) if kept.part == *first => {}
+            Some(kept) => {
+                scene.unplace(first);
+                scene.graph_mut().show_instead(&kept.part, first);
+            }
+            None => scene.unplace(first),
+        }
         for name in others {
             scene.remove(name);
         }
@@ -215,7 +228,12 @@ impl Join {
 }
 
 /// Returns all instances of the parts in scene space, under the names of the parts; `None` if no node places a part.
-fn placed(scene: &Scene, parts: &[&Object], cx: &Context) -> Result<Option<Vec<Object>>, OpError> {
+fn placed(
+    scene: &Scene,
+    parts: &[&Object],
+    kept: Option<&KeptSkin>,
+    cx: &Context,
+) -> Result<Option<Vec<Object>>, OpError> {
     let is_part = |name: &str| parts.iter().any(|part| part.name == name);
     let nodes = scene.graph().nodes().iter();
     if !nodes.filter_map(|node| node.object.as_deref()).any(is_part) {
@@ -240,7 +258,10 @@ fn placed(scene: &Scene, parts: &[&Object], cx: &Context) -> Result<Option<Vec<O
     }
     let placed = instances.into_iter().map(|instance| Object {
         name: instance.object.name.clone(),
-        ..instance.placed()
+        ..match kept {
+            Some(kept) => kept.bound(instance),
+            None => instance.placed(),
+        }
     });
     Ok(Some(placed.collect()))
 }

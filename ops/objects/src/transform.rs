@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 use bezier::{Curve, Patch};
 use glam::DVec3;
-use mesh::{Rule, Values};
+use mesh::{Domain, Rule, Values, morph_name};
 use op::prelude::*;
 use op::{Loss, Operation, target_names};
 use rayon::prelude::*;
@@ -30,10 +30,11 @@ use crate::transform::map::Map;
 ///
 /// Points are first scaled, then rotated, then moved. The points of meshes, patches, curves and polylines are changed,
 /// unless nodes of a glTF file place the object. Such an object is moved by changing the placements of its nodes, and
-/// everything below these nodes moves along. Without `on:`, root nodes with cameras and lights move too, unless `about`
+/// everything below these nodes moves along. A skinned mesh is moved with its joints. A node whose placement is animated gets a
+/// parent, which is moved instead. Without `on:`, root nodes with cameras and lights move too, unless `about`
 /// is `Center`. A curve must stay in the plane z = 0.
 ///
-/// Ids do not change. Normals are transformed; other attributes do not change. A mirror (one or three negative factors in
+/// Ids do not change. Normals and the deltas of morph targets are transformed; other attributes do not change. A mirror (one or three negative factors in
 /// `scale`) also reverses the faces, so that they are counter-clockwise seen from outside: the first corner of a face
 /// stays first, and the other corners follow in reverse order. In mirrored patches, u and v are exchanged for the same
 /// reason. A mirror drops attributes with the rule `Drop`, which are lost whenever the connectivity changes.
@@ -120,6 +121,7 @@ impl Transform {
                 if !map.only_moves() {
                     transform_normals(mesh, map);
                     scene::transform_tangents(mesh, map.linear());
+                    transform_deltas(mesh, map);
                 }
                 let mut report = Report::changed(mesh.n_vertices());
                 if map.mirrors() {
@@ -223,8 +225,7 @@ impl Operation for Transform {
         let mut report = Report::default();
         cx.advance("transform", 0, names.len() as u64)?;
         if self.space == Space::Scene && !scene.graph().is_empty() {
-            let n_points = self.move_nodes(scene, &mut names, &map, cx)?;
-            report = Report::changed(n_points);
+            report = self.move_nodes(scene, &mut names, &map, cx)?;
         }
         for (done, name) in (1..).zip(&names) {
             let (geometry, _) = scene.parts_mut(name).expect("a name of the scene");
@@ -249,6 +250,20 @@ fn transform_normals(mesh: &mut Mesh, map: &Map) {
             normals.for_each(|n| *n = map.normal(*n));
         }
         mesh.insert_column(domain, column);
+    }
+}
+
+/// Transforms the deltas of morph targets.
+fn transform_deltas(mesh: &mut Mesh, map: &Map) {
+    let morphs = mesh.attributes().morphs().into_iter();
+    let morphs: Vec<String> = morphs.map(|(target, _)| morph_name(target)).collect();
+    for name in morphs {
+        let mut column = (mesh.remove_column(Domain::Vertex, &name)).expect("listed above");
+        if let Values::Vec3(values) = &mut column.values {
+            let deltas = values.par_iter_mut().with_min_len(4096);
+            deltas.for_each(|delta| *delta = map.vector(*delta));
+        }
+        mesh.insert_column(Domain::Vertex, column);
     }
 }
 

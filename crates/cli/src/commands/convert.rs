@@ -40,6 +40,7 @@ pub(crate) fn run(args: &ConvertArgs) -> anyhow::Result<bool> {
         images: args.images,
         compression: args.compress,
         quantization: args.quantize,
+        weight_sets: None,
         strict: args.read.strict,
     };
     let written = if to_stdout {

@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use engine::BUDGET;
-use mesh::{DVec3, Elements, Mesh, VertexId};
+use mesh::{DVec3, Domain, Elements, Mesh, VertexId, joint_of, morph_of};
 use mesh_io::{Note, NoteKind};
 use op::ErrorLocation;
 use ops_pictures::Picture;
 use recipe::shape::counted;
-use scene::{Geometry, Graph, Instance, Object, Scene};
+use scene::{Animation, Geometry, Graph, Instance, Object, Scene};
 use serde_json::json;
 
 use crate::args::{Format, InfoArgs};
@@ -42,6 +42,11 @@ pub(crate) fn run(args: &InfoArgs) -> anyhow::Result<bool> {
         for (what, n) in graph_counts(scene.graph()) {
             json[what] = n.into();
         }
+        let animations = scene.graph().animations.iter().map(|animation| {
+            let (n, seconds) = (animation.channels.len(), duration(scene.graph(), animation));
+            json!({ "name": animation.name, "channels": n, "seconds": seconds })
+        });
+        json["animation_list"] = animations.collect();
         print_json(&json)?;
         return Ok(true);
     }
@@ -53,6 +58,14 @@ pub(crate) fn run(args: &InfoArgs) -> anyhow::Result<bool> {
     }
     for (what, n) in graph_counts(scene.graph()).filter(|(_, n)| *n > 0) {
         print(&format!("{what}: {}\n", group_digits(n as u64)))?;
+    }
+    for animation in &scene.graph().animations {
+        let name = animation.name.as_deref().unwrap_or("without a name");
+        let channels = counted(animation.channels.len(), "channel");
+        let seconds = number(duration(scene.graph(), animation));
+        print(&format!(
+            "animation {name}: {channels}, {seconds} seconds\n"
+        ))?;
     }
     for note in &notes {
         print(&format!("note: {note}\n"))?;
@@ -110,8 +123,33 @@ fn graph_counts(graph: &Graph) -> impl Iterator<Item = (&'static str, usize)> {
         ("nodes", graph.nodes().len()),
         ("cameras", graph.cameras.len()),
         ("lights", graph.lights.len()),
+        ("skins", graph.skins.len()),
+        ("animations", graph.animations.len()),
     ];
     counts.into_iter()
+}
+
+/// Returns the time of the last keyframe of an animation, in seconds.
+fn duration(graph: &Graph, animation: &Animation) -> f64 {
+    let samplers = animation.samplers.iter();
+    let times = samplers.filter_map(|sampler| graph.arrays[sampler.input].last());
+    times.fold(0.0, |longest, &time| {
+        let time = f64::from(time);
+        if time > longest { time } else { longest }
+    })
+}
+
+/// Returns the number of joints with weights, and the largest number of them at a vertex.
+fn joint_counts(mesh: &Mesh) -> (usize, usize) {
+    let joints = mesh.attributes().joints();
+    let at = |v: usize| {
+        joints
+            .iter()
+            .filter(|(_, weights)| weights[v] != 0.0)
+            .count()
+    };
+    let most = (0..mesh.n_vertices()).map(at).max();
+    (joints.len(), most.unwrap_or(0))
 }
 
 /// Returns the places of the elements of a note, for a picture.
@@ -196,9 +234,11 @@ fn mesh_facts(object: &Object, mesh: &Mesh, placed: &Placed) -> Vec<(&'static st
         degrees.resize(degrees.len().max(n + 1), 0);
         degrees[n] += 1;
     }
+    let is_listed = |name: &str| joint_of(name).is_none() && morph_of(name).is_none();
     let attributes: Vec<String> = mesh
         .attributes()
         .iter()
+        .filter(|(domain, c)| *domain != Domain::Vertex || is_listed(&c.name))
         .map(|(domain, c)| format!("{domain} {} ({})", c.name, c.values.type_name()))
         .collect();
     let (n_faces, degrees) = (count(mesh.n_faces()), histogram(&degrees, "corners"));
@@ -225,6 +265,15 @@ fn mesh_facts(object: &Object, mesh: &Mesh, placed: &Placed) -> Vec<(&'static st
     let isolated = mesh.n_isolated_vertices();
     if isolated > 0 {
         facts.push(("isolated vertices", count(isolated)));
+    }
+    let (n_joints, most) = joint_counts(mesh);
+    if n_joints > 0 {
+        let facts_of = format!("{} (at most {most} at a vertex)", count(n_joints));
+        facts.push(("joints", facts_of));
+    }
+    let n_morphs = mesh.attributes().morphs().len();
+    if n_morphs > 0 {
+        facts.push(("morph targets", count(n_morphs)));
     }
     if !attributes.is_empty() {
         facts.push(("attributes", attributes.join(", ")));
@@ -274,6 +323,9 @@ fn object_json(object: &Object, placed: &Placed) -> serde_json::Value {
                 "bounds": placed.bounds.map(|b| b.map(|p| p.to_array())),
                 "instances": placed.n,
                 "isolated_vertices": mesh.n_isolated_vertices(),
+                "joints": joint_counts(mesh).0,
+                "joints_at_a_vertex": joint_counts(mesh).1,
+                "morph_targets": mesh.attributes().morphs().len(),
                 "attributes": attributes,
             })
         }

@@ -41,6 +41,87 @@ impl Reader<'_> {
         get(&self.document.accessors, index, pointer, "accessor")
     }
 
+    /// Checks the component type of an accessor.
+    ///
+    /// # Errors
+    ///
+    /// If the accessor does not have one of the component types.
+    pub(super) fn expect_components(
+        &self,
+        index: usize,
+        pointer: &str,
+        expected: &[ComponentType],
+    ) -> Result<(), Fault> {
+        let accessor = self.accessor(index, pointer)?;
+        let here = format!("/accessors/{index}");
+        let (_, component) = kinds(accessor, &here)?;
+        if expected.contains(&component) {
+            return Ok(());
+        }
+        let numbers = expected.iter().map(|c| c.as_gl_enum().to_string());
+        let numbers = numbers.collect::<Vec<_>>().join(", ");
+        let message = format!("expected one of {numbers} for {pointer}");
+        Err(Fault::json(format!("{here}/componentType"), message))
+    }
+
+    /// Reads the numbers of an accessor of this type one after the other, rounded to 32 bits.
+    ///
+    /// # Errors
+    ///
+    /// As [`vectors`](Self::vectors).
+    pub(super) fn floats(
+        &self,
+        index: usize,
+        pointer: &str,
+        kind: Type,
+    ) -> Result<Vec<f32>, Fault> {
+        match kind {
+            Type::Scalar => self.float_arrays::<1>(index, pointer, kind),
+            Type::Vec2 => self.float_arrays::<2>(index, pointer, kind),
+            Type::Vec3 => self.float_arrays::<3>(index, pointer, kind),
+            Type::Vec4 | Type::Mat2 => self.float_arrays::<4>(index, pointer, kind),
+            Type::Mat3 => self.float_arrays::<9>(index, pointer, kind),
+            Type::Mat4 => self.float_arrays::<16>(index, pointer, kind),
+        }
+    }
+
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the numbers have at most 32 bits"
+    )]
+    fn float_arrays<const N: usize>(
+        &self,
+        index: usize,
+        pointer: &str,
+        expected: Type,
+    ) -> Result<Vec<f32>, Fault>
+    where
+        [f32; N]: Zeroable,
+    {
+        let accessor = self.accessor(index, pointer)?;
+        let here = format!("/accessors/{index}");
+        let (kind, component) = kinds(accessor, &here)?;
+        if kind != expected {
+            let (expected, found) = (type_name(expected), type_name(kind));
+            let message = format!("expected {expected} for {pointer}, found {found}");
+            return Err(Fault::json(format!("{here}/type"), message));
+        }
+        let size = component.size();
+        let values = self.elements(index, N, component, [0.0; N], |bytes| {
+            let mut vector = [0.0; N];
+            for (slot, bytes) in vector.iter_mut().zip(bytes.chunks_exact(size)) {
+                *slot = number(bytes, component, accessor.normalized) as f32;
+            }
+            vector
+        })?;
+        let is_finite = |vector: &[f32; N]| vector.iter().all(|x| x.is_finite());
+        if let Some(i) = values.iter().position(|vector| !is_finite(vector)) {
+            let message = format!("element {i} is not a finite number");
+            return Err(Fault::json(here, message));
+        }
+        Ok(values.into_flattened())
+    }
+
     /// Reads the elements of an accessor. Each element is converted from N numbers. Components that the type of
     /// the accessor does not have are set to `fill`. Normalized integers are scaled to 0 to 1, or to -1 to 1.
     ///

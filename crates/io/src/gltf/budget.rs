@@ -49,6 +49,11 @@ impl Budget {
         self.left.set(self.left.get().saturating_add(more));
     }
 
+    /// Whether this number of bytes is left.
+    pub(super) fn has(&self, bytes: u64) -> bool {
+        bytes <= self.left.get()
+    }
+
     /// Takes bytes from the budget. The budget is necessary because several parts of a file can refer to the
     /// same bytes.
     ///

@@ -12,6 +12,8 @@ use super::budget::Budget;
 use super::draco::{self, DRACO};
 use super::meshopt::{self, Compressed, MESHOPT};
 use super::node_json::NodeJson;
+use super::rig;
+use super::rig_json::{AnimationJson, SkinJson};
 use super::surface::{
     ImageJson, MaterialJson, STRENGTH, SamplerJson, TRANSFORM, TextureJson, UNLIT,
 };
@@ -51,7 +53,11 @@ pub(super) struct Document {
     pub(super) draco: Vec<draco::Compressed>,
     pub(super) materials: Vec<MaterialJson>,
     pub(super) meshes: Vec<Mesh>,
+    /// The default weights of the morph targets of each mesh.
+    pub(super) mesh_weights: Vec<Vec<f64>>,
     pub(super) nodes: Vec<NodeJson>,
+    pub(super) skins: Vec<SkinJson>,
+    pub(super) animations: Vec<AnimationJson>,
     pub(super) cameras: Vec<Json>,
     pub(super) lights: Vec<Json>,
     /// The other parts that are kept, by the names of [`Graph::document`](scene::Graph::document).
@@ -86,7 +92,10 @@ impl Document {
             views,
             materials: pieces(json, "materials", budget)?,
             meshes: pieces(json, "meshes", budget)?,
+            mesh_weights: mesh_weights(json, budget)?,
             nodes: pieces(json, "nodes", budget)?,
+            skins: pieces(json, "skins", budget)?,
+            animations: pieces(json, "animations", budget)?,
             cameras: pieces(json, "cameras", budget)?,
             lights: lights(json)?,
             kept: kept(json),
@@ -95,13 +104,7 @@ impl Document {
             samplers: pieces(json, "samplers", budget)?,
             images: pieces(json, "images", budget)?,
         };
-        for (key, what) in [
-            ("animations", "animations left out"),
-            ("skins", "skins left out"),
-        ] {
-            let n = list(json, key)?.len();
-            notes.coded(key).left_out(n, None, what);
-        }
+        rig::check(&document)?;
         notes
             .coded("extras")
             .left_out(left_out_extras(json), None, "extras left out");
@@ -261,6 +264,17 @@ fn count_extras(json: &Value) -> usize {
         }
         _ => 0,
     }
+}
+
+/// The weights of meshes with the 64 bits of the text.
+fn mesh_weights(json: &Value, budget: &Budget) -> Result<Vec<Vec<f64>>, Fault> {
+    #[derive(Default, serde::Deserialize)]
+    #[serde(default)]
+    struct Weights {
+        weights: Vec<f64>,
+    }
+    let meshes: Vec<Weights> = pieces(json, "meshes", budget)?;
+    Ok(meshes.into_iter().map(|mesh| mesh.weights).collect())
 }
 
 fn lights(json: &Value) -> Result<Vec<Json>, Fault> {

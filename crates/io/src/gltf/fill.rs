@@ -62,6 +62,51 @@ fn corners(mesh: &Mesh, split: &Split, f: FaceId) -> [u32; 3] {
     corners
 }
 
+/// Writes vectors of N floats.
+pub(super) fn fill_floats<const N: usize>(
+    out: &mut [u8],
+    value: impl Fn(usize) -> [f32; N] + Sync,
+) {
+    let size = N * size_of::<f32>();
+    parallel::consume(out.chunks_mut(size * BLOCK), |block, out| {
+        for (i, slot) in (block * BLOCK..).zip(out.chunks_exact_mut(size)) {
+            for (slot, x) in slot.as_chunks_mut().0.iter_mut().zip(value(i)) {
+                *slot = x.to_le_bytes();
+            }
+        }
+    });
+}
+
+/// Writes four joints for each element, with 1 or 2 bytes for each joint.
+pub(super) fn fill_joints(out: &mut [u8], size: usize, value: impl Fn(usize) -> [u16; 4] + Sync) {
+    parallel::consume(out.chunks_mut(4 * size * BLOCK), |block, out| {
+        for (i, slot) in (block * BLOCK..).zip(out.chunks_exact_mut(4 * size)) {
+            for (slot, joint) in slot.chunks_exact_mut(size).zip(value(i)) {
+                slot.copy_from_slice(&joint.to_le_bytes()[..size]);
+            }
+        }
+    });
+}
+
+/// Computes the bounding box of `n` finite vectors.
+pub(super) fn bounds_of(n: usize, value: impl Fn(usize) -> [f32; 3] + Sync) -> Bounds {
+    let blocks = parallel::blocks(n, |range| {
+        let all = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        let values = range.map(|i| Vec3::from_array(value(i)));
+        values.fold(all, |(min, max), p| (min.min(p), max.max(p)))
+    });
+    let min = blocks
+        .iter()
+        .fold(Vec3::INFINITY, |min, block| min.min(block.0));
+    let max = blocks
+        .iter()
+        .fold(Vec3::NEG_INFINITY, |max, block| max.max(block.1));
+    Bounds {
+        min: (min + 0.0).to_array(),
+        max: (max + 0.0).to_array(),
+    }
+}
+
 /// The bounding box of the positions of all vertices.
 #[derive(Clone, Copy)]
 pub(super) struct Bounds {

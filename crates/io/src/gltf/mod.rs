@@ -19,22 +19,25 @@
 //! | the scene that `scene` refers to, or else the first | all its nodes are read; without scenes, all nodes of the file |
 //! | triangles, strips and fans, with or without indices | triangles |
 //! | points, lines | left out, with a note |
-//! | `POSITION` | positions; vertices at exactly the same position are merged |
+//! | `POSITION` | positions; vertices at exactly the same position are merged if their weights and deltas agree |
 //! | `NORMAL` | vertex attribute `normal` if the corners of each vertex agree, otherwise corner attribute |
 //! | `TANGENT` | corner attribute `tangent` with four numbers |
 //! | `TEXCOORD_0`, `TEXCOORD_n` | corner attributes `uv` and `uvn`, with v replaced by 1 - v, because v points upwards in the scene |
 //! | `COLOR_0` | vertex or corner attribute `color`; alpha defaults to 1 |
 //! | `_NAME` | vertex or corner attribute `NAME` with 1 to 4 floats |
-//! | `COLOR_1`, `JOINTS_n`, `WEIGHTS_n` | left out, with a note |
+//! | `JOINTS_n`, `WEIGHTS_n` | for each joint that is used, a vertex attribute [`mesh::joint_name`] with its weights |
+//! | `POSITION` of a morph target | a vertex attribute [`mesh::morph_name`] with the deltas |
+//! | skins, animations | kept in the graph; the numbers are rounded to 32 bits |
+//! | `COLOR_1`, `NORMAL` and `TANGENT` of morph targets | left out, with a note |
 //! | `material` | face attribute `material` and the object's materials |
 //! | textures, samplers, images | textures of the materials: the path of an image file, or the bytes of an image |
 //! | cameras, lights | kept in the graph as they are |
 //! | `asset.copyright`, the name of the scene, `extras` of the asset, the scene and the document | kept in the graph as they are |
 //! | other `extras` | left out, with a note |
-//! | skins, animations, morph targets, other scenes | left out, with a note |
+//! | other scenes | left out, with a note |
 //!
 //! With [`Placements::Bake`](crate::Placements::Bake), each node with a mesh becomes an object, the transforms are applied
-//! to positions and normals, and there is no graph. A transform that mirrors reverses the faces.
+//! to positions and normals, and there is no graph. Skinned meshes get the pose of their joints. A transform that mirrors reverses the faces.
 //!
 //! Accessors can be interleaved or sparse, can lack a view (all values are then zero), and can contain integers,
 //! normalized or not. Buffers are files inside the folder of the document, data URIs, or the second chunk of a
@@ -59,7 +62,8 @@
 //! - numbers are rounded to 32 bits: if a position exceeds their range, the scene is refused; other values become 0,
 //! - polygons are triangulated,
 //! - faces are ordered by material,
-//! - vertices at exactly the same position are merged,
+//! - vertices at exactly the same position are merged, unless their weights or deltas differ,
+//! - each vertex has at most four joints, or as many as in the file that was read,
 //! - normals are normalized, and colors are clamped to 0 to 1,
 //! - isolated vertices, empty meshes, tangents of vertices, tangents without normals, integers, tags, texture coordinates after a gap in
 //!   their numbers, and attributes of edges and faces (except `material`) are lost.
@@ -79,6 +83,7 @@ mod accessor;
 mod budget;
 mod buffers;
 mod compress;
+mod deform;
 mod document;
 mod draco;
 mod faces;
@@ -95,14 +100,18 @@ mod prepare;
 mod primitives;
 mod quantize;
 mod read;
+mod rig;
+mod rig_json;
 mod split;
 mod streams;
 mod surface;
 mod views;
 mod write;
+mod write_deform;
 mod write_document;
 mod write_materials;
 mod write_nodes;
+mod write_rig;
 
 pub(crate) use buffers::document_of;
 pub(crate) use peek::peek;

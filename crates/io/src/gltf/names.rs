@@ -35,7 +35,8 @@ fn custom_name(name: &str) -> String {
 /// Whether a name is reserved for a predefined attribute of a mesh.
 fn is_reserved(name: &str) -> bool {
     let known = "normal color tangent material smoothing crease position";
-    name.is_empty() || known.split(' ').any(|one| one == name) || uv_set(name).is_some()
+    let is_rig = mesh::joint_of(name).is_some() || mesh::morph_of(name).is_some();
+    name.is_empty() || is_rig || known.split(' ').any(|one| one == name) || uv_set(name).is_some()
 }
 
 /// The set of texture coordinates with this name: 0 for `uv`, n for `uvn`.

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use scene::Placement;
 use serde::Deserialize;
-use serde::de::IgnoredAny;
 use serde_json::Value;
 
 use super::document::LIGHTS;
@@ -18,7 +17,8 @@ pub(super) struct NodeJson {
     pub(super) children: Vec<usize>,
     pub(super) mesh: Option<usize>,
     pub(super) camera: Option<usize>,
-    pub(super) skin: Option<IgnoredAny>,
+    pub(super) skin: Option<usize>,
+    pub(super) weights: Vec<f64>,
     pub(super) extras: Option<Box<Value>>,
     extensions: Option<BTreeMap<String, Value>>,
     matrix: Option<Box<[f64; 16]>>,

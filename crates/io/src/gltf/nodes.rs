@@ -9,6 +9,8 @@ use serde_json::Value;
 use super::budget::Budget;
 use super::document::{Document, Json, get};
 use super::node_json::NodeJson;
+use super::rig;
+use super::rig_json::Deformers;
 use crate::Placements;
 use crate::fault::Fault;
 use crate::note::{Names, Notes};
@@ -20,8 +22,22 @@ pub(super) struct PlacedMesh {
     pub(super) mesh: usize,
     /// The transform of the points: the identity if nodes place the object.
     pub(super) to_scene: DAffine3,
+    /// The node of the file whose skin and morph weights are applied to the points.
+    pub(super) posed_by: Option<usize>,
     /// The number of nodes that show the object.
     pub(super) instances: u64,
+}
+
+/// The objects of a scene and the nodes that place them.
+pub(super) struct PlacedNodes {
+    pub(super) meshes: Vec<PlacedMesh>,
+    pub(super) graph: Graph,
+    /// For each node of the file, its index in the graph.
+    pub(super) places: Vec<Option<usize>>,
+    /// For each node of the file, the number of morph targets of its mesh.
+    pub(super) targets: Vec<usize>,
+    /// For each node of the file, the map to the scene.
+    pub(super) to_scene: Vec<Option<DAffine3>>,
 }
 
 /// A node of the scene.
@@ -46,25 +62,37 @@ pub(super) fn placed_meshes(
     otherwise: &str,
     budget: &Budget,
     notes: &mut Notes,
-) -> Result<(Vec<PlacedMesh>, Graph), Fault> {
+) -> Result<PlacedNodes, Fault> {
     let nodes = scene_nodes(document)?;
-    let skinned = nodes.iter().map(|node| &document.nodes[node.index]);
-    let skinned = skinned.filter(|node| node.mesh.is_some() && node.skin.is_some());
-    let what = "skinned meshes read in their rest pose";
-    notes.coded("skins").changed(skinned.count(), None, what);
+    let deformers = Deformers::of_meshes(document);
+    let targets = |node: &NodeJson| {
+        node.mesh
+            .and_then(|mesh| deformers.get(mesh))
+            .map_or(0, |d| d.targets)
+    };
+    let mut all = PlacedNodes {
+        meshes: Vec::new(),
+        graph: Graph::default(),
+        places: vec![None; document.nodes.len()],
+        targets: document.nodes.iter().map(targets).collect(),
+        to_scene: vec![None; document.nodes.len()],
+    };
+    for node in &nodes {
+        all.to_scene[node.index] = Some(node.to_scene);
+    }
     let mut names = Names::default();
     match placements {
         Placements::Bake => {
-            let placed = baked(document, &nodes, otherwise, budget, &mut names, notes)?;
+            all.meshes = baked(document, &nodes, otherwise, budget, &mut names, notes)?;
             note_left_out(document, notes);
-            Ok((placed, Graph::default()))
         }
         Placements::Keep => {
-            let placed = shared(document, &nodes, otherwise, budget, &mut names, notes)?;
-            let graph = graph(document, &nodes, &placed, budget)?;
-            Ok((placed, graph))
+            all.meshes = shared(document, &nodes, otherwise, budget, &mut names, notes)?;
+            let (graph, places) = graph(document, &nodes, &all.meshes, &deformers, budget)?;
+            (all.graph, all.places) = (graph, places);
         }
     }
+    Ok(all)
 }
 
 fn note_left_out(document: &Document, notes: &mut Notes) {
@@ -75,6 +103,13 @@ fn note_left_out(document: &Document, notes: &mut Notes) {
     notes
         .coded("lights")
         .left_out(lights, None, "lights left out");
+    let what = "animations left out";
+    let notes = notes.coded("animations");
+    notes.left_out(document.animations.len(), None, what);
+    let what = "skins left out, after the meshes are posed by the joints";
+    notes
+        .coded("skins")
+        .left_out(document.skins.len(), None, what);
 }
 
 /// The nodes of the scene, parents before children, in the order of the file.
@@ -152,6 +187,7 @@ fn baked(
             name: names.unique(name, notes),
             mesh,
             to_scene: node.to_scene,
+            posed_by: Some(node.index),
             instances: 1,
         });
     }
@@ -186,19 +222,22 @@ fn shared(
             name: names.unique(name, notes),
             mesh,
             to_scene: DAffine3::IDENTITY,
+            posed_by: None,
             instances,
         });
     }
     Ok(placed)
 }
 
-/// The graph of the scene, without the nodes that the writer adds by itself.
+/// The graph of the scene, without the nodes that the writer adds by itself, and for each node of the file its index in
+/// the graph.
 fn graph(
     document: &Document,
     nodes: &[SceneNode],
     placed: &[PlacedMesh],
+    deformers: &[Deformers],
     budget: &Budget,
-) -> Result<Graph, Fault> {
+) -> Result<(Graph, Vec<Option<usize>>), Fault> {
     let mut graph = Graph::default();
     graph.cameras.extend(document.cameras.iter().map(text));
     graph.lights.extend(document.lights.iter().map(text));
@@ -207,17 +246,35 @@ fn graph(
     for object in placed {
         let mesh = &document.meshes[object.mesh];
         let extras = mesh.extras.as_ref().map(|extras| extras.get().to_owned());
-        if mesh.name.as_ref() != Some(&object.name) || extras.is_some() {
-            let name = mesh.name.clone();
-            graph.set_label(&*object.name, MeshLabel { name, extras });
+        let Deformers {
+            targets,
+            weight_sets,
+            ..
+        } = deformers[object.mesh];
+        let mut weights = document.mesh_weights[object.mesh].clone();
+        weights.resize(targets, 0.0);
+        budget.spend(8 * targets as u64, &format!("/meshes/{}", object.mesh))?;
+        let label = MeshLabel {
+            name: mesh.name.clone(),
+            extras,
+            weights,
+            weight_sets,
+        };
+        if label.name.as_ref() != Some(&object.name)
+            || label.extras.is_some()
+            || label.is_deformed()
+        {
+            graph.set_label(&*object.name, label);
         }
     }
+    let is_referenced = rig::referenced(document);
     // For each node, its index in the graph.
     let mut places = vec![0; nodes.len()];
+    let mut of_file = vec![None; document.nodes.len()];
     for (i, node) in nodes.iter().enumerate() {
         let json = &document.nodes[node.index];
         let object = json.mesh.map(|mesh| objects[&mesh]);
-        if object.is_some_and(|object| is_plain(node, json, object)) {
+        if !is_referenced[node.index] && object.is_some_and(|object| is_plain(node, json, object)) {
             continue;
         }
         let object = object.map(|object| object.name.clone());
@@ -232,10 +289,13 @@ fn graph(
             object,
             camera: json.camera,
             light: node.light,
+            skin: json.skin.filter(|_| json.mesh.is_some()),
+            weights: json.weights.clone(),
             extras: json.extras.as_ref().map(ToString::to_string),
         });
+        of_file[node.index] = Some(places[i]);
     }
-    Ok(graph)
+    Ok((graph, of_file))
 }
 
 fn text(json: &Json) -> String {
@@ -251,6 +311,8 @@ fn is_plain(node: &SceneNode, json: &NodeJson, object: &PlacedMesh) -> bool {
         && json.camera.is_none()
         && node.light.is_none()
         && json.extras.is_none()
+        && json.skin.is_none()
+        && json.weights.is_empty()
         && object.instances == 1
 }
 

@@ -13,13 +13,14 @@ use super::materials::{image_paths, material_name};
 use super::nodes::placed_meshes;
 use super::primitives::attributes;
 use super::read::parse;
+use super::rig_json::Deformers;
 use super::views::Reader;
 use crate::Placements;
 use crate::assets::Assets;
 use crate::fault::Fault;
 use crate::images::note_missing;
 use crate::note::Notes;
-use crate::peek::{PeekGeometry, PeekMesh, PeekObject};
+use crate::peek::{PeekGeometry, PeekMesh, PeekObject, PeekRig};
 
 /// Returns the counts of the objects of a glTF file from its JSON, and notes on content that is left out.
 ///
@@ -31,18 +32,34 @@ pub(crate) fn peek(
     name: &str,
     placements: Placements,
     assets: &mut Assets,
+    rig: &mut PeekRig,
     notes: &mut Notes,
 ) -> Result<Vec<PeekObject>, Fault> {
     let budget = Budget::of(json.len());
     let document = Document::new(&parse(json)?, &budget, notes)?;
+    if placements == Placements::Keep {
+        *rig = PeekRig {
+            skins: document.skins.len() as u64,
+            animations: document.animations.len() as u64,
+        };
+    }
     let reader = Reader::new(&document, &[], &budget);
     let mut meshes: BTreeMap<usize, (PeekMesh, BTreeSet<usize>)> = BTreeMap::new();
     let mut objects = Vec::new();
-    let (placed, _) = placed_meshes(&document, placements, name, &budget, notes)?;
-    for placed in placed {
+    let deformers = Deformers::of_meshes(&document);
+    let placed = placed_meshes(&document, placements, name, &budget, notes)?;
+    for placed in placed.meshes {
         let (mesh, materials) = match meshes.entry(placed.mesh) {
             Entry::Occupied(known) => known.into_mut(),
-            Entry::Vacant(new) => new.insert(peek_mesh(&reader, placed.mesh)?),
+            Entry::Vacant(new) => {
+                let (mut mesh, materials) = peek_mesh(&reader, placed.mesh)?;
+                let deformers = deformers[placed.mesh];
+                mesh.targets = deformers.targets as u64;
+                if placements == Placements::Keep {
+                    mesh.joints = deformers.n_joints() as u64;
+                }
+                new.insert((mesh, materials))
+            }
         };
         let names = materials.iter().map(|&i| material_name(&document, i));
         objects.push(PeekObject {

@@ -4,21 +4,23 @@ use std::collections::BTreeMap;
 
 use gltf_json::mesh::Semantic;
 use mesh::{Domain, Mesh};
-use scene::Object;
+use scene::{Graph, Object};
 
 use super::faces::{Faces, faces_by_material};
 use super::fill::{Bounds, bounds};
 use super::split::{Split, note_changed, split};
 use super::streams::{Stream, streams};
+use super::write_deform::Deformation;
 use crate::error::Unwritable;
 use crate::loss::Losses;
-use crate::weld::n_merged;
+use crate::weld::{n_merged, n_merged_if_equal};
 
 /// An object with the data that is needed to write it.
 pub(super) struct PreparedObject<'a> {
     pub(super) object: &'a Object,
     pub(super) mesh: &'a Mesh,
     pub(super) streams: Vec<Stream<'a>>,
+    pub(super) deformation: Deformation<'a>,
     pub(super) split: Split,
     pub(super) bounds: Bounds,
     pub(super) faces: BTreeMap<i32, Faces>,
@@ -33,9 +35,12 @@ impl<'a> PreparedObject<'a> {
     pub(super) fn new(
         object: &'a Object,
         mesh: &'a Mesh,
+        graph: &Graph,
+        weight_sets: Option<u32>,
         losses: &mut Losses,
     ) -> Result<Self, Unwritable> {
         let streams = streams(mesh, losses);
+        let deformation = Deformation::new(object, mesh, graph, weight_sets, losses);
         let split = split(mesh, &streams);
         if split.n >= u32::MAX as usize {
             let (max, n) = (u32::MAX, split.n);
@@ -49,7 +54,12 @@ impl<'a> PreparedObject<'a> {
         let reason = "isolated vertices, but only triangles are written to glTF";
         losses.add(Domain::Vertex, "position", isolated, reason);
         let reason = "coincident vertices, which readers of glTF merge";
-        losses.add(Domain::Vertex, "position", n_merged(mesh), reason);
+        let merged = if deformation.is_none() {
+            n_merged(mesh)
+        } else {
+            n_merged_if_equal(mesh, |a, b| deformation.compare(a, b))
+        };
+        losses.add(Domain::Vertex, "position", merged, reason);
         let polygons = mesh.faces().filter(|&f| !mesh.is_triangle(f)).count();
         let reason = "only triangles are written to glTF, so polygons are triangulated";
         losses.add(Domain::Face, "polygon", polygons, reason);
@@ -68,6 +78,7 @@ impl<'a> PreparedObject<'a> {
             object,
             mesh,
             streams,
+            deformation,
             split,
             bounds,
             faces,

@@ -4,15 +4,18 @@ use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
 use glam::{DVec2, DVec3, DVec4};
+use gltf_json::Index;
 use gltf_json::accessor::Type;
-use gltf_json::mesh::{Mode, Primitive, Semantic};
+use gltf_json::mesh::{Mode, MorphTarget, Primitive, Semantic};
 use gltf_json::validation::Checked;
 use mesh::{
     Attributes, CORNER_NORMAL, CORNER_TANGENT, Column, Domain, Rule, VERTEX_SHARPNESS, Value,
 };
 
+use super::deform::{Repairs, joints, morphs};
 use super::document::get;
 use super::names::attribute_name;
+use super::rig_json::Deformers;
 use super::views::Reader;
 use crate::fault::Fault;
 use crate::note::Notes;
@@ -26,7 +29,8 @@ const SMALL: u64 = 16;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Triangles {
     pub(super) positions: Vec<DVec3>,
-    /// Corner attributes with one value for each vertex. The v coordinate of textures points upwards.
+    /// Corner attributes with one value for each vertex, and the vertex attributes that deform the mesh. The v coordinate
+    /// of textures points upwards.
     pub(super) attributes: Attributes,
     /// Three corners for each triangle.
     pub(super) corners: Vec<u32>,
@@ -42,6 +46,7 @@ pub(super) struct Triangles {
 pub(super) fn triangles(
     reader: &Reader,
     index: usize,
+    deformers: Deformers,
     notes: &mut Notes,
 ) -> Result<Triangles, Fault> {
     let mut all = Triangles::default();
@@ -51,7 +56,6 @@ pub(super) fn triangles(
     let mut has_materials = false;
     for (i, primitive) in reader.document.meshes[index].primitives.iter().enumerate() {
         let here = format!("/meshes/{index}/primitives/{i}");
-        left_out.morphs += primitive.targets.as_ref().map_or(0, Vec::len);
         let Checked::Valid(mode) = primitive.mode else {
             let message = "expected a number from 0 to 6";
             return Err(Fault::json(format!("{here}/mode"), message));
@@ -67,11 +71,15 @@ pub(super) fn triangles(
             }
             Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan => {}
         }
-        let (base, count) = match known.entry(attributes(primitive)) {
+        let (base, count) = match known.entry((attributes(primitive), targets(primitive))) {
             Entry::Occupied(part) => *part.get(),
-            Entry::Vacant(new) => {
-                *new.insert(all.push_vertices(reader, primitive, &here, &mut left_out)?)
-            }
+            Entry::Vacant(new) => *new.insert(all.push_vertices(
+                reader,
+                primitive,
+                deformers,
+                &here,
+                &mut left_out,
+            )?),
         };
         let mut corners = corners(reader, primitive, mode, count, &here)?;
         let material = primitive.material.map(|material| material.value());
@@ -106,6 +114,20 @@ pub(super) fn attributes(primitive: &Primitive) -> Vec<(Checked<Semantic>, usize
         .collect()
 }
 
+/// The accessors of the morph targets of a primitive.
+fn targets(primitive: &Primitive) -> Vec<[Option<usize>; 3]> {
+    let targets = primitive.targets.iter().flatten();
+    let accessors = |target: &MorphTarget| {
+        let MorphTarget {
+            positions,
+            normals,
+            tangents,
+        } = target;
+        [positions, normals, tangents].map(|accessor| accessor.as_ref().map(Index::value))
+    };
+    targets.map(accessors).collect()
+}
+
 impl Triangles {
     /// The approximate size in bytes of an object with these triangles, in which each attribute has a value for
     /// each corner.
@@ -114,7 +136,10 @@ impl Triangles {
         const CORNER: usize = 48;
         let columns = self.attributes.of(Domain::Corner).iter();
         let values: usize = columns.map(|column| column.values.bytes_per_value()).sum();
-        (VERTEX * self.positions.len() + (CORNER + values) * self.corners.len()) as u64
+        let columns = self.attributes.of(Domain::Vertex).iter();
+        let deformers: usize = columns.map(|column| column.values.bytes_per_value()).sum();
+        let n = self.positions.len();
+        ((VERTEX + deformers) * n + (CORNER + values) * self.corners.len()) as u64
     }
 
     /// Appends the vertices of a primitive. Returns the index of the first vertex, and the number of vertices.
@@ -122,6 +147,7 @@ impl Triangles {
         &mut self,
         reader: &Reader,
         primitive: &Primitive,
+        deformers: Deformers,
         here: &str,
         left_out: &mut LeftOut,
     ) -> Result<(u32, u32), Fault> {
@@ -153,6 +179,11 @@ impl Triangles {
         for (semantic, accessor) in &primitive.attributes {
             let semantic = match semantic {
                 Checked::Valid(Semantic::Positions) => continue,
+                Checked::Valid(Semantic::Joints(set) | Semantic::Weights(set))
+                    if *set < deformers.weight_sets =>
+                {
+                    continue;
+                }
                 Checked::Valid(semantic) => semantic,
                 Checked::Invalid => {
                     left_out.attribute("with unknown names");
@@ -187,6 +218,18 @@ impl Triangles {
                 own.insert(Domain::Corner, column);
             }
         }
+        let repairs = &mut left_out.repairs;
+        let joints = joints(reader, primitive, n, deformers, here, repairs)?;
+        let morphs = morphs(reader, primitive, n, deformers, here, repairs)?;
+        for column in joints.into_iter().chain(morphs) {
+            own.insert(Domain::Vertex, column);
+        }
+        let all = |attributes: &Attributes| attributes.of(Domain::Vertex).len();
+        let bytes = (all(&own) + all(&self.attributes)) as u64 * 24 * (base + n) as u64;
+        if base > 0 && all(&own) > 0 && !reader.budget.has(bytes) {
+            let what = "the weights of joints and the morph targets of all primitives need too much memory";
+            return Err(Fault::json(here.to_owned(), what));
+        }
         // Attributes that only other primitives have get zeros.
         for column in self.attributes.of(Domain::Corner) {
             if own.column(Domain::Corner, &column.name).is_none() {
@@ -198,8 +241,11 @@ impl Triangles {
         if base == 0 && self.attributes == Attributes::default() {
             self.attributes = own;
         } else {
-            let corners = |n| Domain::ALL.map(|d| if d == Domain::Corner { n } else { 0 });
-            self.attributes.append(corners(base), &own, corners(n));
+            let lens = |n| {
+                let has = |d| matches!(d, Domain::Corner | Domain::Vertex);
+                Domain::ALL.map(|d| if has(d) { n } else { 0 })
+            };
+            self.attributes.append(lens(base), &own, lens(n));
         }
         Ok((first, count))
     }
@@ -312,7 +358,7 @@ fn corners(
 /// Counts the content of primitives that is left out.
 #[derive(Default)]
 struct LeftOut {
-    morphs: usize,
+    repairs: Repairs,
     points: usize,
     lines: usize,
     empty: usize,
@@ -326,9 +372,6 @@ impl LeftOut {
     }
 
     fn note(self, notes: &mut Notes) {
-        notes
-            .coded("morphs")
-            .left_out(self.morphs, None, "morph targets left out");
         notes
             .coded("points")
             .left_out(self.points, None, "primitives of points left out");
@@ -344,6 +387,12 @@ impl LeftOut {
         notes
             .coded("attributes-partial")
             .changed(self.partial, None, what);
+        for (what, count) in self.repairs.changed {
+            notes.coded("joint-weights").changed(count, None, what);
+        }
+        for (what, count) in self.repairs.left_out {
+            notes.coded("morphs").left_out(count, None, what);
+        }
         for (name, count) in self.attributes {
             notes
                 .coded("attributes")

@@ -88,6 +88,13 @@ impl<'a> Quantizer<'a> {
         let bits = self.options?.position;
         let PreparedObject { mesh, split, .. } = prepared;
         let name = &prepared.object.name;
+        if !prepared.deformation.is_none() {
+            // The node of a grid does not place a skinned mesh, and deltas are in the space of the positions.
+            let reason = "the object has joints or morph targets".to_owned();
+            let what = (name.clone(), "positions".to_owned(), reason);
+            self.report.unquantized.push(what);
+            return None;
+        }
         let Some(grid) = Grid::over(prepared, bits) else {
             let reason = "the size of the object is outside the range of 32-bit numbers".to_owned();
             let what = (name.clone(), "positions".to_owned(), reason);

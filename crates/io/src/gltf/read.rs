@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::Ordering::Relaxed;
 
-use glam::{DAffine3, DVec3};
-use mesh::Domain;
-use scene::{Material, Texture};
+use glam::{DAffine3, DMat4, DVec3};
+use mesh::{Attributes, Domain};
+use scene::{Material, Pose, Texture};
 use serde_json::Value;
 
 use super::budget::Budget;
@@ -13,8 +13,10 @@ use super::buffers;
 use super::document::Document;
 use super::draco;
 use super::materials::Materials;
-use super::nodes::placed_meshes;
+use super::nodes::{PlacedMesh, PlacedNodes, placed_meshes};
 use super::primitives::{Triangles, triangles};
+use super::rig::RigReader;
+use super::rig_json::Deformers;
 use super::views::Reader;
 use crate::assets::Assets;
 use crate::clean::gather;
@@ -68,7 +70,10 @@ fn objects(
     notes: &mut Notes,
 ) -> Result<Parsed, Fault> {
     let document = reader.document;
-    let (placed, graph) = placed_meshes(document, placements, name, reader.budget, notes)?;
+    let mut nodes = placed_meshes(document, placements, name, reader.budget, notes)?;
+    let deformers = Deformers::of_meshes(document);
+    let mut rig = RigReader::new(reader);
+    let placed = std::mem::take(&mut nodes.meshes);
     // The number of remaining uses of each mesh. The last object that uses a mesh takes its arrays instead of
     // copying them.
     let mut uses = BTreeMap::new();
@@ -85,7 +90,7 @@ fn objects(
         let here = format!("/meshes/{}", placed.mesh);
         let triangles = match meshes.remove(&placed.mesh) {
             Some(triangles) => triangles,
-            None => triangles(reader, placed.mesh, notes)?,
+            None => triangles(reader, placed.mesh, deformers[placed.mesh], notes)?,
         };
         reader.budget.spend(triangles.cost(), &here)?;
         let left = uses.entry(placed.mesh).or_default();
@@ -103,9 +108,10 @@ fn objects(
         let (materials, places) = used_materials(&mut materials, &triangles)?;
         let cost: usize = materials.iter().map(cost_of_material).sum();
         reader.budget.spend(cost as u64, &here)?;
+        let pose = pose(&placed, &nodes, &mut rig)?;
         let polygons = Polygons {
             materials,
-            ..polygons(triangles, &places, &placed.to_scene, notes)
+            ..polygons(triangles, &places, &placed.to_scene, pose.as_ref(), notes)
         };
         let shape = Shape::Polygons(polygons);
         objects.push(ParsedObject {
@@ -114,7 +120,57 @@ fn objects(
         });
     }
     materials.note(notes);
+    let mut graph = std::mem::take(&mut nodes.graph);
+    if placements == Placements::Keep {
+        rig.fill(&nodes, &mut graph, notes)?;
+    }
     Ok(Parsed { objects, graph })
+}
+
+/// The pose in which a mesh is read; `None` if nodes place and deform it.
+///
+/// # Errors
+///
+/// If the skin of the node is invalid.
+fn pose(
+    placed: &PlacedMesh,
+    nodes: &PlacedNodes,
+    rig: &mut RigReader,
+) -> Result<Option<Pose>, Fault> {
+    let Some(node) = placed.posed_by else {
+        return Ok(None);
+    };
+    let document = rig.reader.document;
+    let json = &document.nodes[node];
+    let mut pose = Pose {
+        weights: json.weights.clone(),
+        ..Pose::default()
+    };
+    if pose.weights.is_empty() {
+        pose.weights.clone_from(&document.mesh_weights[placed.mesh]);
+    }
+    let skin = json.skin.map(|skin| (skin, &document.skins[skin]));
+    let Some((i, skin)) = skin else {
+        return Ok(Some(pose));
+    };
+    let joints = skin.joints.iter().map(|&joint| nodes.to_scene[joint]);
+    // With a joint outside of the scene, the skin has no effect.
+    let Some(joints) = joints.collect::<Option<Vec<_>>>() else {
+        return Ok(Some(pose));
+    };
+    let matrices = rig.matrices(i, skin)?;
+    let maps = joints.into_iter().enumerate().map(|(j, joint)| {
+        let numbers = matrices.map(|array| rig.numbers(array).as_chunks::<16>().0[j]);
+        let bind = numbers.map(|m| DAffine3::from_mat4(DMat4::from_cols_array(&m.map(f64::from))));
+        bind.map_or(joint, |bind| joint * bind)
+    });
+    let maps: Vec<DAffine3> = maps.collect();
+    if !maps.iter().all(DAffine3::is_finite) {
+        let here = format!("/skins/{i}");
+        return Err(Fault::json(here, "the transform of a joint is not finite"));
+    }
+    pose.joints = Some(maps.into());
+    Ok(Some(pose))
 }
 
 pub(super) fn parse(json: &[u8]) -> Result<Value, Fault> {
@@ -156,21 +212,23 @@ fn cost_of_material(material: &Material) -> usize {
     size_of::<Material>() + material.name.len() + paths.map(str::len).sum::<usize>()
 }
 
-/// Builds polygons from a mesh, in scene coordinates. Vertices along the seams of glTF are merged.
+/// Builds polygons from a mesh. Vertices along the seams of glTF are merged. The polygons are placed by `to_scene`, or
+/// by the pose if it has joints.
 fn polygons(
     triangles: Triangles,
     places: &BTreeMap<usize, i32>,
     to_scene: &DAffine3,
+    pose: Option<&Pose>,
     notes: &mut Notes,
 ) -> Polygons {
     let Triangles {
         positions,
-        attributes,
+        mut attributes,
         corners: mut order,
         materials,
     } = triangles;
     let n = positions.len();
-    let (positions, vertex_of, unused) = weld(positions, &order);
+    let (positions, vertex_of, unused) = weld(positions, &mut attributes, &order);
     notes.coded("vertices-unused").left_out(
         unused,
         None,
@@ -192,7 +250,10 @@ fn polygons(
         parallel::change(&mut order, |v| *v = vertex_of[*v as usize]);
     }
     polygons.corners = order;
-    let lost = polygons.apply_transform(to_scene);
+    let lost = match pose {
+        Some(pose) => polygons.apply_pose(pose, to_scene),
+        None => polygons.apply_transform(to_scene),
+    };
     notes.coded("normals").left_out(
         lost,
         None,
@@ -201,10 +262,14 @@ fn polygons(
     polygons
 }
 
-/// Merges vertices at exactly the same position, in order of first occurrence, and leaves out vertices without a
-/// triangle. Returns the positions, for each vertex the index of its position, and the number of vertices left
-/// out.
-fn weld(mut positions: Vec<DVec3>, corners: &[u32]) -> (Vec<DVec3>, Vec<u32>, usize) {
+/// Merges vertices at exactly the same position and with the same vertex attributes, in order of first occurrence, and
+/// leaves out vertices without a triangle. Returns the positions, for each vertex the index of its position, and the
+/// number of vertices left out.
+fn weld(
+    mut positions: Vec<DVec3>,
+    attributes: &mut Attributes,
+    corners: &[u32],
+) -> (Vec<DVec3>, Vec<u32>, usize) {
     let n = positions.len();
     let used = parallel::index_flags(n, corners);
     let kept = parallel::filter(n, |v| used[v].load(Relaxed));
@@ -212,7 +277,19 @@ fn weld(mut positions: Vec<DVec3>, corners: &[u32]) -> (Vec<DVec3>, Vec<u32>, us
     if unused > 0 {
         positions = kept.iter().map(|&v| positions[v]).collect();
     }
-    let (positions, mut vertex_of) = weld::weld(positions);
+    let has_deformers = !attributes.of(Domain::Vertex).is_empty();
+    if has_deformers && unused > 0 {
+        let kept: Vec<u32> = kept
+            .iter()
+            .map(|&v| u32::try_from(v).unwrap_or(0))
+            .collect();
+        gather(attributes, Domain::Vertex, &kept);
+    }
+    let (positions, mut vertex_of) = if has_deformers {
+        weld::weld_equal(&positions, attributes)
+    } else {
+        weld::weld(positions)
+    };
     if unused > 0 {
         let places = std::mem::replace(&mut vertex_of, vec![0; n]);
         for (&v, place) in kept.iter().zip(places) {

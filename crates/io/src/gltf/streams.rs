@@ -3,7 +3,7 @@
 use glam::DVec3;
 use gltf_json::accessor::Type;
 use gltf_json::mesh::Semantic;
-use mesh::{Column, Domain, FaceId, HalfEdgeId, Mesh, Values, VertexId};
+use mesh::{Column, Domain, FaceId, HalfEdgeId, Mesh, Values, VertexId, joint_of, morph_of};
 
 use super::names::{custom_semantic, uv_set};
 use crate::loss::Losses;
@@ -58,13 +58,21 @@ pub(super) fn streams<'a>(mesh: &'a Mesh, losses: &mut Losses) -> Vec<Stream<'a>
     }
     losses.add_columns(mesh, "glTF", |domain, column| {
         let is_material = domain == Domain::Face && column.name == mesh::MATERIAL.name;
-        is_material && matches!(column.values, Values::Int(_))
+        is_deformer(domain, column)
+            || is_material && matches!(column.values, Values::Int(_))
             || streams
                 .iter()
                 .any(|stream| std::ptr::eq(stream.column, column))
     });
     streams.sort_by(|a, b| a.semantic.cmp(&b.semantic));
     streams
+}
+
+/// Whether a column has the weights of a joint or the deltas of a morph target, which are written separately.
+fn is_deformer(domain: Domain, column: &Column) -> bool {
+    let is_joint = matches!(column.values, Values::Float(_)) && joint_of(&column.name).is_some();
+    let is_morph = matches!(column.values, Values::Vec3(_)) && morph_of(&column.name).is_some();
+    domain == Domain::Vertex && (is_joint || is_morph)
 }
 
 fn stream(domain: Domain, column: &Column, n_uvs: u32) -> Option<Stream<'_>> {

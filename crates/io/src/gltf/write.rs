@@ -39,7 +39,13 @@ pub(crate) fn write(
     let mut prepared = Vec::new();
     for (object, mesh) in scene.objects().iter().zip(&meshes) {
         let mut losses = Losses::of(&object.name, &mut losses);
-        prepared.push(PreparedObject::new(object, mesh, &mut losses)?);
+        prepared.push(PreparedObject::new(
+            object,
+            mesh,
+            scene.graph(),
+            options.weight_sets,
+            &mut losses,
+        )?);
     }
     let path = path.to_path_buf();
     let binary_path = gzip::plain(&path).with_extension("bin");
@@ -102,7 +108,7 @@ pub(crate) fn write(
 /// Builds the document without its bytes.
 fn document<'a>(
     prepared: &'a [PreparedObject<'a>],
-    scene: &Scene,
+    scene: &'a Scene,
     options: &WriteOptions,
     losses: &mut Vec<Loss>,
 ) -> Result<Writer<'a>, Unwritable> {
@@ -111,6 +117,10 @@ fn document<'a>(
         let mut losses = Losses::of(&prepared.object.name, losses);
         writer.object(prepared, scene.graph(), &mut losses)?;
     }
-    writer.nodes(scene)?;
+    let first = scene.objects().first();
+    let first = first.map_or("", |object| object.name.as_str());
+    let mut losses = Losses::of(first, losses);
+    writer.nodes(scene, &mut losses)?;
+    writer.rig(scene, &mut losses)?;
     Ok(writer)
 }

@@ -11,7 +11,9 @@ use serde_json::{Map, Value, json};
 use super::compress::{Array, compress};
 use super::document::LIGHTS;
 use super::faces::Faces;
-use super::fill::{Bounds, fill_indices, fill_positions, fill_stream};
+use super::fill::{
+    Bounds, bounds_of, fill_floats, fill_indices, fill_joints, fill_positions, fill_stream,
+};
 use super::meshopt::{Filter, MESHOPT};
 use super::numbers::type_name;
 use super::pieces::Piece;
@@ -26,18 +28,28 @@ use crate::{Compression, WriteOptions};
 /// Builds the document, and collects the functions that write the bytes it refers to.
 #[derive(Default)]
 pub(super) struct Writer<'a> {
-    accessors: Vec<Value>,
+    pub(super) accessors: Vec<Value>,
     views: Vec<Value>,
     meshes: Vec<Value>,
     /// For each object that is written, the index of its mesh.
     pub(super) mesh_of: BTreeMap<&'a str, usize>,
     pub(super) nodes: NodeList,
+    /// For each object that is written, what deforms it.
+    pub(super) deformed: BTreeMap<&'a str, Deformed>,
+    /// The accessors of arrays: by the array, the numbers in each element, and the total.
+    pub(super) number_accessors: BTreeMap<(usize, usize, usize), usize>,
     pub(super) pieces: Vec<Piece<'a>>,
     materials: MaterialWriter,
     pub(super) quantizer: Quantizer<'a>,
     /// The views of the arrays that can be compressed, with the encoding of each.
     arrays: BTreeMap<usize, Array>,
     compression: Option<Compression>,
+}
+
+/// What deforms an object in the file.
+pub(super) struct Deformed {
+    pub(super) has_joints: bool,
+    pub(super) n_targets: usize,
 }
 
 impl<'a> Writer<'a> {
@@ -75,6 +87,8 @@ impl<'a> Writer<'a> {
             roots,
             cameras,
             lights,
+            skins,
+            animations,
         } = self.nodes;
         // A scene without nodes is left out.
         let has_nodes = !nodes.is_empty();
@@ -101,6 +115,8 @@ impl<'a> Writer<'a> {
             "extensionsRequired": required,
             "extensions": lights,
             "cameras": cameras,
+            "skins": skins,
+            "animations": animations,
             "materials": self.materials.materials,
             "textures": self.materials.textures,
             "samplers": self.materials.samplers,
@@ -142,10 +158,22 @@ impl<'a> Writer<'a> {
         let primitives = self.primitives(prepared, losses);
         let name = &prepared.object.name;
         let mut mesh = json!({ "name": name, "primitives": primitives });
+        let n_targets = prepared.deformation.morphs.len();
+        let mut weights = vec![0.0; n_targets];
         if let Some(label) = graph.label(name) {
             mesh["name"] = json!(label.name);
             mesh["extras"] = optional_json(label.extras.as_deref())?;
+            let known = weights.iter_mut().zip(&label.weights);
+            known.for_each(|(weight, known)| *weight = *known);
         }
+        if weights.iter().any(|&weight| weight != 0.0) {
+            mesh["weights"] = json!(weights);
+        }
+        let deformed = Deformed {
+            has_joints: prepared.deformation.sets > 0,
+            n_targets,
+        };
+        self.deformed.insert(name, deformed);
         let mesh = push(&mut self.meshes, mesh);
         self.mesh_of.insert(name, mesh);
         Ok(())
@@ -155,6 +183,7 @@ impl<'a> Writer<'a> {
     /// their vertices.
     fn primitives(&mut self, prepared: &'a PreparedObject<'a>, losses: &mut Losses) -> Vec<Value> {
         let attributes = self.attributes(prepared, losses);
+        let targets = self.targets(prepared);
         let mut primitives = Vec::new();
         for (&material, faces) in &prepared.faces {
             let material = usize::try_from(material).ok();
@@ -166,6 +195,7 @@ impl<'a> Writer<'a> {
                 "attributes": attributes,
                 "indices": indices,
                 "material": material,
+                "targets": targets,
             }));
         }
         // The bytes of textures come after the data of the first object that uses them.
@@ -206,10 +236,69 @@ impl<'a> Writer<'a> {
             };
             attributes.insert(stream.semantic.clone(), accessor);
         }
+        self.joints(prepared, &mut attributes);
         let named = attributes.into_iter();
         named
             .map(|(semantic, at)| (semantic.to_string(), at.into()))
             .collect()
+    }
+
+    /// Adds the sets of joints and weights.
+    fn joints(
+        &mut self,
+        prepared: &'a PreparedObject<'a>,
+        attributes: &mut BTreeMap<Semantic, usize>,
+    ) {
+        let PreparedObject {
+            mesh,
+            split,
+            deformation,
+            ..
+        } = prepared;
+        let component = if deformation.is_short() {
+            ComponentType::U8
+        } else {
+            ComponentType::U16
+        };
+        for (set, number) in (0..deformation.sets).zip(0..) {
+            let fill = move |out: &mut [u8]| {
+                fill_joints(out, component.size(), |i| {
+                    deformation.joints(split.vertex(mesh, i).index(), set)
+                });
+            };
+            let length = split.n * 4 * component.size();
+            let view = self.view(length, Some(ARRAY_BUFFER), fill);
+            let joints = self.accessor(view, split.n, component, Type::Vec4);
+            attributes.insert(Semantic::Joints(number), joints);
+            let fill = move |out: &mut [u8]| {
+                fill_floats(out, |i| {
+                    deformation.weights(split.vertex(mesh, i).index(), set)
+                });
+            };
+            let weights = self.floats(split.n, Type::Vec4, fill);
+            attributes.insert(Semantic::Weights(number), weights);
+        }
+    }
+
+    /// Adds the morph targets, with the attributes of each.
+    fn targets(&mut self, prepared: &'a PreparedObject<'a>) -> Vec<Value> {
+        let PreparedObject {
+            mesh,
+            split,
+            deformation,
+            ..
+        } = prepared;
+        let mut targets = Vec::new();
+        for target in 0..deformation.morphs.len() {
+            let delta = move |i| deformation.delta(target, split.vertex(mesh, i).index());
+            let fill = move |out: &mut [u8]| fill_floats(out, delta);
+            let accessor = self.floats(split.n, Type::Vec3, fill);
+            let Bounds { min, max } = bounds_of(split.n, delta);
+            self.accessors[accessor]["min"] = json!(min);
+            self.accessors[accessor]["max"] = json!(max);
+            targets.push(json!({ "POSITION": accessor }));
+        }
+        targets
     }
 
     fn floats(&mut self, count: usize, kind: Type, fill: impl Fn(&mut [u8]) + 'a) -> usize {
@@ -258,7 +347,12 @@ impl<'a> Writer<'a> {
     }
 
     /// Adds a view after all others, beginning at a multiple of 4 bytes.
-    fn view(&mut self, length: usize, target: Option<u32>, fill: impl Fn(&mut [u8]) + 'a) -> usize {
+    pub(super) fn view(
+        &mut self,
+        length: usize,
+        target: Option<u32>,
+        fill: impl Fn(&mut [u8]) + 'a,
+    ) -> usize {
         let start = self.pieces.last().map_or(0, Piece::end).next_multiple_of(4);
         self.pieces.push(Piece {
             start,
@@ -274,7 +368,7 @@ impl<'a> Writer<'a> {
         push(&mut self.views, view)
     }
 
-    fn accessor(
+    pub(super) fn accessor(
         &mut self,
         view: usize,
         count: usize,

@@ -6,8 +6,9 @@ use scene::{Node, Placement, Scene};
 use serde_json::{Map, Value, json};
 
 use super::document::LIGHTS;
-use super::write_document::Writer;
+use super::write_document::{Deformed, Writer};
 use crate::error::Unwritable;
+use crate::loss::Losses;
 
 /// The nodes of a document.
 #[derive(Default)]
@@ -17,6 +18,8 @@ pub(super) struct NodeList {
     pub(super) roots: Vec<usize>,
     pub(super) cameras: Vec<Value>,
     pub(super) lights: Vec<Value>,
+    pub(super) skins: Vec<Value>,
+    pub(super) animations: Vec<Value>,
     /// The members of other parts of the document, with the names of these parts.
     pub(super) kept: Vec<(String, Map<String, Value>)>,
 }
@@ -27,7 +30,7 @@ impl Writer<'_> {
     /// # Errors
     ///
     /// If glTF cannot store the placement of a node, or if a part of the graph is not JSON.
-    pub(super) fn nodes(&mut self, scene: &Scene) -> Result<(), Unwritable> {
+    pub(super) fn nodes(&mut self, scene: &Scene, losses: &mut Losses) -> Result<(), Unwritable> {
         let graph = scene.graph();
         let list = &mut self.nodes;
         for (texts, values) in [
@@ -63,6 +66,11 @@ impl Writer<'_> {
             if let Some(light) = node.light {
                 json["extensions"] = json!({ LIGHTS: { "light": light } });
             }
+            let deformed = node
+                .object
+                .as_deref()
+                .and_then(|object| self.deformed.get(object));
+            write_deformation(node, deformed, &mut json, losses);
             json["extras"] = optional_json(node.extras.as_deref())?;
             list.nodes.push(json);
         }
@@ -76,6 +84,28 @@ impl Writer<'_> {
         self.quantizer.place(graph, &mut list.nodes);
         Ok(())
     }
+}
+
+/// Adds the skin and the weights of morph targets to the JSON of a node.
+fn write_deformation(
+    node: &Node,
+    deformed: Option<&Deformed>,
+    json: &mut Value,
+    losses: &mut Losses,
+) {
+    if deformed.is_some_and(|deformed| deformed.has_joints) {
+        json["skin"] = json!(node.skin);
+    }
+    let n = deformed.map_or(0, |deformed| deformed.n_targets);
+    if node.weights.is_empty() {
+        return;
+    }
+    let lost = node.weights.len().saturating_sub(n);
+    let reason = "the mesh has fewer morph targets";
+    losses.add(None, "morph weights", lost, reason);
+    let mut weights = node.weights.clone();
+    weights.resize(n, 0.0);
+    json["weights"] = json!(weights);
 }
 
 /// Adds the placement of a node to its JSON. Parts that change nothing are left out.

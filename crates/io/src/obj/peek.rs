@@ -203,9 +203,9 @@ mod tests {
             min_degree: 3,
             max_degree: 4,
             uvs: true,
-            normals: false,
             colors: true,
             materials: true,
+            ..PeekMesh::default()
         };
         assert_eq!(Counts::of_file(text, PART).mesh, expected);
     }

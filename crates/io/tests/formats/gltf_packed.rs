@@ -20,6 +20,7 @@ const COMPRESSED: WriteOptions = WriteOptions {
     images: None,
     compression: Some(Compression::Meshopt),
     quantization: None,
+    weight_sets: None,
     strict: false,
 };
 

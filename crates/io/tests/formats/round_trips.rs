@@ -112,7 +112,9 @@ fn table() -> BTreeMap<String, Vec<Outcome>> {
         let line = line.trim().trim_matches('|');
         line.split('|').map(|cell| cell.trim().to_owned()).collect()
     };
-    let mut lines = TABLE
+    // The second table is about the nodes of a scene.
+    let (table, _) = TABLE.split_once("\n## ").unwrap();
+    let mut lines = table
         .lines()
         .filter(|line| line.starts_with('|'))
         .map(cells);

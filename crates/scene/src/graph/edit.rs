@@ -1,10 +1,10 @@
 //! Changes of a graph that follow from changes of the objects.
 
-use super::{Graph, Node};
+use super::{AnimatedProperty, Graph, MeshLabel, Node};
 
 impl Graph {
-    /// Removes an object from all nodes. A node that is left without an object, a camera, a light and children is
-    /// removed too. Other nodes keep their order.
+    /// Removes an object from all nodes. A node that is left without an object, a camera, a light and children, and that is
+    /// not a joint, is removed too, with the channels that animate it. Other nodes keep their order.
     pub(crate) fn remove_object(&mut self, object: &str) {
         self.labels.remove(object);
         let mut n_children = vec![0_usize; self.nodes.len()];
@@ -12,12 +12,14 @@ impl Graph {
             n_children[parent] += 1;
         }
         let mut keep = vec![true; self.nodes.len()];
+        let is_joint = self.joint_flags();
         // Children come after their parents, so a parent is visited after all its children.
         for (i, node) in self.nodes.iter_mut().enumerate().rev() {
             if node.object.take_if(|name| name == object).is_none() {
                 continue;
             }
-            if n_children[i] == 0 && node.camera.is_none() && node.light.is_none() {
+            (node.skin, node.weights) = (None, Vec::new());
+            if !is_joint[i] && n_children[i] == 0 && node.camera.is_none() && node.light.is_none() {
                 keep[i] = false;
                 if let Some(parent) = node.parent {
                     n_children[parent] -= 1;
@@ -25,6 +27,9 @@ impl Graph {
             }
         }
         self.keep_nodes(&keep);
+        // Without morph targets, nothing is left that a channel of weights changes.
+        let shows: Vec<bool> = self.nodes.iter().map(|n| n.object.is_some()).collect();
+        self.retain_channels(|c| c.property != AnimatedProperty::Weights || shows[c.node]);
     }
 
     /// Renames an object. A node or mesh with the old name gets the new name. If there is none, the mesh gets it.
@@ -63,17 +68,19 @@ impl Graph {
                 ..node.clone()
             });
         }
-        if let Some(extras) = self.labels.get(from).and_then(|label| label.extras.clone()) {
-            let label = super::MeshLabel {
+        if let Some(label) = self.labels.get(from) {
+            let label = MeshLabel {
                 name: Some(to.to_owned()),
-                extras: Some(extras),
+                ..label.clone()
             };
-            self.labels.insert(to.to_owned(), label);
+            if label.extras.is_some() || label.is_deformed() {
+                self.labels.insert(to.to_owned(), label);
+            }
         }
     }
 
     /// Adds a child that shows the object `part` to each node that shows the object `whole`. The child has the same
-    /// place. If `whole` is shown once, the child is named `part`.
+    /// place, skin and weights. If `whole` is shown once, the child is named `part`.
     pub fn add_part(&mut self, whole: &str, part: &str) {
         let nodes = self.nodes_of(whole);
         for &parent in &nodes {
@@ -81,8 +88,19 @@ impl Graph {
                 name: (nodes.len() == 1).then(|| part.to_owned()),
                 parent: Some(parent),
                 object: Some(part.to_owned()),
+                skin: self.nodes[parent].skin,
+                weights: self.nodes[parent].weights.clone(),
                 ..Node::default()
             });
+        }
+        let label = self.labels.get(whole).filter(|label| label.is_deformed());
+        if let Some(label) = label {
+            // The extras have the names of the morph targets.
+            let label = MeshLabel {
+                name: Some(part.to_owned()),
+                ..label.clone()
+            };
+            self.labels.insert(part.to_owned(), label);
         }
     }
 
@@ -90,12 +108,29 @@ impl Graph {
     /// same name, the first is kept. Returns the number of parts that are not kept.
     pub fn append(&mut self, other: Self) -> usize {
         let (n, cameras, lights) = (self.nodes.len(), self.cameras.len(), self.lights.len());
+        let (skins, arrays) = (self.skins.len(), self.arrays.len());
         self.nodes.extend(other.nodes.into_iter().map(|node| Node {
             parent: node.parent.map(|i| i + n),
             camera: node.camera.map(|i| i + cameras),
             light: node.light.map(|i| i + lights),
+            skin: node.skin.map(|i| i + skins),
             ..node
         }));
+        self.skins.extend(other.skins.into_iter().map(|mut skin| {
+            (skin.joints.iter_mut().chain(&mut skin.skeleton)).for_each(|node| *node += n);
+            skin.inverse_bind_matrices = skin.inverse_bind_matrices.map(|i| i + arrays);
+            skin
+        }));
+        self.animations
+            .extend(other.animations.into_iter().map(|mut animation| {
+                for sampler in &mut animation.samplers {
+                    sampler.input += arrays;
+                    sampler.output += arrays;
+                }
+                animation.channels.iter_mut().for_each(|c| c.node += n);
+                animation
+            }));
+        self.arrays.extend(other.arrays);
         self.cameras.extend(other.cameras);
         self.lights.extend(other.lights);
         self.labels.extend(other.labels);
@@ -107,42 +142,56 @@ impl Graph {
         left_out
     }
 
-    /// Returns the nodes that show an object that `is_wanted` accepts, and their ancestors, without cameras and lights,
-    /// and the parts of the document.
+    /// Returns the nodes that show an object that `is_wanted` accepts, the joints of their skins, and all their ancestors,
+    /// without cameras and lights, and the parts of the document. Keeps the animations of these nodes.
     pub(crate) fn only(&self, is_wanted: impl Fn(&str) -> bool) -> Self {
         let mut graph = Self {
             nodes: self.nodes.clone(),
             labels: self.labels.clone(),
             document: self.document.clone(),
+            skins: self.skins.clone(),
+            animations: self.animations.clone(),
+            arrays: self.arrays.clone(),
             ..Self::default()
         };
         graph.labels.retain(|object, _| is_wanted(object));
-        let mut keep = vec![false; graph.nodes.len()];
-        for (i, node) in graph.nodes.iter_mut().enumerate().rev() {
+        let mut keep_skins = vec![false; graph.skins.len()];
+        for node in &mut graph.nodes {
             (node.camera, node.light) = (None, None);
-            node.object.take_if(|object| !is_wanted(object));
+            if node.object.take_if(|object| !is_wanted(object)).is_some() {
+                (node.skin, node.weights) = (None, Vec::new());
+            }
+            if let Some(skin) = node.skin {
+                keep_skins[skin] = true;
+            }
+        }
+        graph.retain_skins(&keep_skins);
+        let mut keep = graph.joint_flags();
+        for (i, node) in graph.nodes.iter_mut().enumerate().rev() {
             keep[i] |= node.object.is_some();
             if let Some(parent) = node.parent {
                 keep[parent] |= keep[i];
             }
         }
+        let shows: Vec<bool> = graph.nodes.iter().map(|n| n.object.is_some()).collect();
+        graph.retain_channels(|c| c.property != AnimatedProperty::Weights || shows[c.node]);
         graph.keep_nodes(&keep);
         graph
     }
 
-    /// Removes the nodes for which `keep` is false. The parents of the other nodes must be kept.
+    /// Removes the nodes for which `keep` is false. The parents of the other nodes and the joints of skins must be kept.
     fn keep_nodes(&mut self, keep: &[bool]) {
         let mut n = 0;
         let places = keep.iter().map(|&is_kept| {
-            let place = n;
             n += usize::from(is_kept);
-            place
+            is_kept.then(|| n - 1)
         });
-        let places: Vec<usize> = places.collect();
+        let places: Vec<Option<usize>> = places.collect();
         let mut kept = keep.iter();
         self.nodes.retain(|_| *kept.next().unwrap_or(&true));
         for node in &mut self.nodes {
-            node.parent = node.parent.map(|parent| places[parent]);
+            node.parent = node.parent.and_then(|parent| places[parent]);
         }
+        self.renumber_rig(&places);
     }
 }

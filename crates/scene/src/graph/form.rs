@@ -4,6 +4,7 @@
 
 use std::collections::BTreeMap;
 
+use super::rig_form::RIG;
 use super::{Graph, MeshLabel, Node, Placement};
 use crate::decode::{DecodeError, Decoder};
 use crate::digest::Encoder;
@@ -20,9 +21,8 @@ impl Encoder<'_> {
         self.len(graph.nodes.len());
         for node in &graph.nodes {
             self.optional_text(node.name.as_deref());
-            // 0 stands for no index.
             for index in [node.parent, node.camera, node.light] {
-                self.len(index.map_or(0, |i| i + 1));
+                self.optional_index(index);
             }
             match &node.placement {
                 Placement::Matrix(matrix) => self.array(matrix, 8),
@@ -46,9 +46,18 @@ impl Encoder<'_> {
             self.text(name);
             self.text(json);
         }
+        if graph.has_rig() {
+            self.text(RIG);
+            self.rig(graph);
+        }
     }
 
-    fn optional_text(&mut self, text: Option<&str>) {
+    /// Writes the index plus 1; 0 for no index.
+    pub(super) fn optional_index(&mut self, index: Option<usize>) {
+        self.len(index.map_or(0, |i| i + 1));
+    }
+
+    pub(super) fn optional_text(&mut self, text: Option<&str>) {
         self.len(usize::from(text.is_some()));
         if let Some(text) = text {
             self.text(text);
@@ -91,12 +100,19 @@ impl Decoder<'_> {
             let label = MeshLabel {
                 name: self.optional_text()?,
                 extras: self.optional_text()?,
+                ..MeshLabel::default()
             };
             graph.labels.insert(object.to_owned(), label);
         }
         for _ in 0..self.len()? {
             let name = self.text()?.to_owned();
             graph.document.insert(name, self.text()?.to_owned());
+        }
+        if !self.is_at_end() {
+            if self.text()? != RIG {
+                return Err(DecodeError::TrailingData);
+            }
+            self.rig(&mut graph)?;
         }
         Ok(graph)
     }
@@ -125,11 +141,12 @@ impl Decoder<'_> {
             camera,
             light,
             extras: self.optional_text()?,
+            ..Node::default()
         })
     }
 
     /// Reads an optional index, which must be less than `n`.
-    fn index(&mut self, n: u64) -> Result<Option<usize>, DecodeError> {
+    pub(super) fn index(&mut self, n: u64) -> Result<Option<usize>, DecodeError> {
         let index = self.len()?;
         if index > n {
             return Err(DecodeError::Expected(
@@ -140,7 +157,7 @@ impl Decoder<'_> {
         Ok(index.checked_sub(1))
     }
 
-    fn optional_text(&mut self) -> Result<Option<String>, DecodeError> {
+    pub(super) fn optional_text(&mut self) -> Result<Option<String>, DecodeError> {
         match self.len()? {
             0 => Ok(None),
             1 => Ok(Some(self.text()?.to_owned())),

@@ -135,7 +135,7 @@ fn a_renamed_object_renames_the_node_with_its_name() {
     assert_consistent(&scene);
     let label = MeshLabel {
         name: Some("Cube.001".to_owned()),
-        extras: None,
+        ..MeshLabel::default()
     };
     scene.graph_mut().set_label("hull", label.clone());
     scene.rename("hull", "body").unwrap();

@@ -35,6 +35,11 @@ impl Map {
         self.linear * (p - center) + center + self.shift
     }
 
+    /// Returns the image of a difference of points.
+    pub(crate) fn vector(&self, v: DVec3) -> DVec3 {
+        self.linear * v
+    }
+
     /// Returns the image of a unit normal; a zero vector stays zero. A mirror negates the normal, because it also turns
     /// the faces over. Reversing the mesh afterwards negates it again.
     ///

@@ -8,21 +8,21 @@
 //! places the parent after the move. If the parent has moved by M itself, P' = M P, and the placement does not change.
 
 use glam::{DAffine3, DVec3};
-use op::{Context, OpError};
+use op::{Context, OpError, Report};
 use scene::{Instance, Placement, Scene};
 
 use super::{About, Transform};
 use crate::transform::map::Map;
 
 impl Transform {
-    /// Moves the objects that nodes place, and removes them from `names`. Returns the number of their points.
+    /// Moves the objects that nodes place, and removes them from `names`. The report counts their points.
     pub(super) fn move_nodes(
         &self,
         scene: &mut Scene,
         names: &mut Vec<String>,
         map: &Map,
         cx: &Context,
-    ) -> Result<usize, OpError> {
+    ) -> Result<Report, OpError> {
         let graph = scene.graph();
         // For each node, the map of the scene that it must move by.
         let mut maps: Vec<Option<DAffine3>> = vec![None; graph.nodes().len()];
@@ -40,12 +40,22 @@ impl Transform {
                 continue;
             }
             let center = if self.about == About::Center {
-                self.center(instances.iter().flat_map(points))
+                let placed: Vec<_> = instances.iter().map(Instance::placed).collect();
+                let meshes = placed.iter().filter_map(|object| object.as_mesh());
+                self.center(meshes.flat_map(|mesh| mesh.positions().iter().copied()))
             } else {
                 self.center(std::iter::empty())
             };
             for &i in nodes {
                 maps[i] = Some(map.affine(center));
+            }
+            // The placements of their joints place skinned meshes.
+            let skinned = instances.iter().zip(nodes);
+            let skinned = skinned.filter(|(instance, _)| instance.pose.joints.is_some());
+            for skin in skinned.filter_map(|(_, &i)| graph.nodes()[i].skin) {
+                for &joint in &graph.skins[skin].joints {
+                    maps[joint] = Some(map.affine(center));
+                }
             }
             n_points += object.as_mesh().map_or(0, |mesh| mesh.n_vertices());
         }
@@ -57,20 +67,35 @@ impl Transform {
                 }
             }
         }
+        let n_inserted = insert_parents(scene, &mut maps);
         move_by(scene, &maps, map.only_moves())?;
-        Ok(n_points)
+        let what = "nodes inserted above animated nodes";
+        Ok(Report::changed(n_points).count(what, n_inserted))
     }
 }
 
-/// Returns the points of an instance in scene space.
-fn points<'i>(instance: &'i Instance) -> impl Iterator<Item = DVec3> + use<'i> {
-    let points = instance
-        .object
-        .as_mesh()
-        .map_or(&[][..], |mesh| mesh.positions());
-    points
-        .iter()
-        .map(|&p| instance.to_scene.transform_point3(p))
+/// Inserts a parent above each animated node that moves, because the animation replaces the placement of the node. The
+/// parent moves instead. Returns the number of new nodes.
+fn insert_parents(scene: &mut Scene, maps: &mut Vec<Option<DAffine3>>) -> usize {
+    let mut animated = scene.graph().animated_flags();
+    if !animated.contains(&true) {
+        return 0;
+    }
+    let graph = scene.graph_mut();
+    let before = maps.len();
+    let mut moved: Vec<Option<DAffine3>> = Vec::new();
+    while moved.len() < maps.len() {
+        let i = moved.len();
+        let of_parent = graph.nodes()[i].parent.and_then(|parent| moved[parent]);
+        let own = maps[i].filter(|map| Some(*map) != of_parent);
+        if own.is_some() && animated[i] {
+            graph.insert_parent(i);
+            maps.insert(i, own);
+            animated.insert(i, false);
+        }
+        moved.push(maps[i].or(of_parent));
+    }
+    maps.len() - before
 }
 
 /// Moves each node by its map of the scene. A node without a map moves along with its parent. `only_moves` says that

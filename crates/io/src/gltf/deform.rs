@@ -1,0 +1,216 @@
+//! Reads the attributes that deform a mesh: joints with weights, and morph targets.
+
+use std::collections::BTreeMap;
+
+use glam::{DVec3, DVec4};
+use gltf_json::accessor::{ComponentType, Type};
+use gltf_json::mesh::{Primitive, Semantic};
+use gltf_json::validation::Checked;
+use mesh::{Column, Rule, Value, joint_name, morph_name};
+
+use super::rig_json::Deformers;
+use super::views::Reader;
+use crate::fault::Fault;
+
+/// Weights add up to 1 up to this tolerance for each weight, as in the Khronos validator.
+pub(super) const WEIGHT_TOLERANCE: f64 = 2e-7;
+
+/// Counts what is repaired or left out while attributes are read, by a description.
+#[derive(Default)]
+pub(super) struct Repairs {
+    pub(super) changed: BTreeMap<String, usize>,
+    pub(super) left_out: BTreeMap<String, usize>,
+}
+
+impl Repairs {
+    fn change(&mut self, count: usize, what: impl FnOnce() -> String) {
+        if count > 0 {
+            *self.changed.entry(what()).or_default() += count;
+        }
+    }
+}
+
+/// Reads the weights of all joints that the primitive uses: a column for each joint, with `n` values.
+///
+/// # Errors
+///
+/// If an accessor is invalid, or refers to a joint that the skin does not have. `here` is the location of the primitive.
+pub(super) fn joints(
+    reader: &Reader,
+    primitive: &Primitive,
+    n: usize,
+    deformers: Deformers,
+    here: &str,
+    repairs: &mut Repairs,
+) -> Result<Vec<Column>, Fault> {
+    let accessor = |semantic: Semantic| {
+        let at = format!("{here}/attributes/{}", semantic.to_string());
+        let accessor = primitive.attributes.get(&Checked::Valid(semantic))?;
+        Some((accessor.value(), at))
+    };
+    let mut sets = Vec::new();
+    for set in 0.. {
+        let (Some((joints, joints_at)), Some((weights, weights_at))) = (
+            accessor(Semantic::Joints(set)),
+            accessor(Semantic::Weights(set)),
+        ) else {
+            break;
+        };
+        let integers = [ComponentType::U8, ComponentType::U16];
+        reader.expect_components(joints, &joints_at, &integers)?;
+        let numbers = [ComponentType::F32, ComponentType::U8, ComponentType::U16];
+        reader.expect_components(weights, &weights_at, &numbers)?;
+        let read = |accessor, at: &str| {
+            let values = reader.vectors(accessor, at, &[Type::Vec4], 0.0, DVec4::from_array)?;
+            if values.len() == n {
+                return Ok(values);
+            }
+            let found = values.len();
+            let message = format!("expected {n} elements, one for each position, found {found}");
+            Err(Fault::json(at.to_owned(), message))
+        };
+        let (joints, weights) = (read(joints, &joints_at)?, read(weights, &weights_at)?);
+        sets.push((joints, weights, joints_at, weights_at));
+    }
+    let Some((.., weights_at)) = sets.first() else {
+        return Ok(Vec::new());
+    };
+    let weights_at = weights_at.clone();
+    let mut used = vec![false; 1 << 16];
+    let mut negative = 0;
+    for (joints, weights, joints_at, _) in &mut sets {
+        for (v, (joints, weights)) in joints.iter().zip(weights.iter_mut()).enumerate() {
+            negative += usize::from(weights.min_element() < 0.0);
+            *weights = weights.max(DVec4::ZERO);
+            for (joint, weight) in joints.to_array().into_iter().zip(weights.to_array()) {
+                if weight == 0.0 {
+                    continue;
+                }
+                let joint = index(joint);
+                if let Some(count) = deformers.joints.filter(|&count| joint >= count) {
+                    let message = format!(
+                        "element {v} refers to joint {joint}, but the skin has {count} joints"
+                    );
+                    return Err(Fault::json(joints_at.clone(), message));
+                }
+                used[joint] = true;
+            }
+        }
+    }
+    repairs.change(negative, || {
+        format!("negative weights of {weights_at} set to 0")
+    });
+    let used: Vec<usize> = (0..used.len()).filter(|&joint| used[joint]).collect();
+    let bytes = (used.len() as u64).saturating_mul(n as u64 * 8);
+    if !reader.budget.has(2 * bytes) {
+        let what = format!("joints left out: their weights need {bytes} bytes");
+        *repairs.left_out.entry(what).or_default() += used.len();
+        return Ok(Vec::new());
+    }
+    let mut place = vec![0; used.last().map_or(0, |last| last + 1)];
+    for (k, &joint) in used.iter().enumerate() {
+        place[joint] = k;
+    }
+    let mut columns: Vec<Vec<f64>> = used.iter().map(|_| mesh::zeroed(n)).collect();
+    let (mut unweighted, mut scaled) = (0, 0);
+    for v in 0..n {
+        let influences = || {
+            let sets = sets.iter().flat_map(|(joints, weights, ..)| {
+                let joints = joints[v].to_array().into_iter();
+                joints.zip(weights[v].to_array())
+            });
+            sets.filter(|(_, weight)| *weight != 0.0)
+        };
+        let sum: f64 = influences().map(|(_, weight)| weight).sum();
+        let tolerance = WEIGHT_TOLERANCE * influences().count() as f64;
+        let is_normalized = sum == 0.0 || (sum - 1.0).abs() <= tolerance;
+        unweighted += usize::from(sum == 0.0);
+        scaled += usize::from(!is_normalized);
+        let divisor = if is_normalized { 1.0 } else { sum };
+        for (joint, weight) in influences() {
+            columns[place[index(joint)]][v] += weight / divisor;
+        }
+    }
+    let what = || format!("vertices without weights in {weights_at}: they follow the first joint");
+    repairs.change(unweighted, what);
+    let what =
+        || format!("vertices with weights in {weights_at} that did not add up to 1: normalized");
+    repairs.change(scaled, what);
+    let columns = used.into_iter().zip(columns);
+    let column = |(joint, values)| Column {
+        name: joint_name(joint),
+        rule: Rule::Interpolate,
+        values: f64::wrap(values),
+    };
+    Ok(columns.map(column).collect())
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the number was read from 16 bits"
+)]
+fn index(joint: f64) -> usize {
+    joint as usize
+}
+
+/// Reads the deltas of the morph targets: a column for each target of the mesh, with `n` values.
+///
+/// # Errors
+///
+/// If an accessor is invalid. `here` is the location of the primitive.
+pub(super) fn morphs(
+    reader: &Reader,
+    primitive: &Primitive,
+    n: usize,
+    deformers: Deformers,
+    here: &str,
+    repairs: &mut Repairs,
+) -> Result<Vec<Column>, Fault> {
+    let targets = primitive.targets.as_deref().unwrap_or_default();
+    let bytes = (deformers.targets as u64).saturating_mul(n as u64 * 24);
+    if !reader.budget.has(2 * bytes) {
+        let what = format!("morph targets left out: their deltas need {bytes} bytes");
+        *repairs.left_out.entry(what).or_default() += deformers.targets;
+        return Ok(Vec::new());
+    }
+    let mut columns = Vec::new();
+    let (mut normals, mut tangents) = (0, 0);
+    for t in 0..deformers.targets {
+        let target = targets.get(t);
+        normals += usize::from(target.is_some_and(|target| target.normals.is_some()));
+        tangents += usize::from(target.is_some_and(|target| target.tangents.is_some()));
+        let deltas = match target.and_then(|target| target.positions.as_ref()) {
+            None => mesh::zeroed(n),
+            Some(accessor) => {
+                let at = format!("{here}/targets/{t}/POSITION");
+                let kinds = &[Type::Vec3];
+                let deltas =
+                    reader.vectors(accessor.value(), &at, kinds, 0.0, DVec3::from_array)?;
+                if deltas.len() != n {
+                    let found = deltas.len();
+                    let message =
+                        format!("expected {n} elements, one for each position, found {found}");
+                    return Err(Fault::json(at, message));
+                }
+                deltas
+            }
+        };
+        columns.push(Column {
+            name: morph_name(t),
+            rule: Rule::Interpolate,
+            values: DVec3::wrap(deltas),
+        });
+    }
+    if targets.len() < deformers.targets {
+        let what = || format!("morph targets that {here} does not have: set to 0");
+        repairs.change(deformers.targets - targets.len(), what);
+    }
+    for (count, what) in [(normals, "normals"), (tangents, "tangents")] {
+        if count > 0 {
+            let what = format!("{what} of morph targets left out");
+            *repairs.left_out.entry(what).or_default() += count;
+        }
+    }
+    Ok(columns)
+}

@@ -1,0 +1,309 @@
+//! Reads the skins and animations of a glTF file.
+
+use std::collections::BTreeMap;
+
+use gltf_json::accessor::Type;
+use scene::{AnimatedProperty, Animation, AnimationSampler, Channel, Graph, Interpolation, Skin};
+
+use super::document::{Document, get};
+use super::nodes::PlacedNodes;
+use super::rig_json::{AnimationJson, SkinJson};
+use super::views::Reader;
+use crate::fault::Fault;
+use crate::note::Notes;
+
+/// Checks that the parts of skins and animations exist.
+///
+/// # Errors
+///
+/// The first index that does not exist.
+pub(super) fn check(document: &Document) -> Result<(), Fault> {
+    for (i, skin) in document.skins.iter().enumerate() {
+        let here = format!("/skins/{i}");
+        if skin.joints.is_empty() {
+            let message = "expected at least one joint";
+            return Err(Fault::json(format!("{here}/joints"), message));
+        }
+        for (k, &joint) in skin.joints.iter().enumerate() {
+            get(
+                &document.nodes,
+                joint,
+                format_args!("{here}/joints/{k}"),
+                "node",
+            )?;
+        }
+        if let Some(skeleton) = skin.skeleton {
+            get(
+                &document.nodes,
+                skeleton,
+                format_args!("{here}/skeleton"),
+                "node",
+            )?;
+        }
+    }
+    for (i, node) in document.nodes.iter().enumerate() {
+        if let Some(skin) = node.skin {
+            get(
+                &document.skins,
+                skin,
+                format_args!("/nodes/{i}/skin"),
+                "skin",
+            )?;
+        }
+    }
+    for (i, animation) in document.animations.iter().enumerate() {
+        for (k, channel) in animation.channels.iter().enumerate() {
+            let here = format!("/animations/{i}/channels/{k}");
+            get(&animation.samplers, channel.sampler, &here, "sampler")?;
+            if let Some(node) = channel.target.node {
+                get(&document.nodes, node, format_args!("{here}/target"), "node")?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Returns for each node of the file whether a skin or an animation refers to it.
+pub(super) fn referenced(document: &Document) -> Vec<bool> {
+    let mut flags = vec![false; document.nodes.len()];
+    let of_skins = document.skins.iter();
+    let of_skins = of_skins.flat_map(|skin| skin.joints.iter().chain(&skin.skeleton));
+    let channels = document.animations.iter().flat_map(|a| &a.channels);
+    for &node in of_skins.chain(channels.filter_map(|c| c.target.node.as_ref())) {
+        if let Some(flag) = flags.get_mut(node) {
+            *flag = true;
+        }
+    }
+    flags
+}
+
+/// Reads arrays of numbers, each accessor once.
+pub(super) struct RigReader<'a, 'r> {
+    pub(super) reader: &'a Reader<'r>,
+    /// For each accessor and the number of numbers in its elements, its index in the arrays.
+    known: BTreeMap<(usize, usize), usize>,
+    arrays: Vec<Vec<f32>>,
+}
+
+impl<'a, 'r> RigReader<'a, 'r> {
+    pub(super) fn new(reader: &'a Reader<'r>) -> Self {
+        Self {
+            reader,
+            known: BTreeMap::new(),
+            arrays: Vec::new(),
+        }
+    }
+
+    /// Reads the skins and animations into the graph, with the graph's numbers of nodes.
+    ///
+    /// # Errors
+    ///
+    /// The first accessor that is invalid.
+    pub(super) fn fill(
+        mut self,
+        nodes: &PlacedNodes,
+        graph: &mut Graph,
+        notes: &mut Notes,
+    ) -> Result<(), Fault> {
+        let document = self.reader.document;
+        let mut lost_channels = LostChannels::default();
+        for (i, json) in document.skins.iter().enumerate() {
+            let inverse_bind_matrices = self.matrices(i, json)?;
+            let place = |&node: &usize| nodes.places[node].unwrap_or_default();
+            graph.skins.push(Skin {
+                name: json.name.clone(),
+                joints: json.joints.iter().map(place).collect(),
+                inverse_bind_matrices,
+                skeleton: json.skeleton.and_then(|node| nodes.places[node]),
+                extras: json.extras.as_ref().map(ToString::to_string),
+            });
+        }
+        // A skin with a joint outside of the scene is left out.
+        let complete: Vec<bool> = (document.skins.iter())
+            .map(|skin| skin.joints.iter().all(|&node| nodes.places[node].is_some()))
+            .collect();
+        let what = "skins left out: a joint is not in the scene";
+        let n = complete.iter().filter(|is| !**is).count();
+        notes.coded("skins").left_out(n, None, what);
+        graph.retain_skins(&complete);
+        let n = document
+            .animations
+            .iter()
+            .filter(|a| a.channels.is_empty())
+            .count();
+        let what = "animations without channels left out";
+        notes.coded("animations").left_out(n, None, what);
+        for (i, json) in document.animations.iter().enumerate() {
+            let animation = self.animation(i, json, nodes, &mut lost_channels)?;
+            if !animation.channels.is_empty() {
+                graph.animations.push(animation);
+            }
+        }
+        lost_channels.note(notes);
+        graph.arrays = self.arrays;
+        Ok(())
+    }
+
+    /// Reads the inverse bind matrices of a skin. Returns the index of their array.
+    ///
+    /// # Errors
+    ///
+    /// If there are fewer matrices than joints, or a matrix is not affine.
+    pub(super) fn matrices(&mut self, i: usize, skin: &SkinJson) -> Result<Option<usize>, Fault> {
+        let Some(accessor) = skin.inverse_bind_matrices else {
+            return Ok(None);
+        };
+        let pointer = format!("/skins/{i}/inverseBindMatrices");
+        let array = self.array(accessor, &pointer, Type::Mat4)?;
+        let (matrices, _) = self.arrays[array].as_chunks::<16>();
+        let here = format!("/accessors/{accessor}");
+        if matrices.len() < skin.joints.len() {
+            let (expected, found) = (skin.joints.len(), matrices.len());
+            let message =
+                format!("expected {expected} elements, one for each joint, found {found}");
+            return Err(Fault::json(here, message));
+        }
+        let is_affine = |m: &[f32; 16]| [3, 7, 11, 15].map(|k| m[k]) == [0.0, 0.0, 0.0, 1.0];
+        if let Some(k) = matrices.iter().position(|m| !is_affine(m)) {
+            let message = format!("expected 0, 0, 0, 1 as the last row of matrix {k}");
+            return Err(Fault::json(here, message));
+        }
+        Ok(Some(array))
+    }
+
+    /// The numbers of an array that was read before.
+    pub(super) fn numbers(&self, array: usize) -> &[f32] {
+        &self.arrays[array]
+    }
+
+    fn array(&mut self, accessor: usize, pointer: &str, kind: Type) -> Result<usize, Fault> {
+        let key = (accessor, kind.multiplicity());
+        if let Some(&known) = self.known.get(&key) {
+            return Ok(known);
+        }
+        let numbers = self.reader.floats(accessor, pointer, kind)?;
+        self.arrays.push(numbers);
+        self.known.insert(key, self.arrays.len() - 1);
+        Ok(self.arrays.len() - 1)
+    }
+
+    fn animation(
+        &mut self,
+        i: usize,
+        json: &AnimationJson,
+        nodes: &PlacedNodes,
+        lost: &mut LostChannels,
+    ) -> Result<Animation, Fault> {
+        let mut animation = Animation {
+            name: json.name.clone(),
+            extras: json.extras.as_ref().map(ToString::to_string),
+            ..Animation::default()
+        };
+        // For each sampler that is read, its index in the animation.
+        let mut samplers: BTreeMap<usize, usize> = BTreeMap::new();
+        for channel in &json.channels {
+            let property = match channel.target.path.as_str() {
+                "translation" => AnimatedProperty::Translation,
+                "rotation" => AnimatedProperty::Rotation,
+                "scale" => AnimatedProperty::Scale,
+                "weights" => AnimatedProperty::Weights,
+                _ => {
+                    lost.properties += 1;
+                    continue;
+                }
+            };
+            let Some(node) = channel.target.node.and_then(|node| nodes.places[node]) else {
+                lost.nodes += 1;
+                continue;
+            };
+            let n_targets = channel.target.node.map_or(0, |node| nodes.targets[node]);
+            let here = format!("/animations/{i}/samplers/{}", channel.sampler);
+            let Some(sampler) = self.sampler(json, channel.sampler, property, n_targets, &here)?
+            else {
+                *lost.samplers.entry(here).or_default() += 1;
+                continue;
+            };
+            let n = animation.samplers.len();
+            let place = *samplers.entry(channel.sampler).or_insert(n);
+            if place == n {
+                animation.samplers.push(sampler);
+            }
+            animation.channels.push(Channel {
+                sampler: place,
+                node,
+                property,
+                extras: channel.extras.as_ref().map(ToString::to_string),
+            });
+        }
+        Ok(animation)
+    }
+
+    /// Reads a sampler; `None` if its numbers do not fit each other.
+    fn sampler(
+        &mut self,
+        json: &AnimationJson,
+        i: usize,
+        property: AnimatedProperty,
+        n_targets: usize,
+        here: &str,
+    ) -> Result<Option<AnimationSampler>, Fault> {
+        let sampler = &json.samplers[i];
+        let interpolation = match sampler.interpolation.as_deref() {
+            None | Some("LINEAR") => Interpolation::Linear,
+            Some("STEP") => Interpolation::Step,
+            Some("CUBICSPLINE") => Interpolation::CubicSpline,
+            Some(other) => {
+                let message = format!("expected LINEAR, STEP or CUBICSPLINE, found {other:?}");
+                return Err(Fault::json(format!("{here}/interpolation"), message));
+            }
+        };
+        let (kind, n) = match property {
+            AnimatedProperty::Translation | AnimatedProperty::Scale => (Type::Vec3, 1),
+            AnimatedProperty::Rotation => (Type::Vec4, 1),
+            AnimatedProperty::Weights => (Type::Scalar, n_targets),
+        };
+        let input = self.array(sampler.input, &format!("{here}/input"), Type::Scalar)?;
+        let output = self.array(sampler.output, &format!("{here}/output"), kind)?;
+        let times = &self.arrays[input];
+        let expected = [interpolation.values_per_key(), kind.multiplicity(), n];
+        let expected = expected
+            .iter()
+            .try_fold(times.len(), |n, &k| n.checked_mul(k));
+        let increases = times.windows(2).all(|pair| pair[0] < pair[1]);
+        let is_valid = expected == Some(self.arrays[output].len())
+            && !times.is_empty()
+            && times[0] >= 0.0
+            && increases;
+        Ok(is_valid.then(|| AnimationSampler {
+            input,
+            output,
+            interpolation,
+            extras: sampler.extras.as_ref().map(ToString::to_string),
+        }))
+    }
+}
+
+/// Counts the channels that are left out.
+#[derive(Default)]
+struct LostChannels {
+    nodes: usize,
+    properties: usize,
+    samplers: BTreeMap<String, usize>,
+}
+
+impl LostChannels {
+    fn note(self, notes: &mut Notes) {
+        let what = "animation channels left out: the node is not in the scene";
+        notes.coded("animations").left_out(self.nodes, None, what);
+        let what = "animation channels left out: the property is not part of glTF 2.0";
+        notes
+            .coded("animations")
+            .left_out(self.properties, None, what);
+        for (sampler, count) in self.samplers {
+            let what = format!(
+                "animation channels left out: {sampler} has times that do not increase, or a wrong number of values"
+            );
+            notes.coded("animations").left_out(count, None, what);
+        }
+    }
+}

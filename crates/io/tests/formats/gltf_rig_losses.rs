@@ -1,0 +1,191 @@
+//! What written files do not store of skins, morph targets and animations.
+
+use mesh::{joint_name, morph_name};
+use mesh_io::WriteOptions;
+use scene::Scene;
+use store::Disk;
+
+use crate::Folder;
+use crate::gltf_rig::{arm_scene, changed_scene, numbers, output, scene_of};
+use crate::gltf_valid::written;
+
+#[test]
+fn what_a_written_file_cannot_store_is_a_loss() {
+    let losses = |change: &dyn Fn(&mut Scene)| {
+        let mut scene = arm_scene();
+        change(&mut scene);
+        let (_, _, losses) = output(&scene);
+        losses
+    };
+    let mesh = |scene: &mut Scene, change: &dyn Fn(&mut mesh::Mesh)| {
+        let (geometry, _) = scene.parts_mut("arm").unwrap();
+        let scene::Geometry::Mesh(mesh) = geometry else {
+            panic!("a mesh");
+        };
+        change(std::sync::Arc::make_mut(mesh));
+    };
+    let set = |mesh: &mut mesh::Mesh, joint: usize, weight: f64| {
+        let n = mesh.n_vertices();
+        crate::gltf_attributes::add_column(
+            mesh,
+            mesh::Domain::Vertex,
+            &joint_name(joint),
+            vec![weight; n],
+        );
+    };
+    assert_eq!(losses(&|_| ()), Vec::<String>::new());
+    // Joints that the skin does not have.
+    assert_eq!(
+        losses(&|s| mesh(s, &|m| set(m, 7, 0.5))),
+        ["20 joint weights"]
+    );
+    // No weights at all, and no weights at some vertices.
+    let none = |m: &mut mesh::Mesh| {
+        (0..3).for_each(|j| drop(m.remove_column(mesh::Domain::Vertex, &joint_name(j))));
+    };
+    assert_eq!(losses(&|s| mesh(s, &none)), ["1 skins"]);
+    let some = |m: &mut mesh::Mesh| drop(m.remove_column(mesh::Domain::Vertex, &joint_name(2)));
+    assert_eq!(losses(&|s| mesh(s, &some)), ["4 joint weights"]);
+    assert_eq!(
+        losses(&|s| mesh(s, &|m| set(m, 0, -0.5))),
+        ["20 joint weights", "4 joint weights"]
+    );
+    // A mesh without deltas has no weights of targets to animate.
+    let unmorphed = |m: &mut mesh::Mesh| {
+        (0..2).for_each(|t| drop(m.remove_column(mesh::Domain::Vertex, &morph_name(t))));
+    };
+    assert_eq!(
+        losses(&|s| mesh(s, &unmorphed)),
+        ["2 morph targets", "2 morph weights", "1 animations"]
+    );
+    let one = |m: &mut mesh::Mesh| drop(m.remove_column(mesh::Domain::Vertex, &morph_name(0)));
+    assert_eq!(losses(&|s| mesh(s, &one)), ["1 morph targets"]);
+    // Without its node, nothing shows the arm with the skin.
+    assert_eq!(losses(&|s| s.unplace("arm")), ["20 joint weights"]);
+}
+
+#[test]
+fn more_than_four_influences_are_reduced_or_written_as_more_sets() {
+    let mut scene =
+        changed_scene(|j| drop(j["nodes"][4].as_object_mut().unwrap().remove("weights")));
+    let joints: Vec<usize> = (0..6).map(|i| [1, 2, 3, 1, 2, 3][i]).collect();
+    scene.graph_mut().skins[0].joints = joints;
+    scene.graph_mut().skins[0].inverse_bind_matrices = None;
+    let (geometry, _) = scene.parts_mut("arm").unwrap();
+    let scene::Geometry::Mesh(mesh) = geometry else {
+        panic!("a mesh");
+    };
+    let mesh = std::sync::Arc::make_mut(mesh);
+    let n = mesh.n_vertices();
+    for (joint, weight) in [0.25, 0.25, 0.125, 0.125, 0.1875, 0.0625]
+        .into_iter()
+        .enumerate()
+    {
+        crate::gltf_attributes::add_column(
+            mesh,
+            mesh::Domain::Vertex,
+            &joint_name(joint),
+            vec![weight; n],
+        );
+    }
+    let (json, bytes, losses) = output(&scene);
+    assert_eq!(losses, ["20 influences"]);
+    let attributes = &json["meshes"][0]["primitives"][0]["attributes"];
+    assert!(attributes["JOINTS_1"].is_null());
+    assert_eq!(
+        numbers(&json, &bytes, &attributes["JOINTS_0"])[..4],
+        [0.0, 1.0, 4.0, 2.0]
+    );
+    let weights = numbers(&json, &bytes, &attributes["WEIGHTS_0"]);
+    assert!((weights[..4].iter().sum::<f64>() - 1.0).abs() < 1e-7);
+    written("rigged_reduced", &scene);
+    let options = WriteOptions {
+        weight_sets: Some(2),
+        ..WriteOptions::default()
+    };
+    let folder = Folder::new();
+    let path = folder.path("a.glb");
+    let report = mesh_io::write(&Disk, &path, &scene, &options).unwrap();
+    assert_eq!(report.losses, []);
+    let back = scene_of(crate::read(&path).unwrap());
+    let weights = |scene: &Scene| scene.objects()[0].as_mesh().unwrap().attributes().clone();
+    assert_eq!(weights(&back), weights(&scene));
+    // The number of sets in the file is kept.
+    let (json, _, losses) = output(&back);
+    assert_eq!(losses, Vec::<String>::new());
+    assert!(json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_1"].is_u64());
+    written("rigged_eight", &back);
+}
+
+#[test]
+fn formats_without_skins_get_the_pose_and_report_the_rest() {
+    let scene = arm_scene();
+    let folder = Folder::new();
+    for extension in ["obj", "ply", "stl", "off"] {
+        let path = folder.path("a").with_extension(extension);
+        let report = mesh_io::write(&Disk, &path, &scene, &WriteOptions::default()).unwrap();
+        let find = |name: &str| {
+            report
+                .losses
+                .iter()
+                .find(|loss| loss.attribute == name)
+                .map(|l| l.count)
+        };
+        let found = ["nodes", "skins", "animations"].map(find);
+        assert_eq!(found, [Some(5), Some(1), Some(2)], "{extension}");
+        let targets = (extension != "ply").then_some(2);
+        assert_eq!(find("morph targets"), targets, "{extension}");
+        let joints = (extension != "ply").then_some(20);
+        assert_eq!(find("joint weights"), joints, "{extension}");
+        let back = crate::read(&path).unwrap();
+        let mesh = back.objects[0].as_mesh().unwrap();
+        let expected = scene.placed();
+        let expected = expected.objects()[0].as_mesh().unwrap();
+        assert!(
+            (geometry::area(mesh) - geometry::area(expected)).abs() < 1e-6,
+            "{extension}"
+        );
+    }
+}
+
+#[test]
+fn the_second_table_matches_the_measured_results() {
+    let mut scene = arm_scene();
+    scene.graph_mut().cameras.push("{}".to_owned());
+    scene.graph_mut().lights.push("{}".to_owned());
+    let table = include_str!("../../src/kept.md")
+        .split_once("\n## ")
+        .unwrap()
+        .1;
+    let cells = |line: &str| -> Vec<String> {
+        let line = line.trim_matches('|').split('|');
+        line.map(|cell| cell.trim().trim_matches(['`', '.']).to_owned())
+            .collect()
+    };
+    let mut lines = table
+        .lines()
+        .filter(|line| line.starts_with('|'))
+        .map(cells);
+    let formats = lines.next().unwrap();
+    let folder = Folder::new();
+    let lost = formats[1..].iter().map(|extension| {
+        let path = folder.path("a").with_extension(extension);
+        let report = mesh_io::write(&Disk, &path, &scene, &WriteOptions::default()).unwrap();
+        report
+            .losses
+            .into_iter()
+            .map(|loss| loss.attribute)
+            .collect::<Vec<_>>()
+    });
+    let lost: Vec<_> = lost.collect();
+    for row in lines.skip(1) {
+        for (word, lost) in row[1..].iter().zip(&lost) {
+            let expected = if lost.contains(&row[0]) {
+                "lost"
+            } else {
+                "kept"
+            };
+            assert_eq!(word, expected, "{}", row[0]);
+        }
+    }
+}

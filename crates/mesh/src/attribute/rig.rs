@@ -1,0 +1,83 @@
+//! The names of the vertex attributes that deform a mesh: weights of joints, and deltas of morph targets.
+//!
+//! The attribute `joint:j` has the weight of joint j of the skin at each vertex, and `morph:t` has the vector by which
+//! morph target t moves each vertex. Both follow the rule [`Rule::Interpolate`](crate::Rule::Interpolate), so that every
+//! edit that computes positions linearly computes the deformed positions too. Weights in one attribute a joint, instead
+//! of lists of joints at each vertex, make the interpolation linear.
+
+use super::{Attributes, Values};
+use crate::{DVec3, Domain};
+
+const JOINT: &str = "joint:";
+const MORPH: &str = "morph:";
+
+/// Returns the name of the attribute with the weights of a joint, a `f64` for each vertex.
+pub fn joint_name(joint: usize) -> String {
+    format!("{JOINT}{joint}")
+}
+
+/// Returns the name of the attribute with the deltas of a morph target, a vector for each vertex.
+pub fn morph_name(target: usize) -> String {
+    format!("{MORPH}{target}")
+}
+
+/// Returns the joint whose weights an attribute with this name has.
+pub fn joint_of(name: &str) -> Option<usize> {
+    number(name.strip_prefix(JOINT)?)
+}
+
+/// Returns the morph target whose deltas an attribute with this name has.
+pub fn morph_of(name: &str) -> Option<usize> {
+    number(name.strip_prefix(MORPH)?)
+}
+
+/// Parses a number that is written without leading zeros.
+fn number(digits: &str) -> Option<usize> {
+    let n: u32 = digits.parse().ok()?;
+    (n.to_string() == digits).then_some(n as usize)
+}
+
+impl Attributes {
+    /// Returns the joints that have weights, in ascending order, with the weight of each vertex.
+    pub fn joints(&self) -> Vec<(usize, &[f64])> {
+        let columns = self.of(Domain::Vertex).iter();
+        let joints = columns.filter_map(|column| match &column.values {
+            Values::Float(values) => Some((joint_of(&column.name)?, &values[..])),
+            _ => None,
+        });
+        let mut joints: Vec<_> = joints.collect();
+        joints.sort_unstable_by_key(|(joint, _)| *joint);
+        joints
+    }
+
+    /// Returns the morph targets in ascending order, with the delta of each vertex.
+    pub fn morphs(&self) -> Vec<(usize, &[DVec3])> {
+        let columns = self.of(Domain::Vertex).iter();
+        let morphs = columns.filter_map(|column| match &column.values {
+            Values::Vec3(values) => Some((morph_of(&column.name)?, &values[..])),
+            _ => None,
+        });
+        let mut morphs: Vec<_> = morphs.collect();
+        morphs.sort_unstable_by_key(|(target, _)| *target);
+        morphs
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_have_one_form() {
+        for n in [0, 7, 10, 65535] {
+            assert_eq!(joint_of(&joint_name(n)), Some(n));
+            assert_eq!(morph_of(&morph_name(n)), Some(n));
+        }
+        for name in [
+            "joint:", "joint:01", "joint:+1", "joint:-1", "morph:0", "joint", "joint:a",
+        ] {
+            assert_eq!(joint_of(name), None, "{name}");
+        }
+        assert_eq!(morph_of("morph:99999999999"), None);
+    }
+}

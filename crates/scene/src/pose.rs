@@ -1,0 +1,113 @@
+//! Deforming a mesh by the weights of its morph targets and by the joints of its skin.
+
+use std::sync::Arc;
+
+use glam::{DAffine3, DMat3, DVec3};
+use mesh::{Attributes, Mesh};
+use rayon::prelude::*;
+
+use crate::placed::{LinearMap, mapped};
+use crate::{Graph, Node};
+
+/// How a node deforms its object.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Pose {
+    /// For each joint of the skin, the map from the bound points to the scene; `None` without a skin.
+    pub joints: Option<Arc<[DAffine3]>>,
+    /// The weights of the morph targets.
+    pub weights: Vec<f64>,
+}
+
+impl Pose {
+    /// Returns the pose in which a node shows a mesh with these attributes. `to_scene` are the maps of
+    /// [`Graph::to_scene`].
+    pub(crate) fn of(
+        graph: &Graph,
+        node: Option<&Node>,
+        object: &str,
+        attributes: &Attributes,
+        to_scene: &[DAffine3],
+    ) -> Self {
+        let mut pose = Self::default();
+        if let Some(skin) = node.and_then(|node| node.skin)
+            && !graph.skins[skin].joints.is_empty()
+            && !attributes.joints().is_empty()
+        {
+            pose.joints = Some(graph.joint_maps(skin, to_scene).into());
+        }
+        let own = node.map(|node| &node.weights).filter(|own| !own.is_empty());
+        let default = || graph.label(object).map(|label| &label.weights);
+        pose.weights = own.or_else(default).cloned().unwrap_or_default();
+        pose
+    }
+
+    /// Whether the pose changes the points of a mesh, apart from the placement of its node.
+    pub(crate) fn deforms(&self) -> bool {
+        self.joints.is_some() || self.weights.iter().any(|&w| w != 0.0)
+    }
+
+    /// Returns for each of `n` vertices the map from its bound point to the scene: the weighted mean of the maps of its
+    /// joints (linear blend skinning). A vertex without weights follows the first joint. `None` without a skin.
+    pub fn blended(&self, attributes: &Attributes, n: usize) -> Option<Vec<DAffine3>> {
+        let maps = self.joints.as_deref()?;
+        let columns = attributes.joints();
+        let columns: Vec<(&DAffine3, &[f64])> = (columns.iter())
+            .filter_map(|&(joint, weights)| Some((maps.get(joint)?, weights)))
+            .collect();
+        let first = maps.first().copied().unwrap_or(DAffine3::IDENTITY);
+        let blend = |v: usize| {
+            let mut linear = DMat3::ZERO;
+            let (mut shift, mut sum) = (DVec3::ZERO, 0.0);
+            for (map, weights) in &columns {
+                let weight = weights[v];
+                if weight != 0.0 {
+                    linear += map.matrix3 * weight;
+                    shift += map.translation * weight;
+                    sum += weight;
+                }
+            }
+            if sum <= 0.0 {
+                return first;
+            }
+            DAffine3 {
+                matrix3: linear * (1.0 / sum),
+                translation: shift / sum,
+            }
+        };
+        Some(
+            (0..n)
+                .into_par_iter()
+                .with_min_len(4096)
+                .map(blend)
+                .collect(),
+        )
+    }
+
+    /// Moves points by the weighted deltas of the morph targets.
+    pub fn morph(&self, attributes: &Attributes, points: &mut [DVec3]) {
+        for (target, deltas) in attributes.morphs() {
+            let weight = self.weights.get(target).copied().unwrap_or(0.0);
+            if weight != 0.0 {
+                for (point, delta) in points.iter_mut().zip(deltas) {
+                    *point += weight * *delta;
+                }
+            }
+        }
+    }
+}
+
+/// Returns a mesh in this pose, with points in scene space. `to_scene` places the mesh if it has no skin. All ids stay
+/// the same.
+pub(crate) fn posed(mesh: &Mesh, pose: &Pose, to_scene: &DAffine3) -> Mesh {
+    let mut morphed = mesh.clone();
+    let attributes = mesh.attributes();
+    pose.morph(attributes, morphed.positions_mut());
+    match pose.blended(attributes, mesh.n_vertices()) {
+        None if *to_scene == DAffine3::IDENTITY => morphed,
+        None => crate::transformed(&morphed, to_scene),
+        Some(maps) => {
+            let is_mirror = maps.first().is_some_and(|m| m.matrix3.determinant() < 0.0);
+            mapped(morphed, is_mirror, |v| LinearMap::of(&maps[v]))
+        }
+    }
+}

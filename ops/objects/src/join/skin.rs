@@ -1,0 +1,146 @@
+//! Joining skinned meshes.
+//!
+//! If all skinned parts have the same skin, the joined mesh keeps it. The other parts follow the first joint: their points
+//! are mapped by the inverse of the map of this joint, so that they are shown where they were. Otherwise the parts are
+//! joined in the pose of their joints, and the skins are lost.
+
+use std::sync::Arc;
+
+use glam::DAffine3;
+use mesh::{Attributes, Column, Domain, Mesh, Rule, Value, joint_name};
+use op::{Loss, Report};
+use scene::{Geometry, Instance, Object, Scene, transformed};
+
+/// The skin of a joined mesh.
+pub(super) struct KeptSkin {
+    /// The name of the first skinned part, whose node and morph weights are kept.
+    pub(super) part: String,
+    /// The map from the bound points of the first joint to the scene.
+    first_joint: DAffine3,
+}
+
+impl KeptSkin {
+    /// Returns the skin that all skinned parts have.
+    pub(super) fn of(scene: &Scene, parts: &[&Object]) -> Option<Self> {
+        let graph = scene.graph();
+        let instances = scene.instances();
+        let mut kept: Option<(usize, Self)> = None;
+        for part in parts {
+            let nodes = graph.nodes_of(&part.name);
+            let mut own = instances.iter().filter(|i| i.object.name == part.name);
+            let Some(joints) = own.find_map(|instance| instance.pose.joints.clone()) else {
+                continue;
+            };
+            let [node] = nodes[..] else {
+                return None;
+            };
+            let skin = graph.nodes()[node].skin?;
+            match &kept {
+                Some((known, _)) if *known != skin => return None,
+                Some(_) => {}
+                None => {
+                    let first_joint = *joints.first()?;
+                    first_joint.inverse().is_finite().then_some(())?;
+                    let part = part.name.clone();
+                    kept = Some((skin, Self { part, first_joint }));
+                }
+            }
+        }
+        kept.map(|(_, kept)| kept)
+    }
+
+    /// Returns the object of an instance with points in the space in which the skin binds points.
+    pub(super) fn bound(&self, instance: &Instance) -> Object {
+        if instance.pose.joints.is_some() {
+            return instance.object.clone();
+        }
+        let mut object = instance.placed();
+        if let Geometry::Mesh(mesh) = &mut object.geometry {
+            let mut bound = transformed(mesh, &self.first_joint.inverse());
+            remove_joints(&mut bound);
+            let values = vec![1.0; bound.n_vertices()];
+            let column = Column {
+                name: joint_name(0),
+                rule: Rule::Interpolate,
+                values: f64::wrap(values),
+            };
+            bound.insert_column(Domain::Vertex, column);
+            *mesh = Arc::new(bound);
+        }
+        object
+    }
+}
+
+/// Removes the weights of all joints.
+fn remove_joints(mesh: &mut Mesh) {
+    let joints = mesh.attributes().joints().into_iter();
+    let names: Vec<String> = joints.map(|(joint, _)| joint_name(joint)).collect();
+    for name in names {
+        mesh.remove_column(Domain::Vertex, &name);
+    }
+}
+
+/// Reports what becomes of skins and morph targets. Without a skin, the joined mesh loses the weights of joints.
+pub(super) fn report(
+    scene: &Scene,
+    parts: &[&Object],
+    kept: Option<&KeptSkin>,
+    joined: &mut Object,
+    report: &mut Report,
+) {
+    let attributes = |object: &Object| -> Attributes {
+        (object.as_mesh()).map_or_else(Attributes::default, |mesh| mesh.attributes().clone())
+    };
+    let graph = scene.graph();
+    let is_skinned = |part: &&&Object| {
+        let mut nodes = graph.nodes().iter();
+        let mut nodes = nodes
+            .by_ref()
+            .filter(|n| n.object.as_deref() == Some(&part.name));
+        nodes.any(|node| node.skin.is_some())
+    };
+    let n_skinned = parts.iter().filter(is_skinned).count();
+    let loss = |name: &str, what: &str, reason: &str| Loss {
+        object: joined.name.clone(),
+        name: name.to_owned(),
+        what: what.to_owned(),
+        reason: reason.to_owned(),
+    };
+    if kept.is_some() {
+        let others = parts.iter().filter(|part| !is_skinned(part));
+        let n: usize = others
+            .filter_map(|part| part.as_mesh())
+            .map(|m| m.n_vertices())
+            .sum();
+        if n > 0 {
+            report.notes.push(format!(
+                "vertices of parts without a skin, bound to the first joint: {n}"
+            ));
+        }
+    } else if n_skinned > 0 {
+        let reason = "the parts have different skins or several instances, so they are joined in the pose of their joints";
+        report.losses.push(loss("skins", "its skin", reason));
+    }
+    let n_morphed = parts
+        .iter()
+        .filter(|part| !attributes(part).morphs().is_empty())
+        .count();
+    let keeps_label = kept.is_some_and(|kept| {
+        let part = parts.iter().find(|part| part.name == kept.part);
+        n_morphed == 1 && part.is_some_and(|part| !attributes(part).morphs().is_empty())
+    });
+    if n_morphed > 0 && !keeps_label {
+        let what = "the names and default weights of morph targets";
+        report.losses.push(loss(
+            "morph targets",
+            what,
+            "the parts have their own morph targets",
+        ));
+    }
+    if kept.is_none()
+        && n_skinned > 0
+        && let Geometry::Mesh(mesh) = &mut joined.geometry
+    {
+        remove_joints(Arc::make_mut(mesh));
+    }
+}

@@ -3,6 +3,7 @@
 use mesh::{joint_name, morph_name};
 use mesh_io::WriteOptions;
 use scene::Scene;
+use serde_json::json;
 use store::Disk;
 
 use crate::Folder;
@@ -66,11 +67,13 @@ fn what_a_written_file_cannot_store_is_a_loss() {
 
 #[test]
 fn more_than_four_influences_are_reduced_or_written_as_more_sets() {
-    let mut scene =
-        changed_scene(|j| drop(j["nodes"][4].as_object_mut().unwrap().remove("weights")));
-    let joints: Vec<usize> = (0..6).map(|i| [1, 2, 3, 1, 2, 3][i]).collect();
-    scene.graph_mut().skins[0].joints = joints;
-    scene.graph_mut().skins[0].inverse_bind_matrices = None;
+    let mut scene = changed_scene(|j| {
+        j["nodes"][4].as_object_mut().unwrap().remove("weights");
+        let nodes = j["nodes"].as_array_mut().unwrap();
+        nodes[3]["children"] = json!([5, 6]);
+        nodes.extend([json!({ "name": "thumb" }), json!({ "name": "finger" })]);
+        j["skins"] = json!([{ "joints": [0, 1, 2, 3, 5, 6] }]);
+    });
     let (geometry, _) = scene.parts_mut("arm").unwrap();
     let scene::Geometry::Mesh(mesh) = geometry else {
         panic!("a mesh");

@@ -113,6 +113,7 @@ impl Operation for Lods {
             let faces = usize::try_from(goal).unwrap_or(usize::MAX);
             let options = Options {
                 faces,
+                error: None,
                 features: &features,
                 pinned: &[],
             };

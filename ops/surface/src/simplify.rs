@@ -14,9 +14,9 @@ use op::prelude::*;
 
 /// Removes triangles from meshes, and changes the surface as little as possible.
 ///
-/// Edges are collapsed until `faces` or `ratio` is reached, first those that change the surface least: the mean squared
-/// distance to the planes of the original triangles decides (Garland, Heckbert, 1997). One of `faces` and `ratio` must
-/// be given. All faces must be triangles.
+/// Edges are collapsed until `faces` or `ratio` is reached, or while `error` holds, first those that change the surface
+/// least: the mean squared distance to the planes of the original triangles decides (Garland, Heckbert, 1997). At least
+/// one of the three must be given. All faces must be triangles.
 ///
 /// These are kept:
 ///
@@ -28,8 +28,9 @@ use op::prelude::*;
 ///   is shaded like the original.
 /// - Vertex tags: vertices with different tags or sharpness are not merged.
 ///
-/// No triangle is turned over. Remaining elements are numbered anew, in the order of their old numbers. If the goal cannot
-/// be reached, the step is refused as `Unreached`, with the reasons; with `on_refusal: Skip`, the result is kept.
+/// No triangle is turned over. Remaining elements are numbered anew, in the order of their old numbers. If the number of
+/// faces cannot be reached, and no `error` is given, the step is refused as `Unreached`, with the reasons; with
+/// `on_refusal: Skip`, the result is kept.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Simplify {
@@ -40,6 +41,11 @@ pub struct Simplify {
     /// The number of faces to reach, as a part of the faces of each mesh.
     #[serde(default)]
     pub ratio: Option<Fraction>,
+    /// The largest allowed distance between the old and the new surface, in scene units: the Hausdorff distance in both
+    /// directions. It is guaranteed. Because bounds of the distance add up from collapse to collapse, the true distance
+    /// stays below it. If omitted, there is no limit.
+    #[serde(default)]
+    pub error: Option<PositiveLength>,
     /// Edges that are kept as lines, for example `Sharp(above: 30)`. If omitted, none in addition to those above.
     #[serde(default)]
     pub features: Option<EdgeSelection>,
@@ -57,7 +63,7 @@ impl Simplify {
         match (self.faces, self.ratio) {
             (Some(faces), _) => u64::from(faces.get()),
             (None, Some(ratio)) => part(n_faces, ratio),
-            (None, None) => n_faces,
+            (None, None) => 0,
         }
     }
 }
@@ -133,16 +139,20 @@ impl MeshOperation for Simplify {
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::from_iter(triangles_problem(Self::NAME, plan));
-        if self.faces.is_some() == self.ratio.is_some() {
-            let message = "Simplify needs either `faces` or `ratio`";
-            problems
-                .push(Problem::error(message).help("write, for example, `Simplify(faces: 5000)`"));
-        }
+        let message = match (self.faces, self.ratio, self.error) {
+            (Some(_), Some(_), _) => Some("`faces` and `ratio` cannot be combined"),
+            (None, None, None) => Some("Simplify needs `faces`, `ratio` or `error`"),
+            _ => None,
+        };
+        problems.extend(message.map(|message| {
+            Problem::error(message).help("write, for example, `Simplify(faces: 5000)`")
+        }));
         let goal = Range {
             min: self.goal(plan.faces.min),
             max: self.goal(plan.faces.max),
         };
-        plan_goal(plan, goal, self.on_refusal == OnRefusal::Error);
+        let is_certain = self.on_refusal == OnRefusal::Error && self.error.is_none();
+        plan_goal(plan, goal, is_certain);
         problems
     }
 
@@ -159,13 +169,14 @@ impl MeshOperation for Simplify {
         let goal = self.goal(before as u64);
         let options = Options {
             faces: usize::try_from(goal).unwrap_or(usize::MAX),
+            error: self.error.map(PositiveLength::get),
             features: &features,
             pinned: &pinned,
         };
         let simplified = simplify(mesh, &options, cx.progress()).map_err(|e| error(&e))?;
         let after = simplified.mesh.n_faces();
         let mut report = Report::changed(before - after);
-        if after as u64 > goal {
+        if after as u64 > goal && self.error.is_none() {
             self.on_refusal
                 .refuse(unreached(after, goal, &simplified.blocked), &mut report)?;
         }
@@ -204,12 +215,23 @@ mod tests {
     }
 
     #[test]
-    fn one_goal_must_be_given() {
+    fn a_goal_must_be_given() {
         for text in ["()", "(faces: 5, ratio: 0.5)"] {
             let (_, problems) = planned(&step(text), &shapes::icosahedron());
             assert_eq!(problems.len(), 1);
-            assert!(problems[0].message.contains("either `faces` or `ratio`"));
         }
+    }
+
+    #[test]
+    fn an_error_limits_the_distance() {
+        let flat = shapes::fans(&shapes::grid(4, 4));
+        let step = step("(error: 0.001)");
+        let mesh = applied(&step, flat.clone());
+        let (plan, problems) = planned(&step, &flat);
+        assert_eq!((mesh.n_faces(), problems.len()), (2, 0));
+        assert!(plan.faces.contains(2));
+        let ball = applied(&step, shapes::icosahedron());
+        assert_eq!(ball.n_faces(), 20);
     }
 
     #[test]

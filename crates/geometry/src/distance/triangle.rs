@@ -3,7 +3,7 @@
 use mesh::DVec3;
 
 /// Returns the point of the segment from `a` to `b` that is nearest to `p`; `a` if the segment is a point.
-pub(super) fn nearest_on_segment(p: DVec3, a: DVec3, b: DVec3) -> DVec3 {
+pub(crate) fn nearest_on_segment(p: DVec3, a: DVec3, b: DVec3) -> DVec3 {
     let along = b - a;
     let length_squared = along.length_squared();
     if length_squared == 0.0 {

@@ -1,11 +1,12 @@
 //! The loop that collapses edges.
 
-use mesh::{Column, DVec3, Domain, EdgeId, HalfEdgeId, Mesh, VERTEX_SHARPNESS, VertexId};
+use mesh::{Column, DVec3, Domain, EdgeId, FaceId, HalfEdgeId, Mesh, VERTEX_SHARPNESS, VertexId};
 use progress::{Cancelled, Progress};
 use rayon::prelude::*;
 
 use crate::distance::triangle::nearest_on_triangle;
 
+use super::bound::Patch;
 use super::lines::{Kind, kinds, labels, lines};
 use super::quadric::{Quadric, Spread};
 use super::queue::Queue;
@@ -45,6 +46,8 @@ pub(super) struct Collapser<'a> {
     kinds: Vec<Kind>,
     /// The pass in which a collapse changed the vertex or one of its neighbors.
     touched: Vec<u32>,
+    /// By face, if there is a limit: a bound of the distance between the face and its place on the original surface.
+    errors: Vec<f64>,
     /// By edge.
     lines: Vec<bool>,
     states: Vec<State>,
@@ -82,6 +85,14 @@ impl<'a> Collapser<'a> {
             spreads: Vec::new(),
             kinds,
             touched: vec![0; mesh.n_vertices()],
+            errors: vec![
+                0.0;
+                if options.error.is_some() {
+                    mesh.n_faces()
+                } else {
+                    0
+                }
+            ],
             lines,
             states: vec![State::Queued; mesh.n_edges()],
             queue: Queue::new(),
@@ -207,6 +218,7 @@ impl<'a> Collapser<'a> {
                 n_removed += 1;
             }
         }
+        let errors = self.errors_after(e, target)?;
         let point = match target.end {
             Some(v) => self.mesh.position(v),
             None => target.point / self.scale + self.center,
@@ -221,6 +233,9 @@ impl<'a> Collapser<'a> {
         };
         let v = v.map_err(|_| Blocked::Topology)?;
         self.n_faces -= n_removed;
+        for (f, error) in errors {
+            self.errors[f.index()] = error;
+        }
         for (edges, is_line) in merged.into_iter().flatten() {
             for e in edges {
                 self.lines[e.index()] = is_line;
@@ -235,6 +250,63 @@ impl<'a> Collapser<'a> {
             _ => Kind::Inside,
         };
         Ok(v)
+    }
+
+    /// If there is a limit: returns the faces that remain around an edge after its collapse, with their bounds in the
+    /// coordinates of the collapser.
+    fn errors_after(&self, e: EdgeId, target: &Target) -> Result<Vec<(FaceId, f64)>, Blocked> {
+        let Some(limit) = self.options.error else {
+            return Ok(Vec::new());
+        };
+        let [a, b] = self.mesh.edge_vertices(e);
+        let (mut old, mut new, mut faces) = (Vec::new(), Vec::new(), Vec::new());
+        for (v, other) in [(a, b), (b, a)] {
+            for h in self.mesh.vertex_half_edges(v) {
+                let Some(f) = self.mesh.face(h) else {
+                    continue;
+                };
+                let next = self.mesh.next(h);
+                let is_beside = [self.mesh.origin(next), self.mesh.target(next)].contains(&other);
+                let triangle = self.triangle(h);
+                // A triangle beside the edge has both ends. It is listed once, and vanishes.
+                if !is_beside || v == a {
+                    old.push((triangle, self.errors[f.index()]));
+                }
+                if !is_beside {
+                    new.push([target.point, triangle[1], triangle[2]]);
+                    faces.push(f);
+                }
+            }
+        }
+        let patch = Patch {
+            old,
+            new,
+            cut: self.cut(e, target),
+        };
+        let bounds = patch.bounds().ok_or(Blocked::Error)?;
+        if bounds.iter().any(|&bound| bound > limit * self.scale) {
+            return Err(Blocked::Error);
+        }
+        Ok(faces.into_iter().zip(bounds).collect())
+    }
+
+    /// If `e` is a boundary edge: the position of the end that a collapse removes, and of its neighbors on the
+    /// boundary after the collapse.
+    fn cut(&self, e: EdgeId, target: &Target) -> Option<(DVec3, [DVec3; 2])> {
+        let h = e
+            .half_edges()
+            .into_iter()
+            .find(|&h| self.mesh.face(h).is_none())?;
+        let (first, last) = (self.mesh.origin(h), self.mesh.target(h));
+        let [removed, neighbor] = if target.end == Some(last) {
+            [first, self.mesh.origin(self.mesh.prev(h))]
+        } else {
+            [last, self.mesh.target(self.mesh.next(h))]
+        };
+        Some((
+            self.position(removed),
+            [target.point, self.position(neighbor)],
+        ))
     }
 
     fn target(&self, e: EdgeId) -> Result<Target, Blocked> {
@@ -254,6 +326,11 @@ impl<'a> Collapser<'a> {
         let spread = self.spreads[a] + self.spreads[b];
         let sum = planes + spread.quadric(FIRMNESS);
         let points = ends.map(|v| self.position(v));
+        // The bound of the distance needs a boundary vertex that stays.
+        let end = end.or_else(|| {
+            let is_bounded = self.options.error.is_some() && self.mesh.is_boundary_edge(e);
+            is_bounded.then(|| usize::from(sum.at(points[1]) < sum.at(points[0])))
+        });
         let point = end.map_or_else(|| lowest_near(&sum, points), |i| points[i]);
         let per_area = if spread.area > 0.0 {
             1.0 / spread.area

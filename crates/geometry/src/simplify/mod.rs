@@ -17,6 +17,7 @@
 //!     |    /  |  \    |            as it is.
 //! ```
 
+mod bound;
 mod collapse;
 mod lines;
 mod quadric;
@@ -33,6 +34,10 @@ pub struct Options<'a> {
     /// The number of faces at which simplification stops. The result has this many faces, one fewer at the end of some
     /// collapses, or more if no edge may be collapsed.
     pub faces: usize,
+    /// The largest allowed Hausdorff distance between the original and the simplified surface, in scene units; `None`
+    /// sets no limit. The limit is guaranteed: each collapse adds a bound of the distance that it moves the surface to
+    /// the bounds of the triangles around it. The bounds add up, so the true distance is usually below the limit: a third of it to nearly all of it.
+    pub error: Option<f64>,
     /// Edges whose lines are kept, in addition to boundaries, seams, borders of face tags and materials, tagged edges
     /// and creases.
     pub features: &'a [EdgeId],
@@ -53,6 +58,8 @@ pub struct Simplified {
 /// Why an edge was not collapsed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Blocked {
+    /// The surface could move further than the error allows.
+    Error,
     /// The ends are on different lines, or both ends must keep their positions.
     Lines,
     /// The ends have different tags, whole numbers or sharpness.
@@ -64,12 +71,19 @@ pub enum Blocked {
 }
 
 impl Blocked {
-    const ALL: [Self; 4] = [Self::Lines, Self::Labels, Self::Turned, Self::Topology];
+    const ALL: [Self; 5] = [
+        Self::Error,
+        Self::Lines,
+        Self::Labels,
+        Self::Turned,
+        Self::Topology,
+    ];
 }
 
 impl std::fmt::Display for Blocked {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
+            Self::Error => "could exceed the error",
             Self::Lines => "would merge lines, or move the end of a line",
             Self::Labels => "join vertices with different tags or sharpness",
             Self::Turned => "would turn a triangle over",

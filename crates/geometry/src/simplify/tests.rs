@@ -295,6 +295,45 @@ fn normals_stay_of_length_one() {
     }
 }
 
+/// A square with waves, with a boundary.
+fn waves() -> Mesh {
+    let mut mesh = square(24);
+    for p in mesh.positions_mut() {
+        p.z = 0.05 * libm::sin(9.0 * p.x) * libm::cos(7.0 * p.y);
+        p.x += 0.04 * libm::sin(6.0 * p.y);
+    }
+    mesh
+}
+
+#[test]
+fn an_error_is_never_exceeded() {
+    let soup = |mesh: &Mesh, error| {
+        let options = Options {
+            error: Some(error),
+            ..Options::default()
+        };
+        let after = simplified(mesh, &options).mesh;
+        let distance = Distance::between(mesh, &after, None).unwrap();
+        (after.n_faces(), distance.largest())
+    };
+    for mesh in [
+        torus(),
+        waves(),
+        triangles(&shapes::uv_sphere(40, 20)),
+        triangles(&shapes::cylinder(40, true)),
+    ] {
+        let mut last = mesh.n_faces() + 1;
+        for error in [1e-9, 0.001, 0.01, 0.05] {
+            let (n_faces, distance) = soup(&mesh, error);
+            assert!(distance <= error, "{distance} > {error}");
+            last = n_faces;
+        }
+        assert!(last < 3 * mesh.n_faces() / 4, "{last}");
+    }
+    // Flat regions vanish at any error.
+    assert_eq!(soup(&square(20), 1e-6).0, 2);
+}
+
 #[test]
 fn polygons_are_refused_with_the_face() {
     let refused = simplify(&shapes::cube(), &to(4), &NoProgress).unwrap_err();

@@ -1,0 +1,162 @@
+//! A bound of the distance by which a collapse moves the surface.
+//!
+//! The triangles around a collapsed edge before and after the collapse are seen along one direction. If both cover the
+//! same region once, the points above each other are pairs. The distance of a pair is largest at a corner of a cell,
+//! where a cell is the region that one old and one new triangle share. This bounds the Hausdorff distance in both
+//! directions. Source of the idea: Cohen, Manocha, Olano, "Simplifying Polygonal Models Using Successive Mappings",
+//! 1997.
+
+use mesh::DVec3;
+
+use crate::distance::triangle::nearest_on_segment;
+
+/// The triangles around an edge before and after its collapse, counter-clockwise.
+pub(super) struct Patch {
+    /// The triangles before the collapse, each with the bound of its distance to the original surface.
+    pub(super) old: Vec<([DVec3; 3], f64)>,
+    /// The triangles after the collapse. The first corner of each is the new vertex.
+    pub(super) new: Vec<[DVec3; 3]>,
+    /// For an edge of the boundary: its end that is removed, and the two vertices beside it on the new boundary.
+    pub(super) cut: Option<(DVec3, [DVec3; 2])>,
+}
+
+/// The share of a bound that is added for rounding errors.
+const SLACK: f64 = 1e-9;
+
+impl Patch {
+    /// Returns a bound of the distance to the original surface for each new triangle; `None` if no bound is found,
+    /// because the triangles do not cover the same region once in their mean direction.
+    pub(super) fn bounds(&self) -> Option<Vec<f64>> {
+        let twice_area = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a);
+        let sum: DVec3 = self
+            .old
+            .iter()
+            .map(|&(triangle, _)| twice_area(triangle))
+            .sum();
+        let z = sum.try_normalize()?;
+        let x = z.any_orthonormal_vector();
+        let y = z.cross(x);
+        let origin = self.new.first()?[0];
+        let seen = |p: DVec3| {
+            DVec3::new(
+                (p - origin).dot(x),
+                (p - origin).dot(y),
+                (p - origin).dot(z),
+            )
+        };
+        let new: Vec<[DVec3; 3]> = self.new.iter().map(|t| t.map(seen)).collect();
+        let old: Vec<([DVec3; 3], f64)> = self
+            .old
+            .iter()
+            .map(|(t, bound)| (t.map(seen), *bound))
+            .collect();
+        let faces_ahead = |&t: &[DVec3; 3]| twice_area(t).z > 0.0;
+        let all = || new.iter().chain(old.iter().map(|(t, _)| t));
+        if !all().all(faces_ahead) || n_turns(&new) > 1 {
+            return None;
+        }
+        // Beyond the old or the new boundary, a triangle has no partner. The points there are near the boundary.
+        let beyond = self.cut.map_or(0.0, |(removed, [p, q])| {
+            let largest = self
+                .old
+                .iter()
+                .fold(0.0, |largest: f64, &(_, bound)| largest.max(bound));
+            largest + removed.distance(nearest_on_segment(removed, p, q))
+        });
+        let bound = |new: &[DVec3; 3]| {
+            let cells = old
+                .iter()
+                .map(|&(old, before)| cell_gap(&old, new).map_or(0.0, |gap| before + gap));
+            cells.fold(beyond, f64::max) * (1.0 + SLACK)
+        };
+        Some(new.iter().map(bound).collect())
+    }
+}
+
+/// Returns how often the triangles around their common first corner go around it, rounded up or down.
+fn n_turns(triangles: &[[DVec3; 3]]) -> usize {
+    // Each turn has one triangle that crosses the half-line from the corner in the direction of x.
+    let crosses = |&&[p, a, b]: &&[DVec3; 3]| a.y < p.y && b.y >= p.y;
+    triangles.iter().filter(crosses).count()
+}
+
+/// Returns the largest difference of the heights of two triangles in the region that they share, if there is one.
+fn cell_gap(old: &[DVec3; 3], new: &[DVec3; 3]) -> Option<f64> {
+    // Cuts the old triangle by the lines of the new one. Each cut adds at most one corner.
+    let (mut cell, mut n) = ([DVec3::ZERO; 6], 3);
+    cell[..3].copy_from_slice(old);
+    for i in 0..3 {
+        let (a, b) = (new[i], new[(i + 1) % 3]);
+        let side = |p: DVec3| (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+        let (mut cut, mut m) = ([DVec3::ZERO; 6], 0);
+        for j in 0..n {
+            let (p, q) = (cell[j], cell[(j + 1) % n]);
+            let (at_p, at_q) = (side(p), side(q));
+            if at_p >= 0.0 {
+                push(&mut cut, &mut m, p);
+            }
+            if (at_p < 0.0) != (at_q < 0.0) {
+                push(&mut cut, &mut m, p + (q - p) * (at_p / (at_p - at_q)));
+            }
+        }
+        (cell, n) = (cut, m);
+        if n == 0 {
+            return None;
+        }
+    }
+    let [a, b, c] = *new;
+    let normal = (b - a).cross(c - a);
+    // The height of the plane of the new triangle.
+    let height = |p: DVec3| a.z - (normal.x * (p.x - a.x) + normal.y * (p.y - a.y)) / normal.z;
+    Some(
+        cell[..n]
+            .iter()
+            .fold(0.0, |gap: f64, &p| gap.max((p.z - height(p)).abs())),
+    )
+}
+
+/// Adds a corner. Rounding can give more corners than a convex polygon has; then the last one is replaced.
+fn push(corners: &mut [DVec3; 6], n: &mut usize, p: DVec3) {
+    corners[(*n).min(5)] = p;
+    *n = (*n + 1).min(6);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_gap_of_a_cell_is_largest_at_its_corners() {
+        let old = [(0.0, 0.0), (4.0, 0.0), (0.0, 4.0)].map(|(x, y)| DVec3::new(x, y, 0.0));
+        let new = [(1.0, 1.0, 2.0), (9.0, 1.0, 2.0), (1.0, 9.0, 2.0)].map(DVec3::from);
+        assert_eq!(cell_gap(&old, &new), Some(2.0));
+        let tilted = [(0.0, 0.0, 0.0), (4.0, 0.0, 1.0), (0.0, 4.0, 0.0)].map(DVec3::from);
+        assert_eq!(cell_gap(&old, &tilted), Some(1.0));
+        let away = new.map(|p| p + DVec3::new(5.0, 5.0, 0.0));
+        assert_eq!(cell_gap(&old, &away), None);
+    }
+
+    #[test]
+    fn a_flat_patch_has_no_distance() {
+        let [a, b, c, d] =
+            [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| DVec3::new(x, y, 3.0));
+        let middle = DVec3::new(0.5, 0.25, 3.0);
+        let fan = [
+            [middle, a, b],
+            [middle, b, c],
+            [middle, c, d],
+            [middle, d, a],
+        ];
+        let old = fan.map(|triangle| (triangle, 0.25)).to_vec();
+        let patch = Patch {
+            old,
+            new: vec![[b, c, d], [b, d, a]],
+            cut: None,
+        };
+        let bounds = patch.bounds().unwrap();
+        assert!(
+            bounds.iter().all(|bound| (bound - 0.25).abs() < 1e-8),
+            "{bounds:?}"
+        );
+    }
+}

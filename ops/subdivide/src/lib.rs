@@ -31,4 +31,6 @@ pub fn register(registry: Registry) -> Registry {
 }
 
 #[cfg(test)]
+mod rig_tests;
+#[cfg(test)]
 mod tests;

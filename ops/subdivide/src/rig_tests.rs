@@ -1,0 +1,123 @@
+//! A subdivided character deforms like the original: posing and linear subdivision commute.
+
+use geometry::shapes;
+use mesh::{Column, DMat3, DVec3, Domain, Mesh, Rule, Values, joint_name, morph_name};
+use op::test::{applied, read};
+
+use crate::{CatmullClark, Midpoint};
+
+/// A sphere with weights of three joints and the deltas of a morph target. If `is_rigid`, each face and its neighbors follow
+/// all joints with the same weights.
+fn character(is_rigid: bool) -> Mesh {
+    let mut mesh = applied(
+        &read::<Midpoint>("(levels: 2)").unwrap(),
+        shapes::octahedron(),
+    );
+    let points = mesh.positions().to_vec();
+    let upper = |p: &DVec3| {
+        if is_rigid {
+            0.75
+        } else {
+            0.5 + 0.5 * p.z * p.z.abs()
+        }
+    };
+    let columns = [
+        (
+            joint_name(0),
+            Values::Float(points.iter().map(|p| 0.25 * upper(p)).collect()),
+        ),
+        (
+            joint_name(1),
+            Values::Float(points.iter().map(|p| 0.75 * upper(p)).collect()),
+        ),
+        (
+            joint_name(2),
+            Values::Float(points.iter().map(|p| 1.0 - upper(p)).collect()),
+        ),
+        (
+            morph_name(0),
+            Values::Vec3(
+                points
+                    .iter()
+                    .map(|p| p.cross(DVec3::new(1.0, 2.0, 3.0)))
+                    .collect(),
+            ),
+        ),
+    ];
+    for (name, values) in columns {
+        let rule = Rule::Interpolate;
+        mesh.insert_column(Domain::Vertex, Column { name, rule, values });
+    }
+    mesh
+}
+
+/// The mesh with its points posed: morphed with weight 0.7, then linear blend skinning.
+fn posed(mesh: &Mesh, joints: &[(DMat3, DVec3)]) -> Mesh {
+    let mut posed = mesh.clone();
+    let (weights, morphs) = (mesh.attributes().joints(), mesh.attributes().morphs());
+    for (v, point) in posed.positions_mut().iter_mut().enumerate() {
+        let morphed = *point + 0.7 * morphs[0].1[v];
+        let images = weights.iter().map(|&(j, weights)| {
+            let (linear, shift) = joints[j];
+            weights[v] * (linear * morphed + shift)
+        });
+        *point = images.sum();
+    }
+    posed
+}
+
+fn largest_distance(a: &Mesh, b: &Mesh) -> f64 {
+    let pairs = a.positions().iter().zip(b.positions());
+    pairs
+        .map(|(a, b)| a.distance(*b))
+        .fold(0.0, |a: f64, b| if a > b { a } else { b })
+}
+
+/// Turns, scales and moves of three joints.
+fn joints(turns: bool) -> [(DMat3, DVec3); 3] {
+    let turn = DMat3::from_cols(DVec3::Y, DVec3::NEG_X, 2.0 * DVec3::Z);
+    let linear = |turn| if turns { turn } else { DMat3::IDENTITY };
+    [
+        (DMat3::IDENTITY, DVec3::ZERO),
+        (linear(turn), DVec3::new(1.0, -2.0, 0.5)),
+        (linear(turn * turn), DVec3::new(0.0, 3.0, 7.0)),
+    ]
+}
+
+/// Both the weights and the points of a new vertex are linear, and a pose multiplies them. So subdivision and the pose
+/// commute if the joints only move, or if the weights are the same at both ends of an edge. Otherwise the difference along
+/// an edge from p to q is 1/4 of the sum of (w(q) - w(p)) M (q - p), where M is the linear part of each joint.
+#[test]
+fn posing_and_midpoint_subdivision_commute() {
+    for (is_rigid, turns) in [(false, false), (true, true)] {
+        let mesh = character(is_rigid);
+        let step: Midpoint = read("(levels: 1)").unwrap();
+        let posed_last = posed(&applied(&step, mesh.clone()), &joints(turns));
+        let posed_first = applied(&step, posed(&mesh, &joints(turns)));
+        assert!(posed_last.n_vertices() > 3 * mesh.n_vertices());
+        assert!(largest_distance(&posed_last, &posed_first) < 1e-12);
+    }
+    // The same holds for smooth schemes, which use the same masks for attributes and positions.
+    let mesh = character(true);
+    let step: CatmullClark = read("(levels: 2)").unwrap();
+    let posed_last = posed(&applied(&step, mesh.clone()), &joints(true));
+    let posed_first = applied(&step, posed(&mesh, &joints(true)));
+    assert!(largest_distance(&posed_last, &posed_first) < 1e-12);
+}
+
+#[test]
+fn weights_of_new_vertices_are_means_and_add_up_to_1() {
+    let mesh = character(false);
+    let n = mesh.n_vertices();
+    let fine = applied(&read::<Midpoint>("(levels: 1)").unwrap(), mesh.clone());
+    let (before, after) = (mesh.attributes().joints(), fine.attributes().joints());
+    for e in mesh.edges() {
+        let [v, w] = mesh.edge_vertices(e).map(mesh::VertexId::index);
+        let middle = n + e.index();
+        for ((_, old), (_, new)) in before.iter().zip(&after) {
+            assert!((new[middle] - 0.5 * (old[v] + old[w])).abs() < 1e-15);
+        }
+        let sum: f64 = after.iter().map(|(_, weights)| weights[middle]).sum();
+        assert!((sum - 1.0).abs() < 1e-12);
+    }
+}

@@ -55,7 +55,10 @@ impl<'a> Terminal<'a> {
         ) {
             bar.set_style(style);
         }
-        bar.enable_steady_tick(Duration::from_millis(120));
+        // The tick starts a thread, which fails if memory is short.
+        if !bar.is_hidden() {
+            bar.enable_steady_tick(Duration::from_millis(120));
+        }
         Self { bar, go_on }
     }
 

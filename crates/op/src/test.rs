@@ -88,7 +88,13 @@ pub fn made(operation: &impl Operation) -> Mesh {
     let mesh = object.as_mesh().expect("the object is a mesh");
     assert_eq!(mesh.defects(), [], "the source makes a valid mesh");
     assert_eq!(planned.name, object.name);
-    assert_eq!(planned.geometry, PlannedGeometry::Mesh(MeshPlan::of(mesh)));
+    // Materials belong to the object, not to the mesh.
+    let materials = Some(object.materials.iter().map(|m| m.name.clone()).collect());
+    let expected = MeshPlan {
+        materials,
+        ..MeshPlan::of(mesh)
+    };
+    assert_eq!(planned.geometry, PlannedGeometry::Mesh(expected));
     mesh.as_ref().clone()
 }
 

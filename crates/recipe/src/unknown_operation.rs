@@ -6,7 +6,7 @@ use crate::recipe::Kind;
 use crate::shape::{listed, nearest};
 
 /// Returns the help text of an error about an unknown operation. It suggests at most three operations: first those with
-/// a similar name, then those that have a word of the name in their list of words. If there are none, it suggests
+/// a similar name (only one if there are others), then those that have a word of the name in their list of words. If there are none, it suggests
 /// operations whose names share a word with the name. If there are none either, it names the command that lists all
 /// operations.
 pub fn suggest_operations(name: &str, registry: &Registry) -> String {
@@ -15,14 +15,19 @@ pub fn suggest_operations(name: &str, registry: &Registry) -> String {
     let known = known.chain(Kind::ALL.map(Kind::name));
     let mut suggestions = nearest(name, known.clone());
     let words = words(name);
-    for entry in entries {
-        let is_also_called = words
+    let is_also_called = |entry_words: &[&str]| {
+        words
             .iter()
-            .any(|word| entry.words.contains(&word.as_str()));
-        if is_also_called && !suggestions.contains(&entry.name) {
-            suggestions.push(entry.name);
-        }
+            .any(|word| entry_words.contains(&word.as_str()))
+    };
+    let also_called = entries.iter().filter(|entry| is_also_called(entry.words));
+    let mut also_called: Vec<&str> = also_called.map(|entry| entry.name).collect();
+    also_called.retain(|name| !suggestions.contains(name));
+    if !also_called.is_empty() {
+        // A similar name is only a guess.
+        suggestions.truncate(1);
     }
+    suggestions.extend(also_called);
     if suggestions.is_empty() {
         let shares_word = |name: &str| self::words(name).iter().any(|word| words.contains(word));
         suggestions.extend(known.filter(|name| shares_word(name)));

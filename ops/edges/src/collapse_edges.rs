@@ -53,7 +53,7 @@ impl MeshOperation for CollapseEdges {
     const NAME: &'static str = "CollapseEdges";
     const SUMMARY: &'static str = "Collapse edges to points";
     const EXAMPLE: &'static str = "CollapseEdges(edges: All, on_refusal: Skip)";
-    const WORDS: &'static [&'static str] = &["decimate", "simplify", "reduce", "merge"];
+    const WORDS: &'static [&'static str] = &["merge", "contract"];
     const DONE: &'static str = "collapsed";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {

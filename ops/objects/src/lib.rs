@@ -4,6 +4,8 @@ mod copy;
 mod delete;
 mod join;
 mod rename;
+#[cfg(test)]
+mod rig_tests;
 mod separate;
 mod transform;
 

@@ -62,7 +62,7 @@ impl Operation for Lods {
     const NAME: &'static str = "Lods";
     const SUMMARY: &'static str = "Make simplified copies of an object, its levels of detail";
     const EXAMPLE: &'static str = r#"Lods(from: "mesh", ratios: [0.5, 0.25])"#;
-    const WORDS: &'static [&'static str] = &["lod", "level of detail", "decimate", "simplify"];
+    const WORDS: &'static [&'static str] = &["lod", "level of detail"];
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         let Some(object) = plan.object(&self.from) else {
@@ -99,6 +99,7 @@ impl Operation for Lods {
         let Geometry::Mesh(original) = &object.geometry else {
             return Err(OpError::Object(format!("\"{}\" is not a mesh", self.from)));
         };
+        cx.advance("simplify", 0, self.ratios.len() as u64)?;
         let n_faces = original.n_faces() as u64;
         let mut mesh = Arc::clone(original);
         let mut report = Report::changed(self.ratios.len());

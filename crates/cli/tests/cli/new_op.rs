@@ -182,21 +182,21 @@ fn a_new_crate_is_a_program_with_its_operation() {
 #[test]
 fn an_operation_is_added_to_the_lists_of_its_group() {
     let folder = small_workspace();
-    for name in ["BendMore", "Twist"] {
+    for name in ["BendMore", "Wobble"] {
         folder
             .run_all(&["new-op", "--in", "faces", name])
             .with_code(0);
     }
     let list = String::from_utf8(folder.read("ops/faces/src/lib.rs")).unwrap();
     assert!(
-        list.starts_with("mod bend_more;\nmod poke_faces;\nmod twist;\n\n"),
+        list.starts_with("mod bend_more;\nmod poke_faces;\nmod wobble;\n\n"),
         "{list}"
     );
     assert!(list.contains(
-        "pub use bend_more::BendMore;\npub use poke_faces::PokeFaces;\npub use twist::Twist;\n"
+        "pub use bend_more::BendMore;\npub use poke_faces::PokeFaces;\npub use wobble::Wobble;\n"
     ));
     assert!(list.ends_with(
-        "        .with::<PokeFaces>()\n        .with::<BendMore>()\n        .with::<Twist>()\n}\n"
+        "        .with::<PokeFaces>()\n        .with::<BendMore>()\n        .with::<Wobble>()\n}\n"
     ));
 }
 
@@ -298,16 +298,16 @@ fn a_folder_that_is_not_a_workspace_is_refused() {
     let folder = Folder::new();
     let message = ". is not the root of a Meshwright workspace: it has no folder ops/all";
     folder
-        .run("new-op Twist --in faces --dir .")
+        .run("new-op Wobble --in faces --dir .")
         .with_code(1)
         .complains(&[&format!("error: {message}\n")]);
-    folder.run("new-op Twist").with_code(1).complains(&[
+    folder.run("new-op Wobble").with_code(1).complains(&[
         "set the root of the Meshwright workspace with `--meshwright`",
         message,
     ]);
     assert!(folder.entries(".").is_empty());
     small_workspace()
-        .run("new-op Twist --in hair")
+        .run("new-op Wobble --in hair")
         .with_code(1)
         .complains(&["error: the group `hair` does not exist; groups: "]);
 }

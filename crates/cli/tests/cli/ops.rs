@@ -127,10 +127,10 @@ fn an_unknown_operation_gets_a_suggestion() {
         "error: unknown operation `SplitEdge`: did you mean `SplitEdges`, `Separate`?\n"
     );
     for (word, help) in [
-        ("decimate", "did you mean `CollapseEdges`?"),
+        ("decimate", "did you mean `Simplify`?"),
         (
             "merge_vertices",
-            "did you mean `BevelVertices`, `Join`, `Weld`?",
+            "did you mean `MoveVertices`, `Join`, `Weld`?",
         ),
         ("merge", "did you mean `Join`, `Weld`, `CollapseEdges`?"),
         ("Sphere", "did you mean `UvSphere`?"),

@@ -1,0 +1,247 @@
+//! Steps on skinned, morphed and animated objects.
+
+use geometry::shapes;
+use glam::{DAffine3, DVec3};
+use mesh::{Column, Domain, Mesh, Rule, Values, joint_name, morph_name};
+use op::Report;
+use scene::{
+    AnimatedProperty, Animation, AnimationSampler, Channel, Interpolation, MeshLabel, Node, Object,
+    Placement, Scene, Skin,
+};
+
+use crate::{Copy, Delete, Join, Transform};
+
+fn moved(x: f64, y: f64) -> Placement {
+    Placement::of(&DAffine3::from_translation(DVec3::new(x, y, 0.0))).unwrap()
+}
+
+fn insert(mesh: &mut Mesh, name: String, values: Values) {
+    let rule = Rule::Interpolate;
+    mesh.insert_column(Domain::Vertex, Column { name, rule, values });
+}
+
+/// A cube bound to the joints `hip` and `knee`, with a morph target and an animation of the hip.
+fn scene() -> Scene {
+    let mut cube = shapes::cube();
+    let weights: Vec<f64> = (0..8).map(|v| f64::from(v) / 8.0).collect();
+    insert(
+        &mut cube,
+        joint_name(0),
+        Values::Float(weights.iter().map(|w| 1.0 - w).collect()),
+    );
+    insert(&mut cube, joint_name(1), Values::Float(weights));
+    insert(&mut cube, morph_name(0), Values::Vec3(vec![DVec3::X; 8]));
+    let mut scene = Scene::new();
+    scene.insert(Object::mesh("body", cube)).unwrap();
+    scene
+        .insert(Object::mesh("hat", shapes::tetrahedron()))
+        .unwrap();
+    let graph = scene.graph_mut();
+    graph.arrays = vec![vec![0.0, 1.0], vec![0.0; 6], vec![0.0, 1.0]];
+    let node = |name: &str, parent, placement| Node {
+        name: Some(name.to_owned()),
+        parent,
+        placement,
+        ..Node::default()
+    };
+    graph.push(node("hip", None, moved(5.0, 0.0)));
+    graph.push(node("knee", Some(0), moved(0.0, 2.0)));
+    graph.push(Node {
+        object: Some("body".to_owned()),
+        skin: Some(0),
+        ..node("body", None, moved(100.0, 0.0))
+    });
+    graph.push(Node {
+        object: Some("hat".to_owned()),
+        ..node("hat", None, moved(7.0, 3.0))
+    });
+    graph.skins.push(Skin {
+        joints: vec![0, 1],
+        ..Skin::default()
+    });
+    let weights = vec![0.5];
+    graph.set_label(
+        "body",
+        MeshLabel {
+            weights,
+            ..MeshLabel::default()
+        },
+    );
+    let sampler = |output| AnimationSampler {
+        input: 0,
+        output,
+        interpolation: Interpolation::Linear,
+        extras: None,
+    };
+    let channel = |sampler, node, property| Channel {
+        sampler,
+        node,
+        property,
+        extras: None,
+    };
+    graph.animations.push(Animation {
+        samplers: vec![sampler(1), sampler(2)],
+        channels: vec![
+            channel(0, 0, AnimatedProperty::Translation),
+            channel(1, 2, AnimatedProperty::Weights),
+        ],
+        ..Animation::default()
+    });
+    scene
+}
+
+/// The points of an object in scene space.
+fn points(scene: &Scene, name: &str) -> Vec<DVec3> {
+    let placed = scene.placed();
+    placed
+        .object(name)
+        .unwrap()
+        .as_mesh()
+        .unwrap()
+        .positions()
+        .to_vec()
+}
+
+fn run<T: op::Operation>(text: &str, scene: &mut Scene) -> Report {
+    let step: T = op::test::read(text).unwrap();
+    op::test::run(&step, scene).unwrap()
+}
+
+#[track_caller]
+fn assert_near(a: &[DVec3], b: &[DVec3]) {
+    assert_eq!(a.len(), b.len());
+    for (a, b) in a.iter().zip(b) {
+        assert!(a.distance(*b) < 1e-12, "{a} {b}");
+    }
+}
+
+#[test]
+fn a_skinned_object_is_moved_with_its_joints_and_keeps_its_animation() {
+    let mut scene = scene();
+    let before = points(&scene, "body");
+    let text = "(move: (1, 2, 3))";
+    let step: Transform = op::test::read(text).unwrap();
+    let files = op::Files::default();
+    let mut cx = op::Context::new(&op::NoProgress, &files);
+    let on = ["body".to_owned()];
+    cx.on = Some(&on);
+    let report = op::Operation::apply(&step, &mut scene, &mut cx).unwrap();
+    let shift = DVec3::new(1.0, 2.0, 3.0);
+    let expected: Vec<DVec3> = before.iter().map(|p| *p + shift).collect();
+    assert_near(&points(&scene, "body"), &expected);
+    assert_near(
+        &points(&scene, "hat")[..1],
+        &[points(&self::scene(), "hat")[0]],
+    );
+    // The animated hip keeps its placement below a new parent.
+    assert_eq!(report.notes, ["nodes inserted above animated nodes: 1"]);
+    let graph = scene.graph();
+    assert_eq!(graph.nodes()[1].name.as_deref(), Some("hip"));
+    assert_eq!(graph.nodes()[1].placement, moved(5.0, 0.0));
+    assert_eq!(graph.skins[0].joints, [1, 2]);
+    let nodes: Vec<_> = graph.animations[0]
+        .channels
+        .iter()
+        .map(|c| c.node)
+        .collect();
+    assert_eq!(nodes, [1, 3]);
+}
+
+#[test]
+fn a_transform_of_the_object_moves_points_and_turns_deltas() {
+    let mut scene = scene();
+    run::<Transform>(
+        "(scale: (2, 3, 4), move: (9, 9, 9), space: Object)",
+        &mut scene,
+    );
+    let mesh = scene.object("body").unwrap().as_mesh().unwrap();
+    assert_eq!(
+        mesh.attributes().morphs()[0].1[0],
+        DVec3::new(2.0, 0.0, 0.0)
+    );
+}
+
+#[test]
+fn a_part_without_a_skin_stays_where_it_is_and_follows_the_first_joint() {
+    for order in [r#"["body", "hat"]"#, r#"["hat", "body"]"#] {
+        let mut scene = scene();
+        let before = scene.clone();
+        let text = format!(r#"(objects: {order}, name: "all", tag_parts: false)"#);
+        let report = run::<Join>(&text, &mut scene);
+        assert_eq!(report.losses, []);
+        let mut expected = points(&before, "body");
+        let hat = points(&before, "hat");
+        if order.starts_with("[\"hat") {
+            expected.splice(0..0, hat);
+        } else {
+            expected.extend(hat);
+        }
+        assert_near(&points(&scene, "all"), &expected);
+        let joined = scene.object("all").unwrap().as_mesh().unwrap();
+        let joints = joined.attributes().joints();
+        let sums = (0..joined.n_vertices()).map(|v| joints.iter().map(|(_, w)| w[v]).sum::<f64>());
+        assert!(sums.into_iter().all(|sum| (sum - 1.0).abs() < 1e-12));
+        let nodes = scene.graph().nodes_of("all");
+        assert_eq!(nodes.len(), 1);
+        assert_eq!(scene.graph().nodes()[nodes[0]].skin, Some(0));
+        assert_eq!(scene.graph().n_channels(), 2);
+    }
+}
+
+#[test]
+fn parts_with_different_skins_are_joined_in_their_poses() {
+    let mut scene = scene();
+    run::<Copy>(r#"(from: "body", to: "twin")"#, &mut scene);
+    let graph = scene.graph_mut();
+    graph.skins.push(Skin {
+        joints: vec![1, 0],
+        ..Skin::default()
+    });
+    let mut graph = graph.clone();
+    let twin = graph.nodes_of("twin")[0];
+    let mut nodes = graph.nodes().to_vec();
+    nodes[twin].skin = Some(1);
+    let mut changed = scene::Graph::default();
+    changed.skins = std::mem::take(&mut graph.skins);
+    changed.arrays = std::mem::take(&mut graph.arrays);
+    changed.animations = std::mem::take(&mut graph.animations);
+    for node in nodes {
+        changed.push(node);
+    }
+    *scene.graph_mut() = changed;
+    let expected = [points(&scene, "body"), points(&scene, "twin")].concat();
+    let report = run::<Join>(r#"(objects: ["body", "twin"], name: "all")"#, &mut scene);
+    assert!(report.losses.iter().any(|loss| loss.name == "skins"));
+    assert_near(&points(&scene, "all"), &expected);
+    let mesh = scene.object("all").unwrap().as_mesh().unwrap();
+    assert!(mesh.attributes().joints().is_empty());
+}
+
+#[test]
+fn a_deleted_object_keeps_joints_and_drops_channels() {
+    let mut scene = scene();
+    let registry = op::Registry::new().with::<Delete>();
+    let entry = registry.get("Delete").unwrap();
+    let step = entry.parse_by_ron(r#"(objects: ["body"])"#).unwrap();
+    let files = op::Files::default();
+    let mut cx = op::Context::new(&op::NoProgress, &files);
+    let report = step.apply(&mut scene, &mut cx).unwrap();
+    let losses: Vec<String> = report.losses.iter().map(ToString::to_string).collect();
+    assert_eq!(
+        losses,
+        ["the scene lost 1 animation channel: the animated nodes were removed"]
+    );
+    assert_eq!(scene.graph().nodes().len(), 3);
+    assert_eq!(scene.graph().skins[0].joints, [0, 1]);
+    // A selection of one object keeps the joints of its skin only.
+    let only = self::scene().only(|name| name == "body");
+    assert_eq!(only.graph().nodes().len(), 3);
+    assert_eq!(only.graph().n_channels(), 2);
+    let only = self::scene().only(|name| name == "hat");
+    assert_eq!(only.graph().nodes().len(), 1);
+    assert!(only.graph().skins.is_empty());
+    let mut bytes = Vec::new();
+    only.encode(&mut |piece| bytes.extend_from_slice(piece));
+    let back = Scene::decode(&bytes, usize::MAX, &mut scene::NoArrays).unwrap();
+    assert_eq!(back, only);
+}

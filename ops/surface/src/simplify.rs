@@ -14,9 +14,10 @@ use op::prelude::*;
 
 /// Removes triangles from meshes, and changes the surface as little as possible.
 ///
-/// Edges are collapsed until `faces` or `ratio` is reached, or while `error` holds, first those that change the surface
-/// least: the mean squared distance to the planes of the original triangles decides (Garland, Heckbert, 1997). At least
-/// one of the three must be given. All faces must be triangles.
+/// Edges are collapsed, first those that change the surface least. The change is the mean squared distance of the new
+/// vertex to the planes of the original triangles that it replaces (Garland, Heckbert, 1997). The step ends when `faces`
+/// or `ratio` is reached, or when every other collapse could exceed `error`. At least one of the three must be given.
+/// All faces must be triangles.
 ///
 /// These are kept:
 ///
@@ -41,9 +42,9 @@ pub struct Simplify {
     /// The number of faces to reach, as a part of the faces of each mesh.
     #[serde(default)]
     pub ratio: Option<Fraction>,
-    /// The largest allowed distance between the old and the new surface, in scene units: the Hausdorff distance in both
-    /// directions. It is guaranteed. Because bounds of the distance add up from collapse to collapse, the true distance
-    /// stays below it. If omitted, there is no limit.
+    /// The largest allowed distance between the old and the new surface, in scene units: the Hausdorff distance. It is
+    /// guaranteed: each collapse adds a bound of how far it moves the surface. The true distance is therefore usually
+    /// much smaller. If omitted, there is no limit.
     #[serde(default)]
     pub error: Option<PositiveLength>,
     /// Edges that are kept as lines, for example `Sharp(above: 30)`. If omitted, none in addition to those above.

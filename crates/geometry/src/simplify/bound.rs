@@ -6,18 +6,84 @@
 //! directions. Source of the idea: Cohen, Manocha, Olano, "Simplifying Polygonal Models Using Successive Mappings",
 //! 1997.
 
-use mesh::DVec3;
+use mesh::{DVec3, EdgeId, FaceId};
 
 use crate::distance::triangle::nearest_on_segment;
 
+use super::Blocked;
+use super::collapse::{Collapser, Target};
+
+impl Collapser<'_> {
+    /// If there is a limit: returns the faces that remain around an edge after its collapse, with their bounds in the
+    /// coordinates of the collapser.
+    pub(super) fn errors_after(
+        &self,
+        e: EdgeId,
+        target: &Target,
+    ) -> Result<Vec<(FaceId, f64)>, Blocked> {
+        let Some(limit) = self.options.error else {
+            return Ok(Vec::new());
+        };
+        let [a, b] = self.mesh.edge_vertices(e);
+        let (mut old, mut new, mut faces) = (Vec::new(), Vec::new(), Vec::new());
+        for (v, other) in [(a, b), (b, a)] {
+            for h in self.mesh.vertex_half_edges(v) {
+                let Some(f) = self.mesh.face(h) else {
+                    continue;
+                };
+                let next = self.mesh.next(h);
+                let is_beside = [self.mesh.origin(next), self.mesh.target(next)].contains(&other);
+                let triangle = self.triangle(h);
+                // A triangle beside the edge has both ends. It is listed once, and vanishes.
+                if !is_beside || v == a {
+                    old.push((triangle, self.errors[f.index()]));
+                }
+                if !is_beside {
+                    new.push([target.point, triangle[1], triangle[2]]);
+                    faces.push(f);
+                }
+            }
+        }
+        let patch = Patch {
+            old,
+            new,
+            cut: self.cut(e, target),
+        };
+        let bounds = patch.bounds().ok_or(Blocked::Error)?;
+        if bounds.iter().any(|&bound| bound > limit * self.scale) {
+            return Err(Blocked::Error);
+        }
+        Ok(faces.into_iter().zip(bounds).collect())
+    }
+
+    /// If `e` is a boundary edge: the position of the end that a collapse removes, and of its neighbors on the
+    /// boundary after the collapse.
+    fn cut(&self, e: EdgeId, target: &Target) -> Option<(DVec3, [DVec3; 2])> {
+        let h = e
+            .half_edges()
+            .into_iter()
+            .find(|&h| self.mesh.face(h).is_none())?;
+        let (first, last) = (self.mesh.origin(h), self.mesh.target(h));
+        let [removed, neighbor] = if target.end == Some(last) {
+            [first, self.mesh.origin(self.mesh.prev(h))]
+        } else {
+            [last, self.mesh.target(self.mesh.next(h))]
+        };
+        Some((
+            self.position(removed),
+            [target.point, self.position(neighbor)],
+        ))
+    }
+}
+
 /// The triangles around an edge before and after its collapse, counter-clockwise.
-pub(super) struct Patch {
+struct Patch {
     /// The triangles before the collapse, each with the bound of its distance to the original surface.
-    pub(super) old: Vec<([DVec3; 3], f64)>,
+    old: Vec<([DVec3; 3], f64)>,
     /// The triangles after the collapse. The first corner of each is the new vertex.
-    pub(super) new: Vec<[DVec3; 3]>,
+    new: Vec<[DVec3; 3]>,
     /// For an edge of the boundary: its end that is removed, and the two vertices beside it on the new boundary.
-    pub(super) cut: Option<(DVec3, [DVec3; 2])>,
+    cut: Option<(DVec3, [DVec3; 2])>,
 }
 
 /// The share of a bound that is added for rounding errors.
@@ -26,7 +92,7 @@ const SLACK: f64 = 1e-9;
 impl Patch {
     /// Returns a bound of the distance to the original surface for each new triangle; `None` if no bound is found,
     /// because the triangles do not cover the same region once in their mean direction.
-    pub(super) fn bounds(&self) -> Option<Vec<f64>> {
+    fn bounds(&self) -> Option<Vec<f64>> {
         let twice_area = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a);
         let sum: DVec3 = self
             .old

@@ -1,12 +1,11 @@
 //! The loop that collapses edges.
 
-use mesh::{Column, DVec3, Domain, EdgeId, FaceId, HalfEdgeId, Mesh, VERTEX_SHARPNESS, VertexId};
+use mesh::{Column, DVec3, Domain, EdgeId, HalfEdgeId, Mesh, VERTEX_SHARPNESS, VertexId};
 use progress::{Cancelled, Progress};
 use rayon::prelude::*;
 
 use crate::distance::triangle::nearest_on_triangle;
 
-use super::bound::Patch;
 use super::lines::{Kind, kinds, labels, lines};
 use super::quadric::{Quadric, Spread};
 use super::queue::Queue;
@@ -39,7 +38,7 @@ pub(super) struct Collapser<'a> {
     /// The distances are computed in coordinates around `center`, scaled by a power of two, so that very small and
     /// very large meshes give the same result.
     center: DVec3,
-    scale: f64,
+    pub(super) scale: f64,
     /// By vertex.
     quadrics: Vec<Quadric>,
     spreads: Vec<Spread>,
@@ -47,20 +46,20 @@ pub(super) struct Collapser<'a> {
     /// The pass in which a collapse changed the vertex or one of its neighbors.
     touched: Vec<u32>,
     /// By face, if there is a limit: a bound of the distance between the face and its place on the original surface.
-    errors: Vec<f64>,
+    pub(super) errors: Vec<f64>,
     /// By edge.
     lines: Vec<bool>,
     states: Vec<State>,
     queue: Queue,
-    options: &'a Options<'a>,
+    pub(super) options: &'a Options<'a>,
 }
 
 /// Where the vertex of a collapsed edge would lie.
-struct Target {
+pub(super) struct Target {
     /// In the coordinates of the collapser.
-    point: DVec3,
+    pub(super) point: DVec3,
     /// The end of the edge that keeps its position, if one does.
-    end: Option<VertexId>,
+    pub(super) end: Option<VertexId>,
     /// The mean squared distance from the point to the planes of the triangles that the vertex stands for, and a share
     /// of the mean squared distance to these triangles.
     cost: f64,
@@ -252,63 +251,6 @@ impl<'a> Collapser<'a> {
         Ok(v)
     }
 
-    /// If there is a limit: returns the faces that remain around an edge after its collapse, with their bounds in the
-    /// coordinates of the collapser.
-    fn errors_after(&self, e: EdgeId, target: &Target) -> Result<Vec<(FaceId, f64)>, Blocked> {
-        let Some(limit) = self.options.error else {
-            return Ok(Vec::new());
-        };
-        let [a, b] = self.mesh.edge_vertices(e);
-        let (mut old, mut new, mut faces) = (Vec::new(), Vec::new(), Vec::new());
-        for (v, other) in [(a, b), (b, a)] {
-            for h in self.mesh.vertex_half_edges(v) {
-                let Some(f) = self.mesh.face(h) else {
-                    continue;
-                };
-                let next = self.mesh.next(h);
-                let is_beside = [self.mesh.origin(next), self.mesh.target(next)].contains(&other);
-                let triangle = self.triangle(h);
-                // A triangle beside the edge has both ends. It is listed once, and vanishes.
-                if !is_beside || v == a {
-                    old.push((triangle, self.errors[f.index()]));
-                }
-                if !is_beside {
-                    new.push([target.point, triangle[1], triangle[2]]);
-                    faces.push(f);
-                }
-            }
-        }
-        let patch = Patch {
-            old,
-            new,
-            cut: self.cut(e, target),
-        };
-        let bounds = patch.bounds().ok_or(Blocked::Error)?;
-        if bounds.iter().any(|&bound| bound > limit * self.scale) {
-            return Err(Blocked::Error);
-        }
-        Ok(faces.into_iter().zip(bounds).collect())
-    }
-
-    /// If `e` is a boundary edge: the position of the end that a collapse removes, and of its neighbors on the
-    /// boundary after the collapse.
-    fn cut(&self, e: EdgeId, target: &Target) -> Option<(DVec3, [DVec3; 2])> {
-        let h = e
-            .half_edges()
-            .into_iter()
-            .find(|&h| self.mesh.face(h).is_none())?;
-        let (first, last) = (self.mesh.origin(h), self.mesh.target(h));
-        let [removed, neighbor] = if target.end == Some(last) {
-            [first, self.mesh.origin(self.mesh.prev(h))]
-        } else {
-            [last, self.mesh.target(self.mesh.next(h))]
-        };
-        Some((
-            self.position(removed),
-            [target.point, self.position(neighbor)],
-        ))
-    }
-
     fn target(&self, e: EdgeId) -> Result<Target, Blocked> {
         let ends = self.mesh.edge_vertices(e);
         let [a, b] = ends.map(VertexId::index);
@@ -370,7 +312,7 @@ impl<'a> Collapser<'a> {
         ([h, next, self.mesh.next(next)], weights)
     }
 
-    fn position(&self, v: VertexId) -> DVec3 {
+    pub(super) fn position(&self, v: VertexId) -> DVec3 {
         (self.mesh.position(v) - self.center) * self.scale
     }
 
@@ -437,7 +379,7 @@ impl<'a> Collapser<'a> {
         sum
     }
 
-    fn triangle(&self, h: HalfEdgeId) -> [DVec3; 3] {
+    pub(super) fn triangle(&self, h: HalfEdgeId) -> [DVec3; 3] {
         let next = self.mesh.next(h);
         [h, next, self.mesh.next(next)].map(|h| self.position(self.mesh.origin(h)))
     }

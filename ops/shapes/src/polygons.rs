@@ -71,15 +71,31 @@ impl Polygons {
     fn source(&self) -> (Source<'_>, Mesh, BuildReport) {
         match self.build() {
             Ok((mesh, changes)) => {
-                let source = Source::new(Self::NAME, self.name.as_deref(), MeshPlan::of(&mesh));
+                let source = Source::new(
+                    Self::NAME,
+                    self.name.as_deref(),
+                    without_materials(MeshPlan::of(&mesh)),
+                );
                 (source, mesh, changes)
             }
             Err(problem) => {
-                let source = Source::new(Self::NAME, self.name.as_deref(), MeshPlan::unknown())
-                    .with(problem);
+                let source = Source::new(
+                    Self::NAME,
+                    self.name.as_deref(),
+                    without_materials(MeshPlan::unknown()),
+                )
+                .with(problem);
                 (source, Mesh::default(), BuildReport::default())
             }
         }
+    }
+}
+
+/// A new mesh has no materials.
+fn without_materials(plan: MeshPlan) -> MeshPlan {
+    MeshPlan {
+        materials: Some(Vec::new()),
+        ..plan
     }
 }
 

@@ -93,7 +93,7 @@ fn note_left_out(path: &str, why: &str, notes: &mut Notes) {
 ///
 /// # Errors
 ///
-/// Why there is no such file.
+/// Why the file of an image cannot be used.
 fn located(path: &str, assets: &mut Assets) -> Result<PathBuf, String> {
     let mut folders = assets.image_folders.clone();
     folders.push(PathBuf::new());

@@ -50,19 +50,7 @@ pub struct Bend {
 
 impl Bend {
     fn stretch(&self) -> Stretch {
-        let Self {
-            axis,
-            about,
-            from,
-            to,
-            ..
-        } = *self;
-        Stretch {
-            axis,
-            about,
-            from,
-            to,
-        }
+        Stretch::new(self.axis, self.about, self.from, self.to)
     }
 
     /// Returns a message if `towards` is the axis itself.

@@ -46,13 +46,29 @@ pub(crate) fn moved(
 /// The part of an axis along which a deformation changes.
 #[derive(Clone, Copy)]
 pub(crate) struct Stretch {
-    pub(crate) axis: Axis,
-    pub(crate) about: Vector,
-    pub(crate) from: Option<Distance>,
-    pub(crate) to: Option<Distance>,
+    axis: Axis,
+    about: Vector,
+    from: Option<Distance>,
+    to: Option<Distance>,
 }
 
 impl Stretch {
+    /// Creates the part between the coordinates `from` and `to` of the axis through `about`. A missing coordinate stands
+    /// for the end of the mesh.
+    pub(crate) const fn new(
+        axis: Axis,
+        about: Vector,
+        from: Option<Distance>,
+        to: Option<Distance>,
+    ) -> Self {
+        Self {
+            axis,
+            about,
+            from,
+            to,
+        }
+    }
+
     /// Returns the problem of a range that ends before it starts.
     pub(crate) fn problems(&self) -> Vec<Problem> {
         match (self.from, self.to) {

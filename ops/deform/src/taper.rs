@@ -45,19 +45,7 @@ pub struct Taper {
 
 impl Taper {
     fn stretch(&self) -> Stretch {
-        let Self {
-            axis,
-            about,
-            from,
-            to,
-            ..
-        } = *self;
-        Stretch {
-            axis,
-            about,
-            from,
-            to,
-        }
+        Stretch::new(self.axis, self.about, self.from, self.to)
     }
 }
 

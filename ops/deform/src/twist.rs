@@ -46,19 +46,7 @@ pub struct Twist {
 
 impl Twist {
     fn stretch(&self) -> Stretch {
-        let Self {
-            axis,
-            about,
-            from,
-            to,
-            ..
-        } = *self;
-        Stretch {
-            axis,
-            about,
-            from,
-            to,
-        }
+        Stretch::new(self.axis, self.about, self.from, self.to)
     }
 }
 

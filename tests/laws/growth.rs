@@ -86,10 +86,10 @@ fn scenes(n: usize) -> Vec<(&'static str, Scene)> {
     ]
 }
 
-/// The number of rows of a square mesh of `n` faces.
+/// The number of rows of a square mesh of at least `n` faces; at least 6, so that half as many rows make a torus.
 fn side(n: usize) -> u32 {
     let is_enough = |side: &u32| side.pow(2) as usize >= n;
-    (4..u32::MAX).find(is_enough).expect("ids have 32 bits")
+    (6..u32::MAX).find(is_enough).expect("ids have 32 bits")
 }
 
 /// Returns `n` cubes beside each other, as one mesh.

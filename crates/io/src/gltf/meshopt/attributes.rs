@@ -49,8 +49,8 @@ pub(super) fn shortest(count: u64, stride: u64) -> u64 {
     let stride = usize::try_from(stride).unwrap_or(BLOCK).clamp(1, BLOCK);
     let block = elements_in_block(stride) as u64;
     let controls = (stride / 4) as u64;
-    // The header and the tail of version 1, which are shorter than those of version 0.
-    let around = 1 + (stride + stride / 4).max(24) as u64;
+    // The header, and the shorter of the tails of both versions.
+    let around = 1 + stride.max(32).min((stride + stride / 4).max(24)) as u64;
     count
         .div_ceil(block)
         .saturating_mul(controls)

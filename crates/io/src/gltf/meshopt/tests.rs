@@ -276,6 +276,14 @@ fn triangles_of_a_strip_need_little_more_than_a_byte_each() {
     assert!(check_triangles(&[&strip[..], &strip].concat()) < 20_060);
 }
 
+#[test]
+fn a_stream_without_elements_is_not_too_short() {
+    for stride in (4..=256).step_by(4) {
+        let stream = encode_attributes(&[], stride);
+        assert!(stream.len() as u64 >= attributes::shortest(0, stride as u64), "{stride}");
+    }
+}
+
 proptest! {
     #[test]
     fn attributes_are_decoded_to_what_was_encoded(

@@ -6,6 +6,7 @@
 //! | [`area`], [`volume`], [`bounds`], [`genus`], [`components`] | measures of whole meshes |
 //! | [`gaussian_curvatures`], [`mean_curvatures`] | discrete curvature |
 //! | [`distance`] | the distance between two surfaces |
+//! | [`surface_index`] | nearest points of a surface |
 //! | [`merge_vertices`], [`parts`] | merging vertices, splitting a mesh into parts |
 //! | [`triangulate`], [`fill_hole_triangles`] | triangulation of faces and holes |
 //! | [`simplify`] | fewer triangles for nearly the same surface |
@@ -29,6 +30,7 @@ pub mod shapes;
 pub mod simplify;
 pub mod smooth;
 pub mod sparse;
+pub mod surface_index;
 mod tangent;
 pub mod triangulate;
 

@@ -19,19 +19,17 @@
 //! the result is the same for any number of threads.
 
 mod piece;
-mod surface;
-pub(crate) mod triangle;
 
 use mesh::{DVec3, Domain, Element, FaceId, Mesh, VertexId, blocks};
 
 use progress::{Cancelled, NoProgress, Progress};
 use rayon::prelude::*;
 
+use crate::surface_index::{Nearest, SurfaceIndex, Triangle, triangulate};
 use crate::triangulate::Cutter;
 use crate::{area, bounds};
 
 use piece::{Farthest, Piece, Sample, refine};
-use surface::{Hit, Surface, Triangle, triangulate};
 
 /// The distances between two surfaces, both ways. Lengths are in scene units.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,7 +97,7 @@ impl Distance {
         progress: &dyn Progress,
     ) -> Result<Option<Self>, Cancelled> {
         progress.report(WHAT, 0, 2)?;
-        let (from_a, from_b) = rayon::join(|| Surface::new(a), || Surface::new(b));
+        let (from_a, from_b) = rayon::join(|| SurfaceIndex::new(a), || SurfaceIndex::new(b));
         let (Some(surface_a), Some(surface_b)) = (from_a, from_b) else {
             return Ok(None);
         };
@@ -180,7 +178,12 @@ struct Block {
 }
 
 impl OneSided {
-    fn measure(from: &Mesh, to: &Surface, tolerance: f64, ask: &Ask) -> Result<Self, Cancelled> {
+    fn measure(
+        from: &Mesh,
+        to: &SurfaceIndex,
+        tolerance: f64,
+        ask: &Ask,
+    ) -> Result<Self, Cancelled> {
         let hits = vertex_hits(from, to, ask)?;
         let slots = from.domain_len(Domain::Face);
         let mut farthest = farthest_vertex(from, &hits).expect("a mesh with faces has vertices");
@@ -240,14 +243,14 @@ impl Block {
     fn add(
         &mut self,
         triangle: &Triangle,
-        hits: &[Option<Hit>],
-        to: &Surface,
+        hits: &[Option<Nearest>],
+        to: &SurfaceIndex,
         area_per_sample: f64,
         threshold: f64,
         ask: &Ask,
     ) -> Result<(), Cancelled> {
         let corners = [0, 1, 2].map(|k| Sample {
-            at: triangle.at[k],
+            at: triangle.positions[k],
             hit: hits[triangle.vertices[k].index()].expect("corners are vertices of the mesh"),
         });
         let mut piece = Piece::new(corners, triangle.face, to);
@@ -255,7 +258,7 @@ impl Block {
         piece.lower(&middle, to);
         self.record(piece.at(middle));
 
-        let [a, b, c] = triangle.at;
+        let [a, b, c] = triangle.positions;
         let area = 0.5 * (b - a).cross(c - a).length();
         self.area += area;
         let rows = (area / area_per_sample).sqrt().ceil();
@@ -283,10 +286,10 @@ impl Block {
         piece: &Piece,
         triangle: &Triangle,
         rows: f64,
-        to: &Surface,
+        to: &SurfaceIndex,
         ask: &Ask,
     ) -> Result<f64, Cancelled> {
-        let [a, b, c] = triangle.at;
+        let [a, b, c] = triangle.positions;
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
@@ -321,39 +324,27 @@ impl Block {
 }
 
 /// Returns the nearest point of `to` for each vertex, by vertex index. Isolated vertices are included.
-fn vertex_hits(from: &Mesh, to: &Surface, ask: &Ask) -> Result<Vec<Option<Hit>>, Cancelled> {
-    let mut hits = vec![None; from.domain_len(Domain::Vertex)];
-    hits.par_chunks_mut(BLOCK)
-        .enumerate()
-        .try_for_each(|(b, block)| {
-            // Consecutive vertices are often near each other, so the triangle of the previous hit is a good
-            // first guess.
-            let mut hint = 0;
-            for (i, slot) in block.iter_mut().enumerate() {
-                if i % 128 == 0 {
-                    ask()?;
-                }
-                let v = VertexId::new(b * BLOCK + i);
-                if from.has_vertex(v) {
-                    let hit = to.nearest(from.position(v), hint);
-                    hint = hit.triangle;
-                    *slot = Some(hit);
-                }
-            }
-            Ok(())
-        })?;
-    Ok(hits)
+fn vertex_hits(
+    from: &Mesh,
+    to: &SurfaceIndex,
+    ask: &Ask,
+) -> Result<Vec<Option<Nearest>>, Cancelled> {
+    let position = |i| {
+        let v = VertexId::new(i);
+        from.has_vertex(v).then(|| from.position(v))
+    };
+    to.nearest_to_all(from.domain_len(Domain::Vertex), position, &|_| ask())
 }
 
 /// Returns the distance from each vertex of `from` to the surface of `to`, by vertex index. NaN for dead
 /// vertices. Returns `None` if `to` has no faces.
 pub fn vertex_distances(from: &Mesh, to: &Mesh) -> Option<Vec<f64>> {
-    let hits = vertex_hits(from, &Surface::new(to)?, &|| Ok(())).expect("never cancelled");
-    let distance = |hit: Option<Hit>| hit.map_or(f64::NAN, |hit| hit.distance);
+    let hits = vertex_hits(from, &SurfaceIndex::new(to)?, &|| Ok(())).expect("never cancelled");
+    let distance = |hit: Option<Nearest>| hit.map_or(f64::NAN, |hit| hit.distance);
     Some(hits.into_iter().map(distance).collect())
 }
 
-fn farthest_vertex(from: &Mesh, hits: &[Option<Hit>]) -> Option<Farthest> {
+fn farthest_vertex(from: &Mesh, hits: &[Option<Nearest>]) -> Option<Farthest> {
     let samples = from.vertices().filter_map(|v| {
         let at = from.position(v);
         let hit = hits[v.index()]?;
@@ -366,7 +357,7 @@ fn farthest_vertex(from: &Mesh, hits: &[Option<Hit>]) -> Option<Farthest> {
     samples.reduce(|best, sample| best.or(Some(sample)))
 }
 
-fn mean_of(hits: &[Option<Hit>]) -> f64 {
+fn mean_of(hits: &[Option<Nearest>]) -> f64 {
     let distance = |i: usize| hits[i].map_or(0.0, |hit| hit.distance);
     let count = hits.iter().flatten().count();
     blocks::sum(hits.len(), distance) / count as f64

@@ -4,15 +4,15 @@ use mesh::{DVec3, Element, FaceId};
 use progress::Cancelled;
 use rayon::prelude::*;
 
-use super::surface::{Hit, Surface};
-use super::triangle::between_segments;
 use super::{Ask, SurfacePoint};
+use crate::surface_index::triangle::between_segments;
+use crate::surface_index::{Nearest, SurfaceIndex};
 
 /// A point of the measured surface and the nearest point of the other surface.
 #[derive(Clone, Copy)]
 pub(super) struct Sample {
     pub(super) at: DVec3,
-    pub(super) hit: Hit,
+    pub(super) hit: Nearest,
 }
 
 /// A triangle or a part of a triangle.
@@ -55,7 +55,7 @@ impl Farthest {
         }
     }
 
-    pub(super) fn points(&self, to: &Surface) -> (SurfacePoint, SurfacePoint) {
+    pub(super) fn points(&self, to: &SurfaceIndex) -> (SurfacePoint, SurfacePoint) {
         let Sample { at, hit } = self.sample;
         let place = |position, on| SurfacePoint { position, on };
         let face = to.triangle(hit.triangle).face;
@@ -65,7 +65,7 @@ impl Farthest {
 
 impl Piece {
     /// Creates the piece with the given corners and computes its bound.
-    pub(super) fn new(corners: [Sample; 3], face: FaceId, to: &Surface) -> Self {
+    pub(super) fn new(corners: [Sample; 3], face: FaceId, to: &SurfaceIndex) -> Self {
         let mut piece = Self {
             corners,
             face,
@@ -87,7 +87,7 @@ impl Piece {
     ///    two triangles to the other: no point of such a side is further than this from the two triangles.
     /// 3. The largest distance of a corner, plus 1/√3 times the longest side. Each point of the piece has a
     ///    corner within 1/√3 times the longest side.
-    fn bound(&self, to: &Surface) -> f64 {
+    fn bound(&self, to: &SurfaceIndex) -> f64 {
         let [a, b, c] = self.corners;
         let far = self.corners.iter().fold(0.0, |d, s| s.hit.distance.max(d));
         let mut bound = far + self.longest_side().1 / 3.0_f64.sqrt();
@@ -115,7 +115,7 @@ impl Piece {
     }
 
     /// Returns the largest distance from the piece to one triangle.
-    fn to_triangle(&self, to: &Surface, triangle: u32) -> f64 {
+    fn to_triangle(&self, to: &SurfaceIndex, triangle: u32) -> f64 {
         let distance = |s: &Sample| {
             if s.hit.triangle == triangle {
                 s.hit.distance
@@ -147,7 +147,7 @@ impl Piece {
 
     /// Returns the sample at the center of the piece: the center, and the point of the other surface nearest to
     /// it.
-    pub(super) fn middle(&self, to: &Surface) -> Sample {
+    pub(super) fn middle(&self, to: &SurfaceIndex) -> Sample {
         let [a, b, c] = self.corners;
         let at = (a.at + b.at + c.at) / 3.0;
         let hit = to.nearest(at, a.hit.triangle);
@@ -156,7 +156,7 @@ impl Piece {
 
     /// Lowers the bound if the triangle nearest to the center gives a lower bound. `middle` is the sample at
     /// the center.
-    pub(super) fn lower(&mut self, middle: &Sample, to: &Surface) {
+    pub(super) fn lower(&mut self, middle: &Sample, to: &SurfaceIndex) {
         self.upper = self.upper.min(self.to_triangle(to, middle.hit.triangle));
     }
 
@@ -170,7 +170,7 @@ impl Piece {
 
     /// Cuts the piece in two at the midpoint of its longest side. Returns the two halves and the sample at the
     /// midpoint.
-    fn cut(&self, to: &Surface) -> ([Self; 2], Sample) {
+    fn cut(&self, to: &SurfaceIndex) -> ([Self; 2], Sample) {
         let (i, _) = self.longest_side();
         let [a, b, c] = [0, 1, 2].map(|k| self.corners[(i + k) % 3]);
         let at = 0.5 * (a.at + b.at);
@@ -196,7 +196,7 @@ pub(super) fn refine(
     mut pieces: Vec<Piece>,
     mut farthest: Farthest,
     mut ceiling: f64,
-    to: &Surface,
+    to: &SurfaceIndex,
     tolerance: f64,
     ask: &Ask,
 ) -> Result<(Farthest, f64), Cancelled> {
@@ -253,7 +253,7 @@ fn cut_all(
     pieces: &[Piece],
     mut farthest: Farthest,
     threshold: f64,
-    to: &Surface,
+    to: &SurfaceIndex,
 ) -> (Vec<Piece>, Farthest, u64) {
     let mut visits = 0;
     let mut halves = Vec::with_capacity(2 * pieces.len());

@@ -2,8 +2,8 @@
 
 use crate::{bounds, shapes};
 
-use super::surface::fan;
 use super::*;
+use crate::surface_index::triangle::nearest_on_triangle;
 
 fn of(positions: &[DVec3], polygons: &[&[u32]]) -> Mesh {
     Mesh::from_polygons(positions.to_vec(), polygons).unwrap().0
@@ -30,16 +30,23 @@ fn between(a: &Mesh, b: &Mesh, tolerance: f64) -> Distance {
 /// with `rows` + 1 points along each side.
 fn sampled_distance(a: &Mesh, b: &Mesh, rows: u32) -> f64 {
     let mut largest = 0.0_f64;
-    let triangles: Vec<[DVec3; 3]> = b.faces().flat_map(|f| fan(b, f)).map(|t| t.at).collect();
-    for t in a.faces().flat_map(|f| fan(a, f)) {
+    let triangles_of = |mesh: &Mesh| {
+        let corners = mesh
+            .faces()
+            .map(|f| mesh.face_vertices(f).map(|v| mesh.position(v)));
+        let fan = |c: Vec<DVec3>| (2..c.len()).map(move |i| [c[0], c[i - 1], c[i]]);
+        corners.flat_map(|c| fan(c.collect())).collect::<Vec<_>>()
+    };
+    let triangles = triangles_of(b);
+    for t in triangles_of(a) {
         for i in 0..=rows {
             for j in 0..=rows - i {
                 let (u, v) = (
                     f64::from(i) / f64::from(rows),
                     f64::from(j) / f64::from(rows),
                 );
-                let p = t.at[0] + u * (t.at[1] - t.at[0]) + v * (t.at[2] - t.at[0]);
-                let distance = |t| p.distance(triangle::nearest_on_triangle(p, t));
+                let p = t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]);
+                let distance = |t| p.distance(nearest_on_triangle(p, t));
                 let nearest = triangles.iter().map(distance).fold(f64::INFINITY, f64::min);
                 largest = largest.max(nearest);
             }
@@ -304,7 +311,7 @@ fn a_face_with_reflex_corners_is_measured_inside_its_sides() {
 #[test]
 fn the_nearest_point_of_one_large_face_takes_few_visits() {
     let mesh = star(4000);
-    let surface = Surface::new(&mesh).unwrap();
+    let surface = SurfaceIndex::new(&mesh).unwrap();
     let hits = vertex_hits(&mesh, &surface, &|| Ok(())).unwrap();
     let visits: u32 = hits.iter().flatten().map(|hit| hit.visits).sum();
     assert!(visits < 50 * 4000, "{visits}");

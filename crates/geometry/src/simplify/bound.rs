@@ -8,7 +8,7 @@
 
 use mesh::{DVec3, EdgeId, FaceId};
 
-use crate::distance::triangle::nearest_on_segment;
+use crate::surface_index::triangle::nearest_on_segment;
 
 use super::Blocked;
 use super::collapse::{Collapser, Target};

@@ -4,7 +4,7 @@ use mesh::{Column, DVec3, Domain, EdgeId, HalfEdgeId, Mesh, VERTEX_SHARPNESS, Ve
 use progress::{Cancelled, Progress};
 use rayon::prelude::*;
 
-use crate::distance::triangle::nearest_on_triangle;
+use crate::surface_index::triangle::nearest_on_triangle;
 
 use super::lines::{Kind, kinds, labels, lines};
 use super::quadric::{Quadric, Spread};

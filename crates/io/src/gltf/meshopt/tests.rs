@@ -280,7 +280,10 @@ fn triangles_of_a_strip_need_little_more_than_a_byte_each() {
 fn a_stream_without_elements_is_not_too_short() {
     for stride in (4..=256).step_by(4) {
         let stream = encode_attributes(&[], stride);
-        assert!(stream.len() as u64 >= attributes::shortest(0, stride as u64), "{stride}");
+        assert!(
+            stream.len() as u64 >= attributes::shortest(0, stride as u64),
+            "{stride}"
+        );
     }
 }
 

@@ -16,7 +16,7 @@ pub(crate) fn nearest_on_segment(p: DVec3, a: DVec3, b: DVec3) -> DVec3 {
 ///
 /// Computes the nearest points of the two lines, then clamps each to its segment in turn: Ericson, "Real-Time
 /// Collision Detection", 2005, §5.1.9.
-pub(super) fn between_segments([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> f64 {
+pub(crate) fn between_segments([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> f64 {
     let (u, v, w) = (b - a, d - c, a - c);
     let (uu, vv, uv) = (u.length_squared(), v.length_squared(), u.dot(v));
     let cross = uu * vv - uv * uv;
@@ -75,6 +75,69 @@ pub(crate) fn nearest_on_triangle(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> DVec3 {
     a + ab * (vb / sum) + ac * (vc / sum)
 }
 
+/// Returns the barycentric coordinates of the point of a triangle that is nearest to `p`, by the same regions as
+/// [`nearest_on_triangle`]. Weights of corners outside the region are exactly 0.
+pub(super) fn nearest_weights(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> [f64; 3] {
+    let (ab, ac) = (b - a, c - a);
+    if ab.cross(ac) == DVec3::ZERO {
+        let points = [a, b, c];
+        let mut best = (f64::INFINITY, [1.0, 0.0, 0.0]);
+        for k in 0..3 {
+            let (q, r) = (points[k], points[(k + 1) % 3]);
+            let t = along(p, q, r);
+            let squared = p.distance_squared(q + (r - q) * t);
+            if squared < best.0 {
+                let mut weights = [0.0; 3];
+                weights[k] = 1.0 - t;
+                weights[(k + 1) % 3] = t;
+                best = (squared, weights);
+            }
+        }
+        return best.1;
+    }
+    let (d1, d2) = (ab.dot(p - a), ac.dot(p - a));
+    if d1 <= 0.0 && d2 <= 0.0 {
+        return [1.0, 0.0, 0.0];
+    }
+    let (d3, d4) = (ab.dot(p - b), ac.dot(p - b));
+    if d3 >= 0.0 && d4 <= d3 {
+        return [0.0, 1.0, 0.0];
+    }
+    let vc = d1 * d4 - d3 * d2;
+    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
+        let t = along(p, a, b);
+        return [1.0 - t, t, 0.0];
+    }
+    let (d5, d6) = (ab.dot(p - c), ac.dot(p - c));
+    if d6 >= 0.0 && d5 <= d6 {
+        return [0.0, 0.0, 1.0];
+    }
+    let vb = d5 * d2 - d1 * d6;
+    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+        let t = along(p, a, c);
+        return [1.0 - t, 0.0, t];
+    }
+    let va = d3 * d6 - d5 * d4;
+    if va <= 0.0 && d4 >= d3 && d5 >= d6 {
+        let t = along(p, b, c);
+        return [0.0, 1.0 - t, t];
+    }
+    let sum = va + vb + vc;
+    let (v, w) = (vb / sum, vc / sum);
+    [(1.0 - v - w).max(0.0), v, w]
+}
+
+/// Returns the position of the point of a segment that is nearest to `p`, from 0 at `a` to 1 at `b`; 0 if the segment
+/// is a point.
+fn along(p: DVec3, a: DVec3, b: DVec3) -> f64 {
+    let along = b - a;
+    let length_squared = along.length_squared();
+    if length_squared == 0.0 {
+        return 0.0;
+    }
+    ((p - a).dot(along) / length_squared).clamp(0.0, 1.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -114,6 +177,13 @@ mod tests {
                 assert!(
                     found <= sampled + 1e-12 && sampled < found + 0.06,
                     "{t:?} {p}: {found} {sampled}"
+                );
+                let [u, v, w] = nearest_weights(p, &t);
+                assert!(u >= 0.0 && v >= 0.0 && w >= 0.0 && (u + v + w - 1.0).abs() < 1e-15);
+                let point = u * t[0] + v * t[1] + w * t[2];
+                assert!(
+                    (p.distance(point) - found).abs() < 1e-12,
+                    "{t:?} {p}: {point}"
                 );
             }
         }

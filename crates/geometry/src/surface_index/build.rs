@@ -1,0 +1,210 @@
+//! Building the tree.
+
+use mesh::{DVec3, FaceId, HalfEdgeId, Mesh};
+use progress::{Cancelled, Progress};
+use rayon::prelude::*;
+
+use super::{Node, Origin, SurfaceIndex, Triangle};
+use crate::triangulate::Cutter;
+
+/// The maximum number of triangles of a leaf.
+const LEAF: usize = 4;
+
+/// A subtree with at most this number of triangles is built by one task.
+const TASK: usize = 4096;
+
+/// The name of this work in progress reports.
+const WHAT: &str = "build the spatial index";
+
+/// The center of a triangle and the number of the triangle in the order of the faces.
+type Key = (DVec3, u32);
+
+/// Appends the triangles of a face. A face with at most four corners is triangulated as a fan. A larger face is
+/// triangulated by `cutter`: the triangles of a fan could lie on top of each other, and a point near the face would
+/// be near all of them.
+pub(crate) fn triangulate(
+    mesh: &Mesh,
+    face: FaceId,
+    cutter: &mut Cutter,
+    triangles: &mut Vec<Triangle>,
+) {
+    let triangle = |corners: [HalfEdgeId; 3]| {
+        let vertices = corners.map(|h| mesh.origin(h));
+        Triangle {
+            positions: vertices.map(|v| mesh.position(v)),
+            vertices,
+            corners,
+            face,
+        }
+    };
+    let mut corners = mesh.face_half_edges(face);
+    if corners.clone().nth(4).is_some() {
+        let corners: Vec<HalfEdgeId> = corners.collect();
+        let cut = cutter.cut(mesh, face);
+        triangles.extend(
+            cut.triangles()
+                .iter()
+                .map(|t| triangle(t.map(|i| corners[i as usize]))),
+        );
+    } else if let (Some(first), Some(mut last)) = (corners.next(), corners.next()) {
+        triangles.extend(corners.map(|h| triangle([first, std::mem::replace(&mut last, h), h])));
+    }
+}
+
+impl SurfaceIndex {
+    pub(super) fn build(
+        mesh: &Mesh,
+        faces: impl Iterator<Item = FaceId>,
+        progress: &dyn Progress,
+    ) -> Result<Option<Self>, Cancelled> {
+        progress.report(WHAT, 0, 2)?;
+        let (mut cutter, mut triangles) = (Cutter::default(), Vec::new());
+        for (i, f) in faces.enumerate() {
+            if i % 65_536 == 0 {
+                progress.report(WHAT, 0, 2)?;
+            }
+            triangulate(mesh, f, &mut cutter, &mut triangles);
+        }
+        if triangles.is_empty() {
+            return Ok(None);
+        }
+        progress.report(WHAT, 1, 2)?;
+        let center =
+            |t: &Triangle| t.positions[0] / 3.0 + t.positions[1] / 3.0 + t.positions[2] / 3.0;
+        let mut keys: Vec<Key> = (0..).zip(&triangles).map(|(i, t)| (center(t), i)).collect();
+        let mut nodes = vec![Node::EMPTY; n_nodes(keys.len())];
+        Subtree {
+            keys: &mut keys,
+            nodes: &mut nodes,
+            first: 0,
+            node: 0,
+        }
+        .build(&triangles, &|| progress.report(WHAT, 1, 2))?;
+        let sorted = || keys.par_iter().map(|&(_, i)| &triangles[i as usize]);
+        Ok(Some(Self {
+            nodes,
+            positions: sorted().map(|t| t.positions).collect(),
+            origins: sorted().map(Origin::of).collect(),
+        }))
+    }
+}
+
+/// A part of the tree that is built.
+struct Subtree<'a> {
+    keys: &'a mut [Key],
+    nodes: &'a mut [Node],
+    /// The position of the first key in the list of all keys.
+    first: usize,
+    /// The position of the first node in the list of all nodes.
+    node: usize,
+}
+
+impl Subtree<'_> {
+    fn build(
+        self,
+        triangles: &[Triangle],
+        ask: &(dyn Fn() -> Result<(), Cancelled> + Sync),
+    ) -> Result<(), Cancelled> {
+        let n = self.keys.len();
+        let [root, nodes @ ..] = self.nodes else {
+            unreachable!("a subtree has a root");
+        };
+        root.first = number(self.first);
+        root.last = number(self.first + n);
+        if n <= LEAF {
+            let corners = self
+                .keys
+                .iter()
+                .flat_map(|&(_, i)| triangles[i as usize].positions);
+            (root.min, root.max) = bounds(corners);
+            return Ok(());
+        }
+        let (min, max) = bounds(self.keys.iter().map(|key| key.0));
+        let axis = (max - min).max_position();
+        let middle = n / 2;
+        // With the number as the second key no two are equal, so the halves do not depend on the order of the keys.
+        self.keys.select_nth_unstable_by(middle, |a, b| {
+            a.0[axis].total_cmp(&b.0[axis]).then(a.1.cmp(&b.1))
+        });
+        let (low, high) = self.keys.split_at_mut(middle);
+        let right = n_nodes(middle);
+        root.right = number(self.node + 1 + right);
+        let (left_nodes, right_nodes) = nodes.split_at_mut(right);
+        let left = Subtree {
+            keys: low,
+            nodes: &mut *left_nodes,
+            first: self.first,
+            node: self.node + 1,
+        };
+        let right = Subtree {
+            keys: high,
+            nodes: &mut *right_nodes,
+            first: self.first + middle,
+            node: self.node + 1 + right,
+        };
+        if n > TASK {
+            ask()?;
+            let (left, right) = rayon::join(
+                || left.build(triangles, ask),
+                || right.build(triangles, ask),
+            );
+            left.and(right)?;
+        } else {
+            left.build(triangles, ask)?;
+            right.build(triangles, ask)?;
+        }
+        root.min = left_nodes[0].min.min(right_nodes[0].min);
+        root.max = left_nodes[0].max.max(right_nodes[0].max);
+        Ok(())
+    }
+}
+
+/// Returns the number of nodes of a tree over `n` triangles.
+fn n_nodes(n: usize) -> usize {
+    /// Returns the numbers for `n` and for `n + 1`.
+    fn both(n: usize) -> (usize, usize) {
+        if n < LEAF {
+            return (1, 1);
+        }
+        let (low, high) = both(n / 2);
+        if n == LEAF {
+            (1, 1 + low + high)
+        } else if n.is_multiple_of(2) {
+            (1 + 2 * low, 1 + low + high)
+        } else {
+            (1 + low + high, 1 + 2 * high)
+        }
+    }
+    both(n).0
+}
+
+fn bounds(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
+    points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), p| {
+        (min.min(p), max.max(p))
+    })
+}
+
+impl Node {
+    const EMPTY: Self = Self {
+        min: DVec3::INFINITY,
+        max: DVec3::NEG_INFINITY,
+        first: 0,
+        last: 0,
+        right: 0,
+    };
+}
+
+impl Origin {
+    fn of(triangle: &Triangle) -> Self {
+        Self {
+            vertices: triangle.vertices,
+            corners: triangle.corners,
+            face: triangle.face,
+        }
+    }
+}
+
+/// Converts an array index. A mesh has fewer than 2³² half-edges, and fewer triangles than half-edges.
+fn number(i: usize) -> u32 {
+    u32::try_from(i).expect("fewer than 2^32 triangles")
+}

@@ -1,0 +1,149 @@
+//! A spatial index of the triangles of a surface, for queries near a point.
+//!
+//! ```
+//! use geometry::{shapes, surface_index::SurfaceIndex};
+//! use mesh::DVec3;
+//!
+//! let cube = shapes::cube();
+//! let index = SurfaceIndex::new(&cube).expect("the cube has faces");
+//! let nearest = index.nearest(DVec3::new(2.0, 0.25, 0.0), 0);
+//! assert_eq!(nearest.point, DVec3::new(1.0, 0.25, 0.0));
+//! assert_eq!(nearest.distance, 1.0);
+//! ```
+//!
+//! The index is a binary tree of axis-aligned boxes. Each inner node has half of the triangles of its parent, by the
+//! order of their centers along the longest side of the box of the centers. The tree depends only on the mesh: it is
+//! the same for any number of threads.
+//!
+//! A face with more than three corners is divided into triangles: four corners into a fan, more corners by ear
+//! clipping ([`triangulate`](mod@crate::triangulate)).
+
+mod build;
+mod nearest;
+pub(crate) mod triangle;
+
+use mesh::{DVec3, FaceId, HalfEdgeId, Mesh, VertexId};
+use progress::{Cancelled, NoProgress, Progress};
+
+pub(crate) use build::triangulate;
+pub use nearest::Nearest;
+
+/// The triangles of a surface in a tree of boxes. The index is a copy: later changes of the mesh do not change it.
+#[derive(Clone, Debug)]
+pub struct SurfaceIndex {
+    nodes: Vec<Node>,
+    /// The corners of the triangles, in the order of the tree.
+    positions: Vec<[DVec3; 3]>,
+    origins: Vec<Origin>,
+}
+
+/// A triangle of a face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Triangle {
+    /// The positions of the three corners, in the order of the face.
+    pub positions: [DVec3; 3],
+    /// The vertices at the corners.
+    pub vertices: [VertexId; 3],
+    /// The corners of the face: the half-edges of the face that start at the vertices.
+    pub corners: [HalfEdgeId; 3],
+    /// The face that contains the triangle.
+    pub face: FaceId,
+}
+
+/// The elements of a mesh that a triangle comes from.
+#[derive(Clone, Copy, Debug)]
+struct Origin {
+    vertices: [VertexId; 3],
+    corners: [HalfEdgeId; 3],
+    face: FaceId,
+}
+
+/// A box around the triangles `first..last`. An inner node has two children: the node that follows it in the
+/// list, and the node with index `right`. In a leaf, `right` is 0.
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    min: DVec3,
+    max: DVec3,
+    first: u32,
+    last: u32,
+    right: u32,
+}
+
+impl SurfaceIndex {
+    /// Builds the index of all faces of a mesh. Returns `None` if the mesh has no faces.
+    pub fn new(mesh: &Mesh) -> Option<Self> {
+        Self::with_progress(mesh, &NoProgress).expect("never cancelled")
+    }
+
+    /// Builds the index like [`new`](Self::new), and reports progress.
+    ///
+    /// # Errors
+    ///
+    /// [`Cancelled`] if `progress` asks to stop.
+    pub fn with_progress(mesh: &Mesh, progress: &dyn Progress) -> Result<Option<Self>, Cancelled> {
+        Self::build(mesh, mesh.faces(), progress)
+    }
+
+    /// Builds the index of some faces of a mesh. Returns `None` if there are no faces.
+    pub fn of_faces(mesh: &Mesh, faces: impl IntoIterator<Item = FaceId>) -> Option<Self> {
+        Self::build(mesh, faces.into_iter(), &NoProgress).expect("never cancelled")
+    }
+
+    /// Returns the number of triangles. Triangles are numbered from 0 in the order of the tree, which is not the order
+    /// of the faces.
+    pub fn n_triangles(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Returns a triangle by its number.
+    ///
+    /// # Panics
+    ///
+    /// Panics if the number is not below [`n_triangles`](Self::n_triangles).
+    #[inline]
+    pub fn triangle(&self, i: u32) -> Triangle {
+        let Origin {
+            vertices,
+            corners,
+            face,
+        } = self.origins[i as usize];
+        Triangle {
+            positions: self.positions[i as usize],
+            vertices,
+            corners,
+            face,
+        }
+    }
+
+    /// Returns the smallest and the largest corner of the bounding box of all triangles.
+    pub fn bounds(&self) -> [DVec3; 2] {
+        [self.nodes[0].min, self.nodes[0].max]
+    }
+
+    /// Returns the edge that two triangles share, if they share exactly two vertices.
+    pub(crate) fn shared_edge(&self, i: u32, j: u32) -> Option<[DVec3; 2]> {
+        let (s, t) = (self.triangle(i), self.triangle(j));
+        let mut shared = (0..3).filter(|&k| t.vertices.contains(&s.vertices[k]));
+        match (shared.next(), shared.next(), shared.next()) {
+            (Some(k), Some(l), None) => Some([s.positions[k], s.positions[l]]),
+            _ => None,
+        }
+    }
+}
+
+impl Triangle {
+    /// Returns the barycentric coordinates of the point of the triangle that is nearest to `p`: weights of the three
+    /// corners, not negative, with sum 1 up to rounding. The weight of a corner is exactly 0 if the nearest point was
+    /// found on the opposite side. In a triangle without area, the weights are those of a point on a side.
+    pub fn barycentric(&self, p: DVec3) -> [f64; 3] {
+        triangle::nearest_weights(p, &self.positions)
+    }
+
+    /// Returns the point with the given barycentric coordinates.
+    pub fn point(&self, [a, b, c]: [f64; 3]) -> DVec3 {
+        a * self.positions[0] + b * self.positions[1] + c * self.positions[2]
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,237 @@
+//! Nearest points.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use mesh::{DVec3, Domain, Mesh, VertexId};
+use progress::{Cancelled, Meter, Progress};
+use rayon::prelude::*;
+
+use super::triangle::nearest_on_triangle;
+use super::{Node, SurfaceIndex};
+
+/// The nearest point of a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nearest {
+    /// The distance, in scene units.
+    pub distance: f64,
+    /// A lower bound of the distance. It equals `distance`, except if the search was stopped early because too
+    /// many triangles are almost equally near.
+    pub lower: f64,
+    /// The nearest point.
+    pub point: DVec3,
+    /// The number of the triangle that contains the point, for [`SurfaceIndex::triangle`].
+    pub triangle: u32,
+    /// The number of visited nodes.
+    pub(crate) visits: u32,
+}
+
+/// A search for a nearest point accepts an inexact answer after it has visited this number of nodes.
+/// A search usually visits at most a few hundred nodes.
+const MAX_NODES: u32 = 1000;
+
+/// The number of points of one task. Each task starts without a hint.
+const BLOCK: usize = 1024;
+
+/// The name of this work in progress reports.
+const WHAT: &str = "find the nearest points";
+
+impl SurfaceIndex {
+    /// Returns the point of the surface nearest to `p`. If several triangles are equally near, the answer is one of
+    /// them. `hint` is the number of a triangle that is probably near `p`, for example of the last search; a good hint
+    /// saves time. A hint that is out of range counts as 0.
+    ///
+    /// If `p` is the center of a sphere, all triangles are equally near and the search would visit all of them.
+    /// It stops after a few thousand nodes and takes the nearest point that it found. [`Nearest::lower`] tells how much
+    /// nearer another point could be; for a sphere that is only the difference between its triangles and their boxes.
+    ///
+    /// Returns an infinite or undefined distance if `p` is not finite, or if squared coordinates are too large for an
+    /// `f64`.
+    pub fn nearest(&self, p: DVec3, hint: u32) -> Nearest {
+        let hint = if (hint as usize) < self.n_triangles() {
+            hint
+        } else {
+            0
+        };
+        let mut best = Best {
+            squared: f64::INFINITY,
+            point: p,
+            triangle: hint,
+        };
+        self.try_triangle(p, hint, &mut best);
+        // Each child has half of the triangles, so the depth of the tree is at most 32.
+        let mut stack = [(0, 0.0); 64];
+        let mut height = 1;
+        stack[0] = (0, self.nodes[0].distance_squared(p));
+        let mut visits = 0;
+        while height > 0 {
+            height -= 1;
+            let (i, squared) = stack[height];
+            if squared >= best.squared {
+                continue;
+            }
+            visits += 1;
+            if visits > MAX_NODES {
+                return self.nearly_nearest(p, best);
+            }
+            let Some(mut children) = self.visit(p, i, &mut best) else {
+                continue;
+            };
+            // The nearer child is visited first.
+            if children[0].1 <= children[1].1 {
+                children.swap(0, 1);
+            }
+            for child in children {
+                if child.1 < best.squared {
+                    stack[height] = child;
+                    height += 1;
+                }
+            }
+        }
+        best.found(None, visits)
+    }
+
+    /// Returns the nearest point for each of the points, in their order. Runs in parallel; the result does not depend
+    /// on the number of threads. It is fastest if consecutive points are near each other.
+    ///
+    /// # Errors
+    ///
+    /// [`Cancelled`] if `progress` asks to stop.
+    pub fn nearest_to_points(
+        &self,
+        points: &[DVec3],
+        progress: &dyn Progress,
+    ) -> Result<Vec<Nearest>, Cancelled> {
+        let meter = Meter::new(progress, WHAT, points.len() as u64);
+        let found = self.nearest_to_all(points.len(), |i| Some(points[i]), &|n| meter.add(n))?;
+        Ok(found.into_iter().flatten().collect())
+    }
+
+    /// Returns the nearest point for each vertex of a mesh, by vertex index. `None` for dead vertices. Runs in
+    /// parallel; the result does not depend on the number of threads.
+    ///
+    /// # Errors
+    ///
+    /// [`Cancelled`] if `progress` asks to stop.
+    pub fn nearest_to_vertices(
+        &self,
+        mesh: &Mesh,
+        progress: &dyn Progress,
+    ) -> Result<Vec<Option<Nearest>>, Cancelled> {
+        let position = |i| {
+            let v = VertexId::new(i);
+            mesh.has_vertex(v).then(|| mesh.position(v))
+        };
+        let n = mesh.domain_len(Domain::Vertex);
+        let meter = Meter::new(progress, WHAT, n as u64);
+        self.nearest_to_all(n, position, &|n| meter.add(n))
+    }
+
+    /// Returns the nearest point for each of the points `point(0)` to `point(n - 1)`; `None` where `point` returns `None`.
+    /// Calls `done` with the number of points after a few of them, and stops if it returns an error.
+    pub(crate) fn nearest_to_all(
+        &self,
+        n: usize,
+        point: impl Fn(usize) -> Option<DVec3> + Sync,
+        done: &(dyn Fn(usize) -> Result<(), Cancelled> + Sync),
+    ) -> Result<Vec<Option<Nearest>>, Cancelled> {
+        let mut found = vec![None; n];
+        found
+            .par_chunks_mut(BLOCK)
+            .enumerate()
+            .try_for_each(|(b, block)| {
+                // Consecutive points are often near each other, so the triangle of the previous point is a good
+                // first guess.
+                let mut hint = 0;
+                for (part, slots) in block.chunks_mut(128).enumerate() {
+                    for (i, slot) in slots.iter_mut().enumerate() {
+                        *slot = point(b * BLOCK + part * 128 + i).map(|p| self.nearest(p, hint));
+                        hint = slot.map_or(hint, |nearest| nearest.triangle);
+                    }
+                    done(slots.len())?;
+                }
+                Ok(())
+            })?;
+        Ok(found)
+    }
+
+    /// Continues the search and visits the nodes in order of their distances from `p`. If the search stops
+    /// early, this order gives the best lower bound.
+    fn nearly_nearest(&self, p: DVec3, mut best: Best) -> Nearest {
+        // Squares are non-negative, so they have the same order as their bits.
+        let mut waiting = BinaryHeap::from([Reverse((0_u64, 0_usize))]);
+        let mut visits = MAX_NODES;
+        while let Some(Reverse((bits, i))) = waiting.pop() {
+            let squared = f64::from_bits(bits);
+            if squared >= best.squared {
+                break;
+            }
+            visits += 1;
+            if visits > 3 * MAX_NODES {
+                return best.found(Some(squared), visits);
+            }
+            for (child, squared) in self.visit(p, i, &mut best).into_iter().flatten() {
+                if squared < best.squared {
+                    waiting.push(Reverse((squared.to_bits(), child)));
+                }
+            }
+        }
+        best.found(None, visits)
+    }
+
+    /// Tries the triangles of a leaf, or returns the children of an inner node with their squared distances.
+    fn visit(&self, p: DVec3, i: usize, best: &mut Best) -> Option<[(usize, f64); 2]> {
+        let node = &self.nodes[i];
+        if node.right == 0 {
+            for i in node.first..node.last {
+                self.try_triangle(p, i, best);
+            }
+            return None;
+        }
+        let children = [i + 1, node.right as usize];
+        Some(children.map(|i| (i, self.nodes[i].distance_squared(p))))
+    }
+
+    fn try_triangle(&self, p: DVec3, i: u32, best: &mut Best) {
+        let point = nearest_on_triangle(p, &self.positions[i as usize]);
+        let squared = p.distance_squared(point);
+        if squared < best.squared {
+            *best = Best {
+                squared,
+                point,
+                triangle: i,
+            };
+        }
+    }
+
+    /// Returns the distance from `p` to one triangle.
+    pub(crate) fn to_triangle(&self, p: DVec3, i: u32) -> f64 {
+        p.distance(nearest_on_triangle(p, &self.positions[i as usize]))
+    }
+}
+
+/// The nearest point found so far.
+struct Best {
+    squared: f64,
+    point: DVec3,
+    triangle: u32,
+}
+
+impl Best {
+    /// Converts to the result. `lower` is the squared lower bound for the nodes that were not visited, if any.
+    fn found(self, lower: Option<f64>, visits: u32) -> Nearest {
+        Nearest {
+            distance: self.squared.sqrt(),
+            lower: lower.unwrap_or(self.squared).sqrt(),
+            point: self.point,
+            triangle: self.triangle,
+            visits,
+        }
+    }
+}
+
+impl Node {
+    fn distance_squared(&self, p: DVec3) -> f64 {
+        p.distance_squared(p.max(self.min).min(self.max))
+    }
+}

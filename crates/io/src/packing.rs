@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Compression {
-    /// The extension `EXT_meshopt_compression`. Readers without the extension cannot read the file. The corners of
-    /// triangles can be rotated, such as (a, b, c) to (b, c, a).
+    /// The extension `EXT_meshopt_compression`. Readers without the extension cannot read the file. Vertices and
+    /// triangles are reordered, and the corners of triangles can be rotated, such as (a, b, c) to (b, c, a).
     Meshopt,
 }
 

@@ -71,6 +71,21 @@ pub(super) fn faces_by_material(
     faces.collect()
 }
 
+/// The corners of all triangles of a mesh that has only triangles.
+pub(super) fn all_corners(mesh: &Mesh, split: &Split) -> Vec<u32> {
+    let corners = parallel::collect(mesh.n_faces(), |f| corners(mesh, split, FaceId::new(f)));
+    corners.into_flattened()
+}
+
+/// The corners of a triangle, as vertices of glTF.
+pub(super) fn corners(mesh: &Mesh, split: &Split, f: FaceId) -> [u32; 3] {
+    let mut corners = [0; 3];
+    for (slot, h) in corners.iter_mut().zip(mesh.face_half_edges(f)) {
+        *slot = split.vertex_of(mesh, h);
+    }
+    corners
+}
+
 fn cut(mesh: &Mesh, split: &Split, faces: &[u32]) -> Vec<u32> {
     let blocks = parallel::blocks(faces.len(), |block| {
         let faces = &faces[block];

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use mesh::{FaceId, Mesh, VertexId};
 
-use super::faces::Faces;
+use super::faces::{Faces, corners};
 use super::split::Split;
 use super::streams::Stream;
 use crate::parallel::{self, BLOCK};
@@ -52,14 +52,6 @@ pub(super) fn fill_indices(out: &mut [u8], mesh: &Mesh, split: &Split, faces: &F
             bytemuck::cast::<[[u8; 4]; 3], [u8; 12]>(triangle(i).map(u32::to_le_bytes))
         });
     }
-}
-
-fn corners(mesh: &Mesh, split: &Split, f: FaceId) -> [u32; 3] {
-    let mut corners = [0; 3];
-    for (slot, h) in corners.iter_mut().zip(mesh.face_half_edges(f)) {
-        *slot = split.vertex_of(mesh, h);
-    }
-    corners
 }
 
 /// Writes vectors of N floats.

@@ -100,6 +100,7 @@ mod prepare;
 mod primitives;
 mod quantize;
 mod read;
+mod reorder;
 mod rig;
 mod rig_json;
 mod split;

@@ -8,9 +8,11 @@ use scene::{Graph, Object};
 
 use super::faces::{Faces, faces_by_material};
 use super::fill::{Bounds, bounds};
+use super::reorder::reorder;
 use super::split::{Split, note_changed, split};
 use super::streams::{Stream, streams};
 use super::write_deform::Deformation;
+use crate::WriteOptions;
 use crate::error::Unwritable;
 use crate::loss::Losses;
 use crate::weld::{n_merged, n_merged_if_equal};
@@ -36,12 +38,12 @@ impl<'a> PreparedObject<'a> {
         object: &'a Object,
         mesh: &'a Mesh,
         graph: &Graph,
-        weight_sets: Option<u32>,
+        options: &WriteOptions,
         losses: &mut Losses,
     ) -> Result<Self, Unwritable> {
         let streams = streams(mesh, losses);
-        let deformation = Deformation::new(object, mesh, graph, weight_sets, losses);
-        let split = split(mesh, &streams);
+        let deformation = Deformation::new(object, mesh, graph, options.weight_sets, losses);
+        let mut split = split(mesh, &streams);
         if split.n >= u32::MAX as usize {
             let (max, n) = (u32::MAX, split.n);
             let message = format!("expected fewer than {max} vertices, found {n}");
@@ -73,7 +75,10 @@ impl<'a> PreparedObject<'a> {
             );
             Unwritable::object(&object.name, message)
         })?;
-        let faces = faces_by_material(object, mesh, &split, polygons > 0, losses);
+        let mut faces = faces_by_material(object, mesh, &split, polygons > 0, losses);
+        if options.compression.is_some() {
+            reorder(mesh, &mut split, &mut faces);
+        }
         Ok(Self {
             object,
             mesh,

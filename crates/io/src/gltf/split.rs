@@ -14,7 +14,7 @@ use crate::parallel::{self, BLOCK};
 /// become two vertices.
 const MAX_COMPARED: usize = 64;
 
-/// The vertices of glTF, in the order of the vertices of the mesh.
+/// The vertices of glTF, in the order of the vertices of the mesh unless they are reordered.
 pub(super) struct Split {
     /// The number of vertices.
     pub(super) n: usize,
@@ -48,6 +48,24 @@ impl Split {
             Some(seams) => mesh.origin(HalfEdgeId::new(seams.corners[i] as usize)),
             None => VertexId::new(i),
         }
+    }
+
+    /// Keeps these vertices only, in this order.
+    pub(super) fn select(&mut self, mesh: &Mesh, order: &[u32]) {
+        let corners = parallel::collect(order.len(), |i| {
+            number(self.corner(mesh, order[i] as usize).1.index())
+        });
+        let mut number_of = vec![u32::MAX; self.n];
+        for (i, &v) in order.iter().enumerate() {
+            number_of[v as usize] = number(i);
+        }
+        let vertex_of = parallel::collect(mesh.n_half_edges(), |h| {
+            let h = HalfEdgeId::new(h);
+            mesh.face(h)
+                .map_or(u32::MAX, |_| number_of[self.vertex_of(mesh, h) as usize])
+        });
+        self.n = order.len();
+        self.seams = Some(Seams { corners, vertex_of });
     }
 
     /// The vertex of glTF at the corner of a half-edge with a face.

@@ -43,7 +43,7 @@ pub(crate) fn write(
             object,
             mesh,
             scene.graph(),
-            options.weight_sets,
+            options,
             &mut losses,
         )?);
     }

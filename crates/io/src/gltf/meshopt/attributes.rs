@@ -49,8 +49,12 @@ pub(super) fn shortest(count: u64, stride: u64) -> u64 {
     let stride = usize::try_from(stride).unwrap_or(BLOCK).clamp(1, BLOCK);
     let block = elements_in_block(stride) as u64;
     let controls = (stride / 4) as u64;
-    // The header, and the shorter of the tails of both versions.
-    let around = 1 + stride.max(32).min((stride + stride / 4).max(24)) as u64;
+    let mut tail = (stride + stride / 4).max(24);
+    if count == 0 {
+        // The tail of version 0 can be shorter, but every block is longer.
+        tail = tail.min(stride.max(32));
+    }
+    let around = 1 + tail as u64;
     count
         .div_ceil(block)
         .saturating_mul(controls)

@@ -3,12 +3,12 @@
 use std::path::Path;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
-use glam::{DAffine3, DMat3, DVec3};
+use glam::{DAffine3, DMat3, DVec3, DVec4};
 use mesh::{
     Attribute, Attributes, BuildError, BuildOutput, CORNER_NORMAL, CORNER_TANGENT, Column, Domain,
     Elements, HalfEdgeId, Id, Mesh, Rule, Value, Values, VertexId, joint_name, morph_name,
 };
-use scene::{Material, Pose};
+use scene::{Material, Pose, transform_tangent};
 
 use crate::clean::{SourcePolygons, clean, gather};
 use crate::error::ReadError;
@@ -108,6 +108,7 @@ impl Polygons {
         }
         parallel::change(&mut self.positions, |p| *p = to_scene.transform_point3(*p));
         self.change_deltas(|_| to_scene.matrix3);
+        self.change_tangents(|_| &to_scene.matrix3);
         let normal_matrix = to_scene.matrix3.inverse().transpose();
         let mut lost = 0;
         if let Some(mut column) = self.attributes.remove(Domain::Corner, CORNER_NORMAL.name) {
@@ -155,6 +156,7 @@ impl Polygons {
             *p = map.transform_point3(*p);
         }
         self.change_deltas(|v| maps[v].matrix3);
+        self.change_tangents(|v| &maps[v].matrix3);
         if let Some(mut column) = self.attributes.remove(Domain::Corner, CORNER_NORMAL.name) {
             let normals = DVec3::of_mut(&mut column.values).unwrap_or_default();
             for (n, &v) in normals.iter_mut().zip(&self.corners) {
@@ -175,6 +177,18 @@ impl Polygons {
             self.reverse_faces();
         }
         0
+    }
+
+    /// Transforms the tangents of corners by the matrix of each vertex.
+    fn change_tangents<'a>(&mut self, matrix: impl Fn(usize) -> &'a DMat3) {
+        let name = CORNER_TANGENT.name;
+        if let Some(mut column) = self.attributes.remove(Domain::Corner, name) {
+            let tangents = DVec4::of_mut(&mut column.values).unwrap_or_default();
+            for (tangent, &v) in tangents.iter_mut().zip(&self.corners) {
+                *tangent = transform_tangent(*tangent, matrix(v as usize));
+            }
+            self.attributes.insert(Domain::Corner, column);
+        }
     }
 
     /// Multiplies the deltas of morph targets by the matrix of each vertex.

@@ -231,6 +231,21 @@ pub fn transform_tangents(mesh: &mut Mesh, linear: &DMat3) {
     change_tangents(mesh, |_| *linear);
 }
 
+/// Transforms the direction of a tangent. A map that mirrors negates the sign. A direction without an image stays.
+pub fn transform_tangent(tangent: DVec4, linear: &DMat3) -> DVec4 {
+    let image = *linear * tangent.truncate();
+    let largest = image.abs().max_element();
+    if largest == 0.0 {
+        return tangent;
+    }
+    let sign = if linear.determinant() < 0.0 {
+        -1.0
+    } else {
+        1.0
+    };
+    (image / largest).normalize().extend(sign * tangent.w)
+}
+
 /// As [`transform_tangents`], with the map of each vertex.
 fn change_tangents(mesh: &mut Mesh, linear: impl Fn(usize) -> DMat3) {
     if mesh.get(CORNER_TANGENT).is_none() {
@@ -241,18 +256,8 @@ fn change_tangents(mesh: &mut Mesh, linear: impl Fn(usize) -> DMat3) {
     };
     let tangents = DVec4::of_mut(&mut column.values).into_iter().flatten();
     for (h, tangent) in tangents.enumerate() {
-        let linear = linear(mesh.origin(HalfEdgeId::new(h)).index());
-        let sign = if linear.determinant() < 0.0 {
-            -1.0
-        } else {
-            1.0
-        };
-        let image = linear * tangent.truncate();
-        let largest = image.abs().max_element();
-        if largest > 0.0 {
-            let direction = (image / largest).normalize();
-            *tangent = direction.extend(sign * tangent.w);
-        }
+        let v = mesh.origin(HalfEdgeId::new(h));
+        *tangent = transform_tangent(*tangent, &linear(v.index()));
     }
     mesh.insert_column(Domain::Corner, column);
 }

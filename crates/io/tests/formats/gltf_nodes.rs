@@ -1,8 +1,10 @@
 //! Nodes of glTF: a file that is read and written again keeps its hierarchy, cameras, lights and extras.
 
-use glam::DVec3;
+use geometry::shapes;
+use glam::{DVec3, DVec4};
+use mesh::{CORNER_TANGENT, VERTEX_NORMAL};
 use mesh_io::{Loaded, Placements, ReadOptions, WriteOptions};
-use scene::{Placement, Scene};
+use scene::{Object, Placement, Scene};
 use serde_json::{Value, json};
 use store::Disk;
 
@@ -237,6 +239,36 @@ fn formats_without_nodes_are_written_with_placed_instances() {
             points
         };
         assert_eq!(points(&path), points(&expected), "{extension}");
+    }
+}
+
+#[test]
+fn baked_tangents_turn_with_their_node() {
+    let folder = Folder::new();
+    let mut tile = shapes::grid(1, 1);
+    let tangent = DVec4::new(1.0, 0.0, 0.0, 1.0);
+    tile.set(VERTEX_NORMAL, vec![DVec3::Z; tile.n_vertices()]);
+    tile.set(CORNER_TANGENT, vec![tangent; tile.n_half_edges()]);
+    let mut scene = Scene::new();
+    scene.insert(Object::mesh("tile", tile)).unwrap();
+    let path = folder.path("a.gltf");
+    mesh_io::write(&Disk, &path, &scene, &WriteOptions::default()).unwrap();
+    let mut json: Value = serde_json::from_slice(&std::fs::read(&path).unwrap()).unwrap();
+    // A quarter turn around z, and a mirror.
+    let half = 0.5_f64.sqrt();
+    json["nodes"][0]["rotation"] = json!([0.0, 0.0, half, half]);
+    json["nodes"][0]["scale"] = json!([1.0, 1.0, -1.0]);
+    std::fs::write(&path, json.to_string()).unwrap();
+    let options = ReadOptions {
+        placements: Placements::Bake,
+        ..ReadOptions::default()
+    };
+    let baked = scene_of(mesh_io::read(&Disk, &path, &options).unwrap());
+    let mesh = baked.objects()[0].as_mesh().unwrap();
+    let tangents = mesh.get(CORNER_TANGENT).unwrap();
+    for h in mesh.half_edges().filter(|&h| mesh.face(h).is_some()) {
+        let expected = DVec4::new(0.0, 1.0, 0.0, -1.0);
+        assert!(tangents[h.index()].distance(expected) < 1e-12, "{h}");
     }
 }
 

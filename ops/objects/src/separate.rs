@@ -12,7 +12,7 @@ use std::sync::Arc;
 use mesh::{Domain, MATERIAL};
 use op::prelude::*;
 use op::{Loss, Operation, PlannedObject, Refusal, check_name, named_object};
-use scene::{Geometry, Object};
+use scene::{Geometry, Graph, Object};
 
 /// Splits a mesh into several objects.
 ///
@@ -198,21 +198,20 @@ impl Separate {
     fn replace(&self, scene: &mut Scene, names: &[String], parts: Vec<Mesh>) {
         let (_, materials) = scene.parts_mut(&self.object).expect("it was found");
         let materials = materials.clone();
-        for (i, (name, part)) in names.iter().zip(parts).enumerate() {
-            let geometry = Geometry::Mesh(Arc::new(part));
-            if i == 0 {
-                *scene.parts_mut(&self.object).expect("it was found").0 = geometry;
-                scene.rename(&self.object, name).expect("the name is free");
-            } else {
-                let object = Object {
-                    name: name.clone(),
-                    geometry,
-                    materials: materials.clone(),
-                };
-                scene.insert(object).expect("the name is free");
-                if !scene.graph().is_empty() {
-                    scene.graph_mut().add_part(&names[0], name);
-                }
+        let mut objects = names.iter().zip(parts).map(|(name, part)| Object {
+            name: name.clone(),
+            geometry: Geometry::Mesh(Arc::new(part)),
+            materials: materials.clone(),
+        });
+        let first = objects.next().expect("at least one part");
+        *scene.parts_mut(&self.object).expect("it was found").0 = first.geometry;
+        let is_free = "the names are free";
+        scene.rename(&self.object, &first.name).expect(is_free);
+        let objects = objects.collect();
+        scene.append(objects, Graph::default()).expect(is_free);
+        if !scene.graph().is_empty() {
+            for name in &names[1..] {
+                scene.graph_mut().add_part(&names[0], name);
             }
         }
     }

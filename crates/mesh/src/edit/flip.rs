@@ -110,14 +110,20 @@ impl Mesh {
         Ok(())
     }
 
-    /// Returns the half-edge before `h` on its face.
+    /// Returns the half-edge before `h` on its face. Walks around the face and around the origin of `h` at the same
+    /// time, so the time is proportional to the smaller of degree and valence.
     #[inline]
     pub(super) fn prev_on_face(&self, h: HalfEdgeId) -> HalfEdgeId {
-        let mut before = self.next(h);
-        while self.next(before) != h {
+        let (mut before, mut around) = (self.next(h), h.twin());
+        while self.next(before) != h && self.next(around) != h {
             before = self.next(before);
+            around = self.next(around).twin();
         }
-        before
+        if self.next(before) == h {
+            before
+        } else {
+            around
+        }
     }
 }
 

@@ -4,17 +4,18 @@ use mesh::{DVec3, Mesh, VertexId};
 
 use super::subject::counted;
 
-/// The vertices of a mesh sorted by x, for searches by position.
+/// The vertices of a mesh, for searches by position. They are a k-d tree: the vertex in the middle of the list splits the
+/// others by the coordinate in which they extend most, and so do the middles of both halves.
 pub(super) struct PositionIndex<'m> {
     mesh: &'m Mesh,
-    by_x: Vec<VertexId>,
+    tree: Vec<(VertexId, u8)>,
 }
 
 impl<'m> PositionIndex<'m> {
     pub(super) fn new(mesh: &'m Mesh) -> Self {
-        let mut by_x: Vec<VertexId> = mesh.vertices().collect();
-        by_x.sort_by(|&v, &w| mesh.position(v).x.total_cmp(&mesh.position(w).x));
-        Self { mesh, by_x }
+        let mut tree: Vec<(VertexId, u8)> = mesh.vertices().map(|v| (v, 0)).collect();
+        split(mesh, &mut tree);
+        Self { mesh, tree }
     }
 
     /// Returns the `free` vertex nearest to `p`, if there is one within the tolerance. If several vertices are equally
@@ -25,25 +26,57 @@ impl<'m> PositionIndex<'m> {
         tolerance: f64,
         free: impl Fn(VertexId) -> bool,
     ) -> Option<VertexId> {
-        self.near(p, tolerance)
-            .map(|v| (self.mesh.position(v).distance(p), v))
-            .filter(|&(distance, v)| distance <= tolerance && free(v))
-            .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
-            .map(|(_, v)| v)
-    }
-
-    /// Returns the vertices whose x differs from that of `p` by at most the tolerance.
-    fn near(&self, p: DVec3, tolerance: f64) -> impl Iterator<Item = VertexId> {
-        let x = |v: VertexId| self.mesh.position(v).x;
-        let start = self.by_x.partition_point(|&v| x(v) < p.x - tolerance);
-        let rest = self.by_x[start..].iter().copied();
-        rest.take_while(move |&v| x(v) <= p.x + tolerance)
+        let mut best = (tolerance, VertexId::NONE);
+        self.visit(&self.tree, p, tolerance, &mut |v| {
+            let found = (self.mesh.position(v).distance(p), v);
+            if found.0 < best.0 || found.0 == best.0 && v < best.1 {
+                if !free(v) {
+                    return best.0;
+                }
+                best = found;
+            }
+            best.0
+        });
+        (best.1 != VertexId::NONE).then_some(best.1)
     }
 
     /// Whether any vertex is near `p`: at a distance of at most the tolerance.
     pub(super) fn any_near(&self, p: DVec3, tolerance: f64) -> bool {
-        self.near(p, tolerance)
-            .any(|v| self.mesh.position(v).distance(p) <= tolerance)
+        let mut found = false;
+        self.visit(&self.tree, p, tolerance, &mut |v| {
+            found |= self.mesh.position(v).distance(p) <= tolerance;
+            if found { -1.0 } else { tolerance }
+        });
+        found
+    }
+
+    /// Calls `at` for the vertices of a part of the tree that can be within the distance that `at` returned last, which is
+    /// `limit` at first. Returns the last distance.
+    fn visit(
+        &self,
+        tree: &[(VertexId, u8)],
+        p: DVec3,
+        mut limit: f64,
+        at: &mut impl FnMut(VertexId) -> f64,
+    ) -> f64 {
+        let middle = tree.len() / 2;
+        let Some(&(v, axis)) = tree.get(middle) else {
+            return limit;
+        };
+        limit = at(v);
+        let axis = usize::from(axis);
+        let beyond = p[axis] - self.mesh.position(v)[axis];
+        let (below, above) = (&tree[..middle], &tree[middle + 1..]);
+        let [near, far] = if beyond < 0.0 {
+            [below, above]
+        } else {
+            [above, below]
+        };
+        limit = self.visit(near, p, limit, at);
+        if beyond.abs() <= limit {
+            limit = self.visit(far, p, limit, at);
+        }
+        limit
     }
 
     /// Returns, for each vertex of `other` (by index), the vertex within the tolerance of its image. `None` if the
@@ -66,6 +99,25 @@ impl<'m> PositionIndex<'m> {
         }
         Some(map)
     }
+}
+
+/// Orders vertices as a k-d tree, and stores the coordinate by which each of them splits the others.
+fn split(mesh: &Mesh, tree: &mut [(VertexId, u8)]) {
+    let positions = tree.iter().map(|&(v, _)| mesh.position(v));
+    let Some((min, max)) = positions
+        .map(|p| (p, p))
+        .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+    else {
+        return;
+    };
+    let axis = (max - min).max_position();
+    let middle = tree.len() / 2;
+    let x = |v: VertexId| mesh.position(v)[axis];
+    tree.select_nth_unstable_by(middle, |a, b| x(a.0).total_cmp(&x(b.0)));
+    tree[middle].1 = u8::try_from(axis).unwrap_or(0);
+    let (below, above) = tree.split_at_mut(middle);
+    split(mesh, below);
+    split(mesh, &mut above[1..]);
 }
 
 /// Whether the faces of `other`, with their vertices mapped by `map`, are the faces of `mesh`. If `reversed`, the

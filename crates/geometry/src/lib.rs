@@ -6,7 +6,8 @@
 //! | [`area`], [`volume`], [`bounds`], [`genus`], [`components`] | measures of whole meshes |
 //! | [`gaussian_curvatures`], [`mean_curvatures`] | discrete curvature |
 //! | [`distance`] | the distance between two surfaces |
-//! | [`surface_index`] | nearest points of a surface |
+//! | [`surface_index`] | nearest points, rays, intersections and winding numbers of a surface |
+//! | [`predicates`] | exact sides of lines and planes |
 //! | [`merge_vertices`], [`parts`] | merging vertices, splitting a mesh into parts |
 //! | [`triangulate`], [`fill_hole_triangles`] | triangulation of faces and holes |
 //! | [`simplify`] | fewer triangles for nearly the same surface |
@@ -26,6 +27,7 @@ mod laplacian;
 mod measure;
 mod merge;
 mod part;
+pub mod predicates;
 pub mod shapes;
 pub mod simplify;
 pub mod smooth;

@@ -1,4 +1,4 @@
-//! A spatial index of the triangles of a surface, for queries near a point.
+//! A spatial index of the triangles of a surface: nearest points, rays, overlapping triangles, winding numbers.
 //!
 //! ```
 //! use geometry::{shapes, surface_index::SurfaceIndex};
@@ -19,14 +19,21 @@
 //! clipping ([`triangulate`](mod@crate::triangulate)).
 
 mod build;
+mod intersect;
 mod nearest;
+mod pairs;
+mod ray;
 pub(crate) mod triangle;
+mod winding;
 
 use mesh::{DVec3, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, NoProgress, Progress};
 
 pub(crate) use build::triangulate;
+pub use intersect::{self_intersecting_faces, triangles_intersect};
 pub use nearest::Nearest;
+pub use ray::RayHit;
+pub use winding::Winding;
 
 /// The triangles of a surface in a tree of boxes. The index is a copy: later changes of the mesh do not change it.
 #[derive(Clone, Debug)]
@@ -120,6 +127,11 @@ impl SurfaceIndex {
         [self.nodes[0].min, self.nodes[0].max]
     }
 
+    /// Returns the corners of the triangles of a node.
+    fn triangles_of(&self, node: &Node) -> &[[DVec3; 3]] {
+        &self.positions[node.first as usize..node.last as usize]
+    }
+
     /// Returns the edge that two triangles share, if they share exactly two vertices.
     pub(crate) fn shared_edge(&self, i: u32, j: u32) -> Option<[DVec3; 2]> {
         let (s, t) = (self.triangle(i), self.triangle(j));
@@ -143,6 +155,11 @@ impl Triangle {
     pub fn point(&self, [a, b, c]: [f64; 3]) -> DVec3 {
         a * self.positions[0] + b * self.positions[1] + c * self.positions[2]
     }
+}
+
+/// Returns a power of two that moves a number near 1. Multiplying by it changes no digits.
+fn unit_scale(largest: f64) -> f64 {
+    f64::from_bits((2046 - (largest.to_bits() >> 52).clamp(1, 2045)) << 52)
 }
 
 #[cfg(test)]

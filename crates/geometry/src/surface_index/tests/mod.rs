@@ -1,5 +1,9 @@
 //! Compares the index with brute force.
 
+mod intersect;
+mod ray;
+mod winding;
+
 use mesh::{DVec3, Mesh, VertexId};
 use progress::NoProgress;
 

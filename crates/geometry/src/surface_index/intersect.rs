@@ -1,0 +1,174 @@
+//! Intersections of triangles.
+
+use std::cmp::Ordering::{self, Equal, Greater, Less};
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+
+use mesh::{DVec2, DVec3, Domain, FaceId, Mesh};
+use progress::{Cancelled, Progress};
+
+use super::{SurfaceIndex, unit_scale};
+use crate::predicates::{orient2d, orient3d};
+
+/// Returns the faces of a mesh that intersect another face of it, in ascending order. Polygons are divided into triangles
+/// as in [`SurfaceIndex`], and [`triangles_intersect`] decides: common corners and sides of neighbors do not count, and
+/// corners at the same position are common.
+///
+/// # Errors
+///
+/// [`Cancelled`] if `progress` asks to stop.
+pub fn self_intersecting_faces(
+    mesh: &Mesh,
+    progress: &dyn Progress,
+) -> Result<Vec<FaceId>, Cancelled> {
+    let Some(index) = SurfaceIndex::with_progress(mesh, progress)? else {
+        return Ok(Vec::new());
+    };
+    let slots = mesh.domain_len(Domain::Face);
+    let is_found: Vec<AtomicBool> = (0..slots).map(|_| AtomicBool::new(false)).collect();
+    // The set does not depend on the order in which pairs are visited, and a pair of found faces adds nothing.
+    let visit = |i: u32, j: u32| {
+        let faces = [i, j].map(|i| index.origins[i as usize].face);
+        let found = faces.map(|f| &is_found[f.index()]);
+        if faces[0] != faces[1]
+            && !found.iter().all(|found| found.load(Relaxed))
+            && triangles_intersect(&index.positions[i as usize], &index.positions[j as usize])
+        {
+            for found in found {
+                found.store(true, Relaxed);
+            }
+        }
+        false
+    };
+    index.pairs(visit, progress)?;
+    let found = is_found.into_iter().map(AtomicBool::into_inner);
+    let numbers = found
+        .enumerate()
+        .filter_map(|(i, found)| found.then_some(i));
+    Ok(numbers.map(FaceId::new).collect())
+}
+
+/// Whether two triangles intersect: whether they have a common point that is not on a common corner or side.
+///
+/// Corners at the same position are common, and so are sides between two common corners. Neighbors in a mesh therefore
+/// intersect only if they overlap further: if their planes are equal and they lie on the same side of the common side, or
+/// if one passes through the other beside the common corner. Two triangles with the same three corners intersect. A
+/// triangle without area has no intersections: the sides that it shares with its neighbors are theirs too.
+///
+/// The answer is exact for coordinates up to 1e150 in magnitude, if the differences are not below 1e-90 times the largest
+/// coordinate.
+///
+/// Two triangles have a common point if and only if a side of one of them meets the other. All decisions are signs of
+/// volumes and areas, as in Guigue, Devillers, "Fast and Robust Triangle-Triangle Overlap Test Using Orientation
+/// Predicates", 2003.
+pub fn triangles_intersect(s: &[DVec3; 3], t: &[DVec3; 3]) -> bool {
+    let largest = s
+        .iter()
+        .chain(t)
+        .fold(0.0_f64, |m, p| m.max(p.abs().max_element()));
+    if (1e-60..=1e60).contains(&largest) {
+        return intersect(s, t);
+    }
+    let scale = unit_scale(largest);
+    intersect(&s.map(|p| p * scale), &t.map(|p| p * scale))
+}
+
+fn intersect(s: &[DVec3; 3], t: &[DVec3; 3]) -> bool {
+    let in_t = s.map(|p| t.contains(&p));
+    let in_s = t.map(|p| s.contains(&p));
+    match in_t.iter().filter(|common| **common).count() {
+        0 => {
+            let Some(sides) = sides_of_plane(s, t) else {
+                return false;
+            };
+            let Some(other_sides) = sides_of_plane(t, s) else {
+                return false;
+            };
+            (0..3).any(|i| {
+                let j = (i + 1) % 3;
+                // A side that does not reach the plane of the other triangle does not meet it.
+                let reaches = |sides: [Ordering; 3]| sides[i] != sides[j] || sides[i] == Equal;
+                reaches(sides) && meets([s[i], s[j]], t)
+                    || reaches(other_sides) && meets([t[i], t[j]], s)
+            }) && has_area(s)
+                && has_area(t)
+        }
+        1 => {
+            if sides_of_plane(s, t).is_none() || !has_area(s) || !has_area(t) {
+                return false;
+            }
+            // If the triangles have another common point, the ray to it from the common corner leaves one of them
+            // through the opposite side.
+            let opposite = |t: &[DVec3; 3], common: [bool; 3]| {
+                let i = common.iter().position(|c| *c).unwrap_or(0);
+                [t[(i + 1) % 3], t[(i + 2) % 3]]
+            };
+            meets(opposite(s, in_t), t) || meets(opposite(t, in_s), s)
+        }
+        2 => {
+            let apex = |t: &[DVec3; 3], common: [bool; 3]| {
+                let i = common.iter().position(|c| !c).unwrap_or(0);
+                [t[i], t[(i + 1) % 3], t[(i + 2) % 3]]
+            };
+            // Two corners of a triangle at the same position count as two.
+            let [p, a, b] = apex(s, in_t);
+            let [q, ..] = apex(t, in_s);
+            orient3d(p, a, b, q) == Equal && has_area(s) && has_area(t) && {
+                let flat = flatten(s);
+                orient2d(flat(a), flat(b), flat(p)) == orient2d(flat(a), flat(b), flat(q))
+            }
+        }
+        _ => has_area(s) && has_area(t),
+    }
+}
+
+/// Returns on which sides of the plane of `t` the corners of `s` are; `None` if all are strictly on one side.
+fn sides_of_plane(s: &[DVec3; 3], t: &[DVec3; 3]) -> Option<[Ordering; 3]> {
+    let sides = s.map(|p| orient3d(t[0], t[1], t[2], p));
+    let all_on = |side| sides.iter().all(|s| *s == side);
+    (!all_on(Greater) && !all_on(Less)).then_some(sides)
+}
+
+/// Whether a segment and a triangle with an area have a common point.
+fn meets([p, q]: [DVec3; 2], t: &[DVec3; 3]) -> bool {
+    let side = |p| orient3d(t[0], t[1], t[2], p);
+    let (at_p, at_q) = (side(p), side(q));
+    if at_p == at_q {
+        return at_p == Equal && meets_flat([p, q], t);
+    }
+    let turns = [0, 1, 2].map(|i| orient3d(p, q, t[i], t[(i + 1) % 3]));
+    !(turns.contains(&Greater) && turns.contains(&Less))
+}
+
+/// Whether a segment in the plane of a triangle has a common point with it.
+fn meets_flat([p, q]: [DVec3; 2], t: &[DVec3; 3]) -> bool {
+    let flat = flatten(t);
+    let (p, q, t) = (flat(p), flat(q), t.map(flat));
+    let contains = |p| {
+        let turns = [0, 1, 2].map(|i| orient2d(t[i], t[(i + 1) % 3], p));
+        !(turns.contains(&Greater) && turns.contains(&Less))
+    };
+    // A segment that ends outside meets the triangle if and only if it meets two of its sides. It is then not strictly
+    // on one side of both ends of a side, and the other way round.
+    let crosses = |a, b| {
+        let (at_a, at_b) = (orient2d(p, q, a), orient2d(p, q, b));
+        let (at_p, at_q) = (orient2d(a, b, p), orient2d(a, b, q));
+        at_a != at_b && at_p != at_q
+    };
+    contains(p) || contains(q) || (0..3).any(|i| crosses(t[i], t[(i + 1) % 3]))
+}
+
+/// Returns a projection along an axis in which the triangle has an area, if it has one.
+fn flatten(t: &[DVec3; 3]) -> impl Fn(DVec3) -> DVec2 + use<> {
+    let along = |axis: usize| move |p: DVec3| DVec2::new(p[(axis + 1) % 3], p[(axis + 2) % 3]);
+    let axis = (0..3).find(|&axis| {
+        let [a, b, c] = t.map(along(axis));
+        orient2d(a, b, c) != Equal
+    });
+    along(axis.unwrap_or(0))
+}
+
+/// Whether the three points are not on a line.
+fn has_area(t: &[DVec3; 3]) -> bool {
+    let flat = flatten(t);
+    orient2d(flat(t[0]), flat(t[1]), flat(t[2])) != Equal
+}

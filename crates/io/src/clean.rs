@@ -75,8 +75,7 @@ fn note(
     notes: &mut Notes,
 ) {
     let places = polygons.arrays().places(&elements);
-    let notes = notes.coded(code);
-    notes.elements(NoteKind::Changed, what, elements, places);
+    notes.elements(code, NoteKind::Changed, what, elements, places);
 }
 
 // ---- Repeated corners --------------------------------------------------------------------------

@@ -62,7 +62,7 @@ pub(crate) fn load(objects: &mut [Object], assets: &mut Assets, most: u64, notes
         }
     }
     let what = "references to images left out: too many images";
-    notes.coded("image-missing").left_out(n_further, None, what);
+    notes.left_out("image-missing", n_further, None, what);
 }
 
 /// Notes the images to which materials refer and which do not exist, as [`load`] does, without reading images. `paths`
@@ -85,7 +85,7 @@ pub(crate) fn note_missing<'p>(
 
 fn note_left_out(path: &str, why: &str, notes: &mut Notes) {
     let what = format!("image {} left out: {why}", quoted(path.as_bytes()));
-    notes.coded("image-missing").left_out(1, None, what);
+    notes.left_out("image-missing", 1, None, what);
 }
 
 /// Finds an image in a folder of [`Assets::image_folders`] or in the folder of the model. Returns its path relative to

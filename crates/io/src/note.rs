@@ -207,8 +207,6 @@ const MAX_LISTED: usize = 1000;
 #[derive(Debug)]
 pub(crate) struct Notes {
     path: PathBuf,
-    /// The code of the next note.
-    code: Option<&'static str>,
     list: Vec<Note>,
     /// The number of notes that are counted but not listed.
     unlisted: BTreeMap<NoteKind, usize>,
@@ -218,47 +216,43 @@ impl Notes {
     pub(crate) fn of(path: &Path) -> Self {
         Self {
             path: path.to_path_buf(),
-            code: None,
             list: Vec::new(),
             unlisted: BTreeMap::new(),
         }
     }
 
-    /// Sets the [`Note::code`] of the next note.
-    pub(crate) fn coded(&mut self, code: &'static str) -> &mut Self {
-        self.code = Some(code);
-        self
-    }
-
     /// Adds a note unless `count` is 0.
     pub(crate) fn left_out(
         &mut self,
+        code: &'static str,
         count: usize,
         line: impl Into<Option<usize>>,
         what: impl Into<String>,
     ) {
-        self.add(NoteKind::LeftOut, count, line.into(), what.into());
+        self.add(code, NoteKind::LeftOut, count, line.into(), what.into());
     }
 
     /// Adds a note unless `count` is 0.
     pub(crate) fn changed(
         &mut self,
+        code: &'static str,
         count: usize,
         line: impl Into<Option<usize>>,
         what: impl Into<String>,
     ) {
-        self.add(NoteKind::Changed, count, line.into(), what.into());
+        self.add(code, NoteKind::Changed, count, line.into(), what.into());
     }
 
     /// Adds a note about these elements and their positions, unless there are none.
     pub(crate) fn elements(
         &mut self,
+        code: &'static str,
         kind: NoteKind,
         what: impl Into<String>,
         elements: Elements,
         places: Vec<Vec<DVec3>>,
     ) {
-        let note = self.note(kind, elements.len(), None, what.into());
+        let note = self.note(code, kind, elements.len(), None, what.into());
         self.push(Note {
             elements: Some(elements),
             places,
@@ -267,18 +261,28 @@ impl Notes {
     }
 
     /// Adds a note unless `count` is 0.
-    pub(crate) fn add(&mut self, kind: NoteKind, count: usize, line: Option<usize>, what: String) {
-        let note = self.note(kind, count, line, what);
+    pub(crate) fn add(
+        &mut self,
+        code: &'static str,
+        kind: NoteKind,
+        count: usize,
+        line: Option<usize>,
+        what: String,
+    ) {
+        let note = self.note(code, kind, count, line, what);
         self.push(note);
     }
 
-    fn note(&mut self, kind: NoteKind, count: usize, line: Option<usize>, what: String) -> Note {
-        let other = match kind {
-            NoteKind::LeftOut => "left-out",
-            NoteKind::Changed => "changed",
-        };
+    fn note(
+        &self,
+        code: &'static str,
+        kind: NoteKind,
+        count: usize,
+        line: Option<usize>,
+        what: String,
+    ) -> Note {
         Note {
-            code: self.code.take().unwrap_or(other),
+            code,
             kind,
             path: self.path.clone(),
             line,
@@ -312,11 +316,11 @@ impl Notes {
 
     pub(crate) fn into_vec(mut self) -> Vec<Note> {
         for (kind, count) in std::mem::take(&mut self.unlisted) {
-            let what = match kind {
-                NoteKind::LeftOut => "more notes about content left out",
-                NoteKind::Changed => "more notes about changed content",
+            let (code, what) = match kind {
+                NoteKind::LeftOut => ("left-out", "more notes about content left out"),
+                NoteKind::Changed => ("changed", "more notes about changed content"),
             };
-            let note = self.note(kind, count, None, what.to_owned());
+            let note = self.note(code, kind, count, None, what.to_owned());
             self.list.push(note);
         }
         self.list
@@ -342,7 +346,7 @@ impl Names {
         }
         let what = format!("node named `{name}` renamed to `{new}`: the name is taken");
         let renamed = usize::from(new != name);
-        notes.coded("objects-renamed").changed(renamed, None, what);
+        notes.changed("objects-renamed", renamed, None, what);
         new
     }
 }
@@ -386,8 +390,8 @@ mod tests {
     fn many_notes_are_counted_instead_of_listed() {
         let mut notes = Notes::of(Path::new("a"));
         for i in 0..1500 {
-            notes.left_out(2, i, "things left out");
-            notes.changed(1, None, "things changed");
+            notes.left_out("a", 2, i, "things left out");
+            notes.changed("b", 1, None, "things changed");
         }
         let mut all = Notes::of(Path::new("b"));
         all.append(notes);

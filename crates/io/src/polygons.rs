@@ -296,8 +296,7 @@ impl Polygons {
                 Elements::Faces(faces) => Elements::Faces(faces.into_iter().map(in_file).collect()),
                 elements => elements,
             };
-            let notes = notes.coded(repair.code);
-            notes.elements(kind, repair.description, elements, places);
+            notes.elements(repair.code, kind, repair.description, elements, places);
         }
         Ok(built)
     }

@@ -187,9 +187,7 @@ impl<'a> Document<'a> {
     /// Adds notes for everything that was left out or changed.
     pub(super) fn note_all(&self, notes: &mut Notes) {
         for ((kind, what, code), (count, line)) in self.tally.take() {
-            notes
-                .coded(code)
-                .add(kind, count, Some(line), what.to_owned());
+            notes.add(code, kind, count, Some(line), what.to_owned());
         }
     }
 

@@ -222,9 +222,7 @@ fn note_asset(document: &Document, notes: &mut Notes) -> Result<(), Fault> {
     if meter != 1.0 || up != "Y_UP" {
         let up = up.chars().take(20).collect::<String>();
         let what = format!("coordinate system kept as in the file: up_axis {up}, unit {meter} m");
-        notes
-            .coded("coordinate-system")
-            .changed(1, unit.or(axis).map(line), what);
+        notes.changed("coordinate-system", 1, unit.or(axis).map(line), what);
     }
     Ok(())
 }

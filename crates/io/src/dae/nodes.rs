@@ -70,18 +70,14 @@ pub(super) fn placed<'a>(
     };
     let other_scenes: Vec<&Node> = scenes.iter().filter(|other| **other != scene).collect();
     let first = other_scenes.first().map(|scene| line(**scene));
-    notes
-        .coded("scenes")
-        .left_out(other_scenes.len(), first, "other scenes left out");
+    notes.left_out("scenes", other_scenes.len(), first, "other scenes left out");
     let placed = Walk::of(document).run(scene)?;
     let used = placed.iter().map(|placed| number_of(placed.geometry));
     let used: BTreeSet<u32> = used.collect();
     let mut unused = geometries().filter(|geometry| !used.contains(&number_of(*geometry)));
     if let Some(first) = unused.next() {
         let what = "geometries left out: not used by any node of the scene";
-        notes
-            .coded("meshes-unused")
-            .left_out(1 + unused.count(), line(first), what);
+        notes.left_out("meshes-unused", 1 + unused.count(), line(first), what);
     }
     Ok(placed)
 }

@@ -105,9 +105,7 @@ impl Document {
             images: pieces(json, "images", budget)?,
         };
         rig::check(&document)?;
-        notes
-            .coded("extras")
-            .left_out(left_out_extras(json), None, "extras left out");
+        notes.left_out("extras", left_out_extras(json), None, "extras left out");
         Ok(document)
     }
 }
@@ -171,7 +169,7 @@ fn check_extensions(json: &Value, notes: &mut Notes) -> Result<(), Fault> {
     for (name, count) in uses {
         if !known(name) {
             let what = format!("uses of the extension \"{name}\" left out");
-            notes.coded("extensions").left_out(count.max(1), None, what);
+            notes.left_out("extensions", count.max(1), None, what);
         }
     }
     Ok(())
@@ -313,8 +311,7 @@ fn roots(json: &Value, notes: &mut Notes) -> Result<Vec<usize>, Fault> {
         Some(scene) => index(scene, "/scene")?,
     };
     let scene = get(scenes, which, "/scene", "scene")?;
-    let notes = notes.coded("scenes");
-    notes.left_out(scenes.len() - 1, None, "other scenes left out");
+    notes.left_out("scenes", scenes.len() - 1, None, "other scenes left out");
     let pointer = format!("/scenes/{which}/nodes");
     let nodes = match scene.get("nodes") {
         None => return Ok(Vec::new()),

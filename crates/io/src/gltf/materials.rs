@@ -40,9 +40,7 @@ impl<'a> Materials<'a> {
     /// Adds notes for what was left out.
     pub(super) fn note(self, notes: &mut Notes) {
         let what = "textures without a supported image left out";
-        notes
-            .coded("textures")
-            .left_out(self.without_picture, None, what);
+        notes.left_out("textures", self.without_picture, None, what);
     }
 
     /// Converts material `i` of the document, which must exist.

@@ -97,19 +97,12 @@ pub(super) fn placed_meshes(
 
 fn note_left_out(document: &Document, notes: &mut Notes) {
     let (cameras, lights) = (document.cameras.len(), document.lights.len());
-    notes
-        .coded("cameras")
-        .left_out(cameras, None, "cameras left out");
-    notes
-        .coded("lights")
-        .left_out(lights, None, "lights left out");
+    notes.left_out("cameras", cameras, None, "cameras left out");
+    notes.left_out("lights", lights, None, "lights left out");
     let what = "animations left out";
-    let notes = notes.coded("animations");
-    notes.left_out(document.animations.len(), None, what);
+    notes.left_out("animations", document.animations.len(), None, what);
     let what = "skins left out, after the meshes are posed by the joints";
-    notes
-        .coded("skins")
-        .left_out(document.skins.len(), None, what);
+    notes.left_out("skins", document.skins.len(), None, what);
 }
 
 /// The nodes of the scene, parents before children, in the order of the file.

@@ -372,31 +372,34 @@ impl LeftOut {
     }
 
     fn note(self, notes: &mut Notes) {
-        notes
-            .coded("points")
-            .left_out(self.points, None, "primitives of points left out");
-        notes
-            .coded("polylines")
-            .left_out(self.lines, None, "primitives of lines left out");
-        notes.coded("primitives-empty").left_out(
+        notes.left_out("points", self.points, None, "primitives of points left out");
+        notes.left_out(
+            "polylines",
+            self.lines,
+            None,
+            "primitives of lines left out",
+        );
+        notes.left_out(
+            "primitives-empty",
             self.empty,
             None,
             "primitives without positions left out",
         );
         let what = "attributes that only some primitives of a mesh have: set to 0 in the others";
-        notes
-            .coded("attributes-partial")
-            .changed(self.partial, None, what);
+        notes.changed("attributes-partial", self.partial, None, what);
         for (what, count) in self.repairs.changed {
-            notes.coded("joint-weights").changed(count, None, what);
+            notes.changed("joint-weights", count, None, what);
         }
         for (what, count) in self.repairs.left_out {
-            notes.coded("morphs").left_out(count, None, what);
+            notes.left_out("morphs", count, None, what);
         }
         for (name, count) in self.attributes {
-            notes
-                .coded("attributes")
-                .left_out(count, None, format!("attributes {name} left out"));
+            notes.left_out(
+                "attributes",
+                count,
+                None,
+                format!("attributes {name} left out"),
+            );
         }
     }
 }

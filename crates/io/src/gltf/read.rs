@@ -82,7 +82,7 @@ fn objects(
     }
     let unused = document.meshes.len() - uses.len();
     let what = "meshes left out: not used by any node of the scene";
-    notes.coded("meshes-unused").left_out(unused, None, what);
+    notes.left_out("meshes-unused", unused, None, what);
     let mut meshes = BTreeMap::new();
     let mut materials = Materials::new(reader);
     let mut objects = Vec::new();
@@ -229,7 +229,8 @@ fn polygons(
     } = triangles;
     let n = positions.len();
     let (positions, vertex_of, unused) = weld(positions, &mut attributes, &order);
-    notes.coded("vertices-unused").left_out(
+    notes.left_out(
+        "vertices-unused",
         unused,
         None,
         "vertices left out: not used by any triangle",
@@ -254,7 +255,8 @@ fn polygons(
         Some(pose) => polygons.apply_pose(pose, to_scene),
         None => polygons.apply_transform(to_scene),
     };
-    notes.coded("normals").left_out(
+    notes.left_out(
+        "normals",
         lost,
         None,
         "normals left out: the transform of the node is singular",

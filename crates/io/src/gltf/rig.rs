@@ -124,7 +124,7 @@ impl<'a, 'r> RigReader<'a, 'r> {
             .collect();
         let what = "skins left out: a joint is not in the scene";
         let n = complete.iter().filter(|is| !**is).count();
-        notes.coded("skins").left_out(n, None, what);
+        notes.left_out("skins", n, None, what);
         graph.retain_skins(&complete);
         let n = document
             .animations
@@ -132,7 +132,7 @@ impl<'a, 'r> RigReader<'a, 'r> {
             .filter(|a| a.channels.is_empty())
             .count();
         let what = "animations without channels left out";
-        notes.coded("animations").left_out(n, None, what);
+        notes.left_out("animations", n, None, what);
         for (i, json) in document.animations.iter().enumerate() {
             let animation = self.animation(i, json, nodes, &mut lost_channels)?;
             if !animation.channels.is_empty() {
@@ -294,16 +294,14 @@ struct LostChannels {
 impl LostChannels {
     fn note(self, notes: &mut Notes) {
         let what = "animation channels left out: the node is not in the scene";
-        notes.coded("animations").left_out(self.nodes, None, what);
+        notes.left_out("animations", self.nodes, None, what);
         let what = "animation channels left out: the property is not part of glTF 2.0";
-        notes
-            .coded("animations")
-            .left_out(self.properties, None, what);
+        notes.left_out("animations", self.properties, None, what);
         for (sampler, count) in self.samplers {
             let what = format!(
                 "animation channels left out: {sampler} has times that do not increase, or a wrong number of values"
             );
-            notes.coded("animations").left_out(count, None, what);
+            notes.left_out("animations", count, None, what);
         }
     }
 }

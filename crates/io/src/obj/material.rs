@@ -63,28 +63,25 @@ pub(super) fn read_libraries(
                             materials.push(material);
                         } else {
                             let what = format!("repeated material `{}` left out", material.name);
-                            library_notes
-                                .coded("materials-repeated")
-                                .left_out(1, None, what);
+                            library_notes.left_out("materials-repeated", 1, None, what);
                         }
                     }
                     notes.append(library_notes);
                 }
                 Err(error) => {
                     let what = format!("material library `{library}` left out: {error}");
-                    let notes = notes.coded("material-library-missing");
-                    notes.left_out(1, place.line, what);
+                    notes.left_out("material-library-missing", 1, place.line, what);
                 }
             }
         }
     }
     let what = "names of material libraries left out: too many";
-    notes.coded("too-many-names").left_out(further, None, what);
+    notes.left_out("too-many-names", further, None, what);
     for used in &file.material_names {
         if known.insert(used.clone()) {
             let what =
                 format!("material `{used}` not found in any library: replaced by a white material");
-            notes.coded("material-missing").changed(1, None, what);
+            notes.changed("material-missing", 1, None, what);
             materials.push(Material::new(used));
         }
     }
@@ -128,7 +125,8 @@ fn read_library(bytes: &[u8], notes: &mut Notes) -> Vec<Material> {
     let text = name(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes));
     let text = text.replace("\r\n", "\n").replace('\r', "\n");
     if let Err(error) = check_encoding(bytes) {
-        notes.coded("material-library-unreadable").left_out(
+        notes.left_out(
+            "material-library-unreadable",
             1,
             1,
             format!("material library left out: {}", error.message),
@@ -139,8 +137,7 @@ fn read_library(bytes: &[u8], notes: &mut Notes) -> Vec<Material> {
     let mut ignored = Ignored::default();
     let materials = materials.into_iter().map(|m| converted(m, &mut ignored));
     let materials = materials.collect();
-    let notes = notes.coded("material-values");
-    notes.left_out(ignored.0, None, "material values left out: only color (Kd), alpha (d, Tr), roughness (Pr), metalness (Pm), emission (Ke), textures of color and emission, normal maps (norm), and a texture shared by Pr and Pm are read");
+    notes.left_out("material-values", ignored.0, None, "material values left out: only color (Kd), alpha (d, Tr), roughness (Pr), metalness (Pm), emission (Ke), textures of color and emission, normal maps (norm), and a texture shared by Pr and Pm are read");
     materials
 }
 
@@ -160,7 +157,7 @@ fn without_broken_lines(text: &str, notes: &mut Notes) -> String {
             }
             Err(why) => {
                 let what = format!("line {} left out: {why}", quoted(line.trim().as_bytes()));
-                notes.coded("material-lines").left_out(1, i + 1, what);
+                notes.left_out("material-lines", 1, i + 1, what);
             }
         }
     }

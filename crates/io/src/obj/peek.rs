@@ -42,7 +42,7 @@ pub(crate) fn peek(
         return Ok(PeekObject::new(name.to_owned(), geometry));
     }
     let n_lines = usize::try_from(all.lines).unwrap_or(usize::MAX);
-    notes.coded("polylines").left_out(n_lines, None, POLYLINES);
+    notes.left_out("polylines", n_lines, None, POLYLINES);
     let materials = read_libraries(assets, &file, notes)?;
     let textures = materials.iter().flat_map(Material::textures);
     note_missing(textures.filter_map(Texture::path), assets, notes);

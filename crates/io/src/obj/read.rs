@@ -35,7 +35,7 @@ pub(crate) fn read(bytes: &[u8], assets: &mut Assets, notes: &mut Notes) -> Resu
         let lines = polylines(&file, notes);
         return Ok(Shape::Geometry(Geometry::Polylines(lines)));
     }
-    notes.coded("polylines").left_out(n_lines, None, POLYLINES);
+    notes.left_out("polylines", n_lines, None, POLYLINES);
     let materials = read_libraries(assets, &file, notes)?;
     Ok(Shape::Polygons(polygons(file, materials, notes)))
 }
@@ -48,18 +48,14 @@ fn use_mrgb_colors(file: &mut ObjFile, notes: &mut Notes) {
     }
     if mrgb_colors.len() != file.positions.len() || !file.colors.is_empty() {
         let what = "colors of `#MRGB` comments left out: their number differs from the number of vertices, or vertices have other colors";
-        notes
-            .coded("colors")
-            .left_out(mrgb_colors.len(), None, what);
+        notes.left_out("colors", mrgb_colors.len(), None, what);
         return;
     }
     let masked = mrgb_colors
         .iter()
         .filter(|&&color| color >> 24 != 0xff)
         .count();
-    notes
-        .coded("masks")
-        .left_out(masked, None, "masks of `#MRGB` comments left out");
+    notes.left_out("masks", masked, None, "masks of `#MRGB` comments left out");
     let color = |color: &u32| {
         let [_, red, green, blue] = color.to_be_bytes().map(f64::from);
         (DVec3::new(red, green, blue) / 255.0).extend(1.0)
@@ -73,13 +69,15 @@ fn polylines(file: &ObjFile, notes: &mut Notes) -> Vec<Vec<DVec3>> {
         corners.map(|&v| file.positions[v as usize]).collect()
     };
     let unused = unused(file.positions.len(), &file.line_corners);
-    notes.coded("vertices-unused").left_out(
+    notes.left_out(
+        "vertices-unused",
         unused,
         None,
         "vertices left out: not used by any polyline",
     );
     let colors = file.colors.len();
-    notes.coded("colors").left_out(
+    notes.left_out(
+        "colors",
         colors,
         None,
         "vertex colors left out: polylines cannot have colors",
@@ -99,26 +97,23 @@ fn polygons(mut file: ObjFile, materials: Vec<Material>, notes: &mut Notes) -> P
     }
     let [_, of_uvs, of_normals] = &file.corners;
     let what = "texture coordinates (`vt`) left out: not used by any face";
-    notes
-        .coded("uvs-unused")
-        .left_out(unused(file.uvs.len(), of_uvs), None, what);
+    notes.left_out("uvs-unused", unused(file.uvs.len(), of_uvs), None, what);
     let what = "normals (`vn`) left out: not used by any face";
-    notes
-        .coded("normals-unused")
-        .left_out(unused(file.normals.len(), of_normals), None, what);
+    notes.left_out(
+        "normals-unused",
+        unused(file.normals.len(), of_normals),
+        None,
+        what,
+    );
     if !of_uvs.is_empty() {
         polygons.insert_known(UV, values(&file.uvs, of_uvs));
         let what = "face corners without texture coordinates: set to 0 0";
-        notes
-            .coded("uvs-missing")
-            .changed(missing(of_uvs), None, what);
+        notes.changed("uvs-missing", missing(of_uvs), None, what);
     }
     if !of_normals.is_empty() {
         polygons.insert_known(CORNER_NORMAL, values(&file.normals, of_normals));
         let what = "face corners without a normal: set to 0 0 0";
-        notes
-            .coded("normals-missing")
-            .changed(missing(of_normals), None, what);
+        notes.changed("normals-missing", missing(of_normals), None, what);
     }
     set_materials(&mut polygons, &file, &materials);
     if file.runs.iter().any(|run| run.smoothing != 0) {
@@ -189,9 +184,7 @@ fn set_tags(polygons: &mut Polygons, file: &ObjFile, notes: &mut Notes) {
     let n = objects + file.group_names.len();
     let n_columns = n.min(most_tags(n_faces));
     let what = "groups and objects left out: too many for a mesh of this size";
-    notes
-        .coded("too-many-names")
-        .left_out(n - n_columns, None, what);
+    notes.left_out("too-many-names", n - n_columns, None, what);
     let mut columns: Vec<Vec<bool>> = vec![vec![false; n_faces]; n_columns];
     // Tags of objects come before tags of groups, because objects matter more if not all tags fit.
     for (i, run) in file.runs.iter().enumerate() {
@@ -228,16 +221,14 @@ fn set_tags(polygons: &mut Polygons, file: &ObjFile, notes: &mut Notes) {
             }
             Some(_) => {
                 let what = format!("group `{name}` renamed to `{name} group`: the name is taken");
-                notes.coded("groups-renamed").changed(1, None, what);
+                notes.changed("groups-renamed", 1, None, what);
                 format!("{name} group")
             }
         };
         polygons.insert(Domain::Face, name, Rule::Copy, marks);
     }
     let what = "groups and objects left out: they have no faces";
-    notes
-        .coded("groups-empty")
-        .left_out(without_faces, None, what);
+    notes.left_out("groups-empty", without_faces, None, what);
 }
 
 pub(super) fn note_left_out(file: &ObjFile, notes: &mut Notes) {
@@ -271,10 +262,10 @@ pub(super) fn note_left_out(file: &ObjFile, notes: &mut Notes) {
             }
             LeftOut::NotFinite => {
                 let what = "non-finite numbers in texture coordinates and normals: set to 0";
-                notes.coded("values-not-finite").changed(count, line, what);
+                notes.changed("values-not-finite", count, line, what);
                 continue;
             }
         };
-        notes.coded(code).left_out(count, line, text);
+        notes.left_out(code, count, line, text);
     }
 }

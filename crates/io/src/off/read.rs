@@ -171,9 +171,7 @@ fn vertices(
         cursor.skip_line();
     }
     let what = "vertices with extra numbers, which the keyword in the first line does not declare: left out";
-    notes
-        .coded("extra-content")
-        .left_out(extra, first_extra, what);
+    notes.left_out("extra-content", extra, first_extra, what);
     if header.normals {
         polygons.insert_known(VERTEX_NORMAL, normals);
     }
@@ -301,7 +299,8 @@ fn faces(
     if !colors.values.is_empty() {
         colors.values.resize(n_faces, None);
         let n = colors.values.iter().filter(|color| color.is_none()).count();
-        notes.coded("colors-missing").changed(
+        notes.changed(
+            "colors-missing",
             n,
             None,
             "faces without a color set to gray because other faces have colors",
@@ -318,11 +317,14 @@ fn faces(
 /// Notes the faces with fewer than 3 corners, of which the first is in line `first`, and the lines after the last face.
 fn note_left_out(small: usize, first: Option<usize>, cursor: &mut Cursor, notes: &mut Notes) {
     let what = "faces with fewer than 3 corners left out";
-    notes.coded("faces-too-small").left_out(small, first, what);
+    notes.left_out("faces-too-small", small, first, what);
     let (rest, first) = cursor.count_rest();
-    notes
-        .coded("extra-content")
-        .left_out(rest, first, "lines after the last face left out");
+    notes.left_out(
+        "extra-content",
+        rest,
+        first,
+        "lines after the last face left out",
+    );
 }
 
 // ---- Counts ------------------------------------------------------------------------------------

@@ -75,9 +75,12 @@ impl<'a> Body<'a> {
             at = end;
         }
         let rest = self.bytes.len() - at;
-        notes
-            .coded("extra-content")
-            .left_out(rest, None, "bytes after the last element left out");
+        notes.left_out(
+            "extra-content",
+            rest,
+            None,
+            "bytes after the last element left out",
+        );
         Ok(tables)
     }
 
@@ -166,9 +169,12 @@ fn transcoded(
     }
     let (lines, first) = cursor.count_rest();
     let first = first + header.lines;
-    notes
-        .coded("extra-content")
-        .left_out(lines, first, "lines after the last element left out");
+    notes.left_out(
+        "extra-content",
+        lines,
+        first,
+        "lines after the last element left out",
+    );
     Ok(out)
 }
 

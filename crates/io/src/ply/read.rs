@@ -133,16 +133,16 @@ impl Reader<'_, '_> {
         self.polygons.offsets = Polygons::even_offsets(n, 3);
         self.polygons.corners = corners;
         let what = format!("triangle strips converted to {n} triangles");
-        self.notes
-            .coded("strips-converted")
-            .changed(strips, line, what);
+        self.notes.changed("strips-converted", strips, line, what);
         let what = "triangles of strips left out because they visit a vertex twice";
-        self.notes
-            .coded("strips-converted")
-            .changed(stitches, line, what);
+        self.notes.changed("strips-converted", stitches, line, what);
         let lost = (table.properties.len() - 1) * table.rows;
-        let notes = self.notes.coded("strip-values");
-        notes.left_out(lost, line, "values of triangle strips left out");
+        self.notes.left_out(
+            "strip-values",
+            lost,
+            line,
+            "values of triangle strips left out",
+        );
         Ok(())
     }
 
@@ -163,8 +163,7 @@ impl Reader<'_, '_> {
             let corners = &self.polygons.corners;
             let what = "non-finite texture coordinates set to 0";
             self.notes
-                .coded("values-not-finite")
-                .changed(zero_non_finite(&mut uvs), None, what);
+                .changed("values-not-finite", zero_non_finite(&mut uvs), None, what);
             let uvs = uvs.gather(corners.len(), |c| Some(corners[c] as usize));
             self.insert(Domain::Corner, UV.name, UV.rule, uvs);
         }
@@ -184,7 +183,7 @@ impl Reader<'_, '_> {
             let (values, short) = values(table, source, Kind::Vec2);
             let line = element.properties[list].place.line;
             let what = "faces with texture coordinates set to 0: `texcoord` does not have 2 numbers for each corner";
-            self.notes.coded("uvs-missing").changed(short, line, what);
+            self.notes.changed("uvs-missing", short, line, what);
             self.insert(Domain::Corner, UV.name, UV.rule, values);
         }
         self.normals_and_colors(Domain::Face, place, &mut used);
@@ -272,8 +271,7 @@ impl Reader<'_, '_> {
             if property.count.is_some() {
                 let what = format!("lists {property} of {element} left out");
                 self.notes
-                    .coded("properties")
-                    .left_out(table.rows, property.place.line, what);
+                    .left_out("properties", table.rows, property.place.line, what);
                 continue;
             }
             let of_kind = |kind| values(table, Source::Scalars(p), kind).0;
@@ -294,9 +292,12 @@ impl Reader<'_, '_> {
     /// Adds a column. If the name is taken, a number is appended to it.
     fn insert(&mut self, domain: Domain, name: &str, rule: Rule, mut values: Values) {
         let what = format!("non-finite values of `{}` set to 0", name.escape_debug());
-        self.notes
-            .coded("values-not-finite")
-            .changed(zero_non_finite(&mut values), None, what);
+        self.notes.changed(
+            "values-not-finite",
+            zero_non_finite(&mut values),
+            None,
+            what,
+        );
         let mut free = name.to_owned();
         let mut number = 2;
         while !self.names.insert((domain, free.clone())) {
@@ -307,8 +308,7 @@ impl Reader<'_, '_> {
             let (old, new) = (name.escape_debug(), free.escape_debug());
             let what = format!("values of attribute `{old}` renamed to `{new}`: the name is taken");
             self.notes
-                .coded("attributes-renamed")
-                .changed(values.len(), None, what);
+                .changed("attributes-renamed", values.len(), None, what);
         }
         let column = Column {
             name: free,
@@ -324,9 +324,7 @@ impl Reader<'_, '_> {
         let is_small = |f: usize| offsets[f + 1] - offsets[f] < 3;
         let count = parallel::count(n, is_small);
         let what = "faces with fewer than 3 corners left out";
-        self.notes
-            .coded("faces-too-small")
-            .left_out(count, None, what);
+        self.notes.left_out("faces-too-small", count, None, what);
         if count > 0 {
             let is_small: Vec<bool> = (0..n).map(is_small).collect();
             keep(&mut self.polygons, &is_small, &[]);

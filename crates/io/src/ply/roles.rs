@@ -60,9 +60,7 @@ impl Roles {
         for (place, element) in header.elements.iter().enumerate() {
             if !self.uses(place) {
                 let what = format!("rows of {element} left out");
-                notes
-                    .coded("elements")
-                    .left_out(element.rows, element.place.line, what);
+                notes.left_out("elements", element.rows, element.place.line, what);
             }
         }
     }

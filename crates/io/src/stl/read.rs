@@ -29,7 +29,7 @@ pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
         Kind::Text => text::read(bytes)?,
         Kind::Binary(end) => {
             let rest = bytes.len() - end;
-            notes.coded("extra-content").left_out(rest, None, REST);
+            notes.left_out("extra-content", rest, None, REST);
             binary::read(&bytes[binary::START..end])?
         }
     };
@@ -85,16 +85,14 @@ fn polygons(facets: Facets, notes: &mut Notes) -> Polygons {
     let n_corners = facets.corners.len();
     let [_, tilted, turned] = facets.sides;
     let what = "facet normals left out because they point away from the front of their facets";
-    notes.coded("normals-turned").changed(turned, None, what);
+    notes.changed("normals-turned", turned, None, what);
     let what = "facet normals left out because they are not perpendicular to their facets";
-    notes.coded("normals-tilted").changed(tilted, None, what);
-    notes
-        .coded("facet-attributes")
-        .left_out(facets.colored, None, COLORED);
+    notes.changed("normals-tilted", tilted, None, what);
+    notes.left_out("facet-attributes", facets.colored, None, COLORED);
     let (positions, corners) = weld(facets.corners);
     let n = positions.len();
     let what = format!("corners merged into {n} vertices by equal positions");
-    notes.coded("corners-merged").changed(n_corners, None, what);
+    notes.changed("corners-merged", n_corners, None, what);
     let mut polygons = Polygons {
         positions,
         offsets: Polygons::even_offsets(n_corners / 3, 3),
@@ -128,11 +126,14 @@ fn set_tags(polygons: &mut Polygons, solids: &[(String, Range<usize>)], notes: &
         let name = format!("{OBJECT_TAG}{name}");
         polygons.insert(Domain::Face, name, Rule::Copy, marks);
     }
-    notes
-        .coded("solids-empty")
-        .left_out(empty, None, "solids without facets left out");
+    notes.left_out(
+        "solids-empty",
+        empty,
+        None,
+        "solids without facets left out",
+    );
     let what = "names of solids left out: too many for a mesh of this size";
-    notes.coded("too-many-names").left_out(too_many, None, what);
+    notes.left_out("too-many-names", too_many, None, what);
 }
 
 /// Returns the counts of an STL file, and notes on the bytes of a binary file that are left out. The number of vertices is
@@ -145,13 +146,9 @@ pub(crate) fn peek(bytes: &[u8], notes: &mut Notes) -> Result<PeekMesh, Fault> {
     let n = match kind(bytes)? {
         Kind::Text => text::count(bytes),
         Kind::Binary(end) => {
-            notes
-                .coded("extra-content")
-                .left_out(bytes.len() - end, None, REST);
+            notes.left_out("extra-content", bytes.len() - end, None, REST);
             let colored = binary::n_colored(&bytes[binary::START..end]);
-            notes
-                .coded("facet-attributes")
-                .left_out(colored, None, COLORED);
+            notes.left_out("facet-attributes", colored, None, COLORED);
             binary::count(bytes).unwrap_or(0).into()
         }
     };

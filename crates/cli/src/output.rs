@@ -9,6 +9,7 @@ use recipe::{LineIndex, Origin, Outcome, Recipe, RecipeStep, Source, StepDone};
 use ron_tree::{Value, ValueKind};
 
 use engine::Loaded;
+pub(crate) use op::readable as number;
 use serde::Serialize;
 use store::{Disk, NewFile, Store, StoreError, folder_of};
 
@@ -201,34 +202,6 @@ fn shortened(text: &str, most: usize) -> Cow<'_, str> {
     }
     let start: String = text.chars().take(most.saturating_sub(1)).collect();
     Cow::Owned(start + "…")
-}
-
-/// Formats a number for people, with six significant digits. All digits before the decimal point are kept.
-pub(crate) fn number(x: f64) -> String {
-    if x == 0.0 || !x.is_finite() {
-        return x.to_string();
-    }
-    let scientific = format!("{x:.5e}");
-    let exponent = scientific.split_once('e').and_then(|(_, e)| e.parse().ok());
-    match exponent {
-        Some(exponent @ -5..15) => {
-            let decimals = usize::try_from(5 - exponent).unwrap_or(0);
-            trimmed(&format!("{x:.decimals$}"))
-        }
-        _ => trimmed(&scientific),
-    }
-}
-
-/// Removes zeros at the end of the decimals.
-fn trimmed(text: &str) -> String {
-    let (digits, exponent) = text.find('e').map_or((text, ""), |e| text.split_at(e));
-    let digits = if digits.contains('.') {
-        digits.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        digits
-    };
-    let digits = if digits == "-0" { "0" } else { digits };
-    format!("{digits}{exponent}")
 }
 
 /// Formats a point for people, such as `[0.5, 1, 2.33333]`.

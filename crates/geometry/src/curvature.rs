@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use mesh::blocks::BLOCK;
-use mesh::{Domain, EdgeId, Mesh, VertexId, angle_between};
+use mesh::{DVec3, Domain, EdgeId, Mesh, VertexId, angle_between};
 use rayon::prelude::*;
 
 /// Returns the Gaussian curvature at each vertex, by vertex index, in 1 / scene unit²: 1 / r² on a sphere of
@@ -43,6 +43,45 @@ pub fn mean_curvatures(mesh: &Mesh) -> Vec<f64> {
     })
 }
 
+/// Returns the principal curvatures at each vertex, the smaller one first, by vertex index, in 1 / scene unit: both are
+/// 1 / r on an outward-facing sphere of radius r, and 0 and 1 / r on a cylinder. NaN where the
+/// [mean curvature](mean_curvatures) is NaN.
+///
+/// They are the eigenvalues of the curvature tensor of the vertex in the plane perpendicular to its normal, which is the sum of
+/// the area vectors of its faces. The tensor is the sum over the edges at the vertex of half the signed dihedral angle times the length times
+/// u uᵀ, where u is the unit vector along the edge, divided by the [vertex area](vertex_area): Cohen-Steiner, Morvan,
+/// "Restricted Delaunay Triangulations and Normal Cycle", 2003. Where the surface is nearly flat around the vertex, their mean is
+/// the mean curvature.
+pub fn principal_curvatures(mesh: &Mesh) -> Vec<[f64; 2]> {
+    let none = [f64::NAN; 2];
+    fill_vertices(mesh, none, |v| {
+        let faces = mesh.vertex_half_edges(v).filter_map(|h| mesh.face(h));
+        let normal: DVec3 = faces.map(|f| mesh.area_vector(f)).sum();
+        let normal = normal.normalize_or(DVec3::Z);
+        let (a, b) = normal.any_orthonormal_pair();
+        // The tensor in the basis a, b: rows (aa, ab) and (ab, bb).
+        let [mut aa, mut ab, mut bb] = [0.0; 3];
+        for h in mesh.vertex_half_edges(v) {
+            let along = mesh.position(mesh.target(h)) - mesh.position(v);
+            let u = along.normalize_or_zero();
+            let weight = 0.5 * signed_dihedral(mesh, h.edge()) * mesh.length(h);
+            let (x, y) = (u.dot(a), u.dot(b));
+            aa += weight * x * x;
+            ab += weight * x * y;
+            bb += weight * y * y;
+        }
+        let area = vertex_area(mesh, v);
+        let (middle, half) = (0.5 * (aa + bb), 0.5 * (aa - bb));
+        let radius = (half * half + ab * ab).sqrt();
+        let pair = [(middle - radius) / area, (middle + radius) / area];
+        if pair.iter().all(|k| k.is_finite()) {
+            pair
+        } else {
+            none
+        }
+    })
+}
+
 /// Returns the area of the surface that belongs to a vertex, in scene unit². Each face around the vertex
 /// contributes its area divided by its number of corners.
 pub fn vertex_area(mesh: &Mesh, v: VertexId) -> f64 {
@@ -69,7 +108,19 @@ fn signed_dihedral(mesh: &Mesh, e: EdgeId) -> f64 {
 }
 
 fn at_vertices(mesh: &Mesh, value: impl Fn(VertexId) -> f64 + Sync) -> Vec<f64> {
-    let mut values = vec![f64::NAN; mesh.domain_len(Domain::Vertex)];
+    fill_vertices(mesh, f64::NAN, |v| {
+        let value = value(v);
+        if value.is_finite() { value } else { f64::NAN }
+    })
+}
+
+/// Returns the value of each vertex, by index; `none` for dead vertices.
+fn fill_vertices<T: Copy + Send + Sync>(
+    mesh: &Mesh,
+    none: T,
+    value: impl Fn(VertexId) -> T + Sync,
+) -> Vec<T> {
+    let mut values = vec![none; mesh.domain_len(Domain::Vertex)];
     values
         .par_chunks_mut(BLOCK)
         .enumerate()
@@ -77,8 +128,7 @@ fn at_vertices(mesh: &Mesh, value: impl Fn(VertexId) -> f64 + Sync) -> Vec<f64> 
             for (i, slot) in block.iter_mut().enumerate() {
                 let v = VertexId::new(b * BLOCK + i);
                 if mesh.has_vertex(v) {
-                    let value = value(v);
-                    *slot = if value.is_finite() { value } else { f64::NAN };
+                    *slot = value(v);
                 }
             }
         });
@@ -129,6 +179,70 @@ mod tests {
         mesh.reverse();
         let h = mean(&mean_curvatures(&mesh)) * radius;
         assert!((h + 1.0).abs() < 0.02, "{h}");
+    }
+
+    #[test]
+    fn principal_curvatures_are_those_of_spheres_cylinders_and_tori() {
+        let sphere = shapes::uv_sphere(64, 32);
+        let tube = shapes::cylinder(64, true);
+        let torus = shapes::torus(96, 48, 2.0, 0.5);
+        let expected_on_torus = |v: VertexId| {
+            let p = torus.position(v);
+            let ring = p.truncate().length();
+            [(ring - 2.0) / (0.5 * ring), 2.0]
+        };
+        for mesh in [&sphere, &torus] {
+            let found = principal_curvatures(mesh);
+            let mut sum = 0.0;
+            for v in mesh.vertices() {
+                let [low, high] = if mesh.n_faces() == torus.n_faces() {
+                    expected_on_torus(v)
+                } else {
+                    [1.0; 2]
+                };
+                let [k, l] = found[v.index()];
+                assert!(k <= l);
+                sum += (k - low).abs() + (l - high).abs();
+            }
+            let error = sum / found.len() as f64;
+            assert!(error < 0.03, "{error}");
+        }
+        let found = principal_curvatures(&tube);
+        let radius = tube.position(VertexId::new(0)).truncate().length();
+        let inner = |v: &VertexId| {
+            tube.vertex_faces(*v)
+                .all(|f| tube.face_normal(f).z.abs() < 0.1)
+        };
+        for v in tube.vertices().filter(inner) {
+            let [low, high] = found[v.index()];
+            assert!(
+                low.abs() < 1e-9 && (high * radius - 1.0).abs() < 0.01,
+                "{low} {high}"
+            );
+        }
+        let mut reversed = sphere;
+        reversed.reverse();
+        let [low, high] = principal_curvatures(&reversed)[1024];
+        assert!(low <= high && (high + 1.0).abs() < 0.02, "{low} {high}");
+    }
+
+    #[test]
+    fn curvatures_scale_with_the_inverse_of_the_size() {
+        let mesh = shapes::torus(12, 8, 2.0, 0.5);
+        let mut large = mesh.clone();
+        for p in large.positions_mut() {
+            *p *= 4.0;
+        }
+        for (k, l) in principal_curvatures(&mesh)
+            .iter()
+            .zip(principal_curvatures(&large))
+        {
+            assert!((k[0] - 4.0 * l[0]).abs() < 1e-12 && (k[1] - 4.0 * l[1]).abs() < 1e-12);
+        }
+        let gauss = gaussian_curvatures(&mesh);
+        for (k, l) in gauss.iter().zip(gaussian_curvatures(&large)) {
+            assert!((k - 16.0 * l).abs() < 1e-12);
+        }
     }
 
     #[test]

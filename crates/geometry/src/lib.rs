@@ -4,7 +4,8 @@
 //! | --- | --- |
 //! | [`shapes`] | simple meshes |
 //! | [`area`], [`volume`], [`bounds`], [`genus`], [`components`] | measures of whole meshes |
-//! | [`gaussian_curvatures`], [`mean_curvatures`] | discrete curvature |
+//! | [`gaussian_curvatures`], [`mean_curvatures`], [`principal_curvatures`] | discrete curvature |
+//! | [`min_angle`], [`aspect_ratio`] | the shape of faces |
 //! | [`distance`] | the distance between two surfaces |
 //! | [`surface_index`] | nearest points, rays, intersections and winding numbers of a surface |
 //! | [`predicates`] | exact sides of lines and planes |
@@ -22,6 +23,7 @@ mod bisect;
 mod curvature;
 pub mod deform;
 pub mod distance;
+mod face_quality;
 mod fill_hole;
 mod laplacian;
 mod measure;
@@ -37,7 +39,8 @@ mod tangent;
 pub mod triangulate;
 
 pub use bisect::{Bisection, bisect};
-pub use curvature::{gaussian_curvatures, mean_curvatures, vertex_area};
+pub use curvature::{gaussian_curvatures, mean_curvatures, principal_curvatures, vertex_area};
+pub use face_quality::{aspect_ratio, min_angle};
 pub use fill_hole::fill_hole_triangles;
 pub use laplacian::Laplacian;
 pub use measure::{

@@ -41,6 +41,7 @@
 //! assert_eq!(lifted.position(lifted.vertices().next().unwrap()), DVec3::new(0.0, 0.0, 2.0));
 //! ```
 
+mod attribute_name;
 mod context;
 mod edit;
 mod error;
@@ -50,14 +51,17 @@ mod operation;
 mod parameter;
 mod plan;
 pub mod prelude;
+mod readable;
 mod registry;
 mod report;
 mod selection;
 mod source;
+mod statistics;
 mod tag;
 mod targets;
 pub mod test;
 
+pub use attribute_name::{AttributeName, BadAttributeName};
 pub use context::Context;
 pub use edit::{EditTarget, OnRefusal, Seams, edit_each};
 pub use error::{OpError, Refusal};
@@ -66,18 +70,21 @@ pub use files::{FileError, FileLog, FileUse, Files};
 pub use operation::{MeshOperation, Operation};
 pub use parameter::{
     Angle, AngleBetween, Axis, BadVector, ClosedFraction, Count, Direction, Distance, Factors,
-    Fraction, Length, Levels, OutOfRange, PositiveFactor, PositiveLength, Seconds, Sharpness, Turn,
-    Vector,
+    Fraction, Length, Levels, Number, OutOfRange, PositiveFactor, PositiveLength, Seconds,
+    Sharpness, Turn, Vector,
 };
 pub use plan::{
     MeshPlan, Plan, PlanContext, PlannedAttribute, PlannedGeometry, PlannedObject, Problem, Range,
 };
 pub use progress::{Cancelled, NoProgress, Progress};
+pub use readable::readable;
 pub use registry::{DuplicateOperation, Entry, Registry, Step};
 pub use report::{Loss, ReadingChange, ReadingElements, Refused, Report};
 pub use selection::{
     EdgeSelection, ElementKind, Elements, FaceSelection, Region, Select, Selected, VertexSelection,
+    check_component,
 };
 pub use source::{Source, check_name, named_object};
+pub use statistics::Statistics;
 pub use tag::{BadTagName, TagName, tag};
 pub use targets::{TargetKind, change_curves, plan_curves, target_names, target_scene};

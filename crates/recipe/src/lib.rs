@@ -55,8 +55,8 @@ pub use source::Source;
 pub use stamp::Stamp;
 pub use substitute::substitute;
 pub use sweep::{
-    Axis, Grid, MAX_CELLS, Measured, Metric, SWEEP_VERSION, Setting, Sweep, SweepReading,
-    read_sweep,
+    Axis, Grid, MAX_CELLS, Measured, Metric, SWEEP_VERSION, Setting, Statistic, Sweep,
+    SweepReading, read_sweep,
 };
 pub use unknown_operation::suggest_operations;
 

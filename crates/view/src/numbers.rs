@@ -189,12 +189,7 @@ impl Quantity {
                 let v = VertexId::new(i);
                 mesh.has_vertex(v).then(|| mesh.valence(v) as f64)
             }),
-            Self::MinAngle => faces(&|f| {
-                let angles = mesh.face_half_edges(f).map(|h| mesh.corner_angle(h));
-                angles
-                    .fold(f64::INFINITY, |min, a| if a < min { a } else { min })
-                    .to_degrees()
-            }),
+            Self::MinAngle => faces(&|f| geometry::min_angle(mesh, f).to_degrees()),
             Self::Area => faces(&|f| mesh.face_area(f)),
             Self::DihedralAngle => each(Domain::Edge, &|i| {
                 let e = EdgeId::new(i);

@@ -20,5 +20,6 @@ pub fn registry() -> Registry {
         .with_group(ops_solids::register)
         .with_group(ops_surface::register)
         .with_group(ops_deform::register)
+        .with_group(ops_measure::register)
         .with_group(ops_pictures::register)
 }

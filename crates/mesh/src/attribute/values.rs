@@ -59,6 +59,32 @@ impl Values {
         each!(self, v => run(v))
     }
 
+    /// Returns the number of components of one value: from 1 to 4.
+    pub fn n_components(&self) -> usize {
+        match self {
+            Self::Float(_) | Self::Int(_) | Self::Tag(_) => 1,
+            Self::Vec2(_) => 2,
+            Self::Vec3(_) => 3,
+            Self::Vec4(_) => 4,
+        }
+    }
+
+    /// Returns a component of the value at `i` as a number; 1 or 0 for the flag of a tag.
+    ///
+    /// # Panics
+    ///
+    /// If `i` or `component` is out of range.
+    pub fn component(&self, i: usize, component: usize) -> f64 {
+        match self {
+            Self::Float(v) => v[i],
+            Self::Vec2(v) => v[i][component],
+            Self::Vec3(v) => v[i][component],
+            Self::Vec4(v) => v[i][component],
+            Self::Int(v) => v[i].into(),
+            Self::Tag(v) => f64::from(u8::from(v[i])),
+        }
+    }
+
     /// Returns the name of the type of the values.
     pub fn type_name(&self) -> &'static str {
         match self {

@@ -11,8 +11,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use number::{
-    Angle, AngleBetween, ClosedFraction, Count, Distance, Fraction, Length, Levels, OutOfRange,
-    PositiveFactor, PositiveLength, Seconds, Sharpness,
+    Angle, AngleBetween, ClosedFraction, Count, Distance, Fraction, Length, Levels, Number,
+    OutOfRange, PositiveFactor, PositiveLength, Seconds, Sharpness,
 };
 pub use turn::Turn;
 pub use vector::{BadVector, Direction, Factors, Vector};

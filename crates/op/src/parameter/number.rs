@@ -165,6 +165,9 @@ numbers! {
     Seconds: Included(0.1), Included(600.0);
     /// A factor above 0.
     PositiveFactor: Excluded(0.0), Unbounded;
+    /// A finite number.
+    #[derive(Default)]
+    Number: Unbounded, Unbounded;
     /// A distance along a direction, in scene units. A negative distance goes in the opposite direction.
     #[derive(Default)]
     Distance: Unbounded, Unbounded;

@@ -26,6 +26,22 @@ macro_rules! selection {
             Inside(super::Region),
             #[doc = concat!("The ", $elements, " with the tag of this name. Refused if no tag has this name.")]
             Tagged(String),
+            #[doc = concat!("The ", $elements, " whose attribute has a value in a range. Refused if no attribute of ",
+                $elements, " has this name.")]
+            Where {
+                /// The name of the attribute.
+                attribute: String,
+                /// The component of a vector, from 0. Required for vectors, not allowed for numbers.
+                #[serde(default)]
+                #[schemars(range(max = 3))]
+                component: Option<u32>,
+                /// Only values above this number. At least one of `above` and `below` is required.
+                #[serde(default)]
+                above: Option<$crate::Number>,
+                /// Only values below this number.
+                #[serde(default)]
+                below: Option<$crate::Number>,
+            },
             #[doc = concat!("The ", $elements, " in all of these selections. An empty list selects all ", $elements, ".")]
             And(Vec<Self>),
             #[doc = concat!("The ", $elements, " in at least one of these selections. An empty list selects none.")]
@@ -79,6 +95,12 @@ macro_rules! selection {
                     Self::All => Shared::All,
                     Self::Inside(region) => Shared::Inside(region),
                     Self::Tagged(name) => Shared::Tagged(name),
+                    Self::Where { attribute, component, above, below } => Shared::Where {
+                        attribute,
+                        component: *component,
+                        above: *above,
+                        below: *below,
+                    },
                     Self::And(parts) => Shared::And(parts),
                     Self::Or(parts) => Shared::Or(parts),
                     Self::Not(of) => Shared::Not(of),
@@ -95,6 +117,7 @@ macro_rules! selection {
     };
 }
 
+mod attribute;
 mod edge;
 mod elements;
 mod face;
@@ -104,8 +127,9 @@ mod walk;
 
 use mesh::{DVec3, Domain, Id, Mesh, VertexId};
 
-use crate::{Context, MeshPlan, OpError, Range, Refusal, Vector};
+use crate::{Context, MeshPlan, Number, OpError, Range, Refusal, Vector};
 
+pub use attribute::check_component;
 pub use edge::EdgeSelection;
 pub use elements::{ElementKind, Elements, Selected};
 pub use face::FaceSelection;
@@ -119,6 +143,12 @@ enum Shared<'a, S> {
     All,
     Inside(&'a Region),
     Tagged(&'a str),
+    Where {
+        attribute: &'a str,
+        component: Option<u32>,
+        above: Option<Number>,
+        below: Option<Number>,
+    },
     And(&'a [S]),
     Or(&'a [S]),
     Not(&'a S),
@@ -194,6 +224,23 @@ impl<S: Select> Shared<'_, S> {
                 S::vertices(mesh, id).all(|v| region.contains(mesh.position(v)))
             }),
             Self::Tagged(name) => tagged::<S>(mesh, name)?,
+            Self::Where {
+                attribute,
+                component,
+                above,
+                below,
+            } => {
+                let value = attribute::component_of::<S>(mesh, attribute, component)?;
+                if above.is_none() && below.is_none() {
+                    let message = "`Where` needs `above`, `below` or both";
+                    return Err(OpError::Parameter(message.to_owned()));
+                }
+                let is_in = |x: f64| {
+                    above.is_none_or(|above| x > above.get())
+                        && below.is_none_or(|below| x < below.get())
+                };
+                marks::<S>(mesh, |id| is_in(value(id.index())))
+            }
             Self::And(parts) => {
                 let mut mask = marks::<S>(mesh, |_| true);
                 for part in parts {

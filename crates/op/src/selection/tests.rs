@@ -61,6 +61,98 @@ fn predicates_select_by_geometry_and_connectivity() {
     assert_eq!(edges(&parse(slab), &cube).len(), 4);
 }
 
+/// Returns a grid whose vertices and faces have attributes.
+fn with_attributes() -> Mesh {
+    let mut mesh = shapes::grid(3, 2);
+    let mut insert = |domain, name: &str, values| {
+        let (name, rule) = (name.to_owned(), mesh::Rule::Copy);
+        mesh.insert_column(domain, mesh::Column { name, rule, values });
+    };
+    let numbers = |n: u32| (0..n).map(f64::from).collect::<Vec<f64>>();
+    insert(Domain::Vertex, "wall", mesh::Values::Float(numbers(12)));
+    let vectors = numbers(12).into_iter().map(|x| DVec3::new(0.0, x, 1.0));
+    insert(
+        Domain::Vertex,
+        "flow",
+        mesh::Values::Vec3(vectors.collect()),
+    );
+    insert(Domain::Face, "kind", mesh::Values::Int((0..6).collect()));
+    insert(Domain::Face, "mark", mesh::Values::Tag(vec![true; 6]));
+    mesh
+}
+
+#[test]
+fn elements_are_selected_by_the_values_of_attributes() {
+    let mesh = with_attributes();
+    let files = Files::default();
+    let cx = Context::new(&NoProgress, &files);
+    let vertices = |text: &str| {
+        let selection: VertexSelection = ron::from_str(text).unwrap();
+        let found = selection.resolve(&mesh, &cx).unwrap();
+        found.iter().map(|v| v.index()).collect::<Vec<_>>()
+    };
+    let some = "#![enable(implicit_some)]";
+    let at = |text: &str| vertices(&format!("{some} {text}"));
+    assert_eq!(at("Where(attribute: \"wall\", below: 2)"), [0, 1]);
+    assert_eq!(at("Where(attribute: \"wall\", above: 9)"), [10, 11]);
+    assert_eq!(at("Where(attribute: \"wall\", above: 3, below: 5)"), [4]);
+    assert_eq!(
+        at("Where(attribute: \"flow\", component: 1, below: 1)"),
+        [0]
+    );
+    assert_eq!(
+        at("Where(attribute: \"flow\", component: 2, below: 1)").len(),
+        0
+    );
+    let faces: FaceSelection =
+        ron::from_str(&format!("{some} Where(attribute: \"kind\", above: 3.5)")).unwrap();
+    assert_eq!(faces.resolve(&mesh, &cx).unwrap(), [4, 5].map(FaceId::new));
+}
+
+#[test]
+fn wrong_attributes_are_refused_with_help() {
+    let mesh = with_attributes();
+    let files = Files::default();
+    let cx = Context::new(&NoProgress, &files);
+    let message = |text: &str| {
+        let text = format!("#![enable(implicit_some)] {text}");
+        let selection: VertexSelection = ron::from_str(&text).unwrap();
+        selection.resolve(&mesh, &cx).unwrap_err().to_string()
+    };
+    for (text, expected) in [
+        (
+            "Where(attribute: \"walls\", below: 2)",
+            "no attribute of vertices is named \"walls\"; attributes: flow, wall",
+        ),
+        (
+            "Where(attribute: \"kind\", below: 2)",
+            "\"kind\" is an attribute of faces, but vertices are selected: write `CornersOf(Where(attribute: \"kind\", ..))`",
+        ),
+        (
+            "Where(attribute: \"wall\")",
+            "`Where` needs `above`, `below` or both",
+        ),
+        (
+            "Where(attribute: \"wall\", component: 0, below: 2)",
+            "the type of the vertex attribute \"wall\" is number: remove `component`",
+        ),
+        (
+            "Where(attribute: \"flow\", below: 2)",
+            "the type of the vertex attribute \"flow\" is 3 numbers: choose one with `component`, from 0",
+        ),
+        (
+            "Where(attribute: \"flow\", component: 3, below: 2)",
+            "the type of the vertex attribute \"flow\" is 3 numbers: `component` must be at most 2",
+        ),
+        (
+            "CornersOf(Where(attribute: \"mark\", below: 2))",
+            "the face attribute \"mark\" is a tag: write `Tagged(\"mark\")`",
+        ),
+    ] {
+        assert_eq!(message(text), expected);
+    }
+}
+
 #[test]
 fn choices_select_at_most_count_elements() {
     let grid = shapes::grid(4, 4);

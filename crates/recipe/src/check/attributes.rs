@@ -71,19 +71,29 @@ impl Attributes {
         }
     }
 
-    /// Reports each `Tagged(..)` in a step whose tag no element can have.
+    /// Reports each `Tagged(..)` in a step whose tag no element can have, and each `Where(..)` whose attribute no element can
+    /// have or that has no bound.
     pub(super) fn needs(&self, step: &RecipeStep, plan: &Plan, found: &mut Vec<Diagnostic>) {
         // If the recipe expects a refusal, the missing tag may be the reason for the refusal.
         if plan.incomplete || step.refused.is_some() {
             return;
         }
-        let mut tags = Vec::new();
-        tagged(&step.value, &mut tags);
+        let mut names = Vec::new();
+        needed(&step.value, &mut names);
         let on = step.on_names();
-        for (tag, span) in tags {
-            if let Some((object, help)) = self.lacking(plan, on.as_deref(), None, tag) {
-                let message = format!("no element of \"{object}\" is tagged \"{tag}\"");
-                found.push(Diagnostic::error(span, message).with_help(help));
+        for need in names {
+            if need.is_unbounded {
+                let error = Diagnostic::error(need.span, "`Where` has no bound");
+                found.push(error.with_help("add `above`, `below` or both"));
+            }
+            let name = need.name;
+            if let Some((object, help)) = self.lacking(plan, on.as_deref(), None, name) {
+                let message = if need.is_tag {
+                    format!("no element of \"{object}\" is tagged \"{name}\"")
+                } else {
+                    format!("\"{object}\" has no attribute \"{name}\" here")
+                };
+                found.push(Diagnostic::error(need.span, message).with_help(help));
             }
         }
     }
@@ -95,16 +105,18 @@ impl Attributes {
         plan: &Plan,
         found: &mut Vec<Diagnostic>,
     ) {
-        let Expectation::HasAttribute { domain, name } = &placed.that else {
-            return;
+        let (domain, name) = match &placed.that {
+            Expectation::HasAttribute { domain, name } => (Some(Domain::from(*domain)), name),
+            Expectation::Attribute { name, .. } => (None, name),
+            _ => return,
         };
-        let domain = Domain::from(*domain);
         if plan.incomplete {
             return;
         }
-        let lacking = self.lacking(plan, placed.on.as_deref(), Some(domain), name);
+        let lacking = self.lacking(plan, placed.on.as_deref(), domain, name);
         if let Some((object, help)) = lacking {
-            let message = format!("\"{object}\" has no {domain} attribute \"{name}\" here");
+            let kind = domain.map_or(String::new(), |domain| format!("{domain} "));
+            let message = format!("\"{object}\" has no {kind}attribute \"{name}\" here");
             found.push(Diagnostic::error(placed.span, message).with_help(help));
         }
     }
@@ -188,13 +200,32 @@ pub(super) fn meshes(objects: &[PlannedObject]) -> impl Iterator<Item = (&str, &
     })
 }
 
-/// Collects the names in all `Tagged("..")` in a value, with their spans.
-fn tagged<'v>(value: &'v Value, tags: &mut Vec<(&'v str, Span)>) {
-    if let ValueKind::Call(call) = &value.kind
-        && &*call.name.text == "Tagged"
-        && let Some(name) = call.body.single().and_then(Value::as_str)
-    {
-        tags.push((name, value.span));
+/// An attribute or a tag that a selection names.
+struct Needed<'v> {
+    name: &'v str,
+    span: Span,
+    is_tag: bool,
+    /// Whether it is a `Where` without a bound.
+    is_unbounded: bool,
+}
+
+/// Collects the names in all `Tagged("..")` and `Where(attribute: "..")` in a value, with their spans.
+fn needed<'v>(value: &'v Value, names: &mut Vec<Needed<'v>>) {
+    if let ValueKind::Call(call) = &value.kind {
+        let (is_tag, field) = match &*call.name.text {
+            "Tagged" => (true, call.body.single()),
+            "Where" => (false, call.body.field("attribute")),
+            _ => (false, None),
+        };
+        if let Some(name) = field.and_then(Value::as_str) {
+            let has_bound = ["above", "below"].map(|bound| call.body.field(bound).is_some());
+            names.push(Needed {
+                name,
+                span: value.span,
+                is_tag,
+                is_unbounded: !is_tag && has_bound == [false; 2],
+            });
+        }
     }
-    value.parts().for_each(|part| tagged(part, tags));
+    value.parts().for_each(|part| needed(part, names));
 }

@@ -9,7 +9,7 @@ use super::subject::{
     ActualValue, EdgeByVertices, Subject, Violation, check_count, check_integer, check_number,
     fails_unless, selected,
 };
-use super::{Expectation, OtherMesh, PlacedSubject, output, same, symmetry};
+use super::{Expectation, OtherMesh, PlacedSubject, attribute, output, same, symmetry};
 use geometry::distance::{Distance, TOLERANCE, diagonal};
 
 impl Expectation {
@@ -211,6 +211,13 @@ impl Expectation {
                     .then_some(motions.len() as u64);
                 check_count("symmetries", found, [eq.or(all), *min, *max])
             }
+            Self::Attribute {
+                name,
+                of,
+                component,
+                min,
+                max,
+            } => attribute::check(subject, name, of.as_ref(), *component, [None, *min, *max]),
             Self::HasAttribute { domain, name } => subject.each_mesh(|object, mesh| {
                 let domain = Domain::from(*domain);
                 fails_unless(mesh.attributes().column(domain, name).is_some(), || {

@@ -1,5 +1,6 @@
 //! Expectations: what must hold for the scene after a step or at the end.
 
+mod attribute;
 mod check;
 mod output;
 mod placed;
@@ -15,6 +16,7 @@ use op::{EdgeSelection, Elements, FaceSelection, Vector, VertexSelection};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub(crate) use attribute::values;
 pub(crate) use output::golden;
 pub(crate) use placed::PlacedSubject;
 pub(crate) use same::same_faces;
@@ -278,6 +280,22 @@ pub enum Expectation {
         /// The name of the attribute.
         name: String,
     },
+    /// The values of an attribute, for example one that `Measure` stored. Every mesh must have the attribute. Fails if no
+    /// element has a value.
+    Attribute {
+        /// The name of the attribute.
+        name: String,
+        /// Which elements. If omitted, all elements of the first of vertices, faces, corners and edges that have an attribute of
+        /// this name.
+        of: Option<Elements>,
+        /// The component of a vector, from 0. Required for vectors.
+        #[schemars(range(max = 3))]
+        component: Option<u32>,
+        /// Every value is at least this number.
+        min: Option<f64>,
+        /// Every value is at most this number.
+        max: Option<f64>,
+    },
     /// A file that a step writes equals a reference file, which `meshwright test --update` creates and updates.
     /// Pictures (.png, .apng) are compared by their pixels, mesh files by the objects that are read from them, and
     /// other files by their bytes. Recorded provenance is ignored.
@@ -363,7 +381,8 @@ impl Expectation {
             } => min.is_none() && max.is_none() && reaches.is_none(),
             Self::MeanFaceArea { min, max, .. }
             | Self::EdgeLength { min, max, .. }
-            | Self::MinAngle { min, max, .. } => min.is_none() && max.is_none(),
+            | Self::MinAngle { min, max, .. }
+            | Self::Attribute { min, max, .. } => min.is_none() && max.is_none(),
             Self::Output {
                 path, tolerance, ..
             } if *tolerance > 0 && !output::is_picture(path) => {

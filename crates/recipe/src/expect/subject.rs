@@ -404,8 +404,7 @@ impl fmt::Display for EdgeByVertices<'_> {
 
 /// Returns the smallest corner angle of a face, in degrees.
 pub(super) fn smallest_corner_angle(mesh: &Mesh, f: FaceId) -> f64 {
-    let angles = mesh.face_half_edges(f).map(|h| mesh.corner_angle(h));
-    angles.fold(f64::INFINITY, f64::min).to_degrees()
+    geometry::min_angle(mesh, f).to_degrees()
 }
 
 fn check_position(

@@ -3,11 +3,11 @@
 use std::fmt;
 
 use mesh::Mesh;
-use op::{FaceSelection, Files};
+use op::{FaceSelection, Files, Statistics};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::expect::{OtherMesh, PlacedSubject, Reader, Subject};
+use crate::expect::{self, OtherMesh, PlacedSubject, Reader, Subject};
 use crate::run::Outcome;
 use geometry::distance::Distance;
 
@@ -44,10 +44,35 @@ pub enum Metric {
         /// The name of the object to measure. Required if the scene has several meshes.
         on: Option<String>,
     },
+    /// A statistic of the values of an attribute, for example one that `Measure` stored.
+    Attribute {
+        /// The name of the attribute. If several kinds of elements have an attribute of this name, the first of vertices, faces,
+        /// corners and edges is used.
+        name: String,
+        /// The statistic.
+        statistic: Statistic,
+        /// The component of a vector, from 0. Required for vectors.
+        #[schemars(range(max = 3))]
+        component: Option<u32>,
+        /// The name of the object to measure. If omitted, all meshes are measured together, and each must have the attribute.
+        on: Option<String>,
+    },
     /// The time that the steps took, in seconds. The only metric that differs between equal runs.
     Seconds,
     /// The digest of the scene.
     Digest,
+}
+
+/// A statistic of the values of an attribute.
+#[derive(Clone, Copy, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum Statistic {
+    /// The lowest value.
+    Min,
+    /// The mean of the values.
+    Mean,
+    /// The highest value.
+    Max,
 }
 
 /// The value of a metric.
@@ -111,6 +136,22 @@ impl Metric {
                 let other = placed.subject().other_mesh(other)?;
                 let distance = Distance::between(mesh, other.as_ref(), None);
                 Measured::Number(distance.map_or(f64::INFINITY, |d| d.largest()))
+            }
+            Self::Attribute {
+                name,
+                statistic,
+                component,
+                on,
+            } => {
+                let on = on.as_ref().map(std::slice::from_ref);
+                let values = expect::values(Subject { on, ..subject }, name, *component);
+                let values = values.map_err(|violation| violation.message)?;
+                let found = Statistics::of(&values).ok_or("no value is finite")?;
+                Measured::Number(match statistic {
+                    Statistic::Min => found.min,
+                    Statistic::Mean => found.mean,
+                    Statistic::Max => found.max,
+                })
             }
             Self::Seconds => {
                 let times = outcome.steps.iter().map(|step| step.time);

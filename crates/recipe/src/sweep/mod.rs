@@ -32,7 +32,7 @@ use crate::schema;
 use crate::shape::{self, check_shape, counted, did_you_mean};
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
-pub use metric::{Measured, Metric};
+pub use metric::{Measured, Metric, Statistic};
 
 /// The version of sweeps that this program reads.
 pub const SWEEP_VERSION: i128 = 1;

@@ -386,6 +386,21 @@ fn a_tag_that_no_element_can_have_is_an_error_before_the_run() {
 }
 
 #[test]
+fn a_where_without_a_bound_or_with_an_attribute_that_no_element_can_have_is_an_error() {
+    let text = steps("Sheet(columns: 2), Lift(by: 1, vertices: Where(attribute: \"wall\"))");
+    let found = checked(&text, u64::MAX).diagnostics;
+    let shown = shown(&text, &found);
+    let found: Vec<&str> = shown.iter().map(|(_, message, _)| &message[..]).collect();
+    assert_eq!(
+        found,
+        [
+            "`Where` has no bound",
+            "\"sheet\" has no attribute \"wall\" here"
+        ]
+    );
+}
+
+#[test]
 fn an_expected_attribute_that_cannot_exist_is_an_error_before_the_run() {
     let text = r#"(recipe: 1, steps: [Sheet(columns: 2)],
         expect: [HasAttribute(domain: Corner, name: "uv"), Not(HasAttribute(domain: Corner, name: "uv"))])"#;

@@ -1,7 +1,7 @@
 //! Tests of the expectations about areas, volumes, bounds, angles, lengths and positions.
 
 use geometry::shapes;
-use mesh::DVec3;
+use mesh::{Column, DVec3, Domain, Rule, Values};
 use scene::Scene;
 
 use super::{check, cube, holds_and_fails, lines, mesh_from, scene};
@@ -177,4 +177,54 @@ fn one_point_of_a_polyline_is_at_a_place() {
         check(&cube(), "Point(index: 0, is: (0, 0, 0))"),
         Err("this expectation needs exactly 1 object with polylines, found 0".to_owned())
     );
+}
+
+#[test]
+fn values_of_attributes_are_in_a_range() {
+    let mut mesh = shapes::cube();
+    let mut insert = |domain, name: &str, values| {
+        let (name, rule) = (name.to_owned(), Rule::Copy);
+        mesh.insert_column(domain, Column { name, rule, values });
+    };
+    let numbers = (1..=8).map(f64::from).collect();
+    insert(Domain::Vertex, "wall", Values::Float(numbers));
+    insert(Domain::Face, "kind", Values::Int((0..6).collect()));
+    insert(Domain::Face, "flow", Values::Vec3(vec![DVec3::Y; 6]));
+    let scene = scene([("cube", mesh)]);
+    holds_and_fails(
+        &scene,
+        "Attribute(name: \"wall\", min: 1, max: 8)",
+        "Attribute(name: \"wall\", min: 1.5)",
+        "expected a value of \"wall\" at v0 of at least 1.5, found 1",
+    );
+    holds_and_fails(
+        &scene,
+        "Attribute(name: \"wall\", of: Vertices(Where(attribute: \"wall\", above: 4)), min: 5)",
+        "Attribute(name: \"wall\", of: Faces(All), min: 5)",
+        "expected the face attribute \"wall\", but \"cube\" does not have it",
+    );
+    holds_and_fails(
+        &scene,
+        "Attribute(name: \"kind\", max: 5)",
+        "Attribute(name: \"kind\", max: 4)",
+        "expected a value of \"kind\" at f5 of at most 4, found 5",
+    );
+    holds_and_fails(
+        &scene,
+        "Attribute(name: \"flow\", component: 1, min: 1)",
+        "Attribute(name: \"flow\", component: 0, min: 1)",
+        "expected a value of \"flow\" at f0 of at least 1, found 0",
+    );
+    for (text, expected) in [
+        (
+            "Attribute(name: \"flow\", min: 1)",
+            "the type of the face attribute \"flow\" is 3 numbers: choose one with `component`, from 0",
+        ),
+        (
+            "Attribute(name: \"wall\", of: Vertices(Not(All)), min: 1)",
+            "no element has a value of the attribute \"wall\"",
+        ),
+    ] {
+        assert_eq!(check(&scene, text), Err(expected.to_owned()));
+    }
 }

@@ -1,0 +1,91 @@
+//! Values of attributes, for selections.
+
+use mesh::{Column, Domain, Id, Mesh, Values};
+
+use super::{ElementKind, Select};
+use crate::{OpError, Refusal};
+
+/// Returns a function from the index of an element to its value of an attribute of numbers, or to a component of a vector.
+///
+/// # Errors
+///
+/// [`Refusal::Missing`] if no attribute of these elements has this name; [`OpError::Parameter`] if it is a tag, if a vector needs
+/// `component`, or if there is no such component.
+pub(super) fn component_of<'m, S: Select>(
+    mesh: &'m Mesh,
+    name: &str,
+    component: Option<u32>,
+) -> Result<impl Fn(usize) -> f64 + use<'m, S>, OpError> {
+    let domain = S::Id::DOMAIN;
+    let Some(column) = mesh.attributes().column(domain, name) else {
+        return Err(missing::<S>(mesh, name));
+    };
+    let (values, i) = (&column.values, check_component(domain, column, component)?);
+    Ok(move |element: usize| values.component(element, i))
+}
+
+/// Returns the index of the component of an attribute that a parameter chooses. An attribute with one number has no other component.
+///
+/// # Errors
+///
+/// [`OpError::Parameter`] if the attribute is a tag, if a vector needs `component`, or if there is no such component.
+pub fn check_component(
+    domain: Domain,
+    column: &Column,
+    component: Option<u32>,
+) -> Result<usize, OpError> {
+    let (name, values) = (&column.name, &column.values);
+    if let Values::Tag(_) = values {
+        let message =
+            format!("the {domain} attribute \"{name}\" is a tag: write `Tagged(\"{name}\")`");
+        return Err(OpError::Parameter(message));
+    }
+    let n = values.n_components();
+    let help = match component {
+        None if n == 1 => return Ok(0),
+        Some(i) if n > 1 && (i as usize) < n => return Ok(i as usize),
+        None => "choose one with `component`, from 0".to_owned(),
+        Some(_) if n == 1 => "remove `component`".to_owned(),
+        Some(_) => format!("`component` must be at most {}", n - 1),
+    };
+    Err(OpError::Parameter(format!(
+        "the type of the {domain} attribute \"{name}\" is {}: {help}",
+        values.type_name()
+    )))
+}
+
+/// Returns the refusal of an attribute that these elements do not have.
+fn missing<S: Select>(mesh: &Mesh, name: &str) -> OpError {
+    let attributes = mesh.attributes();
+    let refused = |message| OpError::refused(Refusal::Missing, message);
+    let word = S::WORD;
+    for (kind, domain) in
+        ElementKind::ALL
+            .into_iter()
+            .zip([Domain::Vertex, Domain::Edge, Domain::Face])
+    {
+        if attributes.column(domain, name).is_none() {
+            continue;
+        }
+        let own = ElementKind::ALL.into_iter().find(|own| own.word() == word);
+        let conversions = own.map_or(&[][..], |own| own.conversions(kind));
+        let ways: Vec<String> = (conversions.iter())
+            .map(|way| format!("`{way}(Where(attribute: \"{name}\", ..))`"))
+            .collect();
+        let other = kind.word();
+        return refused(format!(
+            "\"{name}\" is an attribute of {other}, but {word} are selected: write {}",
+            ways.join(" or ")
+        ));
+    }
+    let numbers = attributes.of(S::Id::DOMAIN).iter();
+    let numbers = numbers.filter(|column| !matches!(column.values, Values::Tag(_)));
+    let known: Vec<&str> = numbers.map(|column| column.name.as_str()).collect();
+    let known = match &known[..] {
+        [] => "none".to_owned(),
+        known => known.join(", "),
+    };
+    refused(format!(
+        "no attribute of {word} is named \"{name}\"; attributes: {known}"
+    ))
+}

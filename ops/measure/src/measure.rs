@@ -1,0 +1,185 @@
+//! Measure: stores a quantity of vertices or faces as an attribute.
+//!
+//! ```text
+//!      .-""-.                  .2""2.
+//!     /      \       -->      2      2      one number for each vertex or face
+//!    |   ()   |              1   -3   1
+//! ```
+
+use std::sync::Arc;
+
+use mesh::{Column, Domain, Rule, Values};
+use op::prelude::*;
+use op::{AttributeName, Number, Operation, Statistics, readable, target_names};
+use scene::Geometry;
+
+use crate::MeasureOf;
+
+/// Stores a quantity, such as a curvature or a distance, as an attribute of vertices or faces.
+///
+/// Later steps can select elements by the attribute with `Where`, `Displace` vertices by it, show it in a `Picture`, and save it
+/// to files. It is not updated when the mesh changes. Positions and other attributes do not change. Coordinates are those of the
+/// meshes, without nodes. The report states the lowest, the mean and the highest value of each object.
+///
+/// An attribute of the same name is replaced if it has one number for each of the same elements; otherwise the step fails.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Measure {
+    /// The quantity.
+    pub of: MeasureOf,
+    /// The name of the attribute. If omitted, the name of the quantity in lower case, such as `mean_curvature`.
+    #[serde(default)]
+    pub name: Option<AttributeName>,
+    /// The value of elements that have none, such as the curvature of a vertex without faces. They are counted. If omitted, 0
+    /// for quantities that can be negative, and -1 for all others.
+    #[serde(default)]
+    pub missing: Option<Number>,
+}
+
+impl Measure {
+    fn name(&self) -> &str {
+        match &self.name {
+            Some(name) => name.as_str(),
+            None => self.of.default_name(),
+        }
+    }
+
+    /// Whether a step without `on` leaves out the object.
+    fn leaves_out(&self, object: &str) -> bool {
+        self.of.other().is_some_and(|(other, _)| other == object)
+    }
+}
+
+impl Operation for Measure {
+    const NAME: &'static str = "Measure";
+    const SUMMARY: &'static str =
+        "Store a quantity of vertices or faces, such as a curvature or a distance, as an attribute";
+    const EXAMPLE: &'static str = "Measure(of: MeanCurvature)";
+    const WORDS: &'static [&'static str] = &[
+        "curvature",
+        "quality",
+        "analyse",
+        "analyze",
+        "inspect",
+        "attribute",
+    ];
+    const DONE: &'static str = "measured";
+    const TAKES_ON: bool = true;
+    const ATOMIC: bool = true;
+
+    fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
+        let mut problems = Vec::new();
+        if let Some((other, path)) = self.of.other() {
+            problems.extend(plan.missing(other, path));
+            if let Some(object) = plan.object(other)
+                && !matches!(object.geometry, PlannedGeometry::Mesh(_))
+            {
+                let message = format!("{} needs a mesh, but \"{other}\" is not one", Self::NAME);
+                problems.push(Problem::error(message).at(path));
+            }
+        }
+        let (name, domain) = (self.name(), self.of.domain());
+        let mut n = 0;
+        for object in plan.objects_mut() {
+            let is_target = match cx.on {
+                Some(on) => on.contains(&object.name),
+                None => !self.leaves_out(&object.name),
+            };
+            match &mut object.geometry {
+                PlannedGeometry::Mesh(mesh) if is_target => {
+                    n += 1;
+                    mesh.provide(domain, name);
+                }
+                other if is_target && cx.on.is_some() => {
+                    problems.push(Problem::error(wrong_kind(&object.name, other.kind())));
+                }
+                _ => {}
+            }
+        }
+        if n == 0 && problems.is_empty() && !plan.incomplete {
+            let problem = Problem::error("Measure finds no mesh to measure");
+            problems.push(problem.help("load or make a mesh in an earlier step"));
+        }
+        problems
+    }
+
+    fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
+        let mut targets = target_names(scene, cx, |g| matches!(g, Geometry::Mesh(_)))?;
+        if cx.on.is_none() {
+            targets.retain(|object| !self.leaves_out(object));
+        }
+        if targets.is_empty() {
+            return Err(OpError::Object(
+                "the scene has no mesh to measure".to_owned(),
+            ));
+        }
+        let (name, domain) = (self.name(), self.of.domain());
+        let missing = (self.missing).map_or(self.of.default_missing(), Number::get);
+        let mut report = Report::default();
+        let mut columns = Vec::new();
+        for (done, object) in (0..).zip(&targets) {
+            cx.advance("measure", done, targets.len() as u64)?;
+            let geometry = &scene.object(object).expect("a name of the scene").geometry;
+            let Geometry::Mesh(mesh) = geometry else {
+                return Err(OpError::Object(wrong_kind(object, geometry.kind())));
+            };
+            check_free(mesh, object, domain, name)?;
+            let mut values = self.of.values(mesh, scene)?;
+            let found = Statistics::of(&values);
+            if let Some(found) = &found {
+                let [min, mean, max] = [found.min, found.mean, found.max].map(readable);
+                let note = format!("\"{object}\": {name} from {min} to {max}, mean {mean}");
+                report = report.note(note);
+            }
+            let n = found.map_or(0, |found| found.n);
+            let (without, value) = (values.len() - n, readable(missing));
+            let what = format!("\"{object}\": elements without {name}, which get {value}");
+            report = report.count(&what, without);
+            report.changed += n as u64;
+            for x in &mut values {
+                if !x.is_finite() {
+                    *x = missing;
+                }
+            }
+            columns.push(values);
+        }
+        for (object, values) in targets.iter().zip(columns) {
+            let (geometry, _) = scene.parts_mut(object).expect("a name of the scene");
+            let Geometry::Mesh(mesh) = geometry else {
+                unreachable!("only meshes were measured");
+            };
+            let column = Column {
+                name: name.to_owned(),
+                rule: match domain {
+                    Domain::Vertex => Rule::Interpolate,
+                    _ => Rule::Copy,
+                },
+                values: Values::Float(values),
+            };
+            Arc::make_mut(mesh).insert_column(domain, column);
+        }
+        Ok(report)
+    }
+}
+
+fn wrong_kind(object: &str, kind: &str) -> String {
+    format!("Measure measures meshes, but \"{object}\" is {kind}")
+}
+
+/// Checks that the mesh has no attribute of this name that must be kept.
+fn check_free(mesh: &Mesh, object: &str, domain: Domain, name: &str) -> Result<(), OpError> {
+    let mut columns = mesh.attributes().iter();
+    let is_other = |(of, column): &(Domain, &Column)| {
+        column.name == name && (*of != domain || !matches!(column.values, Values::Float(_)))
+    };
+    columns.find(is_other).map_or(Ok(()), |(of, column)| {
+        Err(OpError::Parameter(format!(
+            "name: \"{object}\" already has the {of} attribute \"{name}\" of the type {}, which is not replaced by numbers of \
+             {domain} elements; choose another name",
+            column.values.type_name()
+        )))
+    })
+}
+
+#[cfg(test)]
+mod tests;

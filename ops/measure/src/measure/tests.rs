@@ -1,0 +1,110 @@
+use geometry::shapes;
+use mesh::DVec3;
+use op::test::{read, run, try_applied};
+use scene::Object;
+
+use super::*;
+
+fn parse(text: &str) -> Measure {
+    read(text).unwrap()
+}
+
+/// Returns the values of an attribute after the step, and the notes.
+fn measured(text: &str, mesh: Mesh) -> (Vec<f64>, Vec<String>) {
+    let step = parse(text);
+    let (mesh, report) = try_applied(&step, mesh).unwrap();
+    (values(&mesh, step.of.domain(), step.name()), report.notes)
+}
+
+fn values(mesh: &Mesh, domain: Domain, name: &str) -> Vec<f64> {
+    match &mesh.attributes().column(domain, name).unwrap().values {
+        Values::Float(values) => values.clone(),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn faces_and_vertices_get_numbers_and_a_note() {
+    let (areas, notes) = measured("(of: Area)", shapes::cube());
+    assert_eq!(areas, [4.0; 6]);
+    assert_eq!(notes, ["\"mesh\": area from 4 to 4, mean 4"]);
+    assert_eq!(measured("(of: VertexArea)", shapes::cube()).0, [3.0; 8]);
+    let (angles, _) = measured("(of: MinAngle, name: \"a b\")", shapes::cube());
+    assert!(angles.iter().all(|angle| (angle - 90.0).abs() < 1e-12));
+    let (ratios, _) = measured("(of: AspectRatio)", shapes::icosahedron());
+    assert!(ratios.iter().all(|ratio| (ratio - 1.0).abs() < 1e-12));
+}
+
+#[test]
+fn gauss_bonnet_holds_for_the_attributes() {
+    let mesh = shapes::torus(12, 8, 2.0, 0.5);
+    let (curvature, _) = measured("(of: GaussianCurvature)", mesh.clone());
+    let (area, _) = measured("(of: VertexArea)", mesh);
+    let total: f64 = curvature.iter().zip(area).map(|(k, a)| k * a).sum();
+    assert!(total.abs() < 1e-9, "{total}");
+}
+
+#[test]
+fn curvatures_of_a_sphere_are_one() {
+    for of in [
+        "MeanCurvature",
+        "PrincipalCurvature(Largest)",
+        "PrincipalCurvature(Smallest)",
+    ] {
+        let (values, _) = measured(&format!("(of: {of})"), shapes::uv_sphere(64, 32));
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        assert!((mean - 1.0).abs() < 0.02, "{of} {mean}");
+    }
+}
+
+#[test]
+fn elements_without_a_value_are_counted() {
+    let mut mesh = shapes::cube();
+    mesh.positions_mut().fill(DVec3::ONE);
+    let (ratios, notes) = measured("(of: AspectRatio)", mesh.clone());
+    assert_eq!(ratios, [-1.0; 6]);
+    assert_eq!(
+        notes,
+        ["\"mesh\": elements without aspect_ratio, which get -1: 6"]
+    );
+    let (curvatures, _) = measured("(of: MeanCurvature)", mesh.clone());
+    assert_eq!(curvatures, [0.0; 8]);
+    let (curvatures, _) = measured("(of: MeanCurvature, missing: 7)", mesh);
+    assert_eq!(curvatures, [7.0; 8]);
+}
+
+#[test]
+fn only_attributes_of_the_same_elements_and_type_are_replaced() {
+    let (twice, _) = try_applied(&parse("(of: Area, name: \"x\")"), shapes::cube()).unwrap();
+    let (again, _) = try_applied(&parse("(of: MinAngle, name: \"x\")"), twice.clone()).unwrap();
+    let angles = values(&again, Domain::Face, "x");
+    assert!((angles[0] - 90.0).abs() < 1e-12);
+    let refused = try_applied(&parse("(of: MeanCurvature, name: \"x\")"), twice);
+    let message = refused.unwrap_err().to_string();
+    assert!(
+        message.contains("already has the face attribute \"x\""),
+        "{message}"
+    );
+    for name in ["uv", "normal", "", "joint:0"] {
+        let text = format!("(of: Area, name: \"{name}\")");
+        assert!(read::<Measure>(&text).is_err(), "{name}");
+    }
+}
+
+#[test]
+fn distances_are_measured_to_the_other_object_which_stays() {
+    let mut large = shapes::cube();
+    for p in large.positions_mut() {
+        *p *= 3.0;
+    }
+    let mut scene = Scene::new();
+    scene.insert(Object::mesh("a", shapes::cube())).unwrap();
+    scene.insert(Object::mesh("b", large)).unwrap();
+    let report = run(&parse("(of: Distance(to: \"b\"))"), &mut scene).unwrap();
+    assert_eq!(report.notes, ["\"a\": distance from 2 to 2, mean 2"]);
+    let mesh = |name: &str| scene.object(name).unwrap().as_mesh().unwrap();
+    assert_eq!(values(mesh("a"), Domain::Vertex, "distance"), [2.0; 8]);
+    assert_eq!(mesh("b").attributes().iter().count(), 0);
+    let unknown = run(&parse("(of: Distance(to: \"c\"))"), &mut scene.clone());
+    assert!(matches!(unknown, Err(OpError::Object(_))));
+}

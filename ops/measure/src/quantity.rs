@@ -1,0 +1,142 @@
+//! The quantities that `Measure` computes.
+
+use geometry::distance::vertex_distances;
+use mesh::{Domain, FaceId, VertexId};
+use op::prelude::*;
+use op::{Operation, named_object};
+use rayon::prelude::*;
+
+use crate::Measure;
+
+/// A quantity of vertices or faces.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum MeasureOf {
+    /// The mean curvature at each vertex, in 1 / scene unit: 1 / r on a sphere of radius r, 1 / (2 r) on a cylinder, negative
+    /// where the surface is concave (Cohen-Steiner, Morvan, 2003).
+    MeanCurvature,
+    /// The Gaussian curvature at each vertex, in 1 / scene unit²: the angle defect divided by the area of the vertex (Meyer,
+    /// Desbrun, Schröder, Barr, 2003). 1 / r² on a sphere, 0 on a cylinder, negative at saddles.
+    GaussianCurvature,
+    /// A principal curvature at each vertex, in 1 / scene unit: an eigenvalue of the curvature tensor of Cohen-Steiner and
+    /// Morvan, 2003. On a cylinder of radius r, they are 0 and 1 / r.
+    PrincipalCurvature(Principal),
+    /// The area of each face, in scene units².
+    Area,
+    /// The area of each vertex, in scene units²: the sum over its faces of the area divided by the number of corners.
+    VertexArea,
+    /// The smallest angle of each face, in degrees.
+    MinAngle,
+    /// The aspect ratio of each face: 1 for regular polygons, more for others. Faces without area have none (Stimpson, Ernst,
+    /// Knupp, Pébay, Thompson, "The Verdict Geometric Quality Library", 2007).
+    AspectRatio,
+    /// The distance from each vertex to the nearest point of another mesh of the scene, in scene units. Unless `on` names
+    /// objects, all meshes but the other mesh are measured.
+    Distance {
+        /// The name of the object with the other mesh.
+        to: String,
+    },
+}
+
+/// One of the two principal curvatures.
+#[derive(Clone, Copy, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum Principal {
+    /// The larger one.
+    Largest,
+    /// The smaller one.
+    Smallest,
+}
+
+impl MeasureOf {
+    /// Returns the default name of the attribute.
+    pub(crate) fn default_name(&self) -> &'static str {
+        match self {
+            Self::MeanCurvature => "mean_curvature",
+            Self::GaussianCurvature => "gaussian_curvature",
+            Self::PrincipalCurvature(Principal::Largest) => "largest_curvature",
+            Self::PrincipalCurvature(Principal::Smallest) => "smallest_curvature",
+            Self::Area => "area",
+            Self::VertexArea => "vertex_area",
+            Self::MinAngle => "min_angle",
+            Self::AspectRatio => "aspect_ratio",
+            Self::Distance { .. } => "distance",
+        }
+    }
+
+    /// Returns the elements that have values.
+    pub(crate) fn domain(&self) -> Domain {
+        match self {
+            Self::Area | Self::MinAngle | Self::AspectRatio => Domain::Face,
+            Self::MeanCurvature
+            | Self::GaussianCurvature
+            | Self::PrincipalCurvature(_)
+            | Self::VertexArea
+            | Self::Distance { .. } => Domain::Vertex,
+        }
+    }
+
+    /// Returns the value of elements that have none, unless a step chooses another: 0 for quantities that can be negative, and
+    /// otherwise -1.
+    pub(crate) fn default_missing(&self) -> f64 {
+        match self {
+            Self::MeanCurvature | Self::GaussianCurvature | Self::PrincipalCurvature(_) => 0.0,
+            _ => -1.0,
+        }
+    }
+
+    /// Returns the name of the other object of the scene, with the path of the parameter.
+    pub(crate) fn other(&self) -> Option<(&str, [&'static str; 3])> {
+        match self {
+            Self::Distance { to } => Some((to, ["of", "Distance", "to"])),
+            _ => None,
+        }
+    }
+
+    /// Returns the values of a mesh, by index. Values that are missing are not finite. The mesh must be dense.
+    ///
+    /// # Errors
+    ///
+    /// [`OpError::Object`] if the other mesh is missing; [`OpError::Cancelled`].
+    pub(crate) fn values(&self, mesh: &Mesh, scene: &Scene) -> Result<Vec<f64>, OpError> {
+        let faces = |value: &(dyn Fn(FaceId) -> f64 + Sync)| {
+            let all = (0..mesh.n_faces()).into_par_iter().with_min_len(1024);
+            all.map(|f| value(FaceId::new(f))).collect()
+        };
+        let principal = |i: usize| {
+            let both = geometry::principal_curvatures(mesh);
+            both.into_iter().map(|pair| pair[i]).collect()
+        };
+        Ok(match self {
+            Self::MeanCurvature => geometry::mean_curvatures(mesh),
+            Self::GaussianCurvature => geometry::gaussian_curvatures(mesh),
+            Self::PrincipalCurvature(Principal::Smallest) => principal(0),
+            Self::PrincipalCurvature(Principal::Largest) => principal(1),
+            Self::Area => faces(&|f| mesh.face_area(f)),
+            Self::VertexArea => {
+                let all = (0..mesh.n_vertices()).into_par_iter().with_min_len(1024);
+                all.map(|v| geometry::vertex_area(mesh, VertexId::new(v)))
+                    .collect()
+            }
+            Self::MinAngle => faces(&|f| geometry::min_angle(mesh, f).to_degrees()),
+            Self::AspectRatio => faces(&|f| geometry::aspect_ratio(mesh, f)),
+            Self::Distance { to } => {
+                let other = other_mesh(scene, to)?;
+                let no_faces = || OpError::Object(format!("\"{to}\" has no faces"));
+                vertex_distances(mesh, other).ok_or_else(no_faces)?
+            }
+        })
+    }
+}
+
+fn other_mesh<'s>(scene: &'s Scene, name: &str) -> Result<&'s Mesh, OpError> {
+    let object = named_object(scene, name)?;
+    let kind = object.geometry.kind();
+    let wrong = || {
+        OpError::Object(format!(
+            "{} needs a mesh, but \"{name}\" is {kind}",
+            Measure::NAME
+        ))
+    };
+    object.as_mesh().map(AsRef::as_ref).ok_or_else(wrong)
+}

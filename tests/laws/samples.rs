@@ -159,6 +159,13 @@ const MORE_STEPS: &[&str] = &[
     r#"Save(path: "a.gltf")"#,
     r#"Save(path: "a.bez")"#,
     r#"Save(path: "a.bzc")"#,
+    r#"PokeFaces(faces: InsideOf("other"), on_refusal: Skip)"#,
+    "PokeFaces(faces: SelfIntersecting)",
+    r#"Project(onto: "mesh")"#,
+    r#"Project(onto: "mesh", along: Normal, distance: 0.5)"#,
+    r#"Project(onto: "other", along: Direction((1, 2, 3)), vertices: Boundary)"#,
+    r#"Transfer(from: "mesh", attributes: ["uv"])"#,
+    r#"Transfer(from: "mesh", attributes: ["uv"], within: 0.1)"#,
 ];
 
 /// Returns operations with samples of their parameters, such as `(levels: 2)`. Most of them work on an existing

@@ -1,8 +1,10 @@
 //! The context that an operation runs in: progress, cancellation, the random stream, files, the memory budget.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
+use mesh::Mesh;
 use progress::Progress;
+use scene::Scene;
 
 use crate::{Files, OpError};
 
@@ -19,6 +21,10 @@ pub struct Context<'a> {
     pub budget: u64,
     /// The names of the materials of the object that is being changed, for selections.
     pub materials: Vec<String>,
+    /// The name of the object that is being changed.
+    object: String,
+    /// The other objects of the scene; `None` for an object that is not a mesh.
+    others: Vec<(String, Option<Arc<Mesh>>)>,
     /// Facts about the selections of the step, for its report.
     notes: Mutex<Vec<String>>,
 }
@@ -33,6 +39,8 @@ impl<'a> Context<'a> {
             stream: "",
             budget: u64::MAX,
             materials: Vec::new(),
+            object: String::new(),
+            others: Vec::new(),
             notes: Mutex::default(),
         }
     }
@@ -45,6 +53,58 @@ impl<'a> Context<'a> {
     /// [`OpError::Cancelled`] if the run was canceled. The operation returns this error at once.
     pub fn advance(&self, what: &str, done: u64, total: u64) -> Result<(), OpError> {
         Ok(self.progress.report(what, done, total)?)
+    }
+
+    /// Sets the object that selections are evaluated on: its materials, and the other objects, which
+    /// [`other_mesh`](Self::other_mesh) finds. Until [`clear_object`](Self::clear_object) is called, the meshes of the other
+    /// objects are shared.
+    pub fn set_object(&mut self, scene: &Scene, name: &str) {
+        let (mut materials, mut others) = (Vec::new(), Vec::new());
+        for object in scene.objects() {
+            if object.name == name {
+                materials.extend(object.materials.iter().map(|m| m.name.clone()));
+            } else {
+                others.push((object.name.clone(), object.as_mesh().cloned()));
+            }
+        }
+        self.materials = materials;
+        name.clone_into(&mut self.object);
+        self.others = others;
+    }
+
+    /// Forgets the object that [`set_object`](Self::set_object) has set.
+    pub fn clear_object(&mut self) {
+        self.materials.clear();
+        self.object.clear();
+        self.others.clear();
+    }
+
+    /// Returns the mesh of another object of the scene, as it is before the step. `user` is what needs it, for messages:
+    /// `Project`.
+    ///
+    /// # Errors
+    ///
+    /// [`OpError::Object`] if no object has this name, if it is not a mesh, or if it is the object that is being changed.
+    pub fn other_mesh(&self, user: &str, name: &str) -> Result<Arc<Mesh>, OpError> {
+        if name == self.object {
+            return Err(OpError::Object(format!(
+                "{user} needs an object other than \"{name}\", which the step acts on; choose the objects of the step with `on`"
+            )));
+        }
+        match self.others.iter().find(|other| other.0 == name) {
+            Some((_, Some(mesh))) => Ok(Arc::clone(mesh)),
+            Some((_, None)) => Err(OpError::Object(format!(
+                "{user} needs a mesh, but \"{name}\" is not one"
+            ))),
+            None => {
+                let quoted = self.others.iter().map(|other| format!("\"{}\"", other.0));
+                let known = quoted.collect::<Vec<_>>().join(", ");
+                let known = if known.is_empty() { "none" } else { &known };
+                Err(OpError::Object(format!(
+                    "{user}: no object is named \"{name}\"; other objects at this point: {known}"
+                )))
+            }
+        }
     }
 
     /// Adds a note to the report of the step, once for equal notes.

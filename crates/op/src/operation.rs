@@ -10,8 +10,8 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::{
-    Context, Loss, MeshPlan, OpError, Plan, PlanContext, PlannedGeometry, Problem, Report,
-    TargetKind, target_names,
+    Context, Loss, MeshPlan, OpError, Plan, PlanContext, PlannedGeometry, PlannedObject, Problem,
+    Report, TargetKind, target_names,
 };
 
 /// An operation that changes one mesh. In a scene it acts on every mesh, or on the meshes named in `on:`.
@@ -35,6 +35,12 @@ pub trait MeshOperation:
     /// What the step does to each element that its report counts as changed, as a participle: `flipped`. Step tables show
     /// it after the number. If empty, the number is not shown.
     const DONE: &'static str = "";
+
+    /// Returns the names of other objects whose meshes the operation reads with [`Context::other_mesh`], each with the
+    /// parameter that names it. Without `on:`, a step does not act on these objects.
+    fn reads(&self) -> Vec<(&str, &'static str)> {
+        Vec::new()
+    }
 
     /// Changes `plan` as [`apply`](Self::apply) will change the mesh, and returns the problems.
     /// Runs before any geometry exists and must be fast.
@@ -101,14 +107,51 @@ impl<T: MeshOperation> Operation for T {
     const ATOMIC: bool = true;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
-        target_kind::<T>().plan(plan, cx, |geometry| match geometry {
+        let reads = self.reads();
+        let mut problems = Vec::new();
+        for &(name, parameter) in &reads {
+            problems.extend(plan.missing(name, [parameter]));
+            let is_target = |on: &[String]| on.iter().any(|target| target == name);
+            if cx.on.is_some_and(is_target) {
+                let message = format!("`{parameter}` names \"{name}\", which the step acts on");
+                problems.push(Problem::error(message).at([parameter]));
+            }
+            if let Some(object) = plan.object(name)
+                && !matches!(object.geometry, PlannedGeometry::Mesh(_))
+            {
+                let message = format!(
+                    "{} needs a mesh, but \"{name}\" is {}",
+                    <T as MeshOperation>::NAME,
+                    object.geometry.kind()
+                );
+                problems.push(Problem::error(message).at([parameter]));
+            }
+        }
+        let is_target = |o: &&PlannedObject| {
+            matches!(o.geometry, PlannedGeometry::Mesh(_)) && reads.iter().all(|r| r.0 != o.name)
+        };
+        let targets = plan.objects().iter().filter(is_target);
+        let targets: Vec<String> = targets.map(|o| o.name.clone()).collect();
+        let on = if reads.is_empty() || cx.on.is_some() {
+            cx.on
+        } else {
+            Some(&targets[..])
+        };
+        let target_cx = PlanContext { on, ..*cx };
+        let found = target_kind::<T>().plan(plan, &target_cx, |geometry| match geometry {
             PlannedGeometry::Mesh(mesh) => Some(MeshOperation::plan(self, mesh, cx)),
             _ => None,
-        })
+        });
+        problems.extend(found);
+        problems
     }
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
-        let names = target_names(scene, cx, |g| matches!(g, Geometry::Mesh(_)))?;
+        let mut names = target_names(scene, cx, |g| matches!(g, Geometry::Mesh(_)))?;
+        if cx.on.is_none() {
+            let reads = self.reads();
+            names.retain(|name| reads.iter().all(|read| read.0 != name));
+        }
         let mut report = Report::default();
         let mut changes = Vec::new();
         for name in &names {
@@ -151,18 +194,18 @@ fn apply_to<T: MeshOperation>(
     name: &str,
     cx: &mut Context,
 ) -> Result<(Report, Change), OpError> {
-    let (geometry, materials) = scene.parts_mut(name).expect("a name of the scene");
+    cx.set_object(scene, name);
+    let (geometry, _) = scene.parts_mut(name).expect("a name of the scene");
     let Geometry::Mesh(mesh) = geometry else {
         let message = target_kind::<T>().wrong_kind_message(name, geometry.kind());
         return Err(OpError::Object(message));
     };
-    cx.materials = materials.iter().map(|m| m.name.clone()).collect();
     let before = columns(mesh);
     // Copies the mesh if it is shared.
     let mesh = Arc::make_mut(mesh);
     mesh.begin();
     let done = operation.apply(mesh, cx);
-    cx.materials.clear();
+    cx.clear_object();
     // An operation that assigns a mesh instead of calling `Mesh::replace` discards the journal.
     let is_recording = mesh.is_recording();
     let mut report = match done {

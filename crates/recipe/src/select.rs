@@ -8,7 +8,7 @@
 
 use mesh::Mesh;
 use op::{Context, ElementKind, Elements, Files, NoProgress, OpError, Selected};
-use scene::Object;
+use scene::{Object, Scene};
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
@@ -78,7 +78,7 @@ fn typed<T: DeserializeOwned + JsonSchema>(value: &Value) -> Result<T, Vec<Diagn
     shape::typed(value, &schema::of::<T>())
 }
 
-/// Returns the elements of an object that a selection matches. `stream` seeds random choices. To get the same choices
+/// Returns the elements of an object of a scene that a selection matches. `stream` seeds random choices. To get the same choices
 /// as a step, pass the label of the step.
 ///
 /// # Errors
@@ -86,6 +86,7 @@ fn typed<T: DeserializeOwned + JsonSchema>(value: &Value) -> Result<T, Vec<Diagn
 /// The errors of [`Elements::resolve`].
 pub fn resolve(
     elements: &Elements,
+    scene: &Scene,
     object: &Object,
     mesh: &Mesh,
     stream: &str,
@@ -93,7 +94,7 @@ pub fn resolve(
     let files = Files::default();
     let mut cx = Context::new(&NoProgress, &files);
     cx.stream = stream;
-    cx.materials = object.materials.iter().map(|m| m.name.clone()).collect();
+    cx.set_object(scene, &object.name);
     elements.resolve(mesh, &cx)
 }
 
@@ -202,7 +203,7 @@ mod tests {
         let mesh = object.as_mesh().unwrap();
         let found = |source, kind| {
             let elements = read_selection(source, kind).unwrap();
-            resolve(&elements, &object, mesh, "")
+            resolve(&elements, &Scene::new(), &object, mesh, "")
         };
         assert_eq!(found("Sharp(above: 30)", None).unwrap().len(), 12);
         assert!(

@@ -4,6 +4,7 @@ mod bend;
 mod displace;
 mod move_vertices;
 mod moved;
+mod project;
 mod taper;
 mod twist;
 
@@ -12,6 +13,7 @@ use op::Registry;
 pub use bend::Bend;
 pub use displace::{Displace, DisplaceBy};
 pub use move_vertices::{MoveBy, MoveVertices};
+pub use project::{Project, ProjectAlong};
 pub use taper::Taper;
 pub use twist::Twist;
 
@@ -24,4 +26,5 @@ pub fn register(registry: Registry) -> Registry {
         .with::<Bend>()
         .with::<Twist>()
         .with::<Taper>()
+        .with::<Project>()
 }

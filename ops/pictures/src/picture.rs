@@ -289,9 +289,9 @@ impl Picture {
                 .iter()
                 .filter_map(|o| Some((o, o.as_mesh()?)))
             {
-                cx.materials = object.materials.iter().map(|m| m.name.clone()).collect();
+                cx.set_object(scene, &object.name);
                 let selected = of.resolve(mesh, cx);
-                cx.materials.clear();
+                cx.clear_object();
                 let elements = match selected? {
                     Selected::Vertices(list) => render::Elements::Vertices(list),
                     Selected::Edges(list) => render::Elements::Edges(list),

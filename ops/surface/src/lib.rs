@@ -3,12 +3,14 @@
 mod lods;
 mod simplify;
 mod smooth;
+mod transfer;
 
 use op::Registry;
 
 pub use lods::Lods;
 pub use simplify::Simplify;
 pub use smooth::{Smooth, SmoothBoundary, SmoothBy, SmoothWeights};
+pub use transfer::Transfer;
 
 /// Adds the operations of this group, in the order of the reference.
 #[rustfmt::skip]
@@ -17,4 +19,5 @@ pub fn register(registry: Registry) -> Registry {
         .with::<Simplify>()
         .with::<Lods>()
         .with::<Smooth>()
+        .with::<Transfer>()
 }

@@ -103,6 +103,7 @@ impl Operation for Lods {
         let n_faces = original.n_faces() as u64;
         let mut mesh = Arc::clone(original);
         let mut report = Report::changed(self.ratios.len());
+        cx.set_object(scene, &self.from);
         for (i, &ratio) in self.ratios.iter().enumerate() {
             let name = self.name(i + 1);
             check_name(scene, &name)?;
@@ -134,6 +135,7 @@ impl Operation for Lods {
                 scene.graph_mut().copy_object(&self.from, &name);
             }
         }
+        cx.clear_object();
         Ok(report)
     }
 }

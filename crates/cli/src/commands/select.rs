@@ -32,7 +32,7 @@ pub(crate) fn run(args: &SelectArgs, engine: &Engine) -> anyhow::Result<bool> {
     let meshes = meshes(args, found.scene.objects())?;
     let mut selected = Vec::new();
     for (object, mesh) in meshes {
-        let chosen = resolve(&elements, object, mesh, &found.stream)
+        let chosen = resolve(&elements, &found.scene, object, mesh, &found.stream)
             .map_err(|error| anyhow::anyhow!("{}: {error}", object.name))?;
         selected.push((object, mesh, chosen));
     }

@@ -3,6 +3,8 @@
 use std::cmp::Ordering::{self, Equal, Less};
 
 use mesh::{DVec2, DVec3};
+use progress::{Cancelled, Meter, Progress};
+use rayon::prelude::*;
 
 use super::{Node, SurfaceIndex};
 use crate::predicates::orient2d;
@@ -54,6 +56,29 @@ impl SurfaceIndex {
         });
         hits.sort_unstable_by(|a, b| a.t.total_cmp(&b.t).then(a.triangle.cmp(&b.triangle)));
         hits
+    }
+
+    /// Returns the first point of each ray, given by origin and direction, as [`ray`](Self::ray) finds it. Runs in parallel.
+    ///
+    /// # Errors
+    ///
+    /// [`Cancelled`] if `progress` asks to stop.
+    pub fn first_hits(
+        &self,
+        rays: &[[DVec3; 2]],
+        progress: &dyn Progress,
+    ) -> Result<Vec<Option<RayHit>>, Cancelled> {
+        let meter = Meter::new(progress, "cast rays", rays.len() as u64);
+        let mut hits = vec![None; rays.len()];
+        hits.par_chunks_mut(256)
+            .zip(rays.par_chunks(256))
+            .try_for_each(|(hits, rays)| {
+                for (hit, [origin, direction]) in hits.iter_mut().zip(rays) {
+                    *hit = self.ray(*origin, *direction);
+                }
+                meter.add(rays.len())
+            })?;
+        Ok(hits)
     }
 
     /// Calls `visit` for hits of the ray. It returns the largest distance at which further hits matter.

@@ -199,7 +199,7 @@ impl Values {
     }
 
     /// Appends the values of `other`. Returns false, and changes nothing, if their type is different.
-    pub(crate) fn append(&mut self, other: &Self) -> bool {
+    pub fn append(&mut self, other: &Self) -> bool {
         each!(self, v => Value::of(other).map(|more| v.extend_from_slice(more)).is_some())
     }
 

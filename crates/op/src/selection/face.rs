@@ -1,5 +1,6 @@
 //! Selections of faces.
 
+use geometry::surface_index::self_intersecting_faces;
 use mesh::{DVec3, FaceId, MATERIAL, Mesh, VertexId, angle_between};
 
 use super::{EdgeSelection, Select, VertexSelection, marks, missing_element, touching, walk};
@@ -20,6 +21,9 @@ selection! {
         Faces(Vec<u32>),
         /// Faces with this number of corners.
         Degree(u32),
+        /// Faces that intersect another face of the object. Neighbors intersect only if they have more points in common than
+        /// their common vertices and edges. Vertices at the same position count as one.
+        SelfIntersecting,
         /// Faces with the material of this name. Refused if the object has no material of this name.
         Material(String),
         /// Faces with at least one corner among these vertices.
@@ -66,6 +70,13 @@ impl Select for FaceSelection {
                 mask
             }
             Self::Degree(n) => marks::<Self>(mesh, |f| mesh.degree(f) == *n as usize),
+            Self::SelfIntersecting => {
+                let mut mask = marks::<Self>(mesh, |_| false);
+                for f in self_intersecting_faces(mesh, cx.progress())? {
+                    mask[f.index()] = true;
+                }
+                mask
+            }
             Self::Material(name) => {
                 let Some(place) = cx.materials.iter().position(|m| m == name) else {
                     let known = cx.materials.join(", ");

@@ -24,6 +24,11 @@ macro_rules! selection {
             $($own)*
             #[doc = $inside]
             Inside(super::Region),
+            #[doc = concat!(
+                "The ", $elements, " whose vertices are all inside the mesh of another object, by its name. A point is inside \
+                 if the winding number of the mesh around it is above 1/2 in magnitude; small gaps do no harm."
+            )]
+            InsideOf(String),
             #[doc = concat!("The ", $elements, " with the tag of this name. Refused if no tag has this name.")]
             Tagged(String),
             #[doc = concat!("The ", $elements, " whose attribute has a value in a range. Refused if no attribute of ",
@@ -94,6 +99,7 @@ macro_rules! selection {
                 match self {
                     Self::All => Shared::All,
                     Self::Inside(region) => Shared::Inside(region),
+                    Self::InsideOf(name) => Shared::InsideOf(name),
                     Self::Tagged(name) => Shared::Tagged(name),
                     Self::Where { attribute, component, above, below } => Shared::Where {
                         attribute,
@@ -125,6 +131,7 @@ mod region;
 mod vertex;
 mod walk;
 
+use geometry::surface_index::{SurfaceIndex, Winding};
 use mesh::{DVec3, Domain, Id, Mesh, VertexId};
 
 use crate::{Context, MeshPlan, Number, OpError, Range, Refusal, Vector};
@@ -142,6 +149,7 @@ enum Shared<'a, S> {
     Own,
     All,
     Inside(&'a Region),
+    InsideOf(&'a str),
     Tagged(&'a str),
     Where {
         attribute: &'a str,
@@ -223,6 +231,10 @@ impl<S: Select> Shared<'_, S> {
             Self::Inside(region) => marks::<S>(mesh, |id| {
                 S::vertices(mesh, id).all(|v| region.contains(mesh.position(v)))
             }),
+            Self::InsideOf(name) => {
+                let inside = inside_of(mesh, name, cx)?;
+                marks::<S>(mesh, |id| S::vertices(mesh, id).all(|v| inside[v.index()]))
+            }
             Self::Tagged(name) => tagged::<S>(mesh, name)?,
             Self::Where {
                 attribute,
@@ -318,6 +330,17 @@ fn marks<S: Select>(mesh: &Mesh, predicate: impl Fn(S::Id) -> bool) -> Vec<bool>
         mask[id.index()] = predicate(id);
     }
     mask
+}
+
+/// Returns for each vertex whether it is inside the mesh of the object `name`.
+fn inside_of(mesh: &Mesh, name: &str, cx: &Context) -> Result<Vec<bool>, OpError> {
+    let other = cx.other_mesh("InsideOf", name)?;
+    let Some(index) = SurfaceIndex::with_progress(&other, cx.progress())? else {
+        return Ok(vec![false; mesh.domain_len(Domain::Vertex)]);
+    };
+    let winding = Winding::new(&index, cx.progress())?;
+    let numbers = winding.at_points(mesh.positions(), cx.progress())?;
+    Ok(numbers.into_iter().map(|w| w.abs() > 0.5).collect())
 }
 
 /// Returns a mask of the elements with the tag `name`.

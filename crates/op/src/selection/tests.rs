@@ -5,6 +5,7 @@ use crate::{Files, NoProgress};
 use geometry::shapes;
 use mesh::{EdgeId, FaceId};
 use proptest::prelude::*;
+use scene::{Object, Scene};
 
 fn edges(selection: &EdgeSelection, mesh: &Mesh) -> Vec<EdgeId> {
     let files = Files::default();
@@ -151,6 +152,62 @@ fn wrong_attributes_are_refused_with_help() {
     ] {
         assert_eq!(message(text), expected);
     }
+}
+
+#[test]
+fn inside_of_selects_by_the_winding_number_of_another_object() {
+    let mut scene = Scene::new();
+    let mut mould = shapes::uv_sphere(40, 20);
+    for p in mould.positions_mut() {
+        *p *= 1.5;
+    }
+    // The orientation does not matter, nor does a small hole.
+    mould.reverse();
+    mould.delete_face(FaceId::new(3)).unwrap();
+    let grid = shapes::grid(8, 8);
+    scene.insert(Object::mesh("mould", mould)).unwrap();
+    scene.insert(Object::mesh("part", grid.clone())).unwrap();
+    let lines = scene::Geometry::Polylines(Vec::new());
+    scene.insert(Object::new("lines", lines)).unwrap();
+    let files = Files::default();
+    let mut cx = Context::new(&NoProgress, &files);
+    cx.set_object(&scene, "part");
+    let found = |text: &str| {
+        ron::from_str::<VertexSelection>(text)
+            .unwrap()
+            .resolve(&grid, &cx)
+    };
+    let sphere = "Inside(Sphere(center: (0, 0, 0), radius: 1.4999))";
+    let inside = found(r#"InsideOf("mould")"#).unwrap();
+    assert_eq!(inside, found(sphere).unwrap());
+    assert!(!inside.is_empty() && inside.len() < grid.n_vertices());
+    let edges = parse(r#"InsideOf("mould")"#).resolve(&grid, &cx).unwrap();
+    assert_eq!(edges, parse(sphere).resolve(&grid, &cx).unwrap());
+    for (name, message) in [
+        (
+            "mold",
+            "no object is named \"mold\"; other objects at this point: \"mould\", \"lines\"",
+        ),
+        ("part", "needs an object other than \"part\""),
+        ("lines", "\"lines\" is not one"),
+    ] {
+        let error = found(&format!("InsideOf(\"{name}\")")).unwrap_err();
+        assert!(error.to_string().contains(message), "{error}");
+    }
+}
+
+#[test]
+fn self_intersecting_faces_are_those_that_other_faces_pass_through() {
+    let files = Files::default();
+    let cx = Context::new(&NoProgress, &files);
+    let found = |mesh: &Mesh| FaceSelection::SelfIntersecting.resolve(mesh, &cx).unwrap();
+    assert_eq!(found(&shapes::torus(12, 8, 2.0, 0.7)), []);
+    let mut torus = shapes::torus(12, 8, 2.0, 0.7);
+    let v = VertexId::new(0);
+    torus.set_position(v, -torus.position(v));
+    let faces = found(&torus);
+    assert!(torus.vertex_faces(v).all(|f| faces.contains(&f)));
+    assert!(faces.len() > 4);
 }
 
 #[test]

@@ -1,13 +1,13 @@
 //! Checks an expectation against a scene.
 
 use mesh::{Domain, Mesh};
-use op::{Elements, Progress};
+use op::{Elements, FaceSelection, Progress};
 use scene::Object;
 
 use super::places::double_edges;
 use super::subject::{
     ActualValue, EdgeByVertices, Subject, Violation, check_count, check_integer, check_number,
-    fails_unless, selected,
+    fails_unless, selected, smallest_corner_angle,
 };
 use super::{Expectation, OtherMesh, PlacedSubject, attribute, output, same, symmetry};
 use geometry::distance::{Distance, TOLERANCE, diagonal};
@@ -37,6 +37,7 @@ impl Expectation {
                 | Self::DihedralAngle { .. }
                 | Self::EdgeLength { .. }
                 | Self::MinAngle { .. }
+                | Self::MeanMinAngle { .. }
                 | Self::MeanFaceArea { .. }
                 | Self::Position { .. }
                 | Self::Same { .. }
@@ -174,6 +175,27 @@ impl Expectation {
                 let (angle, face) = subject.smallest_angle(of)?;
                 let what = format_args!("a smallest corner angle (at {face})");
                 check_number(what, angle, [None, *min, *max], 0.0)
+            }
+            Self::MeanMinAngle { of, min, max } => {
+                let (mut sum, mut n) = (0.0, 0.0);
+                for (object, mesh) in subject.meshes()? {
+                    for f in selected(of, object, mesh, subject)? {
+                        sum += smallest_corner_angle(mesh, f);
+                        n += 1.0;
+                    }
+                }
+                if n == 0.0 {
+                    return Err(Violation::unmet("the selection is empty".to_owned()));
+                }
+                check_number("a mean smallest corner angle", sum / n, [None, *min, *max], 0.0)
+            }
+            Self::SelfIntersections { eq, min, max } => {
+                let mut found = 0;
+                for (object, mesh) in subject.meshes()? {
+                    let of = FaceSelection::SelfIntersecting;
+                    found += selected(&of, object, mesh, subject)?.len() as u64;
+                }
+                check_count("self-intersecting faces", found, [*eq, *min, *max])
             }
             Self::MeanFaceArea { of, min, max } => subject.mean_area(of, [None, *min, *max]),
             Self::Position { of, is, tolerance } => subject.position(of, (*is).into(), *tolerance),

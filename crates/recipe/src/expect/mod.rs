@@ -197,6 +197,27 @@ pub enum Expectation {
         /// At most this value.
         max: Option<f64>,
     },
+    /// The mean over the selected faces of the smallest corner angle of each, in degrees; 60 for equilateral triangles. Fails
+    /// if the selection is empty.
+    MeanMinAngle {
+        /// Which faces.
+        #[serde(default)]
+        of: FaceSelection,
+        /// At least this value.
+        min: Option<f64>,
+        /// At most this value.
+        max: Option<f64>,
+    },
+    /// The number of faces that intersect another face of the same object. Neighbors intersect only if they have more points
+    /// in common than their common vertices and edges.
+    SelfIntersections {
+        /// Exactly this number.
+        eq: Option<u64>,
+        /// At least this number.
+        min: Option<u64>,
+        /// At most this number.
+        max: Option<u64>,
+    },
     /// The mean area of the selected faces, divided by the median area of all faces. Fails if the selection
     /// is empty.
     MeanFaceArea {
@@ -368,6 +389,7 @@ impl Expectation {
             | Self::Faces { eq, min, max }
             | Self::Components { eq, min, max }
             | Self::BoundaryLoops { eq, min, max }
+            | Self::SelfIntersections { eq, min, max }
             | Self::Count { eq, min, max, .. } => eq.is_none() && min.is_none() && max.is_none(),
             Self::EulerCharacteristic { eq, min, max } | Self::Genus { eq, min, max } => {
                 eq.is_none() && min.is_none() && max.is_none()
@@ -382,6 +404,7 @@ impl Expectation {
             Self::MeanFaceArea { min, max, .. }
             | Self::EdgeLength { min, max, .. }
             | Self::MinAngle { min, max, .. }
+            | Self::MeanMinAngle { min, max, .. }
             | Self::Attribute { min, max, .. } => min.is_none() && max.is_none(),
             Self::Output {
                 path, tolerance, ..

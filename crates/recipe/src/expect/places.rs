@@ -2,7 +2,7 @@
 
 use geometry::distance::Distance;
 use mesh::{DVec3, EdgeId, Element, FaceId, Mesh, VertexId};
-use op::{Elements, ErrorLocation, Select};
+use op::{Elements, ErrorLocation, FaceSelection, Select};
 use scene::Object;
 
 use super::same::PositionIndex;
@@ -87,6 +87,9 @@ impl CheckedMesh<'_> {
                 // The message names the smallest angle, so its face comes first.
                 off.sort_by(|a, b| a.0.total_cmp(&b.0));
                 self.locations(off.into_iter().map(|(_, f)| f))
+            }
+            Expectation::SelfIntersections { .. } => {
+                self.locations(self.selected(&FaceSelection::SelfIntersecting))
             }
             Expectation::MeanFaceArea { of, .. } => self.locations(self.selected(of)),
             Expectation::Position { of, is, .. } => {

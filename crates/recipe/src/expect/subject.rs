@@ -385,7 +385,7 @@ pub(super) fn selected<S: Select>(
     subject: Subject,
 ) -> Result<Vec<S::Id>, Violation> {
     let mut cx = Context::new(subject.progress, subject.files);
-    cx.materials = object.materials.iter().map(|m| m.name.clone()).collect();
+    cx.set_object(subject.scene, &object.name);
     selection.resolve(mesh, &cx).map_err(|error| match error {
         OpError::Refused { message, .. } => Violation::unmet(message),
         other => other.to_string().into(),

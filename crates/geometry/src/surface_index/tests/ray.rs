@@ -49,6 +49,10 @@ fn rays_meet_the_triangles_that_brute_force_finds() {
                 assert_eq!(hit.point, triangle.point(hit.weights));
             }
             assert_eq!(index.ray(origin, direction), found.first().copied());
+            let batch = index
+                .first_hits(&[[origin, direction]; 2], &NoProgress)
+                .unwrap();
+            assert_eq!(batch, [found.first().copied(); 2]);
         }
     }
 }

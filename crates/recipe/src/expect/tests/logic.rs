@@ -61,6 +61,8 @@ fn an_expectation_without_a_bound_is_an_error() {
         "MeanFaceArea(of: All)",
         "EdgeLength()",
         "MinAngle(of: All)",
+        "MeanMinAngle()",
+        "SelfIntersections()",
         "Not(Faces())",
     ] {
         let problem = expectation(text).problem();

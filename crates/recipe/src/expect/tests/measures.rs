@@ -7,6 +7,26 @@ use scene::Scene;
 use super::{check, cube, holds_and_fails, lines, mesh_from, scene};
 
 #[test]
+fn self_intersections_are_counted_by_face() {
+    let mut torus = shapes::torus(12, 8, 2.0, 0.7);
+    assert_eq!(
+        check(
+            &scene([("torus", torus.clone())]),
+            "SelfIntersections(eq: 0)"
+        ),
+        Ok(())
+    );
+    torus.positions_mut()[0] *= -1.0;
+    let crossed = scene([("torus", torus)]);
+    assert_eq!(check(&crossed, "SelfIntersections(min: 5)"), Ok(()));
+    let error = check(&crossed, "SelfIntersections(eq: 0)").unwrap_err();
+    assert!(
+        error.starts_with("expected 0 self-intersecting faces, found "),
+        "{error}"
+    );
+}
+
+#[test]
 fn area_and_volume_are_compared_within_a_tolerance() {
     holds_and_fails(
         &cube(),
@@ -143,6 +163,8 @@ fn lengths_of_edges_and_angles_of_corners_are_measured() {
         error.starts_with("expected a smallest corner angle (at f0) of at least 31, found 30"),
         "{error}"
     );
+    assert!(check(&triangle, "MeanMinAngle(min: 29.9999, max: 30.0001)").is_ok());
+    assert!(check(&triangle, "MeanMinAngle(of: Not(All), min: 0)").is_err());
     assert!(check(&triangle, "EdgeLength(of: Not(All), min: 0)").is_err());
     assert!(check(&triangle, "MinAngle(of: Not(All), min: 0)").is_err());
 }

@@ -1,0 +1,514 @@
+//! Transfer: copies attributes from the nearest points of another object.
+//!
+//! ```text
+//!    source    .--o--.--o--.        each vertex, corner or face of the target takes the values
+//!              |  ^  |  ^  |        of the nearest point of the source
+//!    target    +--+-----+--+
+//! ```
+
+use std::collections::BTreeMap;
+
+use geometry::surface_index::{Nearest, SurfaceIndex, Triangle};
+use mesh::{Column, DVec3, Domain, FaceId, HalfEdgeId, Rule, Values};
+use op::Refusal;
+use op::prelude::*;
+
+/// Copies attributes from the nearest points of another object.
+///
+/// An attribute of vertices, corners or faces of the object `from` becomes one of the same kind: numbers and vectors of
+/// vertices and corners are interpolated inside the face of the nearest point; whole numbers, tags, and attributes that edits do
+/// not interpolate are copied from its nearest corner, and values of faces from its face. An attribute that exists already, with
+/// the same type of values, is overwritten. Without `on`, the step acts on all meshes except `from`.
+///
+/// All corners of a face take their values from one chart of the source: from faces that are connected without crossing a seam of
+/// the attribute. It is the chart nearest to the center of the face, so no triangle is stretched across a seam of texture
+/// coordinates.
+///
+/// Elements further than `within` from the source keep their values, or get zeros if the attribute is new, and are counted. For
+/// corners, the whole face does.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Transfer {
+    /// The name of the object with the attributes.
+    pub from: String,
+    /// The names of the attributes, for example `["uv", "color"]`.
+    pub attributes: Vec<String>,
+    /// The largest distance from the source, in scene units. If omitted, any distance.
+    #[serde(default)]
+    pub within: Option<PositiveLength>,
+}
+
+impl Transfer {
+    fn problem(&self) -> Option<&'static str> {
+        if self.attributes.is_empty() {
+            Some("Transfer needs at least one attribute")
+        } else if self.attributes.iter().any(|name| name == "material") {
+            Some(
+                "materials cannot be transferred: their numbers are places in the list of each object",
+            )
+        } else {
+            None
+        }
+    }
+}
+
+impl MeshOperation for Transfer {
+    const NAME: &'static str = "Transfer";
+    const SUMMARY: &'static str = "Copy attributes from the nearest points of another object";
+    const EXAMPLE: &'static str =
+        r#"Transfer(from: "scan", attributes: ["uv", "color"], within: 0.01)"#;
+    const WORDS: &'static [&'static str] = &["data transfer", "bake", "copy uv", "project uv"];
+
+    fn reads(&self) -> Vec<(&str, &'static str)> {
+        vec![(&self.from, "from")]
+    }
+
+    fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+        // The domains are known only when the other object is.
+        plan.has_unlisted_attributes = true;
+        let problem = |message| Problem::error(message).at(["attributes"]);
+        self.problem().map(problem).into_iter().collect()
+    }
+
+    fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+        if let Some(problem) = self.problem() {
+            return Err(OpError::Parameter(problem.to_owned()));
+        }
+        let other = cx.other_mesh(Self::NAME, &self.from)?;
+        let columns = self.columns(&other, mesh)?;
+        cx.advance("transfer", 0, 1)?;
+        let Some(index) = SurfaceIndex::with_progress(&other, cx.progress())? else {
+            return Err(OpError::Object(format!("\"{}\" has no faces", self.from)));
+        };
+        let uses = |domain| columns.iter().any(|column| column.0 == domain);
+        let source = Source {
+            mesh: &other,
+            index: &index,
+            within: self.within.map_or(f64::INFINITY, PositiveLength::get),
+        };
+        let vertices = if uses(Domain::Vertex) || uses(Domain::Corner) {
+            index.nearest_to_points(mesh.positions(), cx.progress())?
+        } else {
+            Vec::new()
+        };
+        let faces = if uses(Domain::Face) || uses(Domain::Corner) {
+            let centers: Vec<DVec3> = mesh.faces().map(|f| mesh.face_center(f)).collect();
+            index.nearest_to_points(&centers, cx.progress())?
+        } else {
+            Vec::new()
+        };
+        let mut report = Report::default();
+        let mut far = BTreeMap::new();
+        for (domain, column) in &columns {
+            let origins = match domain {
+                Domain::Vertex => vertices.iter().map(|hit| source.of_vertex(hit)).collect(),
+                Domain::Face => faces.iter().map(|hit| source.of_face(hit)).collect(),
+                _ => source.of_corners(mesh, &column.values, &vertices, &faces, cx)?,
+            };
+            // Half-edges without a face have no values.
+            let is_element =
+                |i: usize| *domain != Domain::Corner || mesh.face(HalfEdgeId::new(i)).is_some();
+            let elements = (0..origins.len()).filter(|&i| is_element(i));
+            let kept = elements.clone().filter(|&i| origins[i].is_none()).count();
+            far.insert(*domain, kept);
+            report.changed += (elements.count() - kept) as u64;
+            let new = transferred(
+                column,
+                mesh.attributes().column(*domain, &column.name),
+                &origins,
+            );
+            mesh.insert_column(*domain, new);
+        }
+        for (domain, kept) in far {
+            let what = format!(
+                "{} further than `within` from \"{}\", which keep their values",
+                plural(domain),
+                self.from
+            );
+            report = report.count(&what, kept);
+        }
+        Ok(report)
+    }
+}
+
+impl Transfer {
+    /// Returns the columns of the other mesh with the names that the step lists.
+    fn columns(&self, other: &Mesh, mesh: &Mesh) -> Result<Vec<(Domain, Column)>, OpError> {
+        let mut columns = Vec::new();
+        for name in &self.attributes {
+            let found = || other.attributes().iter().filter(|(_, c)| c.name == *name);
+            if found().next().is_none() {
+                let known: Vec<String> = (other.attributes().iter())
+                    .map(|(domain, c)| format!("{domain} attribute \"{}\"", c.name))
+                    .collect();
+                let known = if known.is_empty() {
+                    "none".to_owned()
+                } else {
+                    known.join(", ")
+                };
+                let message = format!(
+                    "\"{}\" has no attribute \"{name}\"; it has: {known}",
+                    self.from
+                );
+                return Err(OpError::refused(Refusal::Missing, message));
+            }
+            for (domain, column) in found() {
+                if domain == Domain::Edge {
+                    let message = format!(
+                        "\"{name}\" is an edge attribute, and edges have no nearest points; Transfer copies attributes of vertices, corners and faces"
+                    );
+                    return Err(OpError::refused(Refusal::Missing, message));
+                }
+                if let Some(old) = mesh.attributes().column(domain, name)
+                    && old.values.type_name() != column.values.type_name()
+                {
+                    let message = format!(
+                        "the {domain} attribute \"{name}\" of \"{}\" has values of the type \"{}\", and the existing one \"{}\"",
+                        self.from,
+                        column.values.type_name(),
+                        old.values.type_name()
+                    );
+                    return Err(OpError::Object(message));
+                }
+                if !columns
+                    .iter()
+                    .any(|(d, c): &(Domain, Column)| *d == domain && c.name == *name)
+                {
+                    columns.push((domain, column.clone()));
+                }
+            }
+        }
+        Ok(columns)
+    }
+}
+
+const fn plural(domain: Domain) -> &'static str {
+    match domain {
+        Domain::Vertex => "vertices",
+        Domain::Corner => "corners",
+        Domain::Edge => "edges",
+        Domain::Face => "faces",
+    }
+}
+
+/// The elements of the source and their weights, from which an element of the target takes its value.
+type Origin = Option<[(usize, f64); 3]>;
+
+/// The mesh with the attributes.
+struct Source<'a> {
+    mesh: &'a Mesh,
+    index: &'a SurfaceIndex,
+    within: f64,
+}
+
+impl Source<'_> {
+    fn near(&self, hit: &Nearest) -> Option<Triangle> {
+        (hit.distance <= self.within).then(|| self.index.triangle(hit.triangle))
+    }
+
+    fn of_vertex(&self, hit: &Nearest) -> Origin {
+        let triangle = self.near(hit)?;
+        let weights = triangle.barycentric(hit.point);
+        Some([0, 1, 2].map(|k| (triangle.vertices[k].index(), weights[k])))
+    }
+
+    fn of_face(&self, hit: &Nearest) -> Origin {
+        let face = self.near(hit)?.face.index();
+        Some([(face, 1.0), (face, 0.0), (face, 0.0)])
+    }
+
+    /// Returns the origins of all corners. `vertices` and `faces` are the nearest points of the vertices and of the centers of
+    /// the faces of the target.
+    fn of_corners(
+        &self,
+        target: &Mesh,
+        values: &Values,
+        vertices: &[Nearest],
+        faces: &[Nearest],
+        cx: &Context,
+    ) -> Result<Vec<Origin>, OpError> {
+        let (chart_of_face, charts) = charts(self.mesh, values);
+        // Only the charts that some corner cannot reach by its nearest point need an index.
+        let mut indices: Vec<Option<SurfaceIndex>> = charts.iter().map(|_| None).collect();
+        let mut origins = vec![None; target.domain_len(Domain::Corner)];
+        for (i, (f, center)) in target.faces().zip(faces).enumerate() {
+            if i % 1024 == 0 {
+                cx.advance("transfer corners", i as u64, faces.len() as u64)?;
+            }
+            let hit_of = |h: HalfEdgeId| &vertices[target.origin(h).index()];
+            let is_far = |h: HalfEdgeId| hit_of(h).distance > self.within;
+            let Some(middle) = self.near(center) else {
+                continue;
+            };
+            if target.face_half_edges(f).any(is_far) {
+                continue;
+            }
+            let chart = chart_of_face[middle.face.index()];
+            for h in target.face_half_edges(f) {
+                let hit = hit_of(h);
+                let mut triangle = self.index.triangle(hit.triangle);
+                let mut point = hit.point;
+                if chart_of_face[triangle.face.index()] != chart {
+                    let index = indices[chart].get_or_insert_with(|| {
+                        let faces = charts[chart].iter().copied();
+                        SurfaceIndex::of_faces(self.mesh, faces).expect("a chart has faces")
+                    });
+                    let hit = index.nearest(target.position(target.origin(h)), 0);
+                    triangle = index.triangle(hit.triangle);
+                    point = hit.point;
+                }
+                let weights = triangle.barycentric(point);
+                origins[h.index()] =
+                    Some([0, 1, 2].map(|k| (triangle.corners[k].index(), weights[k])));
+            }
+        }
+        Ok(origins)
+    }
+}
+
+/// Returns the number of the chart of each face, by face index, and the faces of each chart: the parts of the mesh that are
+/// connected by edges at which the values of the corners are the same on both sides.
+fn charts(mesh: &Mesh, values: &Values) -> (Vec<usize>, Vec<Vec<FaceId>>) {
+    let mut chart_of_face = vec![usize::MAX; mesh.domain_len(Domain::Face)];
+    let mut charts: Vec<Vec<FaceId>> = Vec::new();
+    for first in mesh.faces() {
+        if chart_of_face[first.index()] != usize::MAX {
+            continue;
+        }
+        let number = charts.len();
+        chart_of_face[first.index()] = number;
+        let mut chart = vec![first];
+        let mut next = 0;
+        while let Some(&f) = chart.get(next) {
+            next += 1;
+            for h in mesh.face_half_edges(f) {
+                let twin = h.twin();
+                let same = |a: HalfEdgeId, b: HalfEdgeId| values.are_equal(a.index(), b.index());
+                if let Some(g) = mesh.face(twin)
+                    && chart_of_face[g.index()] == usize::MAX
+                    && same(h, mesh.next(twin))
+                    && same(mesh.next(h), twin)
+                {
+                    chart_of_face[g.index()] = number;
+                    chart.push(g);
+                }
+            }
+        }
+        charts.push(chart);
+    }
+    (chart_of_face, charts)
+}
+
+/// Returns the new column of the target: values of `column` at the origins, and the values of `old`, or zeros, elsewhere.
+fn transferred(column: &Column, old: Option<&Column>, origins: &[Origin]) -> Column {
+    let mut values = column.values.clone();
+    let n = values.len();
+    let is_appended = old.is_some_and(|old| values.append(&old.values));
+    let interpolates = matches!(column.rule, Rule::Interpolate | Rule::Normal);
+    let mut new = values.blend(origins.len(), |i, add| match origins[i] {
+        Some(parts) if interpolates => {
+            for (source, weight) in parts.into_iter().filter(|part| part.1 > 0.0) {
+                add(source, weight);
+            }
+        }
+        Some(parts) => {
+            let first = parts[0];
+            let largest = parts
+                .into_iter()
+                .fold(first, |a, b| if b.1 > a.1 { b } else { a });
+            add(largest.0, 1.0);
+        }
+        None if is_appended => add(n + i, 1.0),
+        None => {}
+    });
+    if let (Rule::Normal, Values::Vec3(normals)) = (column.rule, &mut new) {
+        for normal in normals {
+            *normal = normal.normalize_or_zero();
+        }
+    }
+    column.with_values(new)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use geometry::shapes;
+    use mesh::{Attribute, COLOR, DVec2, DVec4, UV, VertexId};
+    use scene::Object;
+
+    const GROUP: Attribute<FaceId, i32> = Attribute::new("group", Rule::Copy);
+
+    fn step(text: &str) -> Transfer {
+        op::test::read(text).unwrap()
+    }
+
+    /// The coordinates of a chart: (x, y), and 5 further right for faces right of x = 0.
+    fn uv(p: DVec3, right: bool) -> DVec2 {
+        DVec2::new(p.x + if right { 5.0 } else { 0.0 }, p.y)
+    }
+
+    /// A square of 8 x 8 faces from -4 to 4, with two charts and a color that is linear in x.
+    fn source() -> Mesh {
+        let mut mesh = shapes::grid(8, 8);
+        let scale = 4.0 / mesh.positions().iter().fold(0.0, |m, p| p.x.max(m));
+        mesh.positions_mut().iter_mut().for_each(|p| *p *= scale);
+        let of_corner = |i| {
+            let h = HalfEdgeId::new(i);
+            mesh.face(h).map_or(DVec2::ZERO, |f| {
+                uv(mesh.position(mesh.origin(h)), mesh.face_center(f).x > 0.0)
+            })
+        };
+        let uvs = (0..mesh.domain_len(Domain::Corner))
+            .map(of_corner)
+            .collect();
+        let colors = mesh
+            .positions()
+            .iter()
+            .map(|p| DVec4::new(p.x, 0.0, 0.0, 1.0))
+            .collect();
+        let groups = mesh
+            .faces()
+            .map(|f| if mesh.face_center(f).y > 0.0 { 7 } else { 3 })
+            .collect();
+        mesh.set(UV, uvs);
+        mesh.set(COLOR, colors);
+        mesh.set(GROUP, groups);
+        mesh
+    }
+
+    fn scene(target: Mesh) -> Scene {
+        let mut scene = Scene::new();
+        scene.insert(Object::mesh("scan", source())).unwrap();
+        scene.insert(Object::mesh("low", target)).unwrap();
+        scene
+    }
+
+    fn low(scene: &Scene) -> &Mesh {
+        scene.object("low").unwrap().as_mesh().unwrap()
+    }
+
+    /// A target with other faces, 0.01 above the source.
+    fn target() -> Mesh {
+        let mut mesh = shapes::grid(5, 7);
+        let largest = mesh
+            .positions()
+            .iter()
+            .fold(0.0, |m, p| p.abs().max_element().max(m));
+        for p in mesh.positions_mut() {
+            *p = *p * (3.9 / largest) + DVec3::new(0.0, 0.0, 0.01);
+        }
+        mesh
+    }
+
+    #[test]
+    fn affine_values_are_exact_and_no_face_lies_in_two_charts() {
+        let mut scene = scene(target());
+        let step = step(r#"(from: "scan", attributes: ["uv", "color", "group"], within: 0.1)"#);
+        let report = op::test::run(&step, &mut scene).unwrap();
+        assert_eq!(report.notes, [""; 0]);
+        let mesh = low(&scene);
+        for (p, color) in mesh.positions().iter().zip(mesh.get(COLOR).unwrap()) {
+            assert!((color.x - p.x).abs() < 1e-12 && (color.w - 1.0).abs() < 1e-12);
+        }
+        let uvs = mesh.get(UV).unwrap();
+        let mut crossing = 0;
+        for f in mesh.faces() {
+            let right = mesh.face_center(f).x > 0.0;
+            for h in mesh.face_half_edges(f) {
+                let p = mesh.position(mesh.origin(h));
+                // A corner beyond the seam gets the coordinates of the seam.
+                let clamped = DVec3::new(if right { p.x.max(0.0) } else { p.x.min(0.0) }, p.y, 0.0);
+                crossing += usize::from(clamped.x != p.x);
+                assert!(uvs[h.index()].distance(uv(clamped, right)) < 1e-12);
+            }
+            let expected = if mesh.face_center(f).y > 0.0 { 7 } else { 3 };
+            assert_eq!(mesh.get(GROUP).unwrap()[f.index()], expected);
+        }
+        assert!(crossing > 0);
+    }
+
+    #[test]
+    fn elements_that_are_too_far_keep_their_values_and_are_counted() {
+        let mut target = target();
+        let v = VertexId::new(0);
+        target.set_position(v, DVec3::new(-3.9, -3.9, 2.0));
+        target.set(COLOR, vec![DVec4::splat(0.25); target.n_vertices()]);
+        let mut scene = scene(target);
+        let step = step(r#"(from: "scan", attributes: ["uv", "color"], within: 0.1)"#);
+        let report = op::test::run(&step, &mut scene).unwrap();
+        assert_eq!(
+            report.notes,
+            [
+                "vertices further than `within` from \"scan\", which keep their values: 1",
+                "corners further than `within` from \"scan\", which keep their values: 4"
+            ]
+        );
+        let mesh = low(&scene);
+        assert_eq!(mesh.get(COLOR).unwrap()[0], DVec4::splat(0.25));
+        let f = mesh.vertex_faces(v).next().unwrap();
+        assert!(
+            mesh.face_half_edges(f)
+                .all(|h| mesh.get(UV).unwrap()[h.index()] == DVec2::ZERO)
+        );
+    }
+
+    #[test]
+    fn a_mesh_takes_its_own_attributes_back_unchanged() {
+        let mut bare = source();
+        for (domain, name) in [
+            (Domain::Corner, "uv"),
+            (Domain::Vertex, "color"),
+            (Domain::Face, "group"),
+        ] {
+            bare.remove_column(domain, name);
+        }
+        let mut scene = scene(bare);
+        op::test::run(
+            &step(r#"(from: "scan", attributes: ["group", "uv", "color"])"#),
+            &mut scene,
+        )
+        .unwrap();
+        let (mesh, source) = (low(&scene), source());
+        assert_eq!(mesh.get(COLOR), source.get(COLOR));
+        assert_eq!(mesh.get(GROUP), source.get(GROUP));
+        for f in mesh.faces() {
+            for h in mesh.face_half_edges(f) {
+                assert_eq!(
+                    mesh.get(UV).unwrap()[h.index()],
+                    source.get(UV).unwrap()[h.index()]
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn missing_and_unsuitable_attributes_are_refused() {
+        let refused = |text: &str, target: Mesh| {
+            let mut scene = scene(target);
+            let before = scene.clone();
+            let error = op::test::run(&step(text), &mut scene)
+                .unwrap_err()
+                .to_string();
+            assert_eq!(scene, before);
+            error
+        };
+        let error = refused(r#"(from: "scan", attributes: ["uw"])"#, target());
+        assert!(
+            error.contains("has no attribute \"uw\"; it has: vertex attribute \"color\""),
+            "{error}"
+        );
+        let mut other = target();
+        other.set(
+            Attribute::<VertexId, f64>::new("color", Rule::Copy),
+            vec![0.0; other.n_vertices()],
+        );
+        let error = refused(r#"(from: "scan", attributes: ["color"])"#, other);
+        assert!(
+            error.contains("\"4 numbers\", and the existing one \"number\""),
+            "{error}"
+        );
+        refused(r#"(from: "scan", attributes: ["material"])"#, target());
+        refused(r#"(from: "scan", attributes: [])"#, target());
+        refused(r#"(from: "scam", attributes: ["uv"])"#, target());
+    }
+}

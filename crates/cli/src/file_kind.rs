@@ -50,7 +50,7 @@ impl FileKind {
             .ok()
             .filter(std::fs::Metadata::is_file)?
             .len();
-        if Format::from_path(path).is_some() {
+        if Format::from_path(path).is_some_and(Format::can_read) {
             return Some(Self::Mesh);
         }
         if path.extension().is_none_or(|ending| ending != "ron") {

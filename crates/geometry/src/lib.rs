@@ -6,6 +6,7 @@
 //! | [`area`], [`volume`], [`bounds`], [`genus`], [`components`] | measures of whole meshes |
 //! | [`gaussian_curvatures`], [`mean_curvatures`], [`principal_curvatures`] | discrete curvature |
 //! | [`min_angle`], [`aspect_ratio`] | the shape of faces |
+//! | [`geodesic_distances`], [`thickness`], [`occlusion`] | distances along the surface and through the solid; how enclosed vertices are |
 //! | [`distance`] | the distance between two surfaces |
 //! | [`surface_index`] | nearest points, rays, intersections and winding numbers of a surface |
 //! | [`predicates`] | exact sides of lines and planes |
@@ -25,6 +26,7 @@ pub mod deform;
 pub mod distance;
 mod face_quality;
 mod fill_hole;
+mod geodesic;
 mod laplacian;
 mod measure;
 mod merge;
@@ -37,11 +39,13 @@ pub mod sparse;
 pub mod surface_index;
 mod tangent;
 pub mod triangulate;
+mod visibility;
 
 pub use bisect::{Bisection, bisect};
 pub use curvature::{gaussian_curvatures, mean_curvatures, principal_curvatures, vertex_area};
 pub use face_quality::{aspect_ratio, min_angle};
 pub use fill_hole::fill_hole_triangles;
+pub use geodesic::geodesic_distances;
 pub use laplacian::Laplacian;
 pub use measure::{
     area, bounds, components, genus, n_components, sin_cos_degrees, valences, volume,
@@ -49,3 +53,4 @@ pub use measure::{
 pub use merge::{MergeError, Merged, clusters, merge_clusters, merge_vertices};
 pub use part::{face_components, parts, separated};
 pub use tangent::{Tangents, tangents};
+pub use visibility::{occlusion, thickness};

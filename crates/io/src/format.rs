@@ -28,10 +28,14 @@ pub enum Format {
     Bez,
     /// A planar Bezier curve as text.
     Bzc,
+    /// A table of the elements of a mesh as text. Write only.
+    Csv,
+    /// The arrays of a mesh for `NumPy`. Write only.
+    Npz,
 }
 
 /// Every format with its extension and its name, in the order in which messages list them.
-const TABLE: [(Format, &str, &str); 10] = [
+const TABLE: [(Format, &str, &str); 12] = [
     (Format::Obj, "obj", "OBJ"),
     (Format::Gltf, "gltf", "glTF"),
     (Format::Glb, "glb", "GLB"),
@@ -42,6 +46,8 @@ const TABLE: [(Format, &str, &str); 10] = [
     (Format::Mws, "mws", "Meshwright scene"),
     (Format::Bez, "bez", "Bezier patches"),
     (Format::Bzc, "bzc", "Bezier curve"),
+    (Format::Csv, "csv", "CSV"),
+    (Format::Npz, "npz", "NPZ"),
 ];
 
 impl Format {
@@ -56,17 +62,22 @@ impl Format {
     }
 
     /// The format with the extension of `path`, in upper or lower case; `None` if the extension is unknown or
-    /// missing. The name of a file compressed by gzip ends in `.gz` after the extension of its format; `.glb` and
-    /// `.mws` cannot be compressed.
+    /// missing. The name of a file compressed by gzip ends in `.gz` after the extension of its format; `.glb`,
+    /// `.mws` and `.npz` cannot be compressed.
     pub fn from_path(path: &Path) -> Option<Self> {
         let plain = gzip::plain(path);
         let extension = plain.extension()?;
         let format = Self::all().find(|f| extension.eq_ignore_ascii_case(f.extension()))?;
-        let is_binary = matches!(format, Self::Glb | Self::Mws);
+        let is_binary = matches!(format, Self::Glb | Self::Mws | Self::Npz);
         (!is_binary || !gzip::is_compressed(path)).then_some(format)
     }
 
-    /// Whether files of this format can be written. All formats can be read.
+    /// Whether files of this format can be read.
+    pub const fn can_read(self) -> bool {
+        !matches!(self, Self::Csv | Self::Npz)
+    }
+
+    /// Whether files of this format can be written.
     pub const fn can_write(self) -> bool {
         !matches!(self, Self::Dae)
     }
@@ -76,9 +87,9 @@ impl Format {
         matches!(self, Self::Gltf | Self::Glb)
     }
 
-    /// The extensions of all formats, as messages list them: `.obj, .gltf, ...`.
+    /// The extensions of the formats that can be read, as messages list them: `.obj, .gltf, ...`.
     pub fn readable_extensions() -> String {
-        list(Self::all())
+        list(Self::all().filter(|format| format.can_read()))
     }
 
     /// The extensions of the formats that can be written, as messages list them: `.obj, .gltf, ...`.

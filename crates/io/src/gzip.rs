@@ -1,6 +1,6 @@
 //! Compressed files: `model.obj.gz` is read and written like `model.obj`.
 //!
-//! The content is compressed by gzip (RFC 1952). All formats except the binary formats `.glb` and `.mws` can be
+//! The content is compressed by gzip (RFC 1952). All formats except the binary formats `.glb`, `.mws` and `.npz` can be
 //! compressed. The size of the decompressed content is limited, because a few bytes can stand for thousands.
 
 use std::borrow::Cow;

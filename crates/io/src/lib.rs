@@ -13,7 +13,9 @@
 //! | `.dae` (read only) | polygons, materials, placed objects | `dae` |
 //! | `.bez` | Bezier patches | `bez` |
 //! | `.bzc` | a Bezier curve | `bez` |
-//! | `.gz` after one of these, except `.glb` and `.mws` | the same, compressed by gzip | `gzip` |
+//! | `.csv` (write only) | a table of vertices, faces or corners | `csv` |
+//! | `.npz` (write only) | the arrays of a mesh for `NumPy` | `npz` |
+//! | `.gz` after one of these, except `.glb`, `.mws` and `.npz` | the same, compressed by gzip | `gzip` |
 //!
 //! Nothing is dropped silently: whatever a reader leaves out or changes becomes a [`Note`] with a count, and
 //! whatever a format cannot store becomes a [`Loss`]. Errors name the position: line and column in a text, the byte
@@ -59,6 +61,7 @@ mod assets;
 mod bez;
 mod clean;
 mod corners;
+mod csv;
 mod dae;
 mod decimal;
 mod error;
@@ -71,6 +74,7 @@ mod joined;
 mod loss;
 mod mws;
 mod note;
+mod npz;
 mod obj;
 mod off;
 mod packing;
@@ -93,6 +97,7 @@ use scene::{Geometry, Graph, Object, Scene};
 use store::Store;
 
 pub use assets::FileDependency;
+pub use csv::Rows;
 pub use error::{ReadError, WriteError};
 pub use format::Format;
 pub use images::Images;
@@ -150,7 +155,7 @@ pub struct Loaded {
 pub struct WriteOptions {
     /// The origin of the content, such as the digest of a recipe. Stored as a comment in OBJ, MTL, PLY and OFF, in
     /// the header of STL, as `asset.extras.meshwright` in glTF, and in the header of `.mws`. The Bezier formats
-    /// cannot store it.
+    /// and tables (`.csv`, `.npz`) cannot store it.
     pub provenance: Option<String>,
     /// What to do with the images of materials. If `None`, `.glb` files embed them, and images next to the model
     /// that they come from are copied next to `.gltf` and `.obj` files. OBJ cannot embed images, so embedded ones
@@ -163,6 +168,8 @@ pub struct WriteOptions {
     /// For glTF, the number of sets of four joints that are written for each vertex of a skinned mesh. If `None`, as many
     /// as in the file that the mesh was read from, and otherwise 1.
     pub weight_sets: Option<u32>,
+    /// The elements that a `.csv` file has rows for. If `None`, vertices. Other formats are refused.
+    pub rows: Option<Rows>,
     /// Whether writing fails if the file would not store everything.
     pub strict: bool,
 }
@@ -325,6 +332,8 @@ fn find(
         Format::Mws => mws::read(&bytes, options.name.as_deref(), placements),
         Format::Bez => bez::read_patches(&bytes).map(Shape::Geometry).map(one),
         Format::Bzc => bez::read_curve(&bytes).map(Shape::Geometry).map(one),
+        // Refused by `known_format`.
+        Format::Csv | Format::Npz => Ok(Vec::new().into()),
     };
     found.map_err(|fault| fault.in_file(path))
 }
@@ -391,6 +400,8 @@ pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Pee
         ),
         Format::Bez => bez::read_patches(&bytes).map(of),
         Format::Bzc => bez::read_curve(&bytes).map(of),
+        // Refused by `known_format`.
+        Format::Csv | Format::Npz => Ok(Vec::new()),
     };
     let objects = objects.map_err(|fault| fault.in_file(path))?;
     let mut left_out = notes.into_vec();
@@ -427,6 +438,13 @@ pub fn write(
         .ok_or_else(unknown)?;
     if !format.packs() && (options.compression.is_some() || options.quantization.is_some()) {
         let message = "only .glb and .gltf files can be compressed or quantized".to_owned();
+        return Err(WriteError::Scene {
+            path: path.to_path_buf(),
+            message,
+        });
+    }
+    if format != Format::Csv && options.rows.is_some() {
+        let message = "only .csv files have rows".to_owned();
         return Err(WriteError::Scene {
             path: path.to_path_buf(),
             message,
@@ -474,6 +492,8 @@ fn write_placed(
         Format::Mws => Ok(one(mws::write(scene, options))),
         Format::Bez => bez::write_bez(scene).map(one),
         Format::Bzc => bez::write_bzc(scene).map(one),
+        Format::Csv => csv::write(scene, options).map(one),
+        Format::Npz => npz::write(scene).map(one),
     };
     let Written {
         files,
@@ -524,7 +544,8 @@ struct Written {
 type SingleFile = (Vec<u8>, Vec<Loss>);
 
 fn known_format(path: &Path) -> Result<Format, ReadError> {
-    Format::from_path(path).ok_or_else(|| ReadError::UnknownFormat {
+    let known = Format::from_path(path).filter(|format| format.can_read());
+    known.ok_or_else(|| ReadError::UnknownFormat {
         path: path.to_path_buf(),
         known: Format::readable_extensions(),
     })

@@ -2,14 +2,16 @@
 
 use std::path::Path;
 
-use mesh_io::{Compression, Format, Images, Quantization, WriteOptions};
+use mesh_io::{Compression, Format, Images, Quantization, Rows, WriteOptions};
 use op::prelude::*;
 use op::{Loss, Operation, target_scene};
 
 /// Writes objects to a file in the output folder.
 ///
 /// The extension chooses the format: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl` or `.off` for meshes, `.bez` for
-/// Bezier patches, `.bzc` for a curve, and `.mws` for a complete scene without any loss. A name
+/// Bezier patches, `.bzc` for a curve, and `.mws` for a complete scene without any loss.
+/// `.csv` is a table of the positions and attributes of vertices, faces or corners, and `.npz` has the arrays of a mesh for `NumPy`;
+/// these cannot be read. A name
 /// such as `a.obj.gz` compresses the file by gzip. Content that the format
 /// cannot store is listed. The file is only created when the whole recipe has succeeded.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
@@ -34,6 +36,9 @@ pub struct Save {
     /// omitted, as many as in the file that the mesh comes from, and otherwise 1.
     #[serde(default)]
     pub weight_sets: Option<Count<1, 8>>,
+    /// For `.csv`, the elements that have a row each. If omitted, vertices.
+    #[serde(default)]
+    pub rows: Option<Rows>,
 }
 
 impl Save {
@@ -46,8 +51,9 @@ impl Save {
         ) {
             return;
         }
+        let keeps_morphs = matches!(format, Some(Format::Ply | Format::Csv | Format::Npz));
         let morphs = plan.objects().iter().map(|object| match &object.geometry {
-            PlannedGeometry::Mesh(mesh) if format != Some(Format::Ply) => mesh.n_morphs() as u64,
+            PlannedGeometry::Mesh(mesh) if !keeps_morphs => mesh.n_morphs() as u64,
             _ => 0,
         });
         let counts = [
@@ -102,6 +108,9 @@ impl Operation for Save {
                 Problem::error("only .glb and .gltf files can be compressed or quantized");
             problems.push(problem.at([field]));
         }
+        if self.rows.is_some() && format.is_some_and(|format| format != Format::Csv) {
+            problems.push(Problem::error("only .csv files have rows").at(["rows"]));
+        }
         self.plan_losses(plan);
         if plan.objects().is_empty() && !plan.incomplete {
             problems.push(Problem::error("no objects to save at this point"));
@@ -121,6 +130,7 @@ impl Operation for Save {
             compression: self.compress,
             quantization: self.quantize,
             weight_sets: self.weight_sets.map(Count::get),
+            rows: self.rows,
             strict: false,
         };
         let written =

@@ -62,6 +62,10 @@ impl Operation for Measure {
         "analyze",
         "inspect",
         "attribute",
+        "wall thickness",
+        "geodesic",
+        "ambient occlusion",
+        "winding number",
     ];
     const DONE: &'static str = "measured";
     const TAKES_ON: bool = true;
@@ -119,12 +123,13 @@ impl Operation for Measure {
         let mut columns = Vec::new();
         for (done, object) in (0..).zip(&targets) {
             cx.advance("measure", done, targets.len() as u64)?;
-            let geometry = &scene.object(object).expect("a name of the scene").geometry;
-            let Geometry::Mesh(mesh) = geometry else {
-                return Err(OpError::Object(wrong_kind(object, geometry.kind())));
+            let found = scene.object(object).expect("a name of the scene");
+            let Geometry::Mesh(mesh) = &found.geometry else {
+                return Err(OpError::Object(wrong_kind(object, found.geometry.kind())));
             };
+            cx.materials = found.materials.iter().map(|m| m.name.clone()).collect();
             check_free(mesh, object, domain, name)?;
-            let mut values = self.of.values(mesh, scene)?;
+            let mut values = self.of.values(mesh, scene, cx)?;
             let found = Statistics::of(&values);
             if let Some(found) = &found {
                 let [min, mean, max] = [found.min, found.mean, found.max].map(readable);
@@ -143,6 +148,7 @@ impl Operation for Measure {
             }
             columns.push(values);
         }
+        cx.materials.clear();
         for (object, values) in targets.iter().zip(columns) {
             let (geometry, _) = scene.parts_mut(object).expect("a name of the scene");
             let Geometry::Mesh(mesh) = geometry else {

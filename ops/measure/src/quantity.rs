@@ -1,6 +1,7 @@
 //! The quantities that `Measure` computes.
 
-use geometry::distance::vertex_distances;
+use geometry::sparse::SolveError;
+use geometry::surface_index::{SurfaceIndex, Winding};
 use mesh::{Domain, FaceId, VertexId};
 use op::prelude::*;
 use op::{Operation, named_object};
@@ -35,6 +36,37 @@ pub enum MeasureOf {
     Distance {
         /// The name of the object with the other mesh.
         to: String,
+        /// Whether distances are negative inside the other mesh: where its winding number is more than 1/2 or less than -1/2.
+        #[serde(default)]
+        signed: bool,
+    },
+    /// The distance along the surface from each vertex to the nearest of some vertices, in scene units, by the heat method
+    /// (Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013; Sharp, Crane, 2020). On fine meshes of smooth surfaces, the mean
+    /// error is below 1 %. Vertices that no path of edges joins with them have no distance.
+    Geodesic {
+        /// The vertices to start from.
+        from: VertexSelection,
+    },
+    /// The thickness of the solid at each vertex, in scene units: the shortest of the rays that start at the vertex, one for each
+    /// face there, and run inward at a right angle to the face until they leave the solid. If no ray leaves it, the vertex has no
+    /// thickness.
+    Thickness,
+    /// The ambient occlusion of each vertex, from 0 (open) to 1 (enclosed): the part of the rays from the vertex that meet the
+    /// mesh. There are more rays near the normal, in proportion to the cosine of the angle.
+    Occlusion {
+        /// The number of rays from each vertex. At most 4096. Defaults to 64.
+        #[serde(default = "sixty_four")]
+        rays: Count<1, 4096>,
+        /// The seed of the rays. Defaults to 0.
+        #[serde(default)]
+        seed: u64,
+    },
+    /// How often another mesh of the scene winds around each vertex: 1 inside, 0 outside, and numbers between them near gaps of the
+    /// other mesh (Jacobson, Kavan, Sorkine-Hornung, 2013; Barill, Dickson, Schmidt, Levin, Jacobson, 2018). The error is usually
+    /// below 0.001. Unless `on` names objects, all meshes but the other mesh are measured.
+    Winding {
+        /// The name of the object with the other mesh.
+        of: String,
     },
 }
 
@@ -46,6 +78,10 @@ pub enum Principal {
     Largest,
     /// The smaller one.
     Smallest,
+}
+
+const fn sixty_four() -> Count<1, 4096> {
+    Count::literal(64)
 }
 
 impl MeasureOf {
@@ -61,6 +97,10 @@ impl MeasureOf {
             Self::MinAngle => "min_angle",
             Self::AspectRatio => "aspect_ratio",
             Self::Distance { .. } => "distance",
+            Self::Geodesic { .. } => "geodesic",
+            Self::Thickness => "thickness",
+            Self::Occlusion { .. } => "occlusion",
+            Self::Winding { .. } => "winding",
         }
     }
 
@@ -68,11 +108,7 @@ impl MeasureOf {
     pub(crate) fn domain(&self) -> Domain {
         match self {
             Self::Area | Self::MinAngle | Self::AspectRatio => Domain::Face,
-            Self::MeanCurvature
-            | Self::GaussianCurvature
-            | Self::PrincipalCurvature(_)
-            | Self::VertexArea
-            | Self::Distance { .. } => Domain::Vertex,
+            _ => Domain::Vertex,
         }
     }
 
@@ -80,7 +116,11 @@ impl MeasureOf {
     /// otherwise -1.
     pub(crate) fn default_missing(&self) -> f64 {
         match self {
-            Self::MeanCurvature | Self::GaussianCurvature | Self::PrincipalCurvature(_) => 0.0,
+            Self::MeanCurvature
+            | Self::GaussianCurvature
+            | Self::PrincipalCurvature(_)
+            | Self::Distance { signed: true, .. }
+            | Self::Winding { .. } => 0.0,
             _ => -1.0,
         }
     }
@@ -88,7 +128,8 @@ impl MeasureOf {
     /// Returns the name of the other object of the scene, with the path of the parameter.
     pub(crate) fn other(&self) -> Option<(&str, [&'static str; 3])> {
         match self {
-            Self::Distance { to } => Some((to, ["of", "Distance", "to"])),
+            Self::Distance { to, .. } => Some((to, ["of", "Distance", "to"])),
+            Self::Winding { of } => Some((of, ["of", "Winding", "of"])),
             _ => None,
         }
     }
@@ -97,8 +138,14 @@ impl MeasureOf {
     ///
     /// # Errors
     ///
-    /// [`OpError::Object`] if the other mesh is missing; [`OpError::Cancelled`].
-    pub(crate) fn values(&self, mesh: &Mesh, scene: &Scene) -> Result<Vec<f64>, OpError> {
+    /// [`OpError::Object`] if the other mesh is missing or has no faces; [`OpError::Refused`] by a selection; [`OpError::Budget`];
+    /// [`OpError::Cancelled`].
+    pub(crate) fn values(
+        &self,
+        mesh: &Mesh,
+        scene: &Scene,
+        cx: &Context,
+    ) -> Result<Vec<f64>, OpError> {
         let faces = |value: &(dyn Fn(FaceId) -> f64 + Sync)| {
             let all = (0..mesh.n_faces()).into_par_iter().with_min_len(1024);
             all.map(|f| value(FaceId::new(f))).collect()
@@ -120,13 +167,57 @@ impl MeasureOf {
             }
             Self::MinAngle => faces(&|f| geometry::min_angle(mesh, f).to_degrees()),
             Self::AspectRatio => faces(&|f| geometry::aspect_ratio(mesh, f)),
-            Self::Distance { to } => {
-                let other = other_mesh(scene, to)?;
-                let no_faces = || OpError::Object(format!("\"{to}\" has no faces"));
-                vertex_distances(mesh, other).ok_or_else(no_faces)?
+            Self::Distance { to, signed } => distances(mesh, &index(scene, to, cx)?, *signed, cx)?,
+            Self::Geodesic { from } => {
+                let is_source = from.mask(mesh, cx)?;
+                geometry::geodesic_distances(mesh, &is_source, cx.progress()).map_err(unsolved)?
+            }
+            Self::Thickness => geometry::thickness(mesh, cx.progress())?,
+            Self::Occlusion { rays, seed } => {
+                geometry::occlusion(mesh, rays.get(), *seed, cx.progress())?
+            }
+            Self::Winding { of } => {
+                let index = index(scene, of, cx)?;
+                let winding = Winding::new(&index, cx.progress())?;
+                winding.at_points(mesh.positions(), cx.progress())?
             }
         })
     }
+}
+
+/// Returns the distances of all vertices from a surface.
+fn distances(
+    mesh: &Mesh,
+    index: &SurfaceIndex,
+    signed: bool,
+    cx: &Context,
+) -> Result<Vec<f64>, OpError> {
+    let nearest = index.nearest_to_points(mesh.positions(), cx.progress())?;
+    let mut distances: Vec<f64> = nearest.iter().map(|nearest| nearest.distance).collect();
+    if signed {
+        let winding = Winding::new(index, cx.progress())?;
+        let winding = winding.at_points(mesh.positions(), cx.progress())?;
+        for (distance, winding) in distances.iter_mut().zip(winding) {
+            if winding.abs() > 0.5 {
+                *distance = -*distance;
+            }
+        }
+    }
+    Ok(distances)
+}
+
+fn unsolved(error: SolveError) -> OpError {
+    match error {
+        SolveError::Cancelled(cancelled) => cancelled.into(),
+        SolveError::TooLarge { .. } => OpError::Budget(error.to_string()),
+        other => OpError::Parameter(format!("Measure: {other}")),
+    }
+}
+
+/// Returns the index of the faces of another object.
+fn index(scene: &Scene, name: &str, cx: &Context) -> Result<SurfaceIndex, OpError> {
+    let index = SurfaceIndex::with_progress(other_mesh(scene, name)?, cx.progress())?;
+    index.ok_or_else(|| OpError::Object(format!("\"{name}\" has no faces")))
 }
 
 fn other_mesh<'s>(scene: &'s Scene, name: &str) -> Result<&'s Mesh, OpError> {

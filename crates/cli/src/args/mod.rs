@@ -12,7 +12,7 @@ use std::path::PathBuf;
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
-use mesh_io::{Compression, Images, Quantization};
+use mesh_io::{Compression, Images, Quantization, Rows};
 
 pub(crate) use cache::{CacheAction, CacheArgs, CacheCommandArgs, CacheFolder};
 pub(crate) use look::{DiffArgs, Kind, SelectArgs};
@@ -167,6 +167,9 @@ pub(crate) struct ConvertArgs {
         value_parser = bits
     )]
     pub(crate) quantize: Option<Quantization>,
+    /// The elements that a .csv file has rows for: Vertices, Faces or Corners; by default, Vertices
+    #[arg(long, value_name = "ELEMENTS", value_parser = read::policy::<Rows>)]
+    pub(crate) rows: Option<Rows>,
     /// Output format
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,

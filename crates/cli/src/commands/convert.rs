@@ -41,6 +41,7 @@ pub(crate) fn run(args: &ConvertArgs) -> anyhow::Result<bool> {
         compression: args.compress,
         quantization: args.quantize,
         weight_sets: None,
+        rows: args.rows,
         strict: args.read.strict,
     };
     let written = if to_stdout {

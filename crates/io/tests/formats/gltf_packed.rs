@@ -21,6 +21,7 @@ const COMPRESSED: WriteOptions = WriteOptions {
     compression: Some(Compression::Meshopt),
     quantization: None,
     weight_sets: None,
+    rows: None,
     strict: false,
 };
 

@@ -33,6 +33,7 @@ mod ply_files;
 mod ply_layouts;
 mod round_trips;
 mod stl_files;
+mod tables;
 
 use std::fmt::Debug;
 use std::path::{Path, PathBuf};

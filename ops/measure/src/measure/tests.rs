@@ -93,13 +93,7 @@ fn only_attributes_of_the_same_elements_and_type_are_replaced() {
 
 #[test]
 fn distances_are_measured_to_the_other_object_which_stays() {
-    let mut large = shapes::cube();
-    for p in large.positions_mut() {
-        *p *= 3.0;
-    }
-    let mut scene = Scene::new();
-    scene.insert(Object::mesh("a", shapes::cube())).unwrap();
-    scene.insert(Object::mesh("b", large)).unwrap();
+    let mut scene = nested();
     let report = run(&parse("(of: Distance(to: \"b\"))"), &mut scene).unwrap();
     assert_eq!(report.notes, ["\"a\": distance from 2 to 2, mean 2"]);
     let mesh = |name: &str| scene.object(name).unwrap().as_mesh().unwrap();
@@ -107,4 +101,61 @@ fn distances_are_measured_to_the_other_object_which_stays() {
     assert_eq!(mesh("b").attributes().iter().count(), 0);
     let unknown = run(&parse("(of: Distance(to: \"c\"))"), &mut scene.clone());
     assert!(matches!(unknown, Err(OpError::Object(_))));
+}
+
+/// Returns a scene with a large cube "b" around a cube "a".
+fn nested() -> Scene {
+    let mut large = shapes::cube();
+    for p in large.positions_mut() {
+        *p *= 3.0;
+    }
+    let mut scene = Scene::new();
+    scene.insert(Object::mesh("a", shapes::cube())).unwrap();
+    scene.insert(Object::mesh("b", large)).unwrap();
+    scene
+}
+
+#[test]
+fn signed_distances_are_negative_inside() {
+    for (text, expected) in [
+        ("(of: Distance(to: \"b\", signed: true))", -2.0),
+        ("(of: Winding(of: \"b\"))", 1.0),
+    ] {
+        let (mut scene, step) = (nested(), parse(text));
+        run(&step, &mut scene).unwrap();
+        let mesh = scene.object("a").unwrap().as_mesh().unwrap();
+        for x in values(mesh, Domain::Vertex, step.name()) {
+            assert!((x - expected).abs() < 0.01, "{x}");
+        }
+    }
+}
+
+#[test]
+fn geodesics_start_at_the_selected_vertices() {
+    let text = "(of: Geodesic(from: Vertices([0])), missing: 99)";
+    let (found, _) = measured(text, shapes::cube());
+    assert_eq!(found[0], 0.0);
+    assert!(found[1..].iter().all(|d| *d > 1.0 && *d < 5.0), "{found:?}");
+    // The farthest vertex is the opposite one, at the distance 2 √5 across two sides.
+    let (far, _) =
+        (found.iter().zip(0..)).fold((0.0, 0), |a, (d, v)| if *d > a.0 { (*d, v) } else { a });
+    assert!((far - 20_f64.sqrt()).abs() < 0.5, "{far}");
+    let (unreached, notes) = measured("(of: Geodesic(from: Not(All)))", shapes::cube());
+    assert_eq!(unreached, [-1.0; 8]);
+    assert_eq!(
+        notes,
+        ["\"mesh\": elements without geodesic, which get -1: 8"]
+    );
+    assert!(read::<Measure>("(of: Geodesic())").is_err());
+}
+
+#[test]
+fn thickness_and_occlusion_are_measured_by_rays() {
+    let (found, _) = measured("(of: Thickness, name: \"wall\")", shapes::cube());
+    assert!(found.iter().all(|d| (d - 2.0).abs() < 1e-6), "{found:?}");
+    let (found, _) = measured("(of: Thickness)", shapes::grid(2, 2));
+    assert_eq!(found, [-1.0; 9]);
+    let (found, _) = measured("(of: Occlusion())", shapes::cube());
+    assert_eq!(found, [0.0; 8]);
+    assert!(read::<Measure>("(of: Occlusion(rays: 0))").is_err());
 }

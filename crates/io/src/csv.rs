@@ -1,0 +1,173 @@
+//! CSV: a table of the vertices, faces or corners of a mesh. Write only.
+//!
+//! | column | content |
+//! | --- | --- |
+//! | `vertex` | the number of the vertex; with faces, `face`; with corners, both |
+//! | `x`, `y`, `z` | the position; of faces, the mean of the corners |
+//! | name of an attribute | a number, or 0 and 1 for a tag |
+//! | `name[0]`, `name[1]`, ... | the components of a vector |
+//!
+//! Lines end with a line feed, and fields with commas, quotes or line breaks are quoted (RFC 4180). Numbers have the fewest digits
+//! that restore the same 64-bit number. Numbers that are not finite are written as `nan`, `inf` and `-inf`. If an attribute has the
+//! name of another column, its name gets a number.
+
+use mesh::{Domain, FaceId, HalfEdgeId, Mesh};
+use scene::Scene;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::decimal::{push_number, push_whole};
+use crate::error::Unwritable;
+use crate::joined::joined;
+use crate::loss::Losses;
+use crate::{SingleFile, WriteOptions, parallel};
+
+/// The elements that a `.csv` file has rows for.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum Rows {
+    /// Vertices.
+    #[default]
+    Vertices,
+    /// Faces, at the means of their corners.
+    Faces,
+    /// The corners of the faces, face by face.
+    Corners,
+}
+
+impl Rows {
+    const fn domain(self) -> Domain {
+        match self {
+            Self::Vertices => Domain::Vertex,
+            Self::Faces => Domain::Face,
+            Self::Corners => Domain::Corner,
+        }
+    }
+}
+
+/// Writes `scene`, and lists what the file does not store.
+///
+/// # Errors
+///
+/// If an object is not a mesh.
+pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile, Unwritable> {
+    let mut joined = joined(scene, "CSV", false)?;
+    let (mesh, rows) = (&*joined.mesh, options.rows.unwrap_or_default());
+    let domain = rows.domain();
+    let mut losses = Losses::of(&joined.name, &mut joined.losses);
+    let word = format!("CSV with a row for each {domain}");
+    losses.add_columns(mesh, &word, |of, _| of == domain);
+    let mut out = header(mesh, rows);
+    let blocks = match rows {
+        Rows::Vertices => parallel::blocks(mesh.n_vertices(), |block| {
+            let mut out = Vec::new();
+            for v in block {
+                push_whole(&mut out, v);
+                push_row(&mut out, mesh, domain, v, mesh.positions()[v].to_array());
+            }
+            out
+        }),
+        Rows::Faces => parallel::blocks(mesh.n_faces(), |block| {
+            let mut out = Vec::new();
+            for f in block {
+                push_whole(&mut out, f);
+                let center = mesh.face_center(FaceId::new(f)).to_array();
+                push_row(&mut out, mesh, domain, f, center);
+            }
+            out
+        }),
+        Rows::Corners => parallel::blocks(mesh.n_faces(), |block| {
+            let mut out = Vec::new();
+            for f in block {
+                for h in mesh.face_half_edges(FaceId::new(f)) {
+                    push_corner(&mut out, mesh, f, h);
+                }
+            }
+            out
+        }),
+    };
+    for block in blocks {
+        out.extend_from_slice(&block);
+    }
+    Ok((out, joined.losses))
+}
+
+fn push_corner(out: &mut Vec<u8>, mesh: &Mesh, f: usize, h: HalfEdgeId) {
+    let v = mesh.origin(h);
+    push_whole(out, f);
+    out.push(b',');
+    push_whole(out, v.index());
+    push_row(
+        out,
+        mesh,
+        Domain::Corner,
+        h.index(),
+        mesh.position(v).to_array(),
+    );
+}
+
+/// Appends the position and the attributes of the element at `i`, and ends the row.
+fn push_row(out: &mut Vec<u8>, mesh: &Mesh, domain: Domain, i: usize, position: [f64; 3]) {
+    for x in position {
+        push_value(out, x);
+    }
+    for column in mesh.attributes().of(domain) {
+        for k in 0..column.values.n_components() {
+            push_value(out, column.values.component(i, k));
+        }
+    }
+    out.push(b'\n');
+}
+
+fn push_value(out: &mut Vec<u8>, x: f64) {
+    out.push(b',');
+    if x.is_finite() {
+        push_number(out, x);
+    } else if x.is_nan() {
+        out.extend_from_slice(b"nan");
+    } else {
+        out.extend_from_slice(if x > 0.0 { b"inf" } else { b"-inf" });
+    }
+}
+
+fn header(mesh: &Mesh, rows: Rows) -> Vec<u8> {
+    let numbers: &[&str] = match rows {
+        Rows::Vertices => &["vertex"],
+        Rows::Faces => &["face"],
+        Rows::Corners => &["face", "vertex"],
+    };
+    let mut names: Vec<String> = numbers
+        .iter()
+        .chain(&["x", "y", "z"])
+        .map(|&n| n.to_owned())
+        .collect();
+    for column in mesh.attributes().of(rows.domain()) {
+        let n = column.values.n_components();
+        for k in 0..n {
+            let name = match n {
+                1 => column.name.clone(),
+                _ => format!("{}[{k}]", column.name),
+            };
+            names.push(unused(name, |name| names.iter().any(|other| other == name)));
+        }
+    }
+    let quoted = |name: &String| {
+        if name.contains([',', '"', '\n', '\r']) {
+            format!("\"{}\"", name.replace('"', "\"\""))
+        } else {
+            name.clone()
+        }
+    };
+    let line: Vec<String> = names.iter().map(quoted).collect();
+    (line.join(",") + "\n").into_bytes()
+}
+
+/// Returns the name, or the name with the first number from 2 with which it is not used.
+pub(crate) fn unused(name: String, is_used: impl Fn(&str) -> bool) -> String {
+    if !is_used(&name) {
+        return name;
+    }
+    let numbered = (2_u64..).map(|n| format!("{name} ({n})"));
+    let mut free = numbered.skip_while(|name| is_used(name));
+    free.next().unwrap_or(name)
+}

@@ -12,6 +12,7 @@
 //! | [`predicates`] | exact sides of lines and planes |
 //! | [`merge_vertices`], [`parts`] | merging vertices, splitting a mesh into parts |
 //! | [`triangulate`], [`fill_hole_triangles`] | triangulation of faces and holes |
+//! | [`remesh`](mod@remesh) | nearly equilateral triangles of a given size |
 //! | [`simplify`] | fewer triangles for nearly the same surface |
 //! | [`bisect`], [`bevel`] | cutting along a plane, beveling |
 //! | [`deform`] | moving points by closed formulas, falloff, noise |
@@ -28,10 +29,12 @@ mod face_quality;
 mod fill_hole;
 mod geodesic;
 mod laplacian;
+mod lines;
 mod measure;
 mod merge;
 mod part;
 pub mod predicates;
+pub mod remesh;
 pub mod shapes;
 pub mod simplify;
 pub mod smooth;

@@ -4,9 +4,9 @@ use mesh::{Column, DVec3, Domain, EdgeId, HalfEdgeId, Mesh, VERTEX_SHARPNESS, Ve
 use progress::{Cancelled, Progress};
 use rayon::prelude::*;
 
+use crate::lines::{Kind, inverse_power_of_two, kinds, labels, lines};
 use crate::surface_index::triangle::nearest_on_triangle;
 
-use super::lines::{Kind, kinds, labels, lines};
 use super::quadric::{Quadric, Spread};
 use super::queue::Queue;
 use super::{Blocked, Options};
@@ -410,14 +410,4 @@ fn lowest_near(quadric: &Quadric, ends: [DVec3; 2]) -> DVec3 {
             |best, p| if value(&p) < value(&best) { p } else { best },
         )
     })
-}
-
-/// Returns the power of two that scales `length` to a number from 1 to 2. Returns 1 if `length` is 0 or not finite.
-fn inverse_power_of_two(length: f64) -> f64 {
-    if length > 0.0 && length.is_finite() {
-        let (_, exponent) = libm::frexp(length);
-        libm::ldexp(1.0, (1 - exponent).clamp(-1000, 1000))
-    } else {
-        1.0
-    }
 }

@@ -19,7 +19,6 @@
 
 mod bound;
 mod collapse;
-mod lines;
 mod quadric;
 mod queue;
 
@@ -151,4 +150,4 @@ pub fn simplify(
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -24,7 +24,7 @@ fn simplified(mesh: &Mesh, options: &Options) -> Simplified {
 }
 
 /// Returns a mesh whose quadrilaterals are cut in two.
-fn triangles(mesh: &Mesh) -> Mesh {
+pub(crate) fn triangles(mesh: &Mesh) -> Mesh {
     let polygons: Vec<[u32; 3]> = mesh
         .faces()
         .flat_map(|f| {
@@ -42,12 +42,12 @@ fn triangles(mesh: &Mesh) -> Mesh {
         .0
 }
 
-fn torus() -> Mesh {
+pub(crate) fn torus() -> Mesh {
     triangles(&shapes::torus(60, 30, 1.0, 0.4))
 }
 
 /// A square of n × n cells in the plane z = 0, from 0 to 1.
-fn square(n: u32) -> Mesh {
+pub(crate) fn square(n: u32) -> Mesh {
     let mut mesh = triangles(&shapes::grid(n, n));
     let [min, max] = crate::bounds(&mesh).unwrap();
     for p in mesh.positions_mut() {
@@ -296,7 +296,7 @@ fn normals_stay_of_length_one() {
 }
 
 /// A square with waves, with a boundary.
-fn waves() -> Mesh {
+pub(crate) fn waves() -> Mesh {
     let mut mesh = square(24);
     for p in mesh.positions_mut() {
         p.z = 0.05 * libm::sin(9.0 * p.x) * libm::cos(7.0 * p.y);

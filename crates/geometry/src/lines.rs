@@ -1,11 +1,11 @@
-//! The edges that simplification keeps as lines, and what they mean for vertices.
+//! The edges that simplification and remeshing keep as lines, and what they mean for vertices.
 
 use mesh::{CREASE, Column, Domain, EdgeId, FaceId, Mesh, Values, VertexId};
 use rayon::prelude::*;
 
 /// How a vertex may move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(crate) enum Kind {
     /// On no line: it may move anywhere.
     Inside,
     /// On one line: it may merge with its neighbors on the line.
@@ -16,7 +16,7 @@ pub(super) enum Kind {
 
 /// Returns, for each edge, whether it is a part of a line: a boundary, a seam, a border between face tags or
 /// materials, an edge with a tag or a crease, or one of the `features`. The mesh must be dense.
-pub(super) fn lines(mesh: &Mesh, features: &[EdgeId]) -> Vec<bool> {
+pub(crate) fn lines(mesh: &Mesh, features: &[EdgeId]) -> Vec<bool> {
     let faces: Vec<&Column> = labels(mesh, Domain::Face).collect();
     let tags: Vec<&[bool]> = labels(mesh, Domain::Edge)
         .filter_map(|column| match &column.values {
@@ -49,7 +49,7 @@ pub(super) fn lines(mesh: &Mesh, features: &[EdgeId]) -> Vec<bool> {
 }
 
 /// Returns how each vertex may move. The mesh must be dense.
-pub(super) fn kinds(mesh: &Mesh, lines: &[bool], pinned: &[VertexId]) -> Vec<Kind> {
+pub(crate) fn kinds(mesh: &Mesh, lines: &[bool], pinned: &[VertexId]) -> Vec<Kind> {
     let columns = mesh.attributes().of(Domain::Edge);
     let mut kinds: Vec<Kind> = (0..mesh.n_vertices())
         .into_par_iter()
@@ -75,7 +75,17 @@ pub(super) fn kinds(mesh: &Mesh, lines: &[bool], pinned: &[VertexId]) -> Vec<Kin
 }
 
 /// Returns the columns of a domain whose values are labels, which have no mean: tags and whole numbers.
-pub(super) fn labels(mesh: &Mesh, domain: Domain) -> impl Iterator<Item = &Column> {
+pub(crate) fn labels(mesh: &Mesh, domain: Domain) -> impl Iterator<Item = &Column> {
     let is_label = |column: &&Column| matches!(column.values, Values::Tag(_) | Values::Int(_));
     mesh.attributes().of(domain).iter().filter(is_label)
+}
+
+/// Returns the power of two that scales `length` to a number from 1 to 2. Returns 1 if `length` is 0 or not finite.
+pub(crate) fn inverse_power_of_two(length: f64) -> f64 {
+    if length > 0.0 && length.is_finite() {
+        let (_, exponent) = libm::frexp(length);
+        libm::ldexp(1.0, (1 - exponent).clamp(-1000, 1000))
+    } else {
+        1.0
+    }
 }

@@ -1,0 +1,121 @@
+//! The limit of the distance between the original surface and the result.
+//!
+//! While the mesh changes, samples of new triangles are compared with the original surface, and removed points with the
+//! new triangles. At the end, the distance is measured for all points of both surfaces.
+
+use mesh::{DVec3, FaceId, Mesh};
+use progress::{Cancelled, Progress};
+
+use super::original::Original;
+use super::size::Sizes;
+use super::work::Work;
+use crate::distance::Distance;
+use crate::surface_index::SurfaceIndex;
+use crate::surface_index::triangle::nearest_on_triangle;
+
+/// The share of the limit that samples may use. The rest is for the points between the samples.
+const SHARE: f64 = 0.7;
+
+/// The tolerance of the measured distance, as a share of the limit.
+const TOLERANCE: f64 = 0.01;
+
+impl Work<'_> {
+    /// Whether a step that replaces triangles could leave the limit. `new` are the new triangles, each with a face of the
+    /// same chart, and `gone` are points of the old triangles.
+    pub(super) fn is_far(&self, new: &[(FaceId, [DVec3; 3])], gone: &[DVec3]) -> bool {
+        let Some(limit) = self.limit else {
+            return false;
+        };
+        let limit = SHARE * limit;
+        let is_far_from_new = |p: &DVec3| {
+            let mut distances = new
+                .iter()
+                .map(|(_, t)| nearest_on_triangle(*p, t).distance(*p));
+            distances.all(|distance| distance > limit)
+        };
+        let is_far_from_original = |&(f, [a, b, c]): &(FaceId, [DVec3; 3])| {
+            let index = &self.original.indexes[self.charts[f.index()] as usize];
+            let mut hint = self.hint_of(f);
+            let middles = [0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)];
+            [a / 3.0 + b / 3.0 + c / 3.0]
+                .into_iter()
+                .chain(middles)
+                .any(|p| {
+                    let nearest = index.nearest(p, hint);
+                    hint = nearest.triangle;
+                    nearest.distance > limit
+                })
+        };
+        gone.iter().any(is_far_from_new) || new.iter().any(is_far_from_original)
+    }
+}
+
+/// Measures the distance between the original and the result. Returns it if it is above the limit.
+pub(super) fn excess(
+    source: &Mesh,
+    result: &Mesh,
+    limit: f64,
+    progress: &dyn Progress,
+) -> Result<Option<f64>, Cancelled> {
+    if limit == f64::INFINITY {
+        return Ok(None);
+    }
+    let distance = Distance::between_with(source, result, Some(TOLERANCE * limit), progress)?;
+    let at_most = distance.map_or(0.0, |distance| distance.at_most());
+    Ok((at_most > limit).then_some(at_most))
+}
+
+/// Halves the target lengths where the result is far from the original.
+pub(super) fn refine(
+    original: &Original,
+    sizes: &mut Sizes,
+    result: &Mesh,
+    limit: f64,
+    progress: &dyn Progress,
+) -> Result<(), Cancelled> {
+    let (Some(new), Some(old)) = (
+        SurfaceIndex::new(result),
+        SurfaceIndex::new(original.source),
+    ) else {
+        return Ok(());
+    };
+    let mut is_marked = vec![false; original.mesh.n_vertices()];
+    let is_far = |distance: f64| distance > 0.5 * limit;
+    let source = original.source;
+    for f in source.faces() {
+        let center = source.face_center(f);
+        if f.index() % 1024 == 0 {
+            progress.report(super::WHAT, 0, 1)?;
+        }
+        let is_near_far = |p: DVec3| is_far(new.nearest(p, 0).distance);
+        if is_near_far(center)
+            || source
+                .face_vertices(f)
+                .any(|v| is_near_far(source.position(v)))
+        {
+            for v in source.face_vertices(f) {
+                is_marked[v.index()] = true;
+            }
+        }
+    }
+    for f in result.faces() {
+        if f.index() % 1024 == 0 {
+            progress.report(super::WHAT, 0, 1)?;
+        }
+        let corners: Vec<DVec3> = result
+            .face_vertices(f)
+            .map(|v| result.position(v))
+            .collect();
+        let middles = (0..3).map(|i| 0.5 * (corners[i] + corners[(i + 1) % 3]));
+        for p in middles.chain([result.face_center(f)]) {
+            let nearest = old.nearest(p, 0);
+            if is_far(nearest.distance) {
+                for v in old.triangle(nearest.triangle).vertices {
+                    is_marked[v.index()] = true;
+                }
+            }
+        }
+    }
+    sizes.halve(original, &is_marked);
+    Ok(())
+}

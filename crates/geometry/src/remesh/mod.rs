@@ -1,0 +1,314 @@
+//! Remeshing: nearly equilateral triangles of a given size for the same surface.
+//!
+//! Each pass splits long edges, collapses short edges, flips edges so that vertices have six edges, and moves vertices
+//! along the surface: Botsch, Kobbelt, "A Remeshing Approach to Multiresolution Modeling", 2004. All vertices lie on the
+//! original surface: after each movement, a vertex is placed at the nearest point of its chart.
+//!
+//! ```text
+//!     +---+-----------+            +-----+-----+
+//!     |\ /       .  / |            |\   / \   /|       Boundaries, seams, borders of tags and materials, creases and
+//!     | X     .    /  |            | \ /   \ / |       chosen features are lines. They divide the surface into charts.
+//!     |/ \ .      /   |    -->     |  +-----+  |       Vertices on a line slide along it, and vertices inside a
+//!     +---+------+----+            | / \   / \ |       chart stay in the chart. Corners of lines stay in place.
+//!     |  / .      \   |            |/   \ /   \|
+//!     +-+----------+--+            +-----+-----+
+//! ```
+//!
+//! The target length is the same everywhere, or it follows the curvature: Dunyach, Vanderhaeghe, Barthe, Botsch,
+//! "Adaptive Remeshing for Real-Time Mesh Deformation", 2013.
+
+mod collapse;
+mod flip;
+mod guard;
+mod original;
+mod size;
+mod smooth;
+mod split;
+mod transfer;
+mod work;
+
+use mesh::{EdgeId, FaceId, Mesh, VertexId};
+use progress::{Cancelled, Progress};
+
+use original::Original;
+use size::Sizes;
+use work::Work;
+
+/// The name of this work in progress reports.
+const WHAT: &str = "remesh";
+
+/// A pass is the last if it changes no edge and moves no vertex by more than this share of its target length.
+const QUIET: f64 = 0.05;
+
+/// How often the remeshing is repeated with shorter edges if the result is too far from the original.
+const ATTEMPTS: u32 = 4;
+
+/// The target length of edges, in scene units. Most edges of the result have between 4/5 and 4/3 of this length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Length {
+    /// The same length everywhere. Must be positive.
+    Uniform(f64),
+    /// Short edges where the surface is curved, long edges where it is flat.
+    Curvature {
+        /// The distance between the surface and the centers of triangles that the length aims at. Must be positive.
+        error: f64,
+        /// The smallest length. Must be positive.
+        min: f64,
+        /// The largest length. Must not be below `min`.
+        max: f64,
+    },
+}
+
+/// What [`remesh`] aims at, and what it keeps.
+#[derive(Clone, Copy, Debug)]
+pub struct Options<'a> {
+    /// The target length of edges.
+    pub length: Length,
+    /// The largest allowed Hausdorff distance between the original and the new surface, in scene units; `None` sets no
+    /// limit. With a limit, target lengths are shorter where edges of the given length could exceed it, and steps that
+    /// seem to exceed it are refused. At the end, the distance is measured in both directions with a guaranteed bound.
+    /// If the bound is above the limit, remeshing starts again with shorter edges in these places, and fails after
+    /// four attempts.
+    pub error: Option<f64>,
+    /// Edges whose lines are kept, in addition to boundaries, seams, borders of face tags and materials, tagged edges
+    /// and creases.
+    pub features: &'a [EdgeId],
+    /// Vertices that keep their positions.
+    pub pinned: &'a [VertexId],
+    /// The largest number of passes. Ten are usually enough.
+    pub passes: u32,
+    /// The largest number of faces that the mesh may have at any time.
+    pub max_faces: usize,
+}
+
+/// The result of [`remesh`].
+#[derive(Clone, Debug)]
+pub struct Remeshed {
+    /// The new mesh. It is dense.
+    pub mesh: Mesh,
+    /// The number of steps.
+    pub counts: Counts,
+}
+
+/// How many steps [`remesh`] did.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// The number of passes.
+    pub passes: u64,
+    /// The number of passes that were allowed.
+    max_passes: u64,
+    /// The number of edges that were split.
+    pub split: usize,
+    /// The number of edges that were collapsed.
+    pub collapsed: usize,
+    /// The number of edges that were flipped.
+    pub flipped: usize,
+    /// The numbers of splits, collapses and flips that were refused in the last pass, in the order of [`Refused::ALL`].
+    refused: [usize; 6],
+}
+
+impl Counts {
+    /// Returns how many splits, collapses and flips were refused in the last pass, by reason. Flips that would improve
+    /// nothing are not counted.
+    pub fn refused(&self) -> impl Iterator<Item = (Refused, usize)> {
+        let counts = Refused::ALL.into_iter().zip(self.refused);
+        counts.filter(|&(_, count)| count > 0)
+    }
+
+    fn refuse(&mut self, reason: Refused) {
+        self.refused[reason as usize] += 1;
+    }
+}
+
+/// Why a split, a collapse or a flip was refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Refused {
+    /// It would merge lines, or move a vertex off its line or a corner.
+    Lines,
+    /// It would make an edge that is too long.
+    Long,
+    /// A triangle would turn over.
+    Turned,
+    /// A triangle would become thin.
+    Thin,
+    /// The topology of the surface would change.
+    Topology,
+    /// The surface would move too far: by more than 15 % of the target length, or further than the error allows.
+    Far,
+}
+
+impl Refused {
+    /// All reasons.
+    pub const ALL: [Self; 6] = [
+        Self::Lines,
+        Self::Long,
+        Self::Turned,
+        Self::Thin,
+        Self::Topology,
+        Self::Far,
+    ];
+}
+
+impl std::fmt::Display for Refused {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Lines => "would merge or move lines",
+            Self::Long => "would make long edges",
+            Self::Turned => "would turn a triangle over",
+            Self::Thin => "would make a thin triangle",
+            Self::Topology => "would change the topology",
+            Self::Far => "would move the surface too far",
+        })
+    }
+}
+
+/// Why a mesh cannot be remeshed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RemeshError {
+    /// Only meshes of triangles can be remeshed.
+    #[error("{0} is not a triangle")]
+    NotTriangle(FaceId),
+    /// The target length is too small for the size of the mesh.
+    #[error(
+        "the target lengths need about {needed:.0} faces while the mesh is changed, but at most {max} are possible"
+    )]
+    TooManyFaces {
+        /// An estimate of the number of faces while the mesh is changed.
+        needed: f64,
+        /// The largest number of faces.
+        max: usize,
+    },
+    /// The result would be too far from the original.
+    #[error(
+        "the distance between the surfaces could be {reached}, which is above the error {limit}"
+    )]
+    TooFar {
+        /// The bound of the distance in the last attempt, in scene units.
+        reached: f64,
+        /// The limit.
+        limit: f64,
+    },
+    /// The caller asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// Remeshes a mesh of triangles: replaces its triangles by nearly equilateral triangles with edges of a target length.
+///
+/// Keeps the topology: the Euler characteristic, the boundary loops and the graph of lines stay. No step turns a triangle
+/// by more than 60°. The ends and meeting points of lines, their corners (where they turn by more than 40°), pinned
+/// vertices, vertices with sharpness, and vertices with a tag that none of their triangles and lines has completely, keep
+/// their exact positions. Isolated vertices stay.
+///
+/// Attributes come from the same place of the original surface, and never from the other side of a line. Vertex and
+/// corner attributes are interpolated there. A new vertex has a tag if all vertices around its place have it; whole
+/// numbers come from the nearest of them. Face attributes are those of the face at the center of a new face. An edge on a
+/// line has the values of the line; other edges have those of the nearest edge that is not on a line.
+///
+/// Elements are numbered anew.
+///
+/// # Errors
+///
+/// - [`RemeshError::NotTriangle`] for the first face that is not a triangle.
+/// - [`RemeshError::TooManyFaces`] if an estimate of the number of faces is above [`Options::max_faces`].
+/// - [`RemeshError::TooFar`] if the result could not be proved to be within [`Options::error`].
+/// - [`RemeshError::Cancelled`] if `progress` asks to stop.
+///
+/// # Panics
+///
+/// If the mesh is not dense (see [`Mesh::is_dense`]), or a feature or a pinned vertex does not exist.
+///
+/// # Examples
+///
+/// ```
+/// use geometry::{remesh::{Length, Options, remesh}, shapes};
+/// use progress::NoProgress;
+/// let options = Options { length: Length::Uniform(0.3), ..Options::default() };
+/// let sphere = remesh(&shapes::icosahedron(), &options, &NoProgress)?.mesh;
+/// assert!(sphere.is_closed() && sphere.n_faces() > 200);
+/// # Ok::<(), geometry::remesh::RemeshError>(())
+/// ```
+pub fn remesh(
+    mesh: &Mesh,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Remeshed, RemeshError> {
+    assert!(mesh.is_dense(), "the mesh must be dense");
+    if let Some(f) = mesh.faces().find(|&f| !mesh.is_triangle(f)) {
+        return Err(RemeshError::NotTriangle(f));
+    }
+    let original = Original::new(mesh, options, progress)?;
+    let mut sizes = Sizes::new(&original, options.length, options.error);
+    for attempt in 1.. {
+        let (result, counts) = run(&original, &sizes, options, progress)?;
+        let limit = options.error.unwrap_or(f64::INFINITY);
+        match guard::excess(mesh, &result, limit, progress)? {
+            None => {
+                return Ok(Remeshed {
+                    mesh: result,
+                    counts,
+                });
+            }
+            Some(reached) if attempt == ATTEMPTS => {
+                return Err(RemeshError::TooFar { reached, limit });
+            }
+            Some(_) => guard::refine(&original, &mut sizes, &result, limit, progress)?,
+        }
+    }
+    unreachable!("the last attempt returns")
+}
+
+/// Runs all passes for these target lengths.
+fn run(
+    original: &Original,
+    sizes: &Sizes,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<(Mesh, Counts), RemeshError> {
+    let max_faces = options.max_faces.min(MAX_FACES);
+    let needed = sizes.n_faces(original);
+    // The estimate is not a number if the lengths are extreme.
+    let is_possible = needed <= max_faces as f64;
+    if !is_possible {
+        return Err(RemeshError::TooManyFaces {
+            needed,
+            max: max_faces,
+        });
+    }
+    let mut work = Work::new(original, sizes, options.error.map(|e| e * original.scale));
+    work.counts.max_passes = options.passes.into();
+    for _ in 0..options.passes {
+        work.counts.refused = [0; 6];
+        let mut n_changes = work.split_long(max_faces, progress)?;
+        n_changes += work.collapse_short(progress)?;
+        n_changes += work.flip_all(progress)?;
+        work.compact();
+        let moved = work.smooth(progress)?;
+        work.counts.passes += 1;
+        if n_changes == 0 && moved < QUIET {
+            break;
+        }
+    }
+    let counts = work.counts.clone();
+    Ok((work.finish(progress)?, counts))
+}
+
+/// The largest number of faces: half-edges must have ids, also those that are removed during a pass.
+const MAX_FACES: usize = u32::MAX as usize / 12;
+
+impl Default for Options<'_> {
+    /// Ten passes with edges of length 1 and without limits.
+    fn default() -> Self {
+        Self {
+            length: Length::Uniform(1.0),
+            error: None,
+            features: &[],
+            pinned: &[],
+            passes: 10,
+            max_faces: usize::MAX,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

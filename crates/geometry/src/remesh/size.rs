@@ -1,0 +1,190 @@
+//! The target lengths of edges.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use mesh::{DVec3, Domain, FaceId, VertexId};
+
+use super::Length;
+use super::original::{Original, Place};
+use super::work::LONG;
+use crate::{gaussian_curvatures, mean_curvatures};
+
+/// How fast target lengths may grow along an edge, as a share of its length. Lengths of neighboring triangles then differ
+/// by at most about this factor.
+const GROWTH: f64 = 0.5;
+
+/// The target length at each point of the original surface, in its scaled coordinates.
+pub(super) enum Sizes {
+    Uniform(f64),
+    /// By vertex of the original surface.
+    Varying(Vec<f64>),
+}
+
+impl Sizes {
+    /// Returns the target lengths for a kind of length. `error` is the largest allowed distance between the surfaces, if
+    /// there is one: where edges of the length would leave it, they are shorter.
+    pub(super) fn new(original: &Original, length: Length, error: Option<f64>) -> Self {
+        let (error, min, max) = match (length, error) {
+            (Length::Uniform(length), None) => return Self::Uniform(length * original.scale),
+            (Length::Uniform(length), Some(error)) => (error, error.min(length), length),
+            (Length::Curvature { error, min, max }, limit) => {
+                (limit.map_or(error, |limit| limit.min(error)), min, max)
+            }
+        };
+        let [error, min, max] = [error, min, max].map(|length| length * original.scale);
+        let mut sizes: Vec<f64> = curvatures(original)
+            .into_iter()
+            .map(|curvature| chord(curvature, error).max(min).min(max))
+            .collect();
+        grade(original, &mut sizes);
+        Self::Varying(sizes)
+    }
+
+    /// Halves the target lengths at marked vertices of the original surface, and around them.
+    pub(super) fn halve(&mut self, original: &Original, is_marked: &[bool]) {
+        let sizes = is_marked.iter().enumerate().map(|(v, is_marked)| {
+            let size = self.at_vertex(VertexId::new(v));
+            if *is_marked { 0.5 * size } else { size }
+        });
+        let mut sizes: Vec<f64> = sizes.collect();
+        grade(original, &mut sizes);
+        *self = Self::Varying(sizes);
+    }
+
+    /// Returns an estimate of the largest number of faces while the mesh is changed: twice the area, in triangles of the
+    /// target length, besides the faces of the original.
+    pub(super) fn n_faces(&self, original: &Original) -> f64 {
+        let mesh = &original.mesh;
+        mesh::blocks::sum(mesh.n_faces(), |f| {
+            let f = FaceId::new(f);
+            let vertices = mesh.face_vertices(f).map(|v| self.at_vertex(v));
+            let size = vertices.fold(f64::INFINITY, f64::min);
+            let lengths = mesh.face_half_edges(f).map(|h| mesh.length(h));
+            let longest = lengths.fold(0.0, f64::max);
+            let share = mesh.face_area(f) / (0.25 * 3.0_f64.sqrt() * size * size);
+            // A needle has a small area, but must be split along its length.
+            let splits = longest / (LONG * size);
+            1.0 + 2.0 * (share + splits.floor())
+        })
+    }
+
+    pub(super) fn at_vertex(&self, v: VertexId) -> f64 {
+        match self {
+            Self::Uniform(size) => *size,
+            Self::Varying(sizes) => sizes[v.index()],
+        }
+    }
+
+    /// Returns the target length at the point of a triangle of the original surface that is nearest to `p`.
+    pub(super) fn at(&self, original: &Original, chart: u32, triangle: u32, p: DVec3) -> f64 {
+        match self {
+            Self::Uniform(size) => *size,
+            Self::Varying(sizes) => {
+                let triangle = original.indexes[chart as usize].triangle(triangle);
+                let weights = triangle.barycentric(p);
+                (0..3)
+                    .map(|i| weights[i] * sizes[triangle.vertices[i].index()])
+                    .sum()
+            }
+        }
+    }
+
+    /// Returns the target length at a place on a chain.
+    pub(super) fn on_chain(&self, original: &Original, chain: u32, at: f64) -> f64 {
+        match self {
+            Self::Uniform(size) => *size,
+            Self::Varying(sizes) => {
+                let (h, t) = original.chains[chain as usize].locate(at);
+                let [a, b] = [original.mesh.origin(h), original.mesh.target(h)];
+                (1.0 - t) * sizes[a.index()] + t * sizes[b.index()]
+            }
+        }
+    }
+}
+
+/// Returns the edge length of equilateral triangles with corners on a sphere of this curvature whose centers are within
+/// `error` of the sphere: √(6 e / k - 3 e²). Source: Dunyach, Vanderhaeghe, Barthe, Botsch, "Adaptive Remeshing for
+/// Real-Time Mesh Deformation", 2013, §2.
+fn chord(curvature: f64, error: f64) -> f64 {
+    let squared = 6.0 * error / curvature - 3.0 * error * error;
+    if squared > 0.0 { squared.sqrt() } else { 0.0 }
+}
+
+/// Returns the largest absolute normal curvature at each vertex of the original surface: |H| + √(H² - K). Vertices on
+/// lines get the mean of their neighbors inside charts, because the surface bends across many lines; then all values are
+/// smoothed once.
+fn curvatures(original: &Original) -> Vec<f64> {
+    let mesh = &original.mesh;
+    let (gaussian, mean) = (gaussian_curvatures(mesh), mean_curvatures(mesh));
+    let is_inside = |v: VertexId| matches!(original.places[v.index()], Place::Inside(_));
+    let raw: Vec<Option<f64>> = mesh
+        .vertices()
+        .map(|v| {
+            let (h, k) = (mean[v.index()], gaussian[v.index()]);
+            let root = (h * h - k).max(0.0).sqrt();
+            let curvature = h.abs() + root;
+            (is_inside(v) && curvature.is_finite()).then_some(curvature)
+        })
+        .collect();
+    mesh.vertices()
+        .map(|v| {
+            let around = mesh.vertex_neighbors(v).filter_map(|w| raw[w.index()]);
+            let own = raw[v.index()];
+            let (sum, n) = around.fold((0.0, 0.0), |(sum, n), k| (sum + k, n + 1.0));
+            match own {
+                Some(own) if n > 0.0 => 0.5 * own + 0.5 * (sum / n),
+                Some(own) => own,
+                None => line_curvature(original, v).max(if n > 0.0 { sum / n } else { 0.0 }),
+            }
+        })
+        .collect()
+}
+
+/// Returns the curvature of a line at a vertex on it: the angle by which it turns, per length. 0 at corners.
+fn line_curvature(original: &Original, v: VertexId) -> f64 {
+    let Place::Line { .. } = original.places[v.index()] else {
+        return 0.0;
+    };
+    let mesh = &original.mesh;
+    let on_line = |h: &mesh::HalfEdgeId| original.tracks[h.edge().index()].is_some();
+    let ways = mesh.vertex_half_edges(v).filter(on_line);
+    let ways: Vec<DVec3> = ways
+        .map(|h| mesh.position(mesh.target(h)) - mesh.position(v))
+        .collect();
+    let [a, b] = ways[..] else {
+        return 0.0;
+    };
+    let curvature = 2.0 * mesh::angle_between(a, -b) / (a.length() + b.length());
+    if curvature.is_finite() {
+        curvature
+    } else {
+        0.0
+    }
+}
+
+/// Lowers target lengths so that they grow by at most [`GROWTH`] along edges.
+fn grade(original: &Original, sizes: &mut [f64]) {
+    let mesh = &original.mesh;
+    debug_assert_eq!(sizes.len(), mesh.domain_len(Domain::Vertex));
+    // Lengths are not negative, so they have the same order as their bits.
+    let mut waiting: BinaryHeap<Reverse<(u64, usize)>> = sizes
+        .iter()
+        .enumerate()
+        .map(|(v, size)| Reverse((size.to_bits(), v)))
+        .collect();
+    while let Some(Reverse((bits, v))) = waiting.pop() {
+        let size = f64::from_bits(bits);
+        if size > sizes[v] {
+            continue;
+        }
+        for h in mesh.vertex_half_edges(VertexId::new(v)) {
+            let w = mesh.target(h).index();
+            let most = size + GROWTH * mesh.length(h);
+            if most < sizes[w] {
+                sizes[w] = most;
+                waiting.push(Reverse((most.to_bits(), w)));
+            }
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! Moving vertices along the surface, so that triangles become even.
+
+use mesh::{DVec3, VertexId};
+use progress::{Cancelled, Progress};
+use rayon::prelude::*;
+
+use super::WHAT;
+use super::original::Place;
+use super::work::{Work, cross, is_turned};
+
+/// A vertex that would move by less than this share of its target length stays in place.
+const STILL: f64 = 1e-2;
+
+/// Where a vertex moves.
+#[derive(Clone, Copy)]
+struct Step {
+    point: DVec3,
+    place: Place,
+    size: f64,
+}
+
+impl Work<'_> {
+    /// Moves all vertices once: those inside charts to the mean of the triangles around them, in the tangent plane, and
+    /// then to the nearest point of the original surface; those on lines to the middle between their neighbors.
+    /// Returns the largest movement, as a share of the target length.
+    pub(super) fn smooth(&mut self, progress: &dyn Progress) -> Result<f64, Cancelled> {
+        progress.report(WHAT, self.counts.passes, self.counts.max_passes)?;
+        let n = self.places.len();
+        let mut steps: Vec<Option<Step>> = (0..n)
+            .into_par_iter()
+            .with_min_len(256)
+            .map(|v| self.step(VertexId::new(v)))
+            .collect();
+        // Taking back the movement of a vertex can turn another triangle. Each round takes back at least one.
+        loop {
+            progress.report(WHAT, self.counts.passes, self.counts.max_passes)?;
+            let position = |v: VertexId| {
+                steps[v.index()].map_or(self.mesh.position(v), |step: Step| step.point)
+            };
+            let turned: Vec<bool> = (0..self.charts.len())
+                .into_par_iter()
+                .with_min_len(256)
+                .map(|f| {
+                    let f = mesh::FaceId::new(f);
+                    if !self.mesh.has_face(f) {
+                        return false;
+                    }
+                    let h = self.mesh.face_half_edge(f);
+                    let next = self.mesh.next(h);
+                    let corners = [h, next, self.mesh.next(next)].map(|h| self.mesh.origin(h));
+                    let before = corners.map(|v| self.mesh.position(v));
+                    let after = corners.map(position);
+                    before != after
+                        && (is_turned(cross(before), cross(after))
+                            || self.is_far(&[(f, after)], &[]))
+                })
+                .collect();
+            if !turned.contains(&true) {
+                break;
+            }
+            let taken_back: Vec<usize> = (0..n)
+                .into_par_iter()
+                .filter(|&v| {
+                    steps[v].is_some()
+                        && self
+                            .mesh
+                            .vertex_faces(VertexId::new(v))
+                            .any(|f| turned[f.index()])
+                })
+                .collect();
+            if taken_back.is_empty() {
+                break;
+            }
+            for v in taken_back {
+                steps[v] = None;
+            }
+        }
+        let mut largest = 0.0_f64;
+        for (v, step) in steps.into_iter().enumerate() {
+            if let Some(step) = step {
+                let id = VertexId::new(v);
+                let moved = step.point.distance(self.mesh.position(id)) / step.size;
+                largest = largest.max(moved);
+                self.mesh.set_position(id, step.point);
+                self.places[v] = step.place;
+                self.sizes[v] = step.size;
+                self.is_off[v] = false;
+            }
+        }
+        Ok(largest)
+    }
+
+    fn step(&self, v: VertexId) -> Option<Step> {
+        if !self.mesh.has_vertex(v) {
+            return None;
+        }
+        match self.places[v.index()] {
+            Place::Corner(_) => None,
+            Place::Line { chain, at } => self.step_on_line(v, chain, at),
+            Place::Inside(hint) => self.step_inside(v, hint),
+        }
+    }
+
+    fn step_on_line(&self, v: VertexId, chain: u32, at: f64) -> Option<Step> {
+        let half_edges = self.mesh.vertex_half_edges(v);
+        let (mut sum, mut n) = (0.0, 0);
+        for h in half_edges {
+            if let Some(track) = self.track_of(h) {
+                sum += self.way(h, track);
+                n += 1;
+            }
+        }
+        let size = self.sizes[v.index()];
+        // The whole way to the middle would swing back and forth.
+        let way = 0.25 * sum;
+        if n != 2 || way.abs() < STILL * size {
+            return None;
+        }
+        let at = self.original.chains[chain as usize].after(at, way);
+        Some(Step {
+            point: self.original.on_chain(chain, at),
+            place: Place::Line { chain, at },
+            size: self.target.on_chain(self.original, chain, at),
+        })
+    }
+
+    fn step_inside(&self, v: VertexId, hint: u32) -> Option<Step> {
+        let p = self.mesh.position(v);
+        let (mut sum, mut weight, mut normal) = (DVec3::ZERO, 0.0, DVec3::ZERO);
+        for h in self.mesh.vertex_half_edges(v) {
+            let [a, b, c] = self.triangle(h);
+            let cross = cross([a, b, c]);
+            // Large triangles attract the vertex, in proportion to their target lengths.
+            let size = self.sizes[self.mesh.target(h).index()]
+                + self.sizes[self.mesh.target(self.mesh.next(h)).index()];
+            let area = cross.length() * size;
+            normal += cross;
+            sum += area * (b + c - 2.0 * p);
+            weight += area;
+        }
+        let normal = normal.try_normalize()?;
+        let way = sum / (3.0 * weight);
+        let along = way - normal.dot(way) * normal;
+        let size = self.sizes[v.index()];
+        if !self.is_off[v.index()] && along.length() < STILL * size {
+            return None;
+        }
+        let chart = self.chart_at(v)?;
+        let nearest = self.original.indexes[chart as usize].nearest(p + along, hint);
+        Some(Step {
+            point: nearest.point,
+            place: Place::Inside(nearest.triangle),
+            size: self
+                .target
+                .at(self.original, chart, nearest.triangle, nearest.point),
+        })
+    }
+}

@@ -1,0 +1,115 @@
+//! Splitting edges that are too long.
+
+use mesh::{EdgeId, HalfEdgeId};
+use progress::Progress;
+use rayon::prelude::*;
+
+use super::original::{Place, Track};
+use super::work::{LONG, Work, cross, is_turned};
+use super::{Refused, RemeshError, WHAT};
+
+impl Work<'_> {
+    /// Splits edges at their middle until no edge is too long, the longest first. Returns the number of splits.
+    pub(super) fn split_long(
+        &mut self,
+        max_faces: usize,
+        progress: &dyn Progress,
+    ) -> Result<usize, RemeshError> {
+        let mut n_splits = 0;
+        let mut long: Vec<EdgeId> = self.mesh.edges().collect();
+        while !long.is_empty() {
+            let mut sorted: Vec<(f64, EdgeId)> = long
+                .par_iter()
+                .map(|&e| (self.relative_length(e), e))
+                .filter(|&(length, _)| length > LONG)
+                .collect();
+            sorted.par_sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+            long.clear();
+            for (i, (_, e)) in sorted.into_iter().enumerate() {
+                if i % 1024 == 0 {
+                    progress.report(WHAT, self.counts.passes, self.counts.max_passes)?;
+                }
+                if self.mesh.n_faces() + 2 > max_faces {
+                    return Err(full(self.mesh.n_faces(), max_faces));
+                }
+                let first_new = self.tracks.len();
+                if self.relative_length(e) > LONG && self.split(e)? {
+                    n_splits += 1;
+                    long.push(e);
+                    long.extend((first_new..self.tracks.len()).map(EdgeId::new));
+                }
+            }
+        }
+        self.counts.split += n_splits;
+        Ok(n_splits)
+    }
+
+    /// Splits an edge at its middle; an edge of a line in the middle of its part of the line. Returns false if a triangle
+    /// would turn over.
+    fn split(&mut self, e: EdgeId) -> Result<bool, RemeshError> {
+        let track = self.tracks[e.index()];
+        let [a, b] = self.mesh.edge_vertices(e);
+        let mut point = 0.5 * (self.mesh.position(a) + self.mesh.position(b));
+        let mut place = None;
+        if let Some(track) = track {
+            let h = e.half_edges()[0];
+            let chain = &self.original.chains[track.chain as usize];
+            let at = chain.after(self.start(h, track), 0.5 * self.way(h, track));
+            let on_line = self.original.on_chain(track.chain, at);
+            let turns = |h: HalfEdgeId| {
+                let [a, b, c] = self.triangle(h);
+                let before = cross([a, b, c]);
+                self.mesh.face(h).is_some()
+                    && [[a, on_line, c], [on_line, b, c]]
+                        .into_iter()
+                        .any(|triangle| is_turned(before, cross(triangle)))
+            };
+            if e.half_edges().into_iter().any(turns) {
+                self.counts.refuse(Refused::Turned);
+                return Ok(false);
+            }
+            point = on_line;
+            place = Some(Place::Line {
+                chain: track.chain,
+                at,
+            });
+        }
+        let hint = |h: HalfEdgeId| match self.places[self.mesh.origin(h).index()] {
+            Place::Inside(hint) => Some(hint),
+            _ => None,
+        };
+        // Vertices around the edge that lie inside the same chart know a triangle near the edge.
+        let [h, twin] = e.half_edges();
+        let around = [h, twin, self.mesh.prev(h), self.mesh.prev(twin)];
+        let hint = around.into_iter().find_map(hint).unwrap_or(0);
+        let size = 0.5 * (self.sizes[a.index()] + self.sizes[b.index()]);
+        let charts = e
+            .half_edges()
+            .map(|h| self.mesh.face(h).map(|f| self.chart(f)));
+        let m = self
+            .mesh
+            .split_edge(e, 0.5)
+            .map_err(|_| full(self.mesh.n_faces(), self.mesh.n_faces()))?;
+        self.mesh.set_position(m, point);
+        let is_boundary = charts.contains(&None);
+        self.places.push(place.unwrap_or(Place::Inside(hint)));
+        self.sizes.push(size);
+        self.valences.push(if is_boundary { 4 } else { 6 });
+        self.is_off.push(track.is_none());
+        // The second part of the edge has the direction of the edge.
+        self.tracks.push(track);
+        for chart in charts.into_iter().flatten() {
+            self.tracks.push(None::<Track>);
+            self.charts.push(chart);
+        }
+        Ok(true)
+    }
+}
+
+/// Returns the error of a mesh that has reached the largest number of faces.
+fn full(n_faces: usize, max: usize) -> RemeshError {
+    RemeshError::TooManyFaces {
+        needed: n_faces as f64 + 2.0,
+        max,
+    }
+}

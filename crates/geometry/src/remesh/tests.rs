@@ -1,0 +1,738 @@
+use super::*;
+use crate::distance::{Distance, diagonal};
+use crate::shapes;
+use crate::simplify::tests::{square, torus, triangles, waves};
+use crate::surface_index::SurfaceIndex;
+use mesh::{CREASE, Column, DVec2, DVec3, Domain, HalfEdgeId, Rule, Values};
+use mesh::{MATERIAL, UV, VERTEX_NORMAL, VERTEX_SHARPNESS};
+use progress::NoProgress;
+use proptest::prelude::*;
+
+fn to(length: f64) -> Options<'static> {
+    Options {
+        length: Length::Uniform(length),
+        ..Options::default()
+    }
+}
+
+/// Remeshes, and checks what holds for each result.
+fn remeshed(mesh: &Mesh, options: &Options) -> Remeshed {
+    let result = remesh(mesh, options, &NoProgress).unwrap();
+    let after = &result.mesh;
+    assert_eq!(after.defects(), []);
+    assert!(after.is_dense());
+    assert_eq!(after.euler_characteristic(), mesh.euler_characteristic());
+    assert_eq!(after.n_boundary_loops(), mesh.n_boundary_loops());
+    assert!(after.positions().iter().all(|p| p.is_finite()));
+    assert!(result.counts.passes <= options.passes.into());
+    result
+}
+
+fn ball() -> Mesh {
+    triangles(&shapes::uv_sphere(48, 24))
+}
+
+/// A cube from -1 to 1 whose sides have triangles of different sizes.
+fn fine_cube() -> Mesh {
+    let mut cube = triangles(&shapes::cube());
+    for _ in 0..3 {
+        cube = shapes::fans(&cube);
+    }
+    triangles(&cube)
+}
+
+fn sharp(mesh: &Mesh, degrees: f64) -> Vec<EdgeId> {
+    let angle = |e| mesh.dihedral_angle(e).unwrap_or(0.0).to_degrees();
+    mesh.edges().filter(|&e| angle(e) > degrees).collect()
+}
+
+fn smallest_angles(mesh: &Mesh) -> Vec<f64> {
+    let smallest = |f| {
+        let angles = mesh.face_half_edges(f).map(|h| mesh.corner_angle(h));
+        angles.fold(f64::INFINITY, f64::min).to_degrees()
+    };
+    let mut angles: Vec<f64> = mesh.faces().map(smallest).collect();
+    angles.sort_by(f64::total_cmp);
+    angles
+}
+
+fn share<T>(all: impl Iterator<Item = T> + Clone, is_counted: impl Fn(T) -> bool) -> f64 {
+    let n = all.clone().count();
+    all.filter(|_| true).map(is_counted).filter(|&x| x).count() as f64 / n as f64
+}
+
+/// Checks that no face of `after` looks away from the nearest face of `before`.
+fn assert_no_face_is_turned_over(before: &Mesh, after: &Mesh) {
+    let index = SurfaceIndex::new(before).unwrap();
+    for f in after.faces() {
+        let nearest = index.nearest(after.face_center(f), 0);
+        let normal = before.face_normal(index.triangle(nearest.triangle).face);
+        assert!(after.face_normal(f).dot(normal) > 0.0, "{f}");
+    }
+}
+
+#[test]
+fn triangles_are_even_and_near_the_original() {
+    for (mesh, length) in [
+        (ball(), 0.1),
+        (torus(), 0.06),
+        (ball(), 0.2),
+        (torus(), 0.12),
+    ] {
+        let after = remeshed(&mesh, &to(length)).mesh;
+        assert_no_face_is_turned_over(&mesh, &after);
+        let angles = smallest_angles(&after);
+        let mean = angles.iter().sum::<f64>() / angles.len() as f64;
+        assert!(mean > 50.0 && angles[0] > 30.0, "{mean} {}", angles[0]);
+        assert!(share(after.vertices(), |v| after.valence(v) == 6) > 0.7);
+        let in_range = share(after.edges(), |e| {
+            let relative = after.length(e.half_edges()[0]) / length;
+            (0.8..=4.0 / 3.0).contains(&relative)
+        });
+        assert!(in_range > 0.95, "{in_range}");
+        // Vertices lie on the original, and the triangles bend by less than their size allows.
+        let distance = Distance::between(&mesh, &after, None).unwrap();
+        let curvature = if mesh.euler_characteristic() == 2 {
+            1.0
+        } else {
+            2.5
+        };
+        assert!(
+            distance.at_most() < curvature * length * length,
+            "{distance:?}"
+        );
+        let index = SurfaceIndex::new(&mesh).unwrap();
+        for &p in after.positions() {
+            assert!(index.nearest(p, 0).distance < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn a_cube_keeps_its_corners_its_edges_and_its_volume() {
+    let cube = fine_cube();
+    let features = sharp(&cube, 30.0);
+    let options = Options {
+        features: &features,
+        ..to(0.17)
+    };
+    let after = remeshed(&cube, &options).mesh;
+    for corner in shapes::cube().positions() {
+        assert!(after.positions().contains(corner));
+    }
+    assert_eq!(crate::bounds(&after), crate::bounds(&cube));
+    assert!((crate::volume(&after) - crate::volume(&cube)).abs() < 1e-12);
+    // 12 edges of length 2.
+    let sides: f64 = sharp(&after, 80.0)
+        .into_iter()
+        .map(|e| after.length(e.half_edges()[0]))
+        .sum();
+    assert!((sides - 24.0).abs() < 1e-12, "{sides}");
+    let angles = smallest_angles(&after);
+    let mean = angles.iter().sum::<f64>() / angles.len() as f64;
+    assert!(mean > 49.5 && angles[0] > 25.0, "{mean} {}", angles[0]);
+    assert_no_face_is_turned_over(&cube, &after);
+}
+
+#[test]
+fn vertices_on_features_slide_along_their_curve() {
+    let cylinder = triangles(&shapes::cylinder(128, true));
+    let features = sharp(&cylinder, 30.0);
+    assert_eq!(features.len(), 256);
+    let options = Options {
+        features: &features,
+        ..to(0.1)
+    };
+    let after = remeshed(&cylinder, &options).mesh;
+    let rim = sharp(&after, 80.0);
+    assert!(rim.len() > 100 && rim.len() < 170, "{}", rim.len());
+    // Each vertex of the rim lies on a side of the regular polygon with 128 corners.
+    let inner = libm::cos(std::f64::consts::PI / 128.0);
+    for v in rim.into_iter().flat_map(|e| after.edge_vertices(e)) {
+        let p = after.position(v);
+        let radius = libm::hypot(p.x, p.y);
+        assert!((p.z.abs() - 1.0).abs() < 1e-15);
+        assert!(radius > inner - 1e-12 && radius < 1.0 + 1e-12, "{radius}");
+    }
+    assert_eq!(
+        crate::bounds(&after).map(|b| b.map(|p| p.z)),
+        Some([-1.0, 1.0])
+    );
+}
+
+#[test]
+fn an_open_surface_keeps_its_boundary_and_its_area() {
+    for length in [0.03, 0.1, 0.4] {
+        let after = remeshed(&square(20), &to(length)).mesh;
+        assert!((crate::area(&after) - 1.0).abs() < 1e-12);
+        assert_eq!(
+            crate::bounds(&after),
+            Some([DVec3::ZERO, DVec3::new(1.0, 1.0, 0.0)])
+        );
+        let ideal = 4.0 / 3.0_f64.sqrt() / (length * length);
+        let n = after.n_faces() as f64;
+        assert!(n > 0.6 * ideal && n < 1.5 * ideal, "{n} {ideal}");
+    }
+    let after = remeshed(&waves(), &to(0.05)).mesh;
+    assert_no_face_is_turned_over(&waves(), &after);
+}
+
+/// Sets texture coordinates: u is x + 10 times the number of the chart of the face, v is y.
+fn with_uv(mut mesh: Mesh, chart: impl Fn(DVec3) -> f64) -> Mesh {
+    let uv = (0..mesh.n_half_edges()).map(HalfEdgeId::new).map(|h| {
+        let p = mesh.position(mesh.origin(h));
+        let f = mesh.face(h);
+        f.map_or(DVec2::ZERO, |f| {
+            DVec2::new(p.x + 10.0 * chart(mesh.face_center(f)), p.y)
+        })
+    });
+    let uv = uv.collect();
+    mesh.set(UV, uv);
+    mesh
+}
+
+#[test]
+fn a_seam_stays_and_texture_coordinates_do_not_blend_across_it() {
+    let chart = |p: DVec3| if p.x < 0.5 { 0.0 } else { 1.0 };
+    // The slit ends inside the square; above it, the two sides agree.
+    let slit = |p: DVec3| {
+        if p.x > 0.5 && p.y < 0.5 {
+            0.5 - p.y
+        } else {
+            0.0
+        }
+    };
+    for length in [0.04, 0.15] {
+        let after = remeshed(&with_uv(square(16), chart), &to(length)).mesh;
+        let uv = after.get(UV).unwrap();
+        for h in after.half_edges() {
+            let Some(f) = after.face(h) else { continue };
+            let p = after.position(after.origin(h));
+            let expected = DVec2::new(p.x + 10.0 * chart(after.face_center(f)), p.y);
+            assert!(uv[h.index()].distance(expected) < 1e-12, "{h}");
+        }
+        let mut mesh = square(16);
+        let u = |f: Option<FaceId>, p: DVec3| {
+            f.map_or(DVec2::ZERO, |f| {
+                let shift = if mesh.face_center(f).x > 0.5 {
+                    slit(DVec3::new(1.0, p.y, 0.0))
+                } else {
+                    0.0
+                };
+                DVec2::new(p.x + 10.0 * shift, p.y)
+            })
+        };
+        let uv = (0..mesh.n_half_edges()).map(HalfEdgeId::new);
+        let uv = uv
+            .map(|h| u(mesh.face(h), mesh.position(mesh.origin(h))))
+            .collect();
+        mesh.set(UV, uv);
+        let after = remeshed(&mesh, &to(length)).mesh;
+        let uv = after.get(UV).unwrap();
+        for h in after.half_edges() {
+            let Some(f) = after.face(h) else { continue };
+            let p = after.position(after.origin(h));
+            let is_right = after.face_center(f).x > 0.5;
+            let shift = if is_right {
+                slit(DVec3::new(1.0, p.y, 0.0))
+            } else {
+                0.0
+            };
+            // Above the slit, both formulas agree only where the value is linear: up to the row of the slit's end.
+            if p.y <= 0.5 - 1.0 / 16.0 || p.y >= 0.5 + 1.0 / 16.0 {
+                let expected = DVec2::new(p.x + 10.0 * shift, p.y);
+                assert!(
+                    uv[h.index()].distance(expected) < 1e-9,
+                    "{h} {p} {}",
+                    uv[h.index()]
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn borders_of_materials_creases_features_and_tags_stay() {
+    let mesh = square(12);
+    let middle: Vec<EdgeId> = mesh
+        .edges()
+        .filter(|&e| {
+            mesh.edge_vertices(e)
+                .iter()
+                .all(|&v| mesh.position(v).x == 0.5)
+        })
+        .collect();
+    let left = |mesh: &Mesh, f: FaceId| i32::from(mesh.face_center(f).x < 0.5);
+    let mut material = mesh.clone();
+    material.set(MATERIAL, mesh.faces().map(|f| left(&mesh, f)).collect());
+    let mut crease = mesh.clone();
+    let sharpness = |e| if middle.contains(&e) { 2.0 } else { 0.0 };
+    crease.set(CREASE, mesh.edges().map(sharpness).collect());
+    let mut tagged = mesh.clone();
+    let tag = Column {
+        name: "middle".into(),
+        rule: Rule::Copy,
+        values: Values::Tag(mesh.edges().map(|e| middle.contains(&e)).collect()),
+    };
+    tagged.insert_column(Domain::Edge, tag);
+    let feature = Options {
+        features: &middle,
+        ..to(0.07)
+    };
+    for (mesh, options) in [
+        (material, to(0.07)),
+        (crease, to(0.07)),
+        (tagged, to(0.07)),
+        (mesh, feature),
+    ] {
+        let after = remeshed(&mesh, &options).mesh;
+        let length = |e: EdgeId| after.length(e.half_edges()[0]);
+        let on_line = |&v: &VertexId| after.position(v).x == 0.5;
+        let line = after
+            .edges()
+            .filter(|&e| after.edge_vertices(e).iter().all(on_line));
+        assert!((line.clone().map(length).sum::<f64>() - 1.0).abs() < 1e-12);
+        if let Some(material) = after.get(MATERIAL) {
+            assert!(
+                after
+                    .faces()
+                    .all(|f| material[f.index()] == left(&after, f))
+            );
+        }
+        let line: Vec<EdgeId> = line.collect();
+        if let Some(crease) = after.get(CREASE) {
+            let sharp = after.edges().filter(|e| crease[e.index()] == 2.0);
+            assert!(sharp.eq(line.iter().copied()));
+        }
+        if let Some(tag) = after.tag(Domain::Edge, "middle") {
+            assert!(
+                after
+                    .edges()
+                    .filter(|e| tag[e.index()])
+                    .eq(line.iter().copied())
+            );
+        }
+    }
+}
+
+#[test]
+fn vertex_and_face_attributes_come_from_the_same_place() {
+    let mut mesh = square(12);
+    let n = mesh.n_vertices();
+    let corner = mesh
+        .vertices()
+        .find(|&v| mesh.position(v) == DVec3::new(0.5, 0.5, 0.0));
+    let corner = corner.unwrap();
+    let is = |v: VertexId| v == corner;
+    let heat: Vec<f64> = mesh
+        .positions()
+        .iter()
+        .map(|p| 3.0 * p.x - 2.0 * p.y)
+        .collect();
+    let columns = [
+        ("heat", Rule::Interpolate, Values::Float(heat)),
+        (
+            "tip",
+            Rule::Copy,
+            Values::Tag(mesh.vertices().map(is).collect()),
+        ),
+        (
+            "low",
+            Rule::Copy,
+            Values::Tag(mesh.positions().iter().map(|p| p.y < 0.3).collect()),
+        ),
+    ];
+    for (name, rule, values) in columns {
+        mesh.insert_column(
+            Domain::Vertex,
+            Column {
+                name: name.into(),
+                rule,
+                values,
+            },
+        );
+    }
+    let mut sharpness = vec![0.0; n];
+    sharpness[corner.index()] = 3.0;
+    mesh.set(VERTEX_SHARPNESS, sharpness);
+    let row = mesh
+        .faces()
+        .map(|f| 100.0 * mesh.face_center(f).y)
+        .collect();
+    let row = Column {
+        name: "row".into(),
+        rule: Rule::Copy,
+        values: Values::Float(row),
+    };
+    mesh.insert_column(Domain::Face, row);
+    for length in [0.03, 0.12] {
+        let after = remeshed(&mesh, &to(length)).mesh;
+        let Values::Float(heat) = &after
+            .attributes()
+            .column(Domain::Vertex, "heat")
+            .unwrap()
+            .values
+        else {
+            panic!("not numbers");
+        };
+        let tip = after.tag(Domain::Vertex, "tip").unwrap();
+        let low = after.tag(Domain::Vertex, "low").unwrap();
+        let sharpness = after.get(VERTEX_SHARPNESS).unwrap();
+        for (i, p) in after.positions().iter().enumerate() {
+            assert!((heat[i] - (3.0 * p.x - 2.0 * p.y)).abs() < 1e-12);
+            let is_tip = *p == DVec3::new(0.5, 0.5, 0.0);
+            assert_eq!((tip[i], sharpness[i] == 3.0), (is_tip, is_tip));
+            assert_eq!(low[i], p.y <= 0.25 + 1e-15, "{p}");
+        }
+        let Values::Float(row) = &after
+            .attributes()
+            .column(Domain::Face, "row")
+            .unwrap()
+            .values
+        else {
+            panic!("not numbers");
+        };
+        for f in after.faces() {
+            assert!((row[f.index()] - 100.0 * after.face_center(f).y).abs() < 100.0 / 12.0);
+        }
+    }
+}
+
+#[test]
+fn normals_stay_of_length_one() {
+    let mut mesh = ball();
+    let normals = mesh.positions().iter().map(|p| p.normalize()).collect();
+    mesh.set(VERTEX_NORMAL, normals);
+    let after = remeshed(&mesh, &to(0.15)).mesh;
+    for (n, p) in after
+        .get(VERTEX_NORMAL)
+        .unwrap()
+        .iter()
+        .zip(after.positions())
+    {
+        assert!((n.length() - 1.0).abs() < 1e-12 && n.dot(p.normalize()) > 0.99);
+    }
+}
+
+#[test]
+fn pinned_vertices_keep_their_bits() {
+    let mesh = torus();
+    let pinned: Vec<VertexId> = mesh.vertices().step_by(7).collect();
+    let options = Options {
+        pinned: &pinned,
+        ..to(0.3)
+    };
+    let after = remeshed(&mesh, &options).mesh;
+    for v in pinned {
+        assert!(after.positions().contains(&mesh.position(v)));
+    }
+    let all: Vec<VertexId> = mesh.vertices().collect();
+    let fixed = remeshed(
+        &mesh,
+        &Options {
+            pinned: &all,
+            ..to(0.3)
+        },
+    );
+    assert_eq!(fixed.mesh.n_vertices(), mesh.n_vertices());
+    assert_eq!(
+        fixed.counts.refused().next(),
+        Some((Refused::Lines, fixed.mesh.n_edges()))
+    );
+}
+
+#[test]
+fn curved_places_get_short_edges() {
+    let mesh = triangles(&shapes::torus(120, 60, 1.0, 0.25));
+    let length = Length::Curvature {
+        error: 0.002,
+        min: 0.01,
+        max: 0.2,
+    };
+    // The normal curvature is 4 everywhere: the length is sqrt(6 * 0.002 / 4 - 3 * 0.002^2).
+    let options = Options {
+        length,
+        ..Options::default()
+    };
+    let after = remeshed(&mesh, &options).mesh;
+    let lengths: f64 = after.edges().map(|e| after.length(e.half_edges()[0])).sum();
+    let mean = lengths / after.n_edges() as f64;
+    assert!((mean / 0.0547 - 1.0).abs() < 0.1, "{mean}");
+    let distance = Distance::between(&mesh, &after, None).unwrap();
+    assert!(distance.at_most() < 0.004, "{distance:?}");
+    // A bump on a plane.
+    let mut bump = square(80);
+    for p in bump.positions_mut() {
+        let r = (p.x - 0.5) * (p.x - 0.5) + (p.y - 0.5) * (p.y - 0.5);
+        p.z = 0.1 * libm::exp(-80.0 * r);
+    }
+    let length = Length::Curvature {
+        error: 0.001,
+        min: 0.01,
+        max: 0.15,
+    };
+    let after = remeshed(&bump, &Options { length, ..options }).mesh;
+    let mean = |is_counted: fn(DVec3) -> bool| {
+        let chosen = after.edges().filter(|&e| {
+            after
+                .edge_vertices(e)
+                .iter()
+                .all(|&v| is_counted(after.position(v)))
+        });
+        let lengths: Vec<f64> = chosen.map(|e| after.length(e.half_edges()[0])).collect();
+        lengths.iter().sum::<f64>() / lengths.len() as f64
+    };
+    let [steep, flat] = [mean(|p| p.z > 0.05), mean(|p| p.x < 0.2 && p.y < 0.2)];
+    assert!(flat > 3.0 * steep, "{flat} {steep}");
+}
+
+#[test]
+fn an_error_is_never_exceeded() {
+    for (mesh, length, error) in [
+        (torus(), 0.2, 0.01),
+        (waves(), 0.2, 0.005),
+        (ball(), 0.5, 0.01),
+    ] {
+        let free = remeshed(&mesh, &to(length)).mesh;
+        assert!(Distance::between(&mesh, &free, None).unwrap().largest() > error);
+        let options = Options {
+            error: Some(error),
+            ..to(length)
+        };
+        let after = remeshed(&mesh, &options).mesh;
+        let distance = Distance::between(&mesh, &after, None).unwrap();
+        assert!(
+            distance.at_most() <= 1.01 * error && distance.largest() <= error,
+            "{distance:?}"
+        );
+        assert!(after.n_faces() < 16 * free.n_faces(), "{}", after.n_faces());
+    }
+    // Without passes, nothing changes.
+    let none = Options {
+        passes: 0,
+        error: Some(0.02),
+        ..to(0.1)
+    };
+    assert!(remeshed(&torus(), &none).mesh == torus());
+}
+
+#[test]
+fn it_stops_when_a_pass_changes_nothing() {
+    let many = Options {
+        passes: 1000,
+        ..to(0.12)
+    };
+    let result = remeshed(&torus(), &many);
+    assert!(result.counts.passes < 100, "{:?}", result.counts);
+    let again = remeshed(&result.mesh, &many);
+    assert_eq!(
+        (again.counts.split, again.counts.collapsed),
+        (0, 0),
+        "{:?}",
+        again.counts
+    );
+}
+
+#[test]
+fn the_result_is_the_same_for_any_number_of_threads() {
+    let mesh = with_uv(ball(), |p| if p.z > 0.2 { 1.0 } else { 0.0 });
+    let features = sharp(&mesh, 9.0);
+    let length = Length::Curvature {
+        error: 0.004,
+        min: 0.03,
+        max: 0.2,
+    };
+    for options in [
+        to(0.08),
+        Options {
+            length,
+            features: &features,
+            error: Some(0.05),
+            ..to(0.1)
+        },
+    ] {
+        let results = [1, 2, 8].map(|n| {
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(n)
+                .build()
+                .unwrap();
+            pool.install(|| remeshed(&mesh, &options))
+        });
+        assert_eq!(results[0].mesh, results[1].mesh);
+        assert_eq!(results[0].mesh, results[2].mesh);
+        assert_eq!(results[0].counts, results[2].counts);
+    }
+}
+
+#[test]
+fn very_small_and_very_large_meshes_give_the_same_result() {
+    let before = torus();
+    let expected = remeshed(&before, &to(0.2)).mesh;
+    for factor in [-300, -50, 50, 300].map(|exponent| libm::ldexp(1.0, exponent)) {
+        let mut scaled = before.clone();
+        scaled.positions_mut().iter_mut().for_each(|p| *p *= factor);
+        let after = remeshed(&scaled, &to(0.2 * factor)).mesh;
+        assert_eq!(after.connectivity(), expected.connectivity());
+        let mut pairs = after.positions().iter().zip(expected.positions());
+        assert!(pairs.all(|(p, q)| *p == *q * factor));
+    }
+}
+
+#[test]
+fn small_and_degenerate_meshes_are_remeshed() {
+    let triangle = |points: [(f64, f64); 3]| {
+        let positions = points.map(|(x, y)| DVec3::new(x, y, 0.0)).to_vec();
+        Mesh::from_polygons(positions, &[[0, 1, 2]]).unwrap().0
+    };
+    let one = triangle([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]);
+    assert_eq!(remeshed(&one, &to(5.0)).mesh.n_faces(), 1);
+    let many = remeshed(&one, &to(0.1)).mesh;
+    assert!((crate::area(&many) - 0.5).abs() < 1e-12 && many.n_faces() > 80);
+    // A needle, a triangle without area, and a triangle without size.
+    for (points, length) in [
+        ([(0.0, 0.0), (1.0, 0.0), (0.5, 1e-9)], 0.1),
+        ([(0.0, 0.0), (1.0, 0.0), (0.5, 0.0)], 0.1),
+        ([(0.0, 0.0); 3], 0.1),
+    ] {
+        let result = remeshed(&triangle(points), &to(length));
+        assert!(result.mesh.n_faces() < 200);
+    }
+    let empty = Mesh::default();
+    assert_eq!(remeshed(&empty, &to(1.0)).mesh, empty);
+    // Two components, one of them smaller than the length.
+    let mut two = ball();
+    for p in two.positions_mut() {
+        *p = *p * 1e-3 + DVec3::X;
+    }
+    let parts = [ball(), two];
+    let mut positions = Vec::new();
+    let mut polygons: Vec<[u32; 3]> = Vec::new();
+    for part in &parts {
+        let first = u32::try_from(positions.len()).unwrap();
+        positions.extend_from_slice(part.positions());
+        polygons.extend(part.faces().map(|f| {
+            let v: Vec<u32> = part
+                .face_vertices(f)
+                .map(|v| u32::try_from(v.index()).unwrap())
+                .collect();
+            [v[0], v[1], v[2]].map(|v| v + first)
+        }));
+    }
+    let both = Mesh::from_polygons(positions, &polygons).unwrap().0;
+    let after = remeshed(&both, &to(0.2)).mesh;
+    assert_eq!(crate::n_components(&after), 2);
+}
+
+#[test]
+fn what_cannot_work_is_refused() {
+    let refused = |mesh: &Mesh, options: &Options| remesh(mesh, options, &NoProgress).unwrap_err();
+    assert_eq!(
+        refused(&shapes::cube(), &to(1.0)),
+        RemeshError::NotTriangle(FaceId::new(0))
+    );
+    for length in [1e-9, 1e-300] {
+        assert!(matches!(
+            refused(&ball(), &to(length)),
+            RemeshError::TooManyFaces { .. }
+        ));
+    }
+    let few = Options {
+        max_faces: 1000,
+        ..to(0.05)
+    };
+    assert!(matches!(
+        refused(&ball(), &few),
+        RemeshError::TooManyFaces { max: 1000, .. }
+    ));
+    let huge = remesh(&scaled(&ball(), 1e308), &to(1.0), &NoProgress);
+    assert!(matches!(huge, Err(RemeshError::TooManyFaces { .. })));
+}
+
+fn scaled(mesh: &Mesh, factor: f64) -> Mesh {
+    let mut mesh = mesh.clone();
+    mesh.positions_mut().iter_mut().for_each(|p| *p *= factor);
+    mesh
+}
+
+#[test]
+fn it_can_be_cancelled_at_any_report() {
+    struct After(std::sync::atomic::AtomicU64);
+    impl Progress for After {
+        fn advance(&self, _: &str, _: u64, _: u64) -> bool {
+            let relaxed = std::sync::atomic::Ordering::Relaxed;
+            self.0
+                .fetch_update(relaxed, relaxed, |n| n.checked_sub(1))
+                .is_ok()
+        }
+    }
+    let options = Options {
+        error: Some(0.1),
+        passes: 2,
+        ..to(0.3)
+    };
+    for n in 0..20 {
+        let cancelled = remesh(&torus(), &options, &After(n.into()));
+        assert_eq!(
+            cancelled.err(),
+            Some(RemeshError::Cancelled(Cancelled)),
+            "{n}"
+        );
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    /// Any soup of triangles, with degenerate ones and any coordinates.
+    #[test]
+    fn soups_of_triangles_keep_the_invariants(
+        points in proptest::collection::vec((0..4_u8, 0..4_u8, 0..4_u8), 4..24),
+        triangles in proptest::collection::vec([0..24_usize, 0..24_usize, 0..24_usize], 1..60),
+        exponent in -300..300_i32, length in 0.4..4.0, has_features: bool, error in proptest::option::of(0.1..1.0),
+    ) {
+        let scale = libm::ldexp(1.0, exponent);
+        let positions: Vec<DVec3> = points.iter()
+            .map(|&(x, y, z)| scale * DVec3::new(f64::from(x), f64::from(y), f64::from(z)))
+            .collect();
+        let polygons: Vec<[u32; 3]> = triangles.iter()
+            .map(|t| t.map(|v| u32::try_from(v % positions.len()).unwrap()))
+            .filter(|[a, b, c]| a != b && b != c && c != a)
+            .collect();
+        let Ok((mesh, _)) = Mesh::from_polygons(positions, &polygons) else {
+            return Ok(());
+        };
+        let features = if has_features { sharp(&mesh, 30.0) } else { Vec::new() };
+        let options = Options {
+            features: &features,
+            error: None,
+            passes: 4,
+            ..to(scale * length)
+        };
+        let after = remeshed(&mesh, &options).mesh;
+        prop_assert!(after.n_faces() < 100_000);
+        // The corners of the bounding box are not exceeded.
+        if let (Some([min, max]), Some([low, high])) = (crate::bounds(&mesh), crate::bounds(&after)) {
+            let slack = DVec3::splat(1e-12 * scale);
+            prop_assert!((low + slack).cmpge(min).all() && (high - slack).cmple(max).all());
+        }
+        if let Some(error) = error {
+            let limited = Options { error: Some(scale * error), max_faces: 1_000, ..options };
+            match remesh(&mesh, &limited, &NoProgress) {
+                Ok(result) => {
+                    let distance = Distance::between(&mesh, &result.mesh, Some(0.01 * scale * error));
+                    prop_assert!(distance.is_none_or(|d| d.at_most() <= 1.02 * scale * error));
+                }
+                Err(error) => {
+                    let is_expected = matches!(error, RemeshError::TooFar { .. } | RemeshError::TooManyFaces { .. });
+                    prop_assert!(is_expected, "{error}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_diagonal_is_that_of_both_boxes() {
+    // The unit in which distances of benchmarks are given.
+    assert!((diagonal(&fine_cube(), &fine_cube()) - 12.0_f64.sqrt()).abs() < 1e-12);
+}

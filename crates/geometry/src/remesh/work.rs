@@ -1,0 +1,163 @@
+//! The mesh that is remeshed, and the place of each of its elements on the original surface.
+
+use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
+
+use super::Counts;
+use super::original::{Original, Place, Track};
+use super::size::Sizes;
+
+/// An edge above this multiple of its target length is split.
+pub(super) const LONG: f64 = 4.0 / 3.0;
+
+/// An edge below this multiple of its target length is collapsed.
+pub(super) const SHORT: f64 = 4.0 / 5.0;
+
+/// The least cosine of the angle by which one step may turn a triangle.
+pub(super) const TURN: f64 = 0.5;
+
+/// The mesh between two steps.
+pub(super) struct Work<'a> {
+    pub(super) original: &'a Original<'a>,
+    /// Without attributes, in the coordinates of the original surface.
+    pub(super) mesh: Mesh,
+    pub(super) target: &'a Sizes,
+    pub(super) limit: Option<f64>,
+    /// By vertex.
+    pub(super) places: Vec<Place>,
+    /// By vertex: the target length of the edges around it.
+    pub(super) sizes: Vec<f64>,
+    /// By vertex: the number of edges that it should have.
+    pub(super) valences: Vec<u8>,
+    /// By vertex: whether the vertex may lie beside the original surface, because it is new.
+    pub(super) is_off: Vec<bool>,
+    /// By edge.
+    pub(super) tracks: Vec<Option<Track>>,
+    /// By face.
+    pub(super) charts: Vec<u32>,
+    pub(super) counts: Counts,
+}
+
+impl<'a> Work<'a> {
+    pub(super) fn new(original: &'a Original<'a>, target: &'a Sizes, limit: Option<f64>) -> Self {
+        let n = original.mesh.n_vertices();
+        Self {
+            original,
+            mesh: original.mesh.clone(),
+            target,
+            limit,
+            places: original.places.clone(),
+            sizes: (0..n).map(|v| target.at_vertex(VertexId::new(v))).collect(),
+            valences: original.valences.clone(),
+            is_off: vec![false; n],
+            tracks: original.tracks.clone(),
+            charts: original.charts.clone(),
+            counts: Counts::default(),
+        }
+    }
+
+    /// Removes dead elements.
+    pub(super) fn compact(&mut self) {
+        fn kept<I: mesh::Id + PartialEq, T: Copy>(new: &[I], values: &mut Vec<T>) {
+            let mut alive = new.iter().map(|&id| id != I::NONE);
+            values.retain(|_| alive.next() == Some(true));
+        }
+        if let Some(map) = self.mesh.compact() {
+            kept(&map.vertices, &mut self.places);
+            kept(&map.vertices, &mut self.sizes);
+            kept(&map.vertices, &mut self.valences);
+            kept(&map.vertices, &mut self.is_off);
+            kept(&map.edges, &mut self.tracks);
+            kept(&map.faces, &mut self.charts);
+        }
+    }
+
+    pub(super) fn is_line(&self, e: EdgeId) -> bool {
+        self.tracks[e.index()].is_some()
+    }
+
+    /// Returns the length of an edge, divided by its target length.
+    pub(super) fn relative_length(&self, e: EdgeId) -> f64 {
+        let [a, b] = self.mesh.edge_vertices(e);
+        self.relative_distance(a, b)
+    }
+
+    /// Returns the distance of two vertices, divided by the target length between them.
+    pub(super) fn relative_distance(&self, a: VertexId, b: VertexId) -> f64 {
+        let size = self.sizes[a.index()].min(self.sizes[b.index()]);
+        self.mesh.position(a).distance(self.mesh.position(b)) / size
+    }
+
+    /// Returns the track of the edge of `h`, with respect to the direction of `h`.
+    pub(super) fn track_of(&self, h: HalfEdgeId) -> Option<Track> {
+        let track = self.tracks[h.edge().index()]?;
+        Some(Track {
+            is_along: track.is_along == (h == h.edge().half_edges()[0]),
+            ..track
+        })
+    }
+
+    /// Returns the place of the origin of a half-edge on the chain of this half-edge.
+    pub(super) fn start(&self, h: HalfEdgeId, track: Track) -> f64 {
+        match self.places[self.mesh.origin(h).index()] {
+            Place::Line { at, .. } => at,
+            _ if track.is_along => 0.0,
+            _ => self.original.chains[track.chain as usize].length,
+        }
+    }
+
+    /// Returns the vector to the next vertex on the chain, along it: the way from the origin of `h` to its target,
+    /// negative if `h` runs against the chain.
+    pub(super) fn way(&self, h: HalfEdgeId, track: Track) -> f64 {
+        let chain = &self.original.chains[track.chain as usize];
+        let back = Track {
+            is_along: !track.is_along,
+            ..track
+        };
+        let (from, to) = (self.start(h, track), self.start(h.twin(), back));
+        if track.is_along {
+            chain.way(from, to)
+        } else {
+            -chain.way(to, from)
+        }
+    }
+
+    /// Returns the corners of the triangle of `h`, beginning at the origin of `h`.
+    pub(super) fn triangle(&self, h: HalfEdgeId) -> [DVec3; 3] {
+        let next = self.mesh.next(h);
+        [h, next, self.mesh.next(next)].map(|h| self.mesh.position(self.mesh.origin(h)))
+    }
+
+    /// Returns the chart around a vertex that is inside a chart.
+    pub(super) fn chart_at(&self, v: VertexId) -> Option<u32> {
+        let h = self.mesh.vertex_half_edge(v)?;
+        self.mesh.face(h).map(|f| self.charts[f.index()])
+    }
+
+    pub(super) fn chart(&self, f: FaceId) -> u32 {
+        self.charts[f.index()]
+    }
+}
+
+/// Returns the vector with the direction of the normal of a triangle and twice its area as length.
+pub(super) fn cross([a, b, c]: [DVec3; 3]) -> DVec3 {
+    (b - a).cross(c - a)
+}
+
+/// Whether a triangle is turned too far by a step, or becomes degenerate. The arguments are its [`cross`] products.
+pub(super) fn is_turned(before: DVec3, after: DVec3) -> bool {
+    let cosine = TURN * (before.length_squared() * after.length_squared()).sqrt();
+    let is_kept = after.dot(before) > cosine;
+    before != DVec3::ZERO && !is_kept
+}
+
+/// Returns the squared sine-like quality of a triangle: from 0, degenerate, to 1, equilateral.
+pub(super) fn quality([a, b, c]: [DVec3; 3]) -> f64 {
+    let sides = (b - a).length_squared() + (c - b).length_squared() + (a - c).length_squared();
+    let area = cross([a, b, c]).length();
+    if sides > 0.0 {
+        // An equilateral triangle with sides 1 has twice the area √3 / 2.
+        2.0 * 3.0_f64.sqrt() * area / sides
+    } else {
+        0.0
+    }
+}

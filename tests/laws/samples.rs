@@ -77,7 +77,7 @@ const MORE_STEPS: &[&str] = &[
     "BevelFaces(faces: Faces([0]), fraction: 0.5, distance: -0.25)",
     "BevelFaces(faces: Boundary, fraction: 0.75, distance: 0, on_refusal: Skip)",
     "BevelEdges(edges: All, fraction: 0.25, on_refusal: Skip)",
-    "BevelEdges(edges: Random(count: 20, seed: 2), fraction: 0.75, on_refusal: Skip)",
+    "BevelEdges(edges: Random(count: 20, seed: 2), width: 0.05, on_refusal: Skip)",
     "BevelVertices(vertices: All, fraction: 0.5, on_refusal: Skip)",
     "BevelVertices(vertices: Vertices([0]), fraction: 0.75)",
     "Stitch(distance: 0.5)",

@@ -1,41 +1,47 @@
-//! Bevel edges: replaces edges with faces.
+//! Bevel edges: replaces edges with faces of constant width.
 //!
 //! ```text
 //!     \               /            \               /
 //!      \             /              + ----------- +
-//!       a --- e --- b      -->      |             |       the other edges at a and b are cut at a
-//!      /             \              + ----------- +       fraction of their lengths from a and b
+//!       a --- e --- b      -->      |             |       the new edges have the same distance from e,
+//!      /             \              + ----------- +       and the other edges at a and b are cut there
 //!     /               \            /               \
 //! ```
 
-use geometry::bevel::Cuts;
+use geometry::bevel::{BevelRefusal, Beveled, bevel_edges, shortest_edge_at};
+use mesh::{EdgeId, VertexId};
+use op::Refusal;
 use op::prelude::*;
 
-/// Replaces edges with faces.
+/// Replaces edges with faces of constant width.
 ///
-/// A selected edge and both of its ends are removed. Each other edge at these ends is cut at a fraction of the length
-/// that it had before the step, and a new face joins the cuts. The face has four corners if three edges met at each
-/// end. Edges are beveled in order of their numbers, in the mesh as edited so far: an edge that an earlier bevel has
-/// cut starts at the cut. If an edge is cut at both ends, the fraction must be below 0.5.
+/// A selected edge and both of its ends are removed. In both faces beside the edge, the new face reaches to the same
+/// distance, the width. Each other edge at an end is cut where it has this distance, and between two selected edges
+/// the vertex moves into the face. If three or more new vertices surround an old vertex, another new face joins them. All edges are
+/// beveled together: a cube that is beveled at all edges keeps all of its symmetries.
 ///
-/// The ends of the edges are removed, and later vertices are renumbered. New vertices are numbered last, in order of
-/// the edges and clockwise around each edge. Faces keep their numbers; new faces are numbered last, in order of the
-/// edges.
+/// The ends of the edges are removed, and later vertices are renumbered. New vertices are numbered last. Faces
+/// keep their numbers; new faces are numbered last: those of edges in the order of the edges, then those of vertices. Edges
+/// are renumbered.
 ///
-/// Values at the cuts are interpolated between the ends of the edge, so textures do not change. A new face has the
-/// values (material, tags) of one of the two faces beside the edge. Which one is not specified, but it is the same in
+/// Values at new vertices are those at their places in the old faces, so textures do not change. A new face has the
+/// values (material, tags) of one of the faces beside it. Which one is not specified, but it is the same in
 /// every run. New edges have zero values (no crease, no tags). Normals are dropped.
 ///
-/// An edge is refused if it or one of its ends is on the boundary, if an end has fewer than three edges, if its ends
-/// are also joined by another edge, or if earlier cuts leave too little of an edge at one of its ends.
+/// An edge is refused if it is on the boundary, if one of its ends has only one other edge, which is not selected, or if the bevels at both ends
+/// of an edge would overlap.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct BevelEdges {
     /// The edges to bevel.
     pub edges: EdgeSelection,
-    /// The distance of the cuts from the ends of the edge, as a fraction of the lengths of the edges that are cut. From
+    /// The width: the distance of the new edges from the beveled edge in each of its two faces, in scene units.
+    #[serde(default)]
+    pub width: Option<PositiveLength>,
+    /// The width as a fraction of the length of the shortest edge at an end of a selected edge, in place of `width`. From
     /// 0 to 1, exclusive.
-    pub fraction: Fraction,
+    #[serde(default)]
+    pub fraction: Option<Fraction>,
     /// What to do when an edge is refused.
     #[serde(default)]
     pub on_refusal: OnRefusal,
@@ -44,39 +50,78 @@ pub struct BevelEdges {
 impl MeshOperation for BevelEdges {
     const NAME: &'static str = "BevelEdges";
     const SUMMARY: &'static str = "Replace edges with faces";
-    const EXAMPLE: &'static str = "BevelEdges(edges: Between(0, 2), fraction: 0.25)";
+    const EXAMPLE: &'static str = "BevelEdges(edges: Between(0, 2), width: 0.25)";
     const WORDS: &'static [&'static str] = &["chamfer"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+        let message = match (self.width, self.fraction) {
+            (Some(_), Some(_)) => Some("`width` and `fraction` cannot be combined"),
+            (None, None) => Some("BevelEdges needs `width` or `fraction`"),
+            _ => None,
+        };
+        let problem = message.map(|message| {
+            Problem::error(message).help("write, for example, `BevelEdges(edges: All, width: 0.1)`")
+        });
         let done = self.on_refusal.done(self.edges.count(plan));
         if done.max > 0 {
-            // Each edge makes at least four cuts. An old vertex is removed with the first of its edges. All edges
-            // together have two ends each, and a new vertex has three edges.
-            let cuts = Range::between(done.by(4).min, plan.edges.by(2).plus(done.by(4)).max);
-            // A new face has as many corners as there are cuts, and later bevels can double the number.
-            let largest = plan.degrees.max.max(plan.edges.max.saturating_add(3));
-            plan.degrees = Range::between(plan.degrees.min.min(4), largest.saturating_mul(2));
-            let cuts_minus = |removed: u64| Range {
-                min: cuts.min - removed * done.min.min(cuts.min / 4),
-                max: cuts.max.saturating_sub(done.min.saturating_mul(removed)),
-            };
-            plan.grow(cuts_minus(2), cuts_minus(1), done);
+            let degrees = plan.degrees.max.max(plan.edges.max);
+            plan.degrees = Range::between(plan.degrees.min.min(3), degrees.saturating_mul(2));
+            // At most one new vertex near the start of each half-edge, and new faces for edges and both of their ends.
+            let faces = Range::between(done.min, done.max.saturating_mul(3));
+            let vertices = Range::between(0, plan.edges.by(2).max);
+            let edges = Range::between(done.min, vertices.plus(faces).max);
+            plan.grow(vertices, edges, faces);
         }
         plan.drop_normals();
-        Vec::new()
+        Vec::from_iter(problem)
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
         let edges = self.edges.resolve(mesh, cx)?;
-        let mut cuts = Cuts::default();
-        let report = edit_each(mesh, &edges, self.on_refusal, "bevel", cx, |mesh, e| {
-            let f = mesh.bevel_edge_with(e, |e| cuts.fraction(e, self.fraction.get()))?;
-            cuts.cut(mesh, f, self.fraction.get());
-            Ok(())
-        })?;
+        cx.advance("bevel", 0, 1)?;
+        let width = match (self.width, self.fraction) {
+            (Some(width), _) => width.get(),
+            (None, Some(fraction)) => fraction.get() * shortest_edge_at(mesh, &edges),
+            (None, None) => 0.0,
+        };
+        let mut report = Report::default();
+        if edges.is_empty() {
+            return Ok(report.note("nothing was selected"));
+        }
+        let beveled = bevel_edges(mesh, &edges, width);
+        for &(e, refusal) in &beveled.refused {
+            self.on_refusal
+                .refuse(refused(mesh, e, refusal, width), &mut report)?;
+        }
+        let Beveled { mesh: new, refused } = beveled;
+        report.changed = (edges.len() - refused.len()) as u64;
+        if report.changed > 0 {
+            mesh.replace(new);
+        }
         mesh.remove_normals();
         Ok(report)
     }
+}
+
+fn refused(mesh: &Mesh, e: EdgeId, refusal: BevelRefusal, width: f64) -> OpError {
+    let [v, w] = mesh.edge_vertices(e).map(VertexId::index);
+    let (reason, why) = match refusal {
+        BevelRefusal::Boundary => (Refusal::Boundary, "is on the boundary".to_owned()),
+        BevelRefusal::FewEdges(v) => {
+            let why = format!("ends at {v}, which has only one other edge");
+            (Refusal::FewEdges, why)
+        }
+        BevelRefusal::TooWide => {
+            let why = format!("leaves no space for a bevel of width {width}");
+            (Refusal::OutsideEdge, why)
+        }
+        BevelRefusal::NonManifold => {
+            let why = "cannot be beveled without joining other faces".to_owned();
+            (Refusal::Pinch, why)
+        }
+    };
+    let message = format!("Between({}, {}) {why}", v.min(w), v.max(w));
+    OpError::refused(reason, message).about([e])
 }
 
 #[cfg(test)]
@@ -108,7 +153,7 @@ mod tests {
         ));
         let (plan, problems) = planned(&step, &shapes::cube());
         assert_eq!(problems, []);
-        assert_eq!(plan.faces, Range::exactly(10));
+        assert!(plan.faces.contains(10));
         let mesh = applied(&step, shapes::cube());
         let counts = [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()];
         assert_eq!(counts, [16, 24, 10]);
@@ -121,28 +166,47 @@ mod tests {
     }
 
     #[test]
-    fn all_edges_of_a_cube_leave_a_valid_mesh() {
-        for fraction in ["0.1", "0.25", "0.5", "0.75"] {
-            let step = parse(&format!(
-                "(edges: All, fraction: {fraction}, on_refusal: Skip)"
-            ));
-            let (mesh, report) = try_applied(&step, shapes::cube()).unwrap();
-            assert!(report.changed >= 4, "{report:?}");
-            assert!(mesh.is_closed());
-            assert_eq!(geometry::genus(&mesh), 0);
-            let (plan, _) = planned(&step, &shapes::cube());
-            assert!(plan.vertices.contains(mesh.n_vertices() as u64));
-            assert!(plan.edges.contains(mesh.n_edges() as u64));
-            assert!(plan.faces.contains(mesh.n_faces() as u64));
+    fn a_cube_beveled_at_all_edges_keeps_its_rotations() {
+        let step = parse("(edges: All, width: 0.5)");
+        let (mesh, report) = try_applied(&step, shapes::cube()).unwrap();
+        assert_eq!(report.changed, 12);
+        assert!(mesh.is_closed());
+        let (plan, _) = planned(&step, &shapes::cube());
+        assert!(plan.vertices.contains(mesh.n_vertices() as u64));
+        assert!(plan.edges.contains(mesh.n_edges() as u64));
+        assert!(plan.faces.contains(mesh.n_faces() as u64));
+        let quarter = applied(&parse("(edges: All, fraction: 0.25)"), shapes::cube());
+        assert_eq!(quarter, mesh);
+    }
+
+    #[test]
+    fn a_width_or_a_fraction_is_needed() {
+        for text in ["(edges: All)", "(edges: All, width: 1, fraction: 0.5)"] {
+            let (_, problems) = planned(&parse(text), &shapes::cube());
+            assert_eq!(problems.len(), 1, "{text}");
         }
+    }
+
+    #[test]
+    fn too_wide_bevels_are_refused_with_their_edges() {
+        let refused = try_applied(&parse("(edges: All, width: 1)"), shapes::cube());
+        let message = refused.unwrap_err().to_string();
+        assert!(
+            message.contains("leaves no space for a bevel of width 1"),
+            "{message}"
+        );
+        let step = parse("(edges: All, fraction: 0.75, on_refusal: Skip)");
+        let (mesh, report) = try_applied(&step, shapes::cube()).unwrap();
+        assert_eq!((report.changed, report.refused[0].count), (0, 12));
+        assert_eq!(mesh.n_faces(), 6);
     }
 
     #[test]
     fn edges_at_the_boundary_are_refused() {
         let step = parse("(edges: All, fraction: 0.25, on_refusal: Skip)");
         let (_, report) = try_applied(&step, shapes::grid(3, 3)).unwrap();
-        // Only the four edges in the middle are not at the boundary.
-        assert_eq!(report.changed, 4);
+        // The 12 edges inside, of which eight end at the boundary.
+        assert_eq!(report.changed, 12);
         let step = parse("(edges: All, fraction: 0.25)");
         let refused = try_applied(&step, shapes::grid(3, 3));
         assert!(

@@ -1,6 +1,10 @@
-//! Converts the fractions of bevels, which can cut an edge from both ends.
+//! Bevels: the widths of vertex bevels, which can cut an edge from both ends, and beveling a set of edges.
+
+mod edges;
 
 use mesh::{EdgeId, FaceId, Mesh};
+
+pub use edges::{BevelRefusal, Beveled, bevel_edges, shortest_edge_at};
 
 /// The remaining lengths of edges that several bevels cut. A fraction of the length that an edge had before all of
 /// them is converted to a fraction of its current length. So the result does not depend on which end of an edge is

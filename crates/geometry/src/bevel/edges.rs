@@ -1,0 +1,533 @@
+//! Bevels a set of edges at once, with a constant width.
+//!
+//! ```text
+//!      |             |                |   | n |   |        An edge becomes a new face. Where the edge ends, its other
+//!  ----v----e----    v       -->   ---s---+   i---         edges are cut (s). In the corner of a face between two
+//!      |             |                    | e              beveled edges, the vertex moves into the face (i).
+//! ```
+//!
+//! The new vertices of a vertex are joined by a new face if there are at least three of them. The mesh is built anew from
+//! polygons, and all values are interpolated within the old faces.
+
+use mesh::build::{NonManifold, build};
+use mesh::{Attributes, DVec3, Domain, EdgeId, FaceId, HalfEdgeId, Id, Mesh, Rule, VertexId};
+
+/// The least sine that is used to compute the length of a cut. An edge that is almost parallel to a beveled edge would have
+/// to be cut far from its end to reach the width.
+const LEAST_SINE: f64 = 0.25;
+
+/// Why an edge cannot be beveled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum BevelRefusal {
+    /// The edge does not have a face on both sides.
+    Boundary,
+    /// This end of the edge has too few other edges.
+    FewEdges(VertexId),
+    /// The bevels at the two ends of an edge of a face would overlap.
+    TooWide,
+    /// The result would not be a manifold.
+    NonManifold,
+}
+
+/// The result of [`bevel_edges`].
+#[derive(Clone, Debug)]
+pub struct Beveled {
+    /// The mesh with bevels. It is dense.
+    pub mesh: Mesh,
+    /// The edges that were not beveled, in ascending order.
+    pub refused: Vec<(EdgeId, BevelRefusal)>,
+}
+
+/// Replaces edges by faces of constant width.
+///
+/// `width` is the distance, in scene units, between a beveled edge and the new edges in both of its faces. Edges that meet
+/// at a vertex are beveled together, so the result does not depend on their order, and has the symmetries of the mesh and
+/// the set. If several edges at a vertex remain, each of them is cut at the distance that gives the width, or at `width`
+/// if it is not beside a beveled edge. The distance is at most four times the width.
+///
+/// The ends of beveled edges die. The other vertices come first, in their old order, followed by the new vertices. Faces
+/// keep their numbers. The new faces of edges follow in the order of the edges, and then the new faces of vertices in the
+/// order of the vertices. Edges are numbered anew; edges that remain keep their values.
+///
+/// New vertices and corners have the values at their places in the old faces. The new face of an edge has the values of
+/// the face of the edge's first half-edge, and that of a vertex has the values of one of its faces.
+///
+/// Edges that cannot be beveled are left out and returned. If edges are too wide for a face, all beveled edges at the two
+/// ends of the edge in question are left out.
+///
+/// # Panics
+///
+/// If the mesh is not dense, or an edge does not exist.
+pub fn bevel_edges(mesh: &Mesh, edges: &[EdgeId], width: f64) -> Beveled {
+    assert!(mesh.is_dense(), "the mesh must be dense");
+    let mut refused = Vec::new();
+    let mut chosen = vec![false; mesh.n_edges()];
+    for &e in edges {
+        if mesh.edge_faces(e).contains(&None) {
+            refused.push((e, BevelRefusal::Boundary));
+        } else {
+            chosen[e.index()] = true;
+        }
+    }
+    let beveled = loop {
+        let bevel = Bevel::new(mesh, &chosen, width);
+        let blocked = bevel.blocked();
+        if blocked.is_empty() {
+            if let Some(mesh) = bevel.build() {
+                break mesh;
+            }
+            let all = mesh.edges().filter(|e| chosen[e.index()]);
+            refused.extend(all.map(|e| (e, BevelRefusal::NonManifold)));
+            break mesh.clone();
+        }
+        for &(e, _) in &blocked {
+            chosen[e.index()] = false;
+        }
+        refused.extend(blocked);
+    };
+    refused.sort_unstable();
+    refused.dedup_by_key(|(e, _)| *e);
+    Beveled {
+        mesh: beveled,
+        refused,
+    }
+}
+
+/// Returns the length of the shortest edge at an end of one of these edges; infinity if there are no edges.
+pub fn shortest_edge_at(mesh: &Mesh, edges: &[EdgeId]) -> f64 {
+    let ends = edges.iter().flat_map(|&e| mesh.edge_vertices(e));
+    let around = ends.flat_map(|v| mesh.vertex_half_edges(v));
+    around.map(|h| mesh.length(h)).fold(f64::INFINITY, f64::min)
+}
+
+/// A weighted mean of values at vertices or corners: the sources and their weights, which add up to 1.
+type Blend<I> = [(I, f64); 3];
+
+/// A corner of a new polygon.
+#[derive(Clone, Copy)]
+struct Corner {
+    vertex: u32,
+    /// Where its values come from. All sources are corners of one old face.
+    values: Blend<HalfEdgeId>,
+}
+
+/// A vertex that is cut off the start of a half-edge, or moved into the corner of its face.
+#[derive(Clone, Copy)]
+struct Point {
+    position: DVec3,
+    /// The weights of the ends of the half-edge and of the edge before it in the face.
+    along: f64,
+    before: f64,
+}
+
+struct Bevel<'m> {
+    mesh: &'m Mesh,
+    chosen: &'m [bool],
+    width: f64,
+    /// By vertex: its new number if it stays.
+    kept: Vec<Option<u32>>,
+    n_kept: usize,
+    /// By half-edge: the new vertex near its origin.
+    points: Vec<Option<Point>>,
+    /// By half-edge: the number of this vertex.
+    numbers: Vec<u32>,
+}
+
+impl<'m> Bevel<'m> {
+    fn new(mesh: &'m Mesh, chosen: &'m [bool], width: f64) -> Self {
+        let mut this = Self {
+            mesh,
+            chosen,
+            width,
+            kept: vec![None; mesh.n_vertices()],
+            n_kept: 0,
+            points: vec![None; mesh.n_half_edges()],
+            numbers: vec![u32::MAX; mesh.n_half_edges()],
+        };
+        for v in mesh.vertices() {
+            let around = || mesh.vertex_half_edges(v);
+            if around().any(|h| this.is_chosen(h)) {
+                for h in around() {
+                    this.points[h.index()] = if this.is_chosen(h) {
+                        this.inset(h)
+                    } else {
+                        Some(this.slide(h))
+                    };
+                }
+            } else {
+                this.kept[v.index()] = Some(number(this.n_kept));
+                this.n_kept += 1;
+            }
+        }
+        let mut next = this.n_kept;
+        for (point, slot) in this.points.iter().zip(&mut this.numbers) {
+            if point.is_some() {
+                *slot = number(next);
+                next += 1;
+            }
+        }
+        this
+    }
+
+    fn is_chosen(&self, h: HalfEdgeId) -> bool {
+        self.chosen[h.edge().index()]
+    }
+
+    fn direction(&self, h: HalfEdgeId) -> DVec3 {
+        self.mesh.position(self.mesh.target(h)) - self.mesh.position(self.mesh.origin(h))
+    }
+
+    /// The half-edge after `h` counter-clockwise around its origin, if there is a face between them.
+    fn left(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
+        self.mesh.face(h).map(|_| self.mesh.prev(h).twin())
+    }
+
+    /// The half-edge before `h` counter-clockwise around its origin, if there is a face between them.
+    fn right(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
+        self.mesh.face(h.twin()).map(|_| self.mesh.next(h.twin()))
+    }
+
+    /// The cut of an edge that stays.
+    fn slide(&self, h: HalfEdgeId) -> Point {
+        let along = self.direction(h);
+        let length = along.length();
+        let beside = [self.left(h), self.right(h)].into_iter().flatten();
+        let beside = beside.filter(|&g| self.is_chosen(g));
+        let cuts = beside.map(|g| {
+            let other = self.direction(g);
+            let sine = along.cross(other).length() / (length * other.length());
+            self.width / sine.max(LEAST_SINE)
+        });
+        let t = cuts.fold(self.width, f64::max) / length;
+        Point {
+            position: self.mesh.position(self.mesh.origin(h)) + t * along,
+            along: t,
+            before: 0.0,
+        }
+    }
+
+    /// The vertex in the corner of the face of `h`, if both edges of the corner are beveled: it has the width as its
+    /// distance from both edges.
+    fn inset(&self, h: HalfEdgeId) -> Option<Point> {
+        let g = self.left(h).filter(|&g| self.is_chosen(g))?;
+        let [a, b] = [h, g].map(|h| self.direction(h));
+        let lengths = [a.length(), b.length()];
+        let [a, b] = [a / lengths[0], b / lengths[1]];
+        let normal = self.mesh.area_vector(self.mesh.face(h)?);
+        let cross = a.cross(b);
+        let is_reflex = cross.dot(normal) < 0.0;
+        // The half of the angle from a to b through the face.
+        let cosine = a.dot(b).clamp(-1.0, 1.0);
+        let half_sine = (0.5 - 0.5 * cosine).sqrt();
+        let half_cosine = (0.5 + 0.5 * cosine).sqrt();
+        let half_cosine = if is_reflex { -half_cosine } else { half_cosine };
+        // The plane of the corner, or that of the face if both edges are on one line.
+        let normal = if cross.length() > 1e-6 {
+            if is_reflex { -cross } else { cross }
+        } else {
+            normal
+        };
+        let inwards = normal.normalize_or_zero().cross(a);
+        let distance = self.width / half_sine.max(LEAST_SINE);
+        let offset = distance * (half_cosine * a + half_sine * inwards);
+        let sine = 2.0 * half_sine * half_cosine;
+        let weight = |length: f64| {
+            let weight = self.width / (sine * length);
+            // A corner on a line has no weights that give the point; it gets the values of the vertex.
+            if weight.abs() < 1.0 { weight } else { 0.0 }
+        };
+        Some(Point {
+            position: self.mesh.position(self.mesh.origin(h)) + offset,
+            along: weight(lengths[0]),
+            before: weight(lengths[1]),
+        })
+    }
+
+    /// The corners that replace the corner of `h`, a half-edge with a face.
+    fn corners(&self, h: HalfEdgeId) -> Vec<Corner> {
+        let mesh = self.mesh;
+        if let Some(vertex) = self.kept[mesh.origin(h).index()] {
+            let values = [(h, 1.0), (h, 0.0), (h, 0.0)];
+            return vec![Corner { vertex, values }];
+        }
+        let before = mesh.prev(h);
+        let mut corners = Vec::with_capacity(2);
+        if let Some(point) = self.points[before.twin().index()].filter(|_| !self.is_chosen(before))
+        {
+            let t = point.along;
+            corners.push(Corner {
+                vertex: self.numbers[before.twin().index()],
+                values: [(h, 1.0 - t), (before, t), (h, 0.0)],
+            });
+        }
+        if let Some(point) = self.points[h.index()] {
+            let Point {
+                along, before: b, ..
+            } = point;
+            corners.push(Corner {
+                vertex: self.numbers[h.index()],
+                values: [(h, 1.0 - along - b), (mesh.next(h), along), (before, b)],
+            });
+        }
+        corners
+    }
+
+    /// The new polygon of an old face, with the old edges of its sides.
+    fn face(&self, f: FaceId) -> (Vec<Corner>, Vec<EdgeId>) {
+        let (mut corners, mut sides) = (Vec::new(), Vec::new());
+        for h in self.mesh.face_half_edges(f) {
+            let new = self.corners(h);
+            sides.resize(sides.len() + new.len() - 1, EdgeId::NONE);
+            sides.push(if self.is_chosen(h) {
+                EdgeId::NONE
+            } else {
+                h.edge()
+            });
+            corners.extend(new);
+        }
+        (corners, sides)
+    }
+
+    /// The new polygon of a beveled edge.
+    ///
+    /// ```text
+    ///        face of h
+    ///     0 ----------- 3
+    ///     a ---- h ---> b        at a seam, all corners have values of the face of h
+    ///     1 ----------- 2
+    /// ```
+    fn strip(&self, e: EdgeId) -> Vec<Corner> {
+        let [h, t] = e.half_edges();
+        let mesh = self.mesh;
+        let first = |h| self.corners(h)[0];
+        let last = |h| *self.corners(h).last().expect("a corner becomes one or two");
+        let mut strip = [last(h), first(mesh.next(t)), last(t), first(mesh.next(h))];
+        if mesh.is_seam(e) {
+            strip[1].values = [(h, 1.0), (h, 0.0), (h, 0.0)];
+            strip[2].values = strip[1].values.map(|(_, weight)| (mesh.next(h), weight));
+        }
+        strip.to_vec()
+    }
+
+    /// The new polygon of a vertex, counter-clockwise. It has fewer than three corners if no face is needed. Also returns an
+    /// old face at the vertex.
+    fn cap(&self, v: VertexId) -> (Vec<Corner>, Option<FaceId>) {
+        let mesh = self.mesh;
+        let mut around: Vec<HalfEdgeId> = mesh.vertex_half_edges(v).collect();
+        around.reverse();
+        let has_seam = around.iter().any(|h| mesh.is_seam(h.edge()));
+        let mut cap: Vec<Corner> = Vec::new();
+        let points = around.iter().filter(|h| self.points[h.index()].is_some());
+        for &h in points {
+            let vertex = self.numbers[h.index()];
+            // The same point in the face to the left or else to the right.
+            let corners = match (mesh.face(h), self.right(h)) {
+                (Some(_), _) => self.corners(h),
+                (None, Some(right)) => self.corners(right),
+                (None, None) => continue,
+            };
+            cap.extend(corners.into_iter().find(|corner| corner.vertex == vertex));
+        }
+        if has_seam && let Some(&first) = cap.first() {
+            for corner in &mut cap {
+                corner.values = first.values;
+            }
+        }
+        (cap, around.iter().find_map(|&h| mesh.face(h)))
+    }
+
+    fn is_removed(&self, v: VertexId) -> bool {
+        self.kept[v.index()].is_none()
+    }
+
+    /// Returns the beveled edges that cannot be beveled.
+    fn blocked(&self) -> Vec<(EdgeId, BevelRefusal)> {
+        let mut blocked = Vec::new();
+        let mut block = |v: VertexId, refusal| {
+            let around = self
+                .mesh
+                .vertex_half_edges(v)
+                .filter(|&h| self.is_chosen(h));
+            blocked.extend(around.map(|h| (h.edge(), refusal)));
+        };
+        for v in self.mesh.vertices().filter(|&v| self.is_removed(v)) {
+            let mut around = self.mesh.vertex_half_edges(v);
+            if around
+                .by_ref()
+                .filter(|h| self.points[h.index()].is_some())
+                .count()
+                < 2
+            {
+                block(v, BevelRefusal::FewEdges(v));
+            }
+        }
+        for h in self
+            .mesh
+            .half_edges()
+            .filter(|&h| self.mesh.face(h).is_some())
+        {
+            let ends = [self.mesh.origin(h), self.mesh.target(h)];
+            if ends.iter().all(|&v| !self.is_removed(v)) {
+                continue;
+            }
+            let [from, to] = self.side(h);
+            let is_kept = (to - from).dot(self.direction(h)) > 0.0;
+            if !is_kept || !from.is_finite() || !to.is_finite() {
+                ends.into_iter()
+                    .for_each(|v| block(v, BevelRefusal::TooWide));
+            }
+        }
+        blocked.sort_unstable();
+        blocked.dedup_by_key(|(e, _)| *e);
+        blocked
+    }
+
+    /// The ends of the side that replaces `h`, a half-edge with a face.
+    fn side(&self, h: HalfEdgeId) -> [DVec3; 2] {
+        let point = |h: HalfEdgeId| self.points[h.index()].map(|point| point.position);
+        let from = point(h).or_else(|| point(self.mesh.prev(h).twin()));
+        let next = self.mesh.next(h);
+        let to = if self.is_chosen(h) {
+            point(next)
+        } else {
+            point(h.twin())
+        };
+        let old = |v| self.mesh.position(v);
+        [
+            from.unwrap_or_else(|| old(self.mesh.origin(h))),
+            to.unwrap_or_else(|| old(self.mesh.target(h))),
+        ]
+    }
+
+    /// Builds the new mesh; `None` if it would not be a manifold.
+    fn build(&self) -> Option<Mesh> {
+        let mesh = self.mesh;
+        let mut faces: Vec<FaceId> = Vec::new();
+        let (mut offsets, mut corners, mut sides) = (vec![0], Vec::new(), Vec::new());
+        let mut push = |polygon: Vec<Corner>, of: FaceId, edges: Vec<EdgeId>| {
+            corners.extend(polygon);
+            sides.extend(edges);
+            sides.resize(corners.len(), EdgeId::NONE);
+            offsets.push(number(corners.len()));
+            faces.push(of);
+        };
+        for f in mesh.faces() {
+            let (polygon, edges) = self.face(f);
+            push(polygon, f, edges);
+        }
+        for e in mesh.edges().filter(|e| self.chosen[e.index()]) {
+            let f = mesh.face(e.half_edges()[0])?;
+            push(self.strip(e), f, Vec::new());
+        }
+        for v in mesh.vertices().filter(|&v| self.is_removed(v)) {
+            if let (polygon, Some(f)) = self.cap(v)
+                && polygon.len() > 2
+            {
+                push(polygon, f, Vec::new());
+            }
+        }
+
+        let kept = mesh.vertices().filter(|&v| !self.is_removed(v));
+        let mut positions: Vec<DVec3> = kept.clone().map(|v| mesh.position(v)).collect();
+        positions.extend(self.points.iter().flatten().map(|point| point.position));
+        let numbers: Vec<u32> = corners.iter().map(|corner| corner.vertex).collect();
+        let built = build(positions, &offsets, &numbers, NonManifold::RefuseAsGiven).ok()?;
+
+        let mut vertices: Vec<Blend<VertexId>> =
+            kept.map(|v| [(v, 1.0), (v, 0.0), (v, 0.0)]).collect();
+        for h in mesh.half_edges() {
+            if let Some(Point { along, before, .. }) = self.points[h.index()] {
+                let v = mesh.origin(h);
+                let w = if before == 0.0 {
+                    v
+                } else {
+                    mesh.origin(mesh.prev(h))
+                };
+                vertices.push([
+                    (v, 1.0 - along - before),
+                    (mesh.target(h), along),
+                    (w, before),
+                ]);
+            }
+        }
+        let mut of_half_edge = vec![None; built.mesh.n_half_edges()];
+        for (h, corner) in built.half_edge_of_corner.iter().zip(&corners) {
+            of_half_edge[h.index()] = Some(corner.values);
+        }
+        let mut of_edge = vec![EdgeId::NONE; built.mesh.n_edges()];
+        for (e, &side) in built.edges_of_sides(&offsets).iter().zip(&sides) {
+            if side != EdgeId::NONE {
+                of_edge[e.index()] = side;
+            }
+        }
+        let mut attributes = blended(
+            mesh.attributes(),
+            &vertices,
+            &of_half_edge,
+            &of_edge,
+            &faces,
+        );
+        attributes.drop_by_rule();
+        let mut result = built.mesh;
+        result.set_attributes(attributes);
+        Some(result)
+    }
+}
+
+/// Returns the values of the new elements. Columns that are copied get the values of the first source.
+fn blended(
+    old: &Attributes,
+    vertices: &[Blend<VertexId>],
+    corners: &[Option<Blend<HalfEdgeId>>],
+    edges: &[EdgeId],
+    faces: &[FaceId],
+) -> Attributes {
+    fn run<I: Id>(
+        new: &mut Attributes,
+        old: &Attributes,
+        domain: Domain,
+        blends: &[Option<Blend<I>>],
+    ) {
+        for column in old.of(domain) {
+            let is_mean = matches!(column.rule, Rule::Interpolate | Rule::Normal);
+            let values = column.values.blend(blends.len(), |i, add| {
+                let Some(blend) = &blends[i] else {
+                    return;
+                };
+                if is_mean {
+                    let terms = blend.iter().filter(|(_, weight)| *weight != 0.0);
+                    terms.for_each(|&(source, weight)| add(source.index(), weight));
+                } else {
+                    add(blend[0].0.index(), 1.0);
+                }
+            });
+            new.insert(domain, column.with_values(values));
+        }
+    }
+    let mut new = Attributes::default();
+    let vertices: Vec<Option<Blend<VertexId>>> = vertices.iter().copied().map(Some).collect();
+    run(&mut new, old, Domain::Vertex, &vertices);
+    run(&mut new, old, Domain::Corner, corners);
+    for column in old.of(Domain::Edge) {
+        let source = |e: usize| edges[e].some().map(Id::index);
+        new.insert(
+            Domain::Edge,
+            column.with_values(column.values.gather(edges.len(), source)),
+        );
+    }
+    for column in old.of(Domain::Face) {
+        let values = column
+            .values
+            .gather(faces.len(), |f| Some(faces[f].index()));
+        new.insert(Domain::Face, column.with_values(values));
+    }
+    new
+}
+
+/// Converts the number of a vertex or a corner. Ids have 32 bits.
+fn number(i: usize) -> u32 {
+    u32::try_from(i).unwrap_or(u32::MAX)
+}
+
+#[cfg(test)]
+mod tests;

@@ -14,10 +14,11 @@
 //! | [`triangulate`], [`fill_hole_triangles`] | triangulation of faces and holes |
 //! | [`remesh`](mod@remesh) | nearly equilateral triangles of a given size |
 //! | [`simplify`] | fewer triangles for nearly the same surface |
-//! | [`bisect`], [`bevel`] | cutting along a plane, beveling |
+//! | [`bisect`], [`symmetrize`], [`bevel`] | cutting along a plane, mirroring one half, beveling |
 //! | [`deform`] | moving points by closed formulas, falloff, noise |
 //! | [`smooth`](mod@smooth) | smoothing and denoising |
 //! | [`Laplacian`], [`sparse`] | the cotangent Laplacian; sparse symmetric matrices and their solver |
+//! | [`uv`] | texture coordinates: charts, unwrapping, packing, stretch and overlaps |
 //! | [`tangents`] | tangents for normal maps |
 
 pub mod bevel;
@@ -43,8 +44,9 @@ pub mod surface_index;
 mod tangent;
 pub mod triangulate;
 mod visibility;
+pub mod uv;
 
-pub use bisect::{Bisection, bisect};
+pub use bisect::{Bisection, SymmetrizeError, Symmetrized, bisect, symmetrize};
 pub use curvature::{gaussian_curvatures, mean_curvatures, principal_curvatures, vertex_area};
 pub use face_quality::{aspect_ratio, min_angle};
 pub use fill_hole::fill_hole_triangles;

@@ -72,7 +72,8 @@ fn is_tangent(tangent: DVec4, normal: DVec3) -> bool {
     (direction.length_squared() - 1.0).abs() < ROUNDING && direction.dot(normal).abs() < ROUNDING
 }
 
-fn triangles(mesh: &Mesh) -> Vec<[HalfEdgeId; 3]> {
+/// Returns the corners of the triangles of all faces, in the order of the faces. Polygons are triangulated.
+pub(crate) fn triangles(mesh: &Mesh) -> Vec<[HalfEdgeId; 3]> {
     let mut cutter = Cutter::default();
     let mut triangles = Vec::with_capacity(mesh.n_faces());
     let mut corners = Vec::new();

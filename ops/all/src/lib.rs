@@ -21,5 +21,6 @@ pub fn registry() -> Registry {
         .with_group(ops_surface::register)
         .with_group(ops_deform::register)
         .with_group(ops_measure::register)
+        .with_group(ops_uv::register)
         .with_group(ops_pictures::register)
 }

@@ -12,7 +12,7 @@
 //! from its polygons.
 
 mod cluster;
-mod union_find;
+pub(crate) mod union_find;
 
 use mesh::{
     BuildError, BuildOutput, BuildReport, CORNER_NORMAL, Domain, EdgeId, FaceId, HalfEdgeId, Mesh,

@@ -7,20 +7,20 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 /// The final sets depend only on the joined pairs, not on their order. A parent is always lower than its child,
 /// so that no cycle can arise. A join is one compare-and-swap at a root, repeated if another thread changed the
 /// root first. Source: Anderson and Woll, "Wait-free Parallel Algorithms for the Union-Find Problem", 1991.
-pub(super) struct UnionFind {
+pub(crate) struct UnionFind {
     parent: Vec<AtomicU32>,
 }
 
 impl UnionFind {
     /// Creates one set for each number below `n`.
-    pub(super) fn new(n: u32) -> Self {
+    pub(crate) fn new(n: u32) -> Self {
         Self {
             parent: (0..n).map(AtomicU32::new).collect(),
         }
     }
 
     /// Returns the root of the set of `v`. It is the lowest number of the set once all joins are finished.
-    pub(super) fn root(&self, mut v: u32) -> u32 {
+    pub(crate) fn root(&self, mut v: u32) -> u32 {
         loop {
             let parent = self.parent[v as usize].load(Relaxed);
             if parent == v {
@@ -34,7 +34,7 @@ impl UnionFind {
     }
 
     /// Joins the sets that contain `a` and `b`.
-    pub(super) fn join(&self, a: u32, b: u32) {
+    pub(crate) fn join(&self, a: u32, b: u32) {
         let (mut a, mut b) = (self.root(a), self.root(b));
         while a != b {
             let (low, high) = (a.min(b), a.max(b));
@@ -50,7 +50,7 @@ impl UnionFind {
     }
 
     /// Returns for each number the lowest number of its set.
-    pub(super) fn into_lowest(self) -> Vec<u32> {
+    pub(crate) fn into_lowest(self) -> Vec<u32> {
         let mut lowest: Vec<u32> = self.parent.into_iter().map(AtomicU32::into_inner).collect();
         // Parents are lower than their children, so their entries are already final.
         for v in 0..lowest.len() {

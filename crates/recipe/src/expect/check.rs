@@ -9,7 +9,7 @@ use super::subject::{
     ActualValue, EdgeByVertices, Subject, Violation, check_count, check_integer, check_number,
     fails_unless, selected, smallest_corner_angle,
 };
-use super::{Expectation, OtherMesh, PlacedSubject, attribute, output, same, symmetry};
+use super::{Expectation, OtherMesh, PlacedSubject, attribute, output, same, symmetry, textures};
 use geometry::distance::{Distance, TOLERANCE, diagonal};
 
 impl Expectation {
@@ -240,6 +240,14 @@ impl Expectation {
                 min,
                 max,
             } => attribute::check(subject, name, of.as_ref(), *component, [None, *min, *max]),
+            Self::UvStretch { uv, max } => {
+                let found = textures::stretch(subject, uv)?;
+                check_number("a stretch", found, [None, None, Some(*max)], 0.0)
+            }
+            Self::UvOverlap { uv, eq, min, max } => {
+                let found = textures::n_overlapping(subject, uv)?;
+                check_count("faces that overlap in the texture", found, [*eq, *min, *max])
+            }
             Self::HasAttribute { domain, name } => subject.each_mesh(|object, mesh| {
                 let domain = Domain::from(*domain);
                 fails_unless(mesh.attributes().column(domain, name).is_some(), || {

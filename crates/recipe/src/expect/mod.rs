@@ -8,6 +8,7 @@ mod places;
 mod same;
 mod subject;
 mod symmetry;
+mod textures;
 
 use std::fmt;
 
@@ -294,6 +295,30 @@ pub enum Expectation {
         #[serde(default = "yes")]
         connectivity: bool,
     },
+    /// How much texture coordinates stretch angles. A small circle on the surface becomes an ellipse in the texture. The
+    /// ratio of its axes is 1 if angles stay. The value is the ratio that 95 % of the area of the surface does not exceed,
+    /// for the mesh with the largest value. Fails if no mesh has the texture coordinates.
+    UvStretch {
+        /// The name of the texture coordinates. Defaults to `uv`.
+        #[serde(default = "uv")]
+        uv: String,
+        /// At most this value.
+        #[schemars(range(min = 1.0))]
+        max: f64,
+    },
+    /// The number of faces that overlap another face in the texture of the same mesh. Faces that only share corners or
+    /// sides do not overlap. Fails if no mesh has the texture coordinates.
+    UvOverlap {
+        /// The name of the texture coordinates. Defaults to `uv`.
+        #[serde(default = "uv")]
+        uv: String,
+        /// Exactly this number.
+        eq: Option<u64>,
+        /// At least this number.
+        min: Option<u64>,
+        /// At most this number.
+        max: Option<u64>,
+    },
     /// There is at least one mesh, and every mesh has this attribute.
     HasAttribute {
         /// The domain of the attribute.
@@ -375,6 +400,10 @@ const fn tolerance() -> f64 {
     1e-9
 }
 
+fn uv() -> String {
+    mesh::UV.name.to_owned()
+}
+
 const fn yes() -> bool {
     true
 }
@@ -390,6 +419,7 @@ impl Expectation {
             | Self::Components { eq, min, max }
             | Self::BoundaryLoops { eq, min, max }
             | Self::SelfIntersections { eq, min, max }
+            | Self::UvOverlap { eq, min, max, .. }
             | Self::Count { eq, min, max, .. } => eq.is_none() && min.is_none() && max.is_none(),
             Self::EulerCharacteristic { eq, min, max } | Self::Genus { eq, min, max } => {
                 eq.is_none() && min.is_none() && max.is_none()

@@ -250,3 +250,46 @@ fn values_of_attributes_are_in_a_range() {
         assert_eq!(check(&scene, text), Err(expected.to_owned()));
     }
 }
+
+#[test]
+fn textures_are_stretched_and_overlap() {
+    let sheet = |x: f64| {
+        let mut mesh = shapes::grid(1, 1);
+        let uvs = mesh.half_edges().map(|h| {
+            let p = mesh.position(mesh.origin(h));
+            mesh::DVec2::new(p.x * x, p.y)
+        });
+        let uvs = uvs.collect();
+        mesh.set(mesh::UV, uvs);
+        mesh
+    };
+    let wide = scene([("mesh", sheet(2.0))]);
+    assert!(check(&wide, "UvStretch(max: 2.001)").is_ok());
+    let error = check(&wide, "UvStretch(max: 1.5)").unwrap_err();
+    assert!(
+        error.starts_with("expected a stretch of at most 1.5, found 2"),
+        "{error}"
+    );
+    assert!(check(&wide, "UvOverlap(eq: 0)").is_ok());
+    assert!(check(&wide, "UvOverlap(uv: \"light\", eq: 0)").is_err());
+    let mut twice = sheet(1.0);
+    let uvs: Vec<_> = twice
+        .get(mesh::UV)
+        .unwrap()
+        .iter()
+        .map(|uv| *uv / 2.0)
+        .collect();
+    let mut stacked = shapes::cube();
+    let square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(mesh::DVec2::from);
+    let mut corners = vec![mesh::DVec2::ZERO; stacked.n_half_edges()];
+    for f in stacked.faces() {
+        for (h, uv) in stacked.face_half_edges(f).zip(square) {
+            corners[h.index()] = uv;
+        }
+    }
+    stacked.set(mesh::UV, corners);
+    twice.set(mesh::UV, uvs);
+    let error = check(&scene([("mesh", stacked)]), "UvOverlap(max: 0)").unwrap_err();
+    assert!(error.contains("found 6"), "{error}");
+    assert!(check(&scene([("mesh", twice)]), "UvOverlap(max: 0)").is_ok());
+}

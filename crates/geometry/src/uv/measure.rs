@@ -1,0 +1,175 @@
+//! Measures of texture coordinates: stretch and overlaps.
+
+use mesh::{DVec2, FaceId, HalfEdgeId, Mesh};
+use progress::{Cancelled, Progress};
+
+use crate::tangent::triangles;
+
+/// How much a texture is stretched. A small circle on a triangle of the surface becomes an ellipse in the texture. The
+/// aspect is the ratio of its longer to its shorter axis: 1 if angles stay.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch {
+    /// The aspect that 95 % of the area of the surface does not exceed. Infinite if more than 5 % of the area has no
+    /// area in the texture.
+    pub aspect: f64,
+    /// The largest aspect.
+    pub max_aspect: f64,
+    /// The number of triangles of the texture that are mirrored: clockwise with v upwards.
+    pub n_mirrored: usize,
+    /// The ratio of the largest to the smallest scale of area, without 2.5 % of the area at each end. 1 if the texture
+    /// has one scale.
+    pub scales: f64,
+}
+
+/// Measures how much a texture is stretched. Triangles without area on the surface are left out. Polygons are
+/// triangulated. Returns `None` if no triangle has an area.
+pub fn stretch(mesh: &Mesh, uvs: &[DVec2]) -> Option<Stretch> {
+    let mut n_mirrored = 0;
+    let mut aspects = Vec::new();
+    let mut scales = Vec::new();
+    for triangle in triangles(mesh) {
+        let Some((map, area)) = jacobian(mesh, uvs, triangle) else {
+            continue;
+        };
+        let determinant = map[0].perp_dot(map[1]);
+        n_mirrored += usize::from(determinant < 0.0);
+        aspects.push((aspect(map), area));
+        scales.push((determinant.abs(), area));
+    }
+    let total: f64 = aspects.iter().map(|(_, area)| area).sum();
+    if total.is_nan() || total <= 0.0 {
+        return None;
+    }
+    let aspect = percentile(&mut aspects, 0.95 * total);
+    let low = percentile(&mut scales, 0.025 * total);
+    let high = percentile(&mut scales, 0.975 * total);
+    Some(Stretch {
+        aspect,
+        max_aspect: aspects.last()?.0,
+        n_mirrored,
+        scales: if low > 0.0 { high / low } else { f64::INFINITY },
+    })
+}
+
+/// Returns the triangles of all faces with their aspects: how much the texture stretches angles, at least 1. Triangles
+/// without area on the surface are left out. See [`Stretch`].
+pub fn aspects(mesh: &Mesh, uvs: &[DVec2]) -> impl Iterator<Item = ([HalfEdgeId; 3], f64)> {
+    triangles(mesh).into_iter().filter_map(|triangle| {
+        let (map, _) = jacobian(mesh, uvs, triangle)?;
+        Some((triangle, aspect(map)))
+    })
+}
+
+/// Returns the value up to which the weights have this sum. Sorts the values.
+fn percentile(values: &mut [(f64, f64)], weight: f64) -> f64 {
+    values.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut sum = 0.0;
+    let mut at = values.iter().skip_while(|(_, w)| {
+        sum += w;
+        sum < weight
+    });
+    at.next().or(values.last()).map_or(1.0, |(value, _)| *value)
+}
+
+/// Returns the derivatives of the texture coordinates along two perpendicular unit vectors of a triangle, and its area.
+fn jacobian(mesh: &Mesh, uvs: &[DVec2], triangle: [HalfEdgeId; 3]) -> Option<([DVec2; 2], f64)> {
+    let [a, b, c] = triangle.map(|h| mesh.position(mesh.origin(h)));
+    let along = (b - a).try_normalize()?;
+    let length = (b - a).length();
+    let x = (c - a).dot(along);
+    let y = ((c - a) - along * x).length();
+    let area = length * y / 2.0;
+    if area.is_nan() || area <= 0.0 || area.is_infinite() {
+        return None;
+    }
+    let [a, b, c] = triangle.map(|h| uvs[h.index()]);
+    let first = (b - a) / length;
+    Some(([first, (c - a - first * x) / y], area))
+}
+
+/// Returns the ratio of the singular values of a matrix with these columns.
+fn aspect([a, b]: [DVec2; 2]) -> f64 {
+    let (e, f, g) = (a.dot(a), a.dot(b), b.dot(b));
+    let middle = f64::midpoint(e, g);
+    let radius = (((e - g) * (e - g)) / 4.0 + f * f).sqrt();
+    // The product of the singular values is the determinant, which has no cancellation.
+    let long = (middle + radius).sqrt();
+    let short = a.perp_dot(b).abs() / long;
+    if short > 0.0 {
+        (long / short).max(1.0)
+    } else {
+        f64::INFINITY
+    }
+}
+
+/// A triangle in the texture, counter-clockwise.
+struct Flat {
+    corners: [DVec2; 3],
+    low: DVec2,
+    high: DVec2,
+    face: FaceId,
+}
+
+/// Returns the faces that overlap another face, or themselves, in the texture, in ascending order. Triangles that only
+/// share corners or sides do not overlap, and neither do triangles without area.
+///
+/// # Errors
+///
+/// [`Cancelled`].
+pub fn overlapping_faces(
+    mesh: &Mesh,
+    uvs: &[DVec2],
+    progress: &dyn Progress,
+) -> Result<Vec<FaceId>, Cancelled> {
+    let mut flat: Vec<Flat> = triangles(mesh)
+        .into_iter()
+        .filter_map(|triangle| {
+            let [a, b, c] = triangle.map(|h| uvs[h.index()]);
+            let area = (b - a).perp_dot(c - a);
+            (area != 0.0).then_some(())?;
+            Some(Flat {
+                corners: if area > 0.0 { [a, b, c] } else { [a, c, b] },
+                low: a.min(b).min(c),
+                high: a.max(b).max(c),
+                face: mesh.face(triangle[0])?,
+            })
+        })
+        .collect();
+    // A sweep along u: only triangles whose ranges of u overlap are compared.
+    flat.sort_by(|a, b| a.low.x.total_cmp(&b.low.x).then(a.face.cmp(&b.face)));
+    let mut overlaps = vec![false; flat.len()];
+    for (i, a) in flat.iter().enumerate() {
+        if i.is_multiple_of(1024) {
+            progress.report("overlaps", i as u64, flat.len() as u64)?;
+        }
+        for (j, b) in flat.iter().enumerate().skip(i + 1) {
+            if b.low.x >= a.high.x {
+                break;
+            }
+            let is_new = !overlaps[i] || !overlaps[j];
+            if is_new && b.low.y < a.high.y && a.low.y < b.high.y && overlap(a, b) {
+                overlaps[i] = true;
+                overlaps[j] = true;
+            }
+        }
+    }
+    let faces = flat
+        .iter()
+        .zip(&overlaps)
+        .filter(|(_, overlaps)| **overlaps);
+    let mut faces: Vec<FaceId> = faces.map(|(flat, _)| flat.face).collect();
+    faces.sort_unstable();
+    faces.dedup();
+    Ok(faces)
+}
+
+/// Whether the insides of two triangles overlap: no side of one has the other triangle on its outer side.
+fn overlap(a: &Flat, b: &Flat) -> bool {
+    let separates = |a: &Flat, b: &Flat| {
+        (0..3).any(|i| {
+            let (p, q) = (a.corners[i], a.corners[(i + 1) % 3]);
+            b.corners.iter().all(|&c| (q - p).perp_dot(c - p) <= 0.0)
+        })
+    };
+    !separates(a, b) && !separates(b, a)
+}

@@ -1,0 +1,125 @@
+//! Texture coordinates: charts, unwrapping, packing, stretch and overlaps.
+//!
+//! ```text
+//!        +---+               +---+
+//!       /   /|               |   |        A chart is a set of faces that are connected in the texture. Edges at
+//!      +---+ +           +---+---+---+    which charts meet are seams: each of their two sides has its own
+//!      |   |/     -->    |   |   |   |    texture coordinates.
+//!      +---+             +---+---+---+
+//! ```
+//!
+//! Texture coordinates are values of half-edges, which stand for the corners of faces: one [`DVec2`] for each
+//! half-edge, in the order of their ids. `v` points upwards.
+
+mod measure;
+mod pack;
+mod unwrap;
+
+use mesh::{DVec2, HalfEdgeId, Mesh};
+use progress::Cancelled;
+
+use crate::merge::union_find::UnionFind;
+
+pub use measure::{Stretch, aspects, overlapping_faces, stretch};
+pub use pack::{Packed, pack};
+pub use unwrap::{UnwrapOptions, Unwrapped, unwrap};
+
+/// The size of the texture that charts are packed into.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub struct Page {
+    /// The width and height, in texels.
+    pub size: u32,
+    /// The number of empty texels around each chart. Charts are twice as far from each other.
+    pub padding: u32,
+}
+
+/// Why charts could not be made or packed.
+#[derive(Clone, Debug, Eq, PartialEq, thiserror::Error)]
+pub enum UvError {
+    /// The computation was cancelled.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    /// The charts with their padding do not fit into the page.
+    #[error(
+        "the charts do not fit into a page of {size} texels with a padding of {padding} texels",
+        size = .0.size,
+        padding = .0.padding
+    )]
+    PageTooSmall(Page),
+    /// An option is out of its range.
+    #[error("the texture coordinates could not be computed: {0}")]
+    Limit(String),
+}
+
+impl UvError {
+    fn from_crate(error: &uvunwrap::Error, page: Page) -> Self {
+        match error {
+            uvunwrap::Error::Cancelled => Self::Cancelled(Cancelled),
+            uvunwrap::Error::ChartTooLarge { .. }
+            | uvunwrap::Error::AtlasTooLarge { .. }
+            | uvunwrap::Error::InvalidOption {
+                option: "density.page_size",
+                ..
+            } => Self::PageTooSmall(page),
+            other => Self::Limit(other.to_string()),
+        }
+    }
+}
+
+/// The charts of texture coordinates.
+#[derive(Clone, Debug, Eq, PartialEq)]
+pub struct Charts {
+    /// For each face, the number of its chart, in the order of the first faces. `u32::MAX` for removed faces.
+    pub of_face: Vec<u32>,
+    /// The number of charts.
+    pub n: usize,
+}
+
+/// Returns the charts of texture coordinates: faces are in one chart if they are connected across edges that have the
+/// same texture coordinates on both sides.
+pub fn charts(mesh: &Mesh, uvs: &[DVec2]) -> Charts {
+    let n_faces = mesh.domain_len(mesh::Domain::Face);
+    let sets = UnionFind::new(number(n_faces));
+    for e in mesh.edges() {
+        if let [Some(f), Some(g)] = mesh.edge_faces(e)
+            && !is_border(mesh, uvs, e.half_edge())
+        {
+            sets.join(number(f.index()), number(g.index()));
+        }
+    }
+    let lowest = sets.into_lowest();
+    let mut of_face = vec![u32::MAX; n_faces];
+    let mut n = 0;
+    for f in mesh.faces() {
+        let first = lowest[f.index()] as usize;
+        // The lowest face of a set comes first.
+        if first == f.index() {
+            of_face[first] = n;
+            n += 1;
+        }
+        of_face[f.index()] = of_face[first];
+    }
+    Charts {
+        of_face,
+        n: n as usize,
+    }
+}
+
+/// Returns the index of an element as the number of its id.
+fn number(index: usize) -> u32 {
+    u32::try_from(index).expect("elements have 32-bit ids")
+}
+
+/// Whether the edge of a half-edge is at the border of a chart: a boundary edge, or a seam of these texture
+/// coordinates.
+pub fn is_border(mesh: &Mesh, uvs: &[DVec2], h: HalfEdgeId) -> bool {
+    let twin = h.twin();
+    if mesh.face(h).is_none() || mesh.face(twin).is_none() {
+        return true;
+    }
+    let at = |h: HalfEdgeId| uvs[h.index()];
+    at(h) != at(mesh.next(twin)) || at(mesh.next(h)) != at(twin)
+}
+
+#[cfg(test)]
+mod tests;

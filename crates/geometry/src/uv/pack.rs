@@ -1,0 +1,264 @@
+//! Packing: charts that exist are moved to one page, at one scale.
+
+use std::collections::BTreeMap;
+
+use mesh::{DVec2, HalfEdgeId, Mesh};
+use progress::Progress;
+use uvunwrap::{Atlas, MeshInput, OutputMesh};
+
+use super::unwrap::{generate, settings};
+use super::{Page, UvError, charts};
+use crate::tangent::triangles;
+
+/// The texture coordinates of packed charts.
+#[derive(Clone, Debug)]
+pub struct Packed {
+    /// The coordinates for each half-edge, from 0 to 1; zero for half-edges without a face.
+    pub uvs: Vec<DVec2>,
+    /// The number of charts.
+    pub n_charts: usize,
+    /// The number of charts that have no area, on the surface or in the texture. They become the point (0, 0).
+    pub n_flat: usize,
+    /// The number of charts that overlap themselves. They are packed by their convex hulls.
+    pub n_overlapping: usize,
+    /// The area of the charts as a part of the page.
+    pub coverage: f64,
+}
+
+/// One chart before it is packed.
+struct Chart {
+    /// The corners of its triangles.
+    triangles: Vec<[HalfEdgeId; 3]>,
+    /// The number that its coordinates are multiplied by so that all charts have one scale. `None` for a chart without
+    /// area.
+    scale: Option<f64>,
+    /// The middle of its bounding box in the old texture.
+    middle: DVec2,
+    /// Its area on the surface.
+    area: f64,
+}
+
+/// The triangles of a chart as they are packed.
+#[derive(Default)]
+struct Shape {
+    positions: Vec<[f32; 3]>,
+    uvs: Vec<[f32; 2]>,
+    indices: Vec<u32>,
+    /// The points for which `positions` and `uvs` stand, in 64-bit numbers.
+    points: Vec<DVec2>,
+}
+
+/// Moves, turns and scales the charts of texture coordinates of a dense mesh, so that they do not overlap each other and
+/// have one scale: areas in the texture are proportional to areas of the surface. Angles and ratios of lengths inside a
+/// chart stay, and mirrored charts stay mirrored.
+///
+/// # Errors
+///
+/// [`UvError`].
+pub fn pack(
+    mesh: &Mesh,
+    uvs: &[DVec2],
+    page: Page,
+    progress: &dyn Progress,
+) -> Result<Packed, UvError> {
+    let charts = chart_list(mesh, uvs);
+    let places =
+        |chart: &Chart, h: HalfEdgeId| (uvs[h.index()] - chart.middle) * chart.scale.unwrap_or(0.0);
+    let solid: Vec<&Chart> = charts
+        .iter()
+        .filter(|chart| chart.scale.is_some())
+        .collect();
+    // The scales are relative to the largest chart, so that 32-bit numbers can hold them.
+    let largest = solid.iter().flat_map(|chart| {
+        let corners = chart.triangles.iter().flatten();
+        corners.map(|&h| places(chart, h).abs().max_element())
+    });
+    let unit = 1.0 / largest.fold(f64::MIN_POSITIVE, f64::max);
+    let mut shapes: Vec<Shape> = solid
+        .iter()
+        .map(|chart| Shape::of_triangles(&chart.triangles, |h| places(chart, h) * unit))
+        .collect();
+    let mut packed = Packed {
+        uvs: vec![DVec2::ZERO; uvs.len()],
+        n_charts: charts.len(),
+        n_flat: charts.len() - solid.len(),
+        n_overlapping: 0,
+        coverage: 0.0,
+    };
+    if solid.is_empty() {
+        return Ok(packed);
+    }
+    let mut atlas = pack_shapes(&shapes, page, progress)?;
+    for (shape, output) in shapes.iter_mut().zip(&atlas.meshes) {
+        // A chart that overlaps itself was cut into several.
+        if n_charts(output) != 1 {
+            *shape = shape.hull();
+            packed.n_overlapping += 1;
+        }
+    }
+    if packed.n_overlapping > 0 {
+        atlas = pack_shapes(&shapes, page, progress)?;
+    }
+    let density = f64::from(atlas.texels_per_unit) / f64::from(page.size);
+    for ((chart, shape), output) in solid.iter().zip(&shapes).zip(&atlas.meshes) {
+        let motion = Motion::new(shape, output, &atlas, page, density);
+        for &h in chart.triangles.iter().flatten() {
+            packed.uvs[h.index()] = motion.apply(places(chart, h) * unit);
+        }
+        packed.coverage += chart.area * unit * unit * density * density;
+    }
+    Ok(packed)
+}
+
+/// Returns the charts with their triangles.
+fn chart_list(mesh: &Mesh, uvs: &[DVec2]) -> Vec<Chart> {
+    let numbers = charts(mesh, uvs);
+    let mut list: Vec<Chart> = (0..numbers.n)
+        .map(|_| Chart {
+            triangles: Vec::new(),
+            scale: None,
+            middle: DVec2::ZERO,
+            area: 0.0,
+        })
+        .collect();
+    for triangle in triangles(mesh) {
+        if let Some(f) = mesh.face(triangle[0]) {
+            let number = numbers.of_face[f.index()] as usize;
+            list[number].triangles.push(triangle);
+        }
+    }
+    for chart in &mut list {
+        let mut corners = chart.triangles.iter().flatten().map(|h| uvs[h.index()]);
+        let first = corners.next().unwrap_or_default();
+        let (low, high) = corners.fold((first, first), |(low, high), p| (low.min(p), high.max(p)));
+        chart.middle = (low + high) / 2.0;
+        let mut in_texture = 0.0;
+        for triangle in &chart.triangles {
+            let [a, b, c] = triangle.map(|h| mesh.position(mesh.origin(h)));
+            chart.area += (b - a).cross(c - a).length() / 2.0;
+            let [a, b, c] = triangle.map(|h| uvs[h.index()]);
+            in_texture += ((b - a).perp_dot(c - a) / 2.0).abs();
+        }
+        let scale = (chart.area / in_texture).sqrt();
+        chart.scale = (scale.is_finite() && scale > 0.0).then_some(scale);
+    }
+    list
+}
+
+fn pack_shapes(shapes: &[Shape], page: Page, progress: &dyn Progress) -> Result<Atlas, UvError> {
+    let inputs: Vec<MeshInput> = shapes
+        .iter()
+        .map(|shape| MeshInput {
+            existing_uvs: Some(&shape.uvs),
+            ..MeshInput::new(&shape.positions, &shape.indices)
+        })
+        .collect();
+    generate(&inputs, &settings(page), page, progress)
+}
+
+fn n_charts(output: &OutputMesh) -> usize {
+    let mut numbers: Vec<u32> = output.vertices.iter().filter_map(|v| v.chart).collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    numbers.len()
+}
+
+impl Shape {
+    /// Creates the shape of triangles whose corners are at `place`. All triangles are counter-clockwise.
+    fn of_triangles(triangles: &[[HalfEdgeId; 3]], place: impl Fn(HalfEdgeId) -> DVec2) -> Self {
+        let mut shape = Self::default();
+        let mut numbers = BTreeMap::new();
+        for &triangle in triangles {
+            let points = triangle.map(&place);
+            let mut corners = points.map(|p| {
+                let key = p.to_array().map(f64::to_bits);
+                *numbers.entry(key).or_insert_with(|| shape.push(p))
+            });
+            if (points[1] - points[0]).perp_dot(points[2] - points[0]) < 0.0 {
+                corners.swap(1, 2);
+            }
+            shape.indices.extend(corners);
+        }
+        shape
+    }
+
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "packing uses 32-bit numbers; corners have 32-bit ids"
+    )]
+    fn push(&mut self, p: DVec2) -> u32 {
+        let [x, y] = p.as_vec2().to_array();
+        self.positions.push([x, y, 0.0]);
+        self.uvs.push([x, y]);
+        self.points.push(p);
+        (self.points.len() - 1) as u32
+    }
+
+    /// Returns the convex hull (Andrew's monotone chain, 1979).
+    fn hull(&self) -> Self {
+        let mut points = self.points.clone();
+        points.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+        let half = |points: &mut dyn Iterator<Item = DVec2>| {
+            let mut chain: Vec<DVec2> = Vec::new();
+            for p in points {
+                while let [.., a, b] = chain[..]
+                    && (b - a).perp_dot(p - a) <= 0.0
+                {
+                    chain.pop();
+                }
+                chain.push(p);
+            }
+            chain.pop();
+            chain
+        };
+        let mut chain = half(&mut points.iter().copied());
+        chain.extend(half(&mut points.iter().rev().copied()));
+        let mut hull = Self::default();
+        for p in chain {
+            hull.push(p);
+        }
+        for i in 2..u32::try_from(hull.points.len()).unwrap_or(0) {
+            hull.indices.extend([0, i - 1, i]);
+        }
+        hull
+    }
+}
+
+/// How a chart moves: `p` goes to `turn * (p - from) + to`, with complex numbers.
+struct Motion {
+    turn: DVec2,
+    from: DVec2,
+    to: DVec2,
+}
+
+impl Motion {
+    /// Returns the motion of a shape that fits best its packed vertices, with the given scale.
+    fn new(shape: &Shape, output: &OutputMesh, atlas: &Atlas, page: Page, density: f64) -> Self {
+        let size = DVec2::new(f64::from(atlas.width), f64::from(atlas.height));
+        let size = size / f64::from(page.size);
+        let placed = output.vertices.iter().filter(|v| v.chart.is_some());
+        let pairs: Vec<[DVec2; 2]> = placed
+            .map(|v| {
+                let at = DVec2::from(v.uv.map(f64::from)) * size;
+                [shape.points[v.xref as usize], at]
+            })
+            .collect();
+        let n = pairs.len().max(1) as f64;
+        let from = pairs.iter().map(|pair| pair[0]).sum::<DVec2>() / n;
+        let to = pairs.iter().map(|pair| pair[1]).sum::<DVec2>() / n;
+        // The sum of conj(p - from) (q - to), whose direction is the best rotation.
+        let turn = pairs.iter().fold(DVec2::ZERO, |sum, [p, q]| {
+            let (p, q) = (*p - from, *q - to);
+            sum + DVec2::new(p.dot(q), p.perp_dot(q))
+        });
+        Self {
+            turn: turn.normalize_or(DVec2::X) * density,
+            from,
+            to,
+        }
+    }
+
+    fn apply(&self, p: DVec2) -> DVec2 {
+        self.turn.rotate(p - self.from) + self.to
+    }
+}

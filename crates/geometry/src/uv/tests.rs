@@ -1,0 +1,337 @@
+use mesh::{DVec2, DVec3, EdgeId, Mesh};
+use progress::{NoProgress, Progress};
+
+use super::*;
+use crate::shapes;
+
+const PAGE: Page = Page {
+    size: 256,
+    padding: 2,
+};
+
+fn options(seams: &[EdgeId]) -> UnwrapOptions<'_> {
+    UnwrapOptions {
+        seams,
+        max_angle: 70.0,
+        max_stretch: 4.0,
+        page: PAGE,
+    }
+}
+
+fn unwrapped(mesh: &Mesh) -> Unwrapped {
+    unwrap(mesh, &options(&[]), &NoProgress).unwrap()
+}
+
+/// A sphere with a lid cut off.
+fn bowl() -> Mesh {
+    let mut mesh = shapes::uv_sphere(24, 16);
+    let lid: Vec<_> = mesh
+        .faces()
+        .filter(|&f| mesh.face_center(f).z > 0.7)
+        .collect();
+    mesh.delete_faces(&lid).unwrap();
+    mesh.compact();
+    mesh
+}
+
+fn models() -> Vec<(&'static str, Mesh)> {
+    vec![
+        ("cube", shapes::cube()),
+        ("torus", shapes::torus(32, 16, 1.0, 0.4)),
+        ("bowl", bowl()),
+        ("grid", shapes::grid(5, 3)),
+        ("icosahedron", shapes::icosahedron()),
+        ("cylinder", shapes::cylinder(12, true)),
+    ]
+}
+
+/// For each texel of a page, how many triangles contain its center.
+fn raster(mesh: &Mesh, uvs: &[DVec2], size: usize) -> Vec<u8> {
+    let mut counts = vec![0; size * size];
+    for triangle in crate::tangent::triangles(mesh) {
+        let [a, b, c] = triangle.map(|h| uvs[h.index()] * size as f64);
+        for y in 0..size {
+            for x in 0..size {
+                let p = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
+                let sides = [(a, b), (b, c), (c, a)].map(|(q, r)| (r - q).perp_dot(p - q));
+                if sides.iter().all(|&s| s > 0.0) || sides.iter().all(|&s| s < 0.0) {
+                    counts[y * size + x] += 1;
+                }
+            }
+        }
+    }
+    counts
+}
+
+#[test]
+fn charts_do_not_overlap_and_stay_on_the_page() {
+    for (name, mesh) in models() {
+        let result = unwrapped(&mesh);
+        assert_eq!(
+            overlapping_faces(&mesh, &result.uvs, &NoProgress).unwrap(),
+            [],
+            "{name}"
+        );
+        let most = raster(&mesh, &result.uvs, 128).into_iter().max();
+        assert_eq!(most, Some(1), "{name}");
+        let corners = mesh.faces().flat_map(|f| mesh.face_half_edges(f));
+        for h in corners {
+            let uv = result.uvs[h.index()];
+            assert!(uv.cmpge(DVec2::ZERO).all() && uv.cmple(DVec2::ONE).all());
+        }
+        assert!(result.coverage > 0.3 && result.coverage < 1.0, "{name}");
+        assert_eq!((result.flat.len(), result.bent.len()), (0, 0), "{name}");
+    }
+}
+
+#[test]
+fn charts_are_not_mirrored_and_stretched_little() {
+    for (name, mesh) in models() {
+        // Wide caps of spheres cannot be flat without stretch.
+        let max_angle = if name == "bowl" { 50.0 } else { 70.0 };
+        let options = UnwrapOptions {
+            max_angle,
+            ..options(&[])
+        };
+        let result = unwrap(&mesh, &options, &NoProgress).unwrap();
+        let stretch = stretch(&mesh, &result.uvs).unwrap();
+        assert_eq!(stretch.n_mirrored, 0, "{name}");
+        let limit = if name == "icosahedron" { 1.3 } else { 1.15 };
+        assert!(stretch.aspect <= limit, "{name}: {stretch:?}");
+        assert!(stretch.scales < 1.6, "{name}: {stretch:?}");
+    }
+}
+
+#[test]
+fn charts_of_a_page_keep_their_distance() {
+    let mesh = shapes::cube();
+    let Unwrapped { uvs, charts, .. } = unwrap(
+        &mesh,
+        &UnwrapOptions {
+            max_angle: 30.0,
+            ..options(&[])
+        },
+        &NoProgress,
+    )
+    .unwrap();
+    assert_eq!(charts.n, 6);
+    let distance = 2.0 * f64::from(PAGE.padding) / f64::from(PAGE.size);
+    let boxes: Vec<[DVec2; 2]> = mesh
+        .faces()
+        .map(|f| {
+            let corners = mesh.face_half_edges(f).map(|h| uvs[h.index()]);
+            let low = corners.clone().fold(DVec2::MAX, DVec2::min);
+            [low, corners.fold(DVec2::MIN, DVec2::max)]
+        })
+        .collect();
+    for (i, [low, high]) in boxes.iter().enumerate() {
+        for [low2, high2] in &boxes[i + 1..] {
+            let gap = (low2 - high).max(low - high2).max_element();
+            assert!(gap > distance - 1e-6, "{gap}");
+        }
+    }
+}
+
+#[test]
+fn seams_become_borders_of_charts() {
+    let mesh = shapes::grid(4, 4);
+    assert_eq!(unwrapped(&mesh).charts.n, 1);
+    let middle: Vec<EdgeId> = mesh
+        .edges()
+        .filter(|&e| {
+            mesh.edge_vertices(e)
+                .iter()
+                .all(|&v| mesh.position(v).x.abs() < 1e-9)
+        })
+        .collect();
+    assert_eq!(middle.len(), 4);
+    let cut = unwrap(&mesh, &options(&middle), &NoProgress).unwrap();
+    assert_eq!(cut.charts.n, 2);
+    for e in middle {
+        assert!(is_border(&mesh, &cut.uvs, e.half_edge()));
+    }
+}
+
+#[test]
+fn flat_squares_keep_their_shape() {
+    let mesh = shapes::grid(3, 3);
+    let uvs = unwrapped(&mesh).uvs;
+    let lengths: Vec<f64> = mesh
+        .faces()
+        .flat_map(|f| mesh.face_half_edges(f))
+        .map(|h| uvs[h.index()].distance(uvs[mesh.next(h).index()]))
+        .collect();
+    assert!(lengths.iter().all(|l| (l - lengths[0]).abs() < 1e-5));
+}
+
+#[test]
+fn faces_without_area_are_counted_and_empty_meshes_are_unwrapped() {
+    let points = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [2.0, 0.0, 0.0]];
+    let points = points.map(DVec3::from).to_vec();
+    let (mesh, _) = Mesh::from_polygons(points, &[[0_u32, 1, 2], [1, 0, 3]]).unwrap();
+    let result = unwrapped(&mesh);
+    assert_eq!(result.flat.len(), 1);
+    assert_eq!(unwrapped(&Mesh::default()).charts.n, 0);
+}
+
+#[test]
+fn positions_of_any_size_are_unwrapped() {
+    let of_size = |size: f64| {
+        let mut mesh = shapes::cube();
+        for p in mesh.positions_mut() {
+            *p *= size;
+        }
+        unwrapped(&mesh)
+    };
+    let expected = of_size(1.0).uvs;
+    for size in [1e300, 1e-300, 4.0] {
+        assert_eq!(of_size(size).uvs, expected, "{size}");
+    }
+}
+
+#[test]
+fn a_page_that_is_too_small_is_refused() {
+    let mesh = shapes::torus(12, 8, 1.0, 0.4);
+    let page = Page {
+        size: 16,
+        padding: 7,
+    };
+    for page in [
+        page,
+        Page {
+            size: 4,
+            padding: 2,
+        },
+    ] {
+        let options = UnwrapOptions {
+            page,
+            ..options(&[])
+        };
+        let refused = unwrap(&mesh, &options, &NoProgress).unwrap_err();
+        assert_eq!(refused, UvError::PageTooSmall(page));
+        let uvs = unwrapped(&mesh).uvs;
+        let refused = pack(&mesh, &uvs, page, &NoProgress).unwrap_err();
+        assert_eq!(refused, UvError::PageTooSmall(page));
+    }
+}
+
+#[test]
+fn the_result_is_the_same_for_any_number_of_threads() {
+    let mesh = bowl();
+    let results = [1, 2, 8].map(|n| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(n).build();
+        pool.unwrap().install(|| {
+            let uvs = unwrapped(&mesh).uvs;
+            let packed = pack(&mesh, &uvs, PAGE, &NoProgress).unwrap().uvs;
+            (uvs, packed)
+        })
+    });
+    assert_eq!(results[0], results[1]);
+    assert_eq!(results[0], results[2]);
+}
+
+#[test]
+fn unwrapping_can_be_cancelled() {
+    struct Never;
+    impl Progress for Never {
+        fn advance(&self, _: &str, _: u64, _: u64) -> bool {
+            false
+        }
+    }
+    let mesh = bowl();
+    let refused = unwrap(&mesh, &options(&[]), &Never).unwrap_err();
+    assert!(matches!(refused, UvError::Cancelled(_)));
+    let uvs = unwrapped(&mesh).uvs;
+    assert!(pack(&mesh, &uvs, PAGE, &Never).is_err());
+    assert!(overlapping_faces(&mesh, &uvs, &Never).is_err());
+}
+
+/// Texture coordinates that map each face of a cube to the unit square, but the first to a mirrored and the last to a
+/// larger one.
+fn stacked(mesh: &Mesh) -> Vec<DVec2> {
+    let square = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
+    let mut uvs = vec![DVec2::ZERO; mesh.n_half_edges()];
+    let last = mesh.n_faces() - 1;
+    for (i, f) in mesh.faces().enumerate() {
+        for (k, h) in mesh.face_half_edges(f).enumerate() {
+            let p = square[k];
+            uvs[h.index()] = match i {
+                0 => DVec2::new(5.0 - p.x, p.y),
+                _ if i == last => p * 7.0 - DVec2::splat(20.0),
+                _ => p + DVec2::splat(0.25 * i as f64),
+            };
+        }
+    }
+    uvs
+}
+
+#[test]
+fn packed_charts_have_one_scale_and_keep_their_shapes() {
+    let mesh = shapes::cube();
+    let before = stacked(&mesh);
+    assert!(
+        !overlapping_faces(&mesh, &before, &NoProgress)
+            .unwrap()
+            .is_empty()
+    );
+    let packed = pack(&mesh, &before, PAGE, &NoProgress).unwrap();
+    assert_eq!(
+        (packed.n_charts, packed.n_flat, packed.n_overlapping),
+        (6, 0, 0)
+    );
+    assert_eq!(
+        overlapping_faces(&mesh, &packed.uvs, &NoProgress).unwrap(),
+        []
+    );
+    let measured = stretch(&mesh, &packed.uvs).unwrap();
+    // The mirrored face stays mirrored.
+    assert_eq!(measured.n_mirrored, 2);
+    assert!((measured.max_aspect - 1.0).abs() < 1e-9, "{measured:?}");
+    assert!((measured.scales - 1.0).abs() < 1e-9, "{measured:?}");
+    assert!(packed.coverage > 0.5);
+    let sum: usize = raster(&mesh, &packed.uvs, 128)
+        .into_iter()
+        .map(usize::from)
+        .sum();
+    assert!((sum as f64 / 16384.0 - packed.coverage).abs() < 0.02);
+}
+
+#[test]
+fn charts_that_overlap_themselves_are_packed_by_their_hulls() {
+    let mesh = shapes::grid(2, 1);
+    let mut folded = vec![DVec2::ZERO; mesh.n_half_edges()];
+    for h in mesh.faces().flat_map(|f| mesh.face_half_edges(f)) {
+        let p = mesh.position(mesh.origin(h));
+        folded[h.index()] = DVec2::new(p.x.abs() + if p.x > 0.0 { 0.1 } else { 0.0 }, p.y);
+    }
+    let packed = pack(&mesh, &folded, PAGE, &NoProgress).unwrap();
+    assert_eq!((packed.n_charts, packed.n_overlapping), (1, 1));
+    assert_eq!(
+        overlapping_faces(&mesh, &packed.uvs, &NoProgress)
+            .unwrap()
+            .len(),
+        2
+    );
+    let inside = |uv: &DVec2| uv.cmpge(DVec2::ZERO).all() && uv.cmple(DVec2::ONE).all();
+    assert!(packed.uvs.iter().all(inside));
+    let none = vec![DVec2::ONE; mesh.n_half_edges()];
+    let packed = pack(&mesh, &none, PAGE, &NoProgress).unwrap();
+    assert_eq!((packed.n_flat, packed.coverage), (1, 0.0));
+}
+
+#[test]
+fn aspects_and_scales_are_those_of_the_map() {
+    let mesh = shapes::grid(1, 1);
+    let map = |x: f64, y: f64| {
+        let uvs = mesh.half_edges().map(|h| {
+            let p = mesh.position(mesh.origin(h));
+            DVec2::new(p.x * x, p.y * y)
+        });
+        stretch(&mesh, &uvs.collect::<Vec<_>>()).unwrap()
+    };
+    assert_eq!(map(1.0, 1.0).aspect, 1.0);
+    assert!((map(3.0, 1.0).aspect - 3.0).abs() < 1e-12);
+    assert_eq!(map(-1.0, 1.0).n_mirrored, 2);
+    assert_eq!(map(0.0, 1.0).aspect, f64::INFINITY);
+    assert_eq!(stretch(&Mesh::default(), &[]), None);
+}

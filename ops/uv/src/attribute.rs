@@ -1,0 +1,90 @@
+//! What the operations of this group share: the attribute, the page and errors.
+
+use geometry::uv::{Page, UvError};
+use mesh::{CORNER_TANGENT, Column, DVec2, Domain, UV, Value};
+use op::Refusal;
+use op::prelude::*;
+
+/// The default name of texture coordinates.
+pub(crate) fn uv() -> String {
+    UV.name.to_owned()
+}
+
+pub(crate) const fn page() -> Count<16, 16384> {
+    Count::literal(1024)
+}
+
+pub(crate) const fn padding() -> Count<0, 256> {
+    Count::literal(2)
+}
+
+/// Returns the page of the parameters `page` and `padding`.
+pub(crate) const fn page_of(size: Count<16, 16384>, padding: Count<0, 256>) -> Page {
+    Page {
+        size: size.get(),
+        padding: padding.get(),
+    }
+}
+
+/// Returns the problem of a padding that leaves no room on the page.
+pub(crate) fn padding_problem(page: Page) -> Option<Problem> {
+    let Page { size, padding } = page;
+    (size <= 2 * padding).then(|| {
+        let message = format!(
+            "`page` must exceed twice the `padding`, found a page of {size} texels and a padding of {padding}"
+        );
+        Problem::error(message).at(["padding"])
+    })
+}
+
+/// Plans new values of the attribute `uv`.
+pub(crate) fn plan(plan: &mut MeshPlan, uv: &str) {
+    plan.provide(Domain::Corner, uv);
+    plan.drop_attribute(Domain::Corner, CORNER_TANGENT.name);
+}
+
+/// Sets the attribute `uv`, and removes tangents, which depend on it.
+pub(crate) fn set(mesh: &mut Mesh, uv: &str, uvs: Vec<DVec2>, report: &mut Report) {
+    let values = DVec2::wrap(uvs);
+    let column = Column {
+        name: uv.to_owned(),
+        rule: UV.rule,
+        values,
+    };
+    mesh.insert_column(Domain::Corner, column);
+    if mesh
+        .remove_column(Domain::Corner, CORNER_TANGENT.name)
+        .is_some()
+    {
+        report
+            .notes
+            .push("removed the tangents, which depend on the texture coordinates".to_owned());
+    }
+}
+
+/// Returns the texture coordinates of a mesh.
+pub(crate) fn get<'m>(mesh: &'m Mesh, uv: &str) -> Result<&'m [DVec2], OpError> {
+    let column = mesh.attributes().column(Domain::Corner, uv);
+    let uvs = column.and_then(|column| DVec2::of(&column.values));
+    uvs.ok_or_else(|| OpError::refused(Refusal::Missing, missing(uv)))
+}
+
+pub(crate) fn missing(uv: &str) -> String {
+    format!("the mesh has no texture coordinates `{uv}`")
+}
+
+pub(crate) fn error(error: &UvError) -> OpError {
+    match error {
+        UvError::Cancelled(_) => OpError::Cancelled,
+        UvError::PageTooSmall(_) => {
+            let message = format!("{error}; use a larger `page` or a smaller `padding`");
+            OpError::refused(Refusal::Unreached, message)
+        }
+        UvError::Limit(_) => OpError::Parameter(error.to_string()),
+    }
+}
+
+/// Returns the part of the page that charts cover, in words.
+pub(crate) fn coverage(part: f64) -> String {
+    format!("the charts cover {:.1} % of the page", 100.0 * part)
+}

@@ -1,0 +1,73 @@
+//! Pack UVs: charts that exist, moved to one page at one scale.
+//!
+//! ```text
+//!    +--+  +-----+           +-----+--+
+//!    |  |  |     |           |     |  |
+//!    +--+  |     |    -->    |     +--+--+
+//!          +--+--+-----+     |     |     |
+//!             |        |     +-----+-----+
+//! ```
+
+use geometry::uv::pack;
+use mesh::Domain;
+use op::prelude::*;
+
+use crate::attribute::{
+    coverage, error, get, missing, padding, padding_problem, page, page_of, plan, set, uv,
+};
+
+/// Moves, turns and scales charts of texture coordinates so that they do not overlap and have one scale.
+///
+/// A chart is a set of faces that are connected without seams of the texture coordinates. Afterwards, areas in the texture
+/// are proportional to areas on the surface, for whole charts. The shape of each chart stays, also if it is stretched,
+/// mirrored or overlaps itself; charts that overlap themselves are counted. Charts without area become a point and are
+/// counted. Each mesh gets a page of its own. Tangents are removed, because charts are turned.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct PackUvs {
+    /// The name of the texture coordinates. Defaults to `uv`.
+    #[serde(default = "uv")]
+    pub uv: String,
+    /// The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size; the size
+    /// determines how large the padding is.
+    #[serde(default = "page")]
+    pub page: Count<16, 16384>,
+    /// The number of empty texels around each chart. Charts are at least twice as far from each other. Defaults to 2.
+    #[serde(default = "padding")]
+    pub padding: Count<0, 256>,
+}
+
+impl MeshOperation for PackUvs {
+    const NAME: &'static str = "PackUvs";
+    const SUMMARY: &'static str = "Move and scale charts of texture coordinates into one page";
+    const EXAMPLE: &'static str = "PackUvs(page: 2048, padding: 4)";
+    const WORDS: &'static [&'static str] = &["uv", "texture", "atlas", "lightmap", "island"];
+
+    fn plan(&self, mesh: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+        let mut problems = Vec::from_iter(padding_problem(page_of(self.page, self.padding)));
+        let is_corner_uv =
+            |a: &op::PlannedAttribute| a.domain == Domain::Corner && a.name == self.uv;
+        if !mesh.has_unlisted_attributes && !mesh.attributes.iter().any(is_corner_uv) {
+            problems.push(Problem::error(missing(&self.uv)).at(["uv"]));
+        }
+        plan(mesh, &self.uv);
+        problems
+    }
+
+    fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+        cx.advance("pack charts", 0, 1)?;
+        let page = page_of(self.page, self.padding);
+        let packed = pack(mesh, get(mesh, &self.uv)?, page, cx.progress());
+        let packed = packed.map_err(|e| error(&e))?;
+        let mut report = Report::changed(packed.n_charts);
+        set(mesh, &self.uv, packed.uvs, &mut report);
+        let mut report = report
+            .count("charts without area", packed.n_flat)
+            .count("charts that overlap themselves", packed.n_overlapping);
+        report.notes.push(coverage(packed.coverage));
+        Ok(report)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,112 @@
+//! Unwrap: new texture coordinates without overlaps.
+//!
+//! ```text
+//!        +---+               +---+
+//!       /   /|               |   |
+//!      +---+ +           +---+---+---+
+//!      |   |/     -->    |   |   |   |
+//!      +---+             +---+---+---+
+//! ```
+
+use geometry::uv::{UnwrapOptions, unwrap};
+use mesh::Element;
+use op::Refusal;
+use op::prelude::*;
+
+use crate::attribute::{coverage, error, padding, padding_problem, page, page_of, plan, set, uv};
+
+/// Computes texture coordinates without overlaps.
+///
+/// The surface is cut into charts, which are flattened and packed into a square page. Charts grow from flat regions up to
+/// `max_angle`. They are flattened by least squares conformal maps (Levy and others, 2002) and the as-rigid-as-possible
+/// method (Liu and others, 2008), and are cut again where they would overlap themselves or exceed `max_stretch`. All
+/// charts of a mesh have one scale, and none is mirrored. A polygon stays in one chart. Each mesh gets a page of its own.
+///
+/// The coordinates are written to the corner attribute `uv`, which is replaced if it exists. Edges at which charts meet
+/// become its seams. Positions, faces and other attributes stay, except that tangents are removed. Faces without area
+/// have no area in the texture and are counted. A polygon that is bent so far that it overlaps itself is refused as
+/// `WrongPlace`: triangulate it first. With `on_refusal: Skip`, its triangles overlap in the texture.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Unwrap {
+    /// Edges that become borders of charts, for example `Tagged("seam")` or `Sharp(above: 60)`. If omitted, only edges
+    /// that the algorithm chooses.
+    #[serde(default)]
+    pub seams: Option<EdgeSelection>,
+    /// The largest angle between the normal of a face and the mean normal of its chart, in degrees. Smaller angles give
+    /// more charts with less stretch.
+    #[serde(default = "max_angle")]
+    #[schemars(range(min = 1.0, max = 89.0))]
+    pub max_angle: f64,
+    /// The largest ratio between the scale of areas in a triangle and in its whole chart.
+    #[serde(default = "max_stretch")]
+    #[schemars(range(min = 1.0, max = 1000.0))]
+    pub max_stretch: f64,
+    /// The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size; the size
+    /// determines how large the padding is.
+    #[serde(default = "page")]
+    pub page: Count<16, 16384>,
+    /// The number of empty texels around each chart. Charts are at least twice as far from each other. Defaults to 2.
+    #[serde(default = "padding")]
+    pub padding: Count<0, 256>,
+    /// The name of the texture coordinates. Defaults to `uv`.
+    #[serde(default = "uv")]
+    pub uv: String,
+    /// What to do if a polygon overlaps itself in the texture.
+    #[serde(default)]
+    pub on_refusal: OnRefusal,
+}
+
+const fn max_angle() -> f64 {
+    70.0
+}
+
+const fn max_stretch() -> f64 {
+    4.0
+}
+
+impl MeshOperation for Unwrap {
+    const NAME: &'static str = "Unwrap";
+    const SUMMARY: &'static str = "Compute texture coordinates without overlaps";
+    const EXAMPLE: &'static str = "Unwrap(max_angle: 60)";
+    const WORDS: &'static [&'static str] = &["uv", "texture", "atlas", "lightmap", "parameterize"];
+
+    fn plan(&self, mesh: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+        plan(mesh, &self.uv);
+        Vec::from_iter(padding_problem(page_of(self.page, self.padding)))
+    }
+
+    fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+        let seams = match &self.seams {
+            Some(seams) => seams.resolve(mesh, cx)?,
+            None => Vec::new(),
+        };
+        cx.advance("grow charts", 0, 1)?;
+        let options = UnwrapOptions {
+            seams: &seams,
+            max_angle: self.max_angle,
+            max_stretch: self.max_stretch,
+            page: page_of(self.page, self.padding),
+        };
+        let unwrapped = unwrap(mesh, &options, cx.progress()).map_err(|e| error(&e))?;
+        let mut report = Report::changed(mesh.faces().map(|f| mesh.degree(f)).sum());
+        if let Some(first) = unwrapped.bent.first() {
+            let n = unwrapped.bent.len();
+            let message = format!(
+                "{first} is bent so far that it overlaps itself in the texture ({n} in all); triangulate the faces first, with Triangulate"
+            );
+            let refused = OpError::refused(Refusal::WrongPlace, message);
+            let faces = unwrapped.bent.iter().map(|&f| Element::from(f));
+            self.on_refusal.refuse(refused.about(faces), &mut report)?;
+        }
+        set(mesh, &self.uv, unwrapped.uvs, &mut report);
+        let mut report = report
+            .count("charts", unwrapped.charts.n)
+            .count("faces without area in the texture", unwrapped.flat.len());
+        report.notes.push(coverage(unwrapped.coverage));
+        Ok(report)
+    }
+}
+
+#[cfg(test)]
+mod tests;

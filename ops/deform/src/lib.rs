@@ -2,6 +2,7 @@
 
 mod bend;
 mod displace;
+mod lattice;
 mod move_vertices;
 mod moved;
 mod project;
@@ -12,6 +13,7 @@ use op::Registry;
 
 pub use bend::Bend;
 pub use displace::{Displace, DisplaceBy};
+pub use lattice::Lattice;
 pub use move_vertices::{MoveBy, MoveVertices};
 pub use project::{Project, ProjectAlong};
 pub use taper::Taper;
@@ -27,4 +29,5 @@ pub fn register(registry: Registry) -> Registry {
         .with::<Twist>()
         .with::<Taper>()
         .with::<Project>()
+        .with::<Lattice>()
 }

@@ -1,6 +1,7 @@
 //! Cuts a mesh along a plane.
 
 mod chords;
+mod symmetrize;
 #[cfg(test)]
 mod tests;
 
@@ -9,6 +10,7 @@ use mesh::{DVec3, EdgeId, EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 use crate::bounds;
 
 use chords::Corner;
+pub use symmetrize::{SymmetrizeError, Symmetrized, symmetrize};
 
 /// Vertices nearer to the plane than this fraction of the largest extent of the mesh count as on the plane.
 const RELATIVE_TOLERANCE: f64 = 1e-9;

@@ -3,12 +3,14 @@
 //! | items | contents |
 //! | --- | --- |
 //! | [`Bend`], [`Twist`], [`Taper`] | maps of space along an axis: Barr, "Global and Local Deformations of Solid Primitives", 1984 |
+//! | [`Lattice`] | a box of control points: Sederberg, Parry, 1986 |
 //! | [`falloff`] | weights that fall with the distance from selected vertices |
 //! | [`noise`] | numbers that look random, with the same bits on every machine |
 //! | [`vertex_directions`] | unit normals to move vertices along |
 
 mod barr;
 mod falloff;
+mod lattice;
 pub mod noise;
 
 use mesh::{DVec3, Domain, Mesh, VertexId};
@@ -16,6 +18,7 @@ use rayon::prelude::*;
 
 pub use barr::{Bend, Frame, Taper, Twist};
 pub use falloff::falloff;
+pub use lattice::Lattice;
 
 /// Returns a unit normal for each vertex index: the sum of the area vectors of its faces. Zero for dead vertices, and if
 /// there is no such direction.

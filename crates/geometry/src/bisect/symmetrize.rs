@@ -1,0 +1,215 @@
+//! Makes a mesh symmetric: one half is replaced by the mirror image of the other.
+
+use mesh::{BuildReport, Column, DVec3, Domain, EditError, Mesh, Value, morph_of};
+
+use super::{bisect, direction, heights};
+use crate::merge::MergeError;
+use crate::{merge_clusters, parts};
+
+/// What [`symmetrize`] did.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Symmetrized {
+    /// The number of faces that were removed, on the other side of the plane and in it.
+    pub removed: usize,
+    /// The number of vertices on the plane at which the two halves are joined.
+    pub joined: usize,
+    /// The changes that made the result a manifold.
+    pub report: BuildReport,
+}
+
+/// Why a mesh could not be made symmetric. The mesh is unchanged.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SymmetrizeError {
+    /// The mesh could not be cut.
+    #[error(transparent)]
+    Cut(#[from] EditError),
+    /// The halves could not be joined.
+    #[error(transparent)]
+    Join(#[from] MergeError),
+}
+
+/// Replaces the half of a dense mesh behind a plane by the mirror image of the half in front of it.
+///
+/// ```text
+///     +---.   |  .                     +---.   |   .---+
+///     |    '--m-'  '                   |    '--m--'    |       the normal points to the left
+///     |       |     '         -->      |       |       |
+///     |    .--m----'                   |    .--m--.    |
+///     +---'   |                        +---'   |   '---+
+/// ```
+///
+/// The mesh is cut as by [`bisect`]. Faces behind the plane and faces in the plane are removed. The remaining vertices on the
+/// plane are moved onto it, by at most the tolerance of `bisect`, and boundary vertices on the plane are shared by the two
+/// halves. The first half keeps its order and comes first; the elements of the second half follow in the same order. Values are
+/// copied; deltas of morph targets are mirrored, and normals are removed.
+///
+/// # Errors
+///
+/// [`SymmetrizeError`]. The mesh is unchanged.
+pub fn symmetrize(
+    mesh: &mut Mesh,
+    point: DVec3,
+    normal: DVec3,
+) -> Result<Symmetrized, SymmetrizeError> {
+    let normal = direction(normal)?;
+    let mut cut = mesh.clone();
+    let sides = bisect(&mut cut, point, normal)?;
+    let level = heights(&cut, point, normal)?;
+    let mut part_of_face = vec![usize::MAX; cut.domain_len(Domain::Face)];
+    for &f in &sides.front {
+        let is_flat = cut.face_vertices(f).all(|v| level[v.index()] == 0.0);
+        if !is_flat {
+            part_of_face[f.index()] = 0;
+        }
+    }
+    let Some(mut half) = parts(&cut, &part_of_face).pop() else {
+        let removed = mesh.n_faces();
+        let faces: Vec<_> = cut.faces().collect();
+        cut.delete_faces(&faces)?;
+        cut.delete_isolated_vertices();
+        cut.compact();
+        mesh.replace(cut);
+        return Ok(Symmetrized {
+            removed,
+            ..Symmetrized::default()
+        });
+    };
+    half.remove_normals();
+    let level = heights(&half, point, normal)?;
+    let on_plane: Vec<bool> = level.iter().map(|&height| height == 0.0).collect();
+    let height = |p: DVec3| normal.dot(p - point);
+    for (p, &is_on) in half.positions_mut().iter_mut().zip(&on_plane) {
+        if is_on {
+            *p -= normal * height(*p);
+        }
+    }
+    let mirror = |v: DVec3| v - 2.0 * normal * normal.dot(v);
+    let mut image = half.reversed();
+    for (p, &is_on) in image.positions_mut().iter_mut().zip(&on_plane) {
+        if !is_on {
+            *p -= 2.0 * normal * height(*p);
+        }
+    }
+    for column in image.attributes().of(Domain::Vertex).to_vec() {
+        if let (Some(_), Some(deltas)) = (morph_of(&column.name), DVec3::of(&column.values)) {
+            let values = Value::wrap(deltas.iter().copied().map(mirror).collect());
+            image.insert_column(Domain::Vertex, Column { values, ..column });
+        }
+    }
+    let n = half.n_vertices();
+    let mut lowest: Vec<u32> = (0..).take(2 * n).collect();
+    let mut joined = 0;
+    for v in half.vertices() {
+        if on_plane[v.index()] && half.is_boundary_vertex(v) {
+            lowest[n + v.index()] = lowest[v.index()];
+            joined += 1;
+        }
+    }
+    let mut whole = both(&half, &image);
+    let merged = merge_clusters(&mut whole, &lowest).map_err(MergeError::from)?;
+    let removed = mesh.n_faces().saturating_sub(half.n_faces());
+    mesh.replace(whole);
+    Ok(Symmetrized {
+        removed,
+        joined,
+        report: merged.report,
+    })
+}
+
+/// Returns the elements of two dense meshes with the same attributes, in order.
+fn both(a: &Mesh, b: &Mesh) -> Mesh {
+    let mut connectivity = a.connectivity().clone();
+    connectivity.append(b.connectivity());
+    let positions = [a.positions(), b.positions()].concat();
+    let lens = |mesh: &Mesh| Domain::ALL.map(|domain| mesh.domain_len(domain));
+    let mut attributes = a.attributes().clone();
+    attributes.append(lens(a), b.attributes(), lens(b));
+    let mut mesh = Mesh::from_arrays(connectivity, positions);
+    mesh.set_attributes(attributes);
+    mesh
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes;
+    use mesh::{DVec2, UV};
+
+    /// Whether each vertex has a mirror image with the same bits.
+    fn is_symmetric(mesh: &Mesh, axis: usize) -> bool {
+        mesh.positions().iter().all(|&p| {
+            let mut image = p;
+            image[axis] = -image[axis];
+            mesh.positions().contains(&image)
+        })
+    }
+
+    #[test]
+    fn the_halves_of_a_cut_torus_are_equal() {
+        for (axis, normal) in [DVec3::X, DVec3::NEG_Y, DVec3::Z].into_iter().enumerate() {
+            let mut mesh = shapes::torus(9, 7, 1.0, 0.4);
+            for p in mesh.positions_mut() {
+                *p += DVec3::new(0.01, 0.02, 0.03) + 0.1 * p.yzx();
+            }
+            let done = symmetrize(&mut mesh, DVec3::ZERO, normal).unwrap();
+            assert!(is_symmetric(&mesh, axis), "{axis}");
+            assert!(mesh.is_valid() && mesh.is_closed() && done.joined > 0);
+            assert_eq!(crate::genus(&mesh), 1);
+            assert_eq!(done.report, BuildReport::default());
+        }
+    }
+
+    #[test]
+    fn a_symmetric_cube_stays_a_cube() {
+        let mut mesh = shapes::cube();
+        let done = symmetrize(&mut mesh, DVec3::ZERO, DVec3::X).unwrap();
+        assert_eq!(
+            (mesh.n_vertices(), mesh.n_faces(), done.joined),
+            (12, 10, 4)
+        );
+        assert!((crate::volume(&mesh) - 8.0).abs() < 1e-12);
+        // A plane through a face: the face is removed, because it would be a wall inside.
+        let mut mesh = shapes::cube();
+        symmetrize(&mut mesh, DVec3::NEG_X, DVec3::X).unwrap();
+        assert_eq!((mesh.n_vertices(), mesh.n_faces()), (12, 10));
+        assert!(mesh.is_closed() && (crate::volume(&mesh) - 16.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn an_oblique_plane_mirrors_too() {
+        let mut mesh = shapes::torus(16, 8, 1.0, 0.4);
+        let (point, normal) = (DVec3::new(0.1, 0.0, 0.05), DVec3::new(1.0, 2.0, -0.5));
+        symmetrize(&mut mesh, point, normal).unwrap();
+        let n = normal.normalize();
+        assert!(mesh.is_valid() && mesh.is_closed());
+        for &p in mesh.positions() {
+            let image = p - 2.0 * n * n.dot(p - point);
+            let distances = mesh.positions().iter().map(|q| q.distance(image));
+            assert!(distances.fold(f64::MAX, f64::min) < 1e-12);
+        }
+    }
+
+    #[test]
+    fn nothing_in_front_gives_an_empty_mesh() {
+        let mut mesh = shapes::cube();
+        let done = symmetrize(&mut mesh, DVec3::splat(5.0), DVec3::X).unwrap();
+        assert_eq!((mesh.n_vertices(), mesh.n_faces(), done.removed), (0, 0, 6));
+        assert!(symmetrize(&mut mesh, DVec3::ZERO, DVec3::ZERO).is_err());
+    }
+
+    #[test]
+    fn texture_coordinates_are_copied() {
+        let mut mesh = shapes::cube();
+        let uvs = mesh
+            .half_edges()
+            .map(|h| mesh.position(mesh.origin(h)).truncate());
+        let uvs: Vec<DVec2> = uvs.collect();
+        mesh.set(UV, uvs);
+        symmetrize(&mut mesh, DVec3::ZERO, DVec3::X).unwrap();
+        let uvs = mesh.get(UV).unwrap();
+        for h in mesh.faces().flat_map(|f| mesh.face_half_edges(f)) {
+            let p = mesh.position(mesh.origin(h));
+            assert_eq!(uvs[h.index()], DVec2::new(p.x.abs(), p.y));
+        }
+    }
+}

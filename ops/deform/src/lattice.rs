@@ -1,0 +1,176 @@
+//! Lattice: deforms a mesh with a box of control points.
+//!
+//! ```text
+//!    o-----o-----o           o-----o----__o       Each point of the box is a Bernstein sum of the control points:
+//!    | +-----+   |           | +--------/ /
+//!    o |   o |   o    -->    o |   o   ( o        p = sum over i, j, k of B(i) B(j) B(k) c(i, j, k)
+//!    | +-----+   |           | +--------\ \
+//!    o-----o-----o           o-----o----~~o
+//! ```
+
+use geometry::deform;
+use mesh::DVec3;
+use op::prelude::*;
+
+use crate::moved::moved;
+
+/// Deforms vertices with a box of control points.
+///
+/// The box is divided by `size` control points along x, y and z. `moves` moves some of them, and the space in the box follows
+/// smoothly: each point is a sum of the control points with Bernstein polynomials as weights (Sederberg, Parry, "Free-Form
+/// Deformation of Solid Geometric Models", 1986). If all control points move by the same offset, the box moves by it. A
+/// control point attracts the surface, but the surface usually does not reach it, except at the corners of the box.
+///
+/// Vertices outside the box stay. Faces, numbers and attributes do not change, so textures stretch with the surface. Normals
+/// are dropped. Only vertices move: refine the mesh first if its faces are large.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Lattice {
+    /// The number of control points along x, y and z, from 2 to 16 each.
+    pub size: [Count<2, 16>; 3],
+    /// The control points that move: their numbers along x, y and z, counted from 0, and the offset in scene units. A
+    /// control point that is listed several times moves by the sum.
+    pub moves: Vec<([u32; 3], Vector)>,
+    /// The lowest corner of the box. If omitted, that of the bounding box of the mesh.
+    #[serde(default)]
+    pub min: Option<Vector>,
+    /// The highest corner of the box. If omitted, that of the bounding box of the mesh.
+    #[serde(default)]
+    pub max: Option<Vector>,
+    /// The vertices to move. If omitted, all vertices.
+    #[serde(default)]
+    pub vertices: VertexSelection,
+}
+
+impl Lattice {
+    /// Returns the messages of moves of control points that do not exist, with their indices.
+    fn bad_moves(&self) -> Option<String> {
+        let [x, y, z] = self.size.map(Count::get);
+        let outside = |point: &[u32; 3]| point.iter().zip([x, y, z]).any(|(&i, n)| i >= n);
+        let ([i, j, k], _) = self.moves.iter().find(|(point, _)| outside(point))?;
+        Some(format!(
+            "`moves` has the control point ({i}, {j}, {k}), but `size` is ({x}, {y}, {z}) and numbers start at 0"
+        ))
+    }
+
+    /// Returns the lattice between two corners.
+    fn lattice(&self, min: DVec3, max: DVec3) -> deform::Lattice {
+        let size = self.size.map(|n| n.get() as usize);
+        let mut offsets = vec![DVec3::ZERO; size.iter().product()];
+        for ([i, j, k], offset) in &self.moves {
+            let [i, j, k] = [i, j, k].map(|&n| n as usize);
+            offsets[(i * size[1] + j) * size[2] + k] += offset.get();
+        }
+        deform::Lattice {
+            min,
+            max,
+            size,
+            offsets,
+        }
+    }
+}
+
+impl MeshOperation for Lattice {
+    const NAME: &'static str = "Lattice";
+    const SUMMARY: &'static str = "Deform vertices with a box of control points";
+    const EXAMPLE: &'static str = "Lattice(size: (3, 3, 3), moves: [((2, 2, 2), (0.5, 0.5, 0.5))])";
+    const WORDS: &'static [&'static str] = &["cage", "ffd", "free-form", "warp"];
+
+    fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+        plan.drop_normals();
+        let problem = |message| Problem::error(message).at(["moves"]);
+        Vec::from_iter(self.bad_moves().map(problem))
+    }
+
+    fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+        let mask = self.vertices.mask(mesh, cx)?;
+        if let Some(message) = self.bad_moves() {
+            return Err(OpError::Parameter(message));
+        }
+        cx.advance("deform", 0, 1)?;
+        let [low, high] = geometry::bounds(mesh).unwrap_or_default();
+        let min = self.min.map_or(low, Vector::get);
+        let max = self.max.map_or(high, Vector::get);
+        if min.cmpgt(max).any() {
+            return Err(OpError::Parameter(format!(
+                "`min` must not exceed `max`, found {min} and {max}; an omitted corner is that of the bounding box"
+            )));
+        }
+        let map = self.lattice(min, max);
+        moved(mesh, &mask, Self::NAME, "moves", |_, p| map.point(p))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use geometry::shapes;
+    use op::test::{applied_as_planned, planned, try_applied};
+
+    fn step(text: &str) -> Lattice {
+        op::test::read(text).unwrap()
+    }
+
+    #[test]
+    fn corners_follow_their_control_points() {
+        let step = step("(size: (3, 2, 4), moves: [((2, 1, 3), (0.5, 1, 2))])");
+        let after = applied_as_planned(&step, &shapes::cube());
+        for (p, q) in shapes::cube().positions().iter().zip(after.positions()) {
+            let offset = if *p == DVec3::ONE {
+                DVec3::new(0.5, 1.0, 2.0)
+            } else {
+                DVec3::ZERO
+            };
+            assert!(q.distance(*p + offset) < 1e-12);
+        }
+    }
+
+    #[test]
+    fn moving_all_control_points_moves_the_mesh() {
+        let all = (0..3).flat_map(|i| (0..2).flat_map(move |j| (0..2).map(move |k| (i, j, k))));
+        let moves: Vec<String> = all.map(|p| format!("({p:?}, (1, -2, 3))")).collect();
+        let text = format!("(size: (3, 2, 2), moves: [{}])", moves.join(", "));
+        let mesh = shapes::torus(12, 8, 1.0, 0.4);
+        let after = applied_as_planned(&step(&text), &mesh);
+        let offset = DVec3::new(1.0, -2.0, 3.0);
+        let pairs = mesh.positions().iter().zip(after.positions());
+        assert!(
+            pairs
+                .into_iter()
+                .all(|(p, q)| q.distance(*p + offset) < 1e-12)
+        );
+    }
+
+    #[test]
+    fn the_middle_follows_the_bernstein_polynomials() {
+        // The middle of a lattice of 3 control points has the weights 1/4, 1/2, 1/4.
+        let mut mesh = shapes::cube();
+        mesh.set_position(mesh::VertexId::new(0), DVec3::ZERO);
+        let step = step("(size: (3, 3, 3), moves: [((1, 1, 1), (8, 0, 0))])");
+        let after = applied_as_planned(&step, &mesh);
+        let moved = after.position(mesh::VertexId::new(0));
+        assert!(moved.distance(DVec3::X) < 1e-12, "{moved}");
+    }
+
+    #[test]
+    fn vertices_outside_the_box_stay() {
+        let step = step(
+            "(size: (2, 2, 2), moves: [((1, 1, 1), (1, 1, 1))], min: (0, 0, 0), max: (2, 2, 2))",
+        );
+        let (after, report) = try_applied(&step, shapes::cube()).unwrap();
+        assert_eq!(report.changed, 1);
+        assert!(after.positions().contains(&DVec3::splat(1.125)));
+    }
+
+    #[test]
+    fn missing_control_points_and_reversed_boxes_are_refused() {
+        let missing = step("(size: (2, 2, 2), moves: [((2, 0, 0), (1, 0, 0))])");
+        let (_, problems) = planned(&missing, &shapes::cube());
+        assert_eq!(problems.len(), 1);
+        let reversed = step("(size: (2, 2, 2), moves: [], min: (7, 0, 0))");
+        for step in [missing, reversed] {
+            let refused = try_applied(&step, shapes::cube());
+            assert!(matches!(refused, Err(OpError::Parameter(_))), "{refused:?}");
+        }
+    }
+}

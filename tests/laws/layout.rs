@@ -33,7 +33,7 @@ const ALLOWED_DEPENDENCIES: &[(&str, &[&str])] = &[
 
 /// The maximum number of external packages that `cargo build` compiles. A change that raises it must say in its
 /// commit how much time it adds to a first build.
-const MAX_PACKAGES: usize = 120;
+const MAX_PACKAGES: usize = 121;
 
 fn cargo(arguments: &str) -> String {
     let output = Command::new(env!("CARGO"))

@@ -33,6 +33,7 @@ const MORE_STEPS: &[&str] = &[
     "Unwrap(seams: Longest(count: 3), max_angle: 30, page: 64, padding: 0, uv: \"light\")",
     "Unwrap(on_refusal: Skip, max_stretch: 1.5)",
     "PackUvs(page: 128, padding: 1)",
+    r#"Scatter(object: "curve", surface: "mesh", count: 3, align: Y)"#,
     "Symmetrize(normal: (1, 2, 3), point: (0.2, 0.1, 0), from: Back)",
     "Lattice(size: (2, 3, 4), moves: [((1, 2, 3), (1, 0, 0)), ((0, 0, 0), (0, 9, 0))], max: (0, 0, 0))",
     "Transform(scale: (2, 1, 0.5), move: (1, 2, 3))",

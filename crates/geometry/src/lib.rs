@@ -18,6 +18,7 @@
 //! | [`deform`] | moving points by closed formulas, falloff, noise |
 //! | [`smooth`](mod@smooth) | smoothing and denoising |
 //! | [`Laplacian`], [`sparse`] | the cotangent Laplacian; sparse symmetric matrices and their solver |
+//! | [`samples`] | evenly spread points on a surface |
 //! | [`uv`] | texture coordinates: charts, unwrapping, packing, stretch and overlaps |
 //! | [`tangents`] | tangents for normal maps |
 
@@ -36,6 +37,7 @@ mod merge;
 mod part;
 pub mod predicates;
 pub mod remesh;
+mod sample;
 pub mod shapes;
 pub mod simplify;
 pub mod smooth;
@@ -57,5 +59,6 @@ pub use measure::{
 };
 pub use merge::{MergeError, Merged, clusters, merge_clusters, merge_vertices};
 pub use part::{face_components, parts, separated};
+pub use sample::{Sample, samples};
 pub use tangent::{Tangents, tangents};
 pub use visibility::{occlusion, thickness};

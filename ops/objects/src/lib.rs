@@ -6,6 +6,7 @@ mod join;
 mod rename;
 #[cfg(test)]
 mod rig_tests;
+mod scatter;
 mod separate;
 mod transform;
 
@@ -15,6 +16,7 @@ pub use copy::Copy;
 pub use delete::Delete;
 pub use join::Join;
 pub use rename::Rename;
+pub use scatter::Scatter;
 pub use separate::{Separate, SeparateBy};
 pub use transform::{About, Transform};
 
@@ -28,4 +30,5 @@ pub fn register(registry: Registry) -> Registry {
         .with::<Join>()
         .with::<Separate>()
         .with::<Transform>()
+        .with::<Scatter>()
 }

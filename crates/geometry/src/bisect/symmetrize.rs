@@ -149,7 +149,7 @@ mod tests {
         for (axis, normal) in [DVec3::X, DVec3::NEG_Y, DVec3::Z].into_iter().enumerate() {
             let mut mesh = shapes::torus(9, 7, 1.0, 0.4);
             for p in mesh.positions_mut() {
-                *p += DVec3::new(0.01, 0.02, 0.03) + 0.1 * p.yzx();
+                *p += DVec3::new(0.01, 0.02, 0.03) + 0.1 * DVec3::new(p.y, p.z, p.x);
             }
             let done = symmetrize(&mut mesh, DVec3::ZERO, normal).unwrap();
             assert!(is_symmetric(&mesh, axis), "{axis}");

@@ -1,0 +1,251 @@
+//! Scatter: places copies of an object on a surface.
+//!
+//! ```text
+//!                                  A      A    A
+//!     "tree"  A    "ground" ___    -->   __A____A___A__
+//! ```
+
+use geometry::{Sample, samples};
+use glam::{DAffine3, DQuat, DVec3};
+use mesh::VERTEX_NORMAL;
+use op::prelude::*;
+use op::{Axis, Operation, Refusal, check_name, named_object};
+use scene::{Geometry, Node, Object, Placement, transformed};
+
+/// Places copies of an object on a surface, spread evenly at random.
+///
+/// Exactly `count` points are chosen so that they keep their distance from each other (Yuksel, "Sample Elimination for
+/// Generating Poisson Disk Sample Sets", 2015). At each point, a node shows the object, so that the memory and the file do not
+/// grow with the copies: the origin of the object is moved to the point. To make one mesh of all copies, use `Join`
+/// afterwards. An object that no node has placed before is then shown only at the points.
+///
+/// Without `object`, a mesh of the points is made, with the normals of the surface and without faces.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scatter {
+    /// The name of the object that is placed. If omitted, only the points are made.
+    #[serde(default)]
+    pub object: Option<String>,
+    /// The name of the object with the surface: a mesh that is shown once.
+    pub surface: String,
+    /// The number of points.
+    pub count: Count<1, 1_000_000>,
+    /// The number from which the random choices follow.
+    #[serde(default)]
+    pub seed: u64,
+    /// The axis of the object that is turned to the normal of the surface. If omitted, the copies are not turned.
+    #[serde(default)]
+    pub align: Option<Axis>,
+    /// The name of the mesh of points, without `object`. Defaults to `points`.
+    #[serde(default = "points")]
+    pub name: String,
+}
+
+fn points() -> String {
+    "points".to_owned()
+}
+
+impl Operation for Scatter {
+    const NAME: &'static str = "Scatter";
+    const SUMMARY: &'static str = "Place copies of an object on a surface";
+    const EXAMPLE: &'static str = r#"Scatter(surface: "mesh", count: 20, seed: 7)"#;
+    const WORDS: &'static [&'static str] =
+        &["instance", "distribute", "poisson", "sample", "points"];
+
+    fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
+        let Some(surface) = plan.object(&self.surface) else {
+            return Vec::from_iter(plan.missing(&self.surface, ["surface"]));
+        };
+        if !matches!(surface.geometry, PlannedGeometry::Mesh(_)) {
+            let message = not_a_mesh(&self.surface, surface.geometry.kind());
+            return vec![Problem::error(message).at(["surface"])];
+        }
+        let n = u64::from(self.count.get());
+        let Some(name) = &self.object else {
+            let mut points = MeshPlan::counted(n, 0, 0, Range::exactly(0));
+            points.provide(mesh::Domain::Vertex, VERTEX_NORMAL.name);
+            let taken = plan.insert(&self.name, PlannedGeometry::Mesh(points));
+            return Vec::from_iter(taken.map(|problem| problem.at(["name"])));
+        };
+        if plan.object(name).is_none() {
+            return Vec::from_iter(plan.missing(name, ["object"]));
+        }
+        if *name == self.surface {
+            return vec![Problem::error(SAME).at(["object"])];
+        }
+        let object = plan.objects_mut().iter_mut().find(|o| o.name == *name);
+        if let Some(object) = object {
+            // An object that no node shows has one instance, which disappears.
+            object.instances = if object.instances > 1 {
+                object.instances + n
+            } else {
+                n
+            };
+        }
+        Vec::new()
+    }
+
+    fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
+        let surface = named_object(scene, &self.surface)?;
+        let mesh = surface
+            .as_mesh()
+            .ok_or_else(|| OpError::Object(not_a_mesh(&self.surface, surface.geometry.kind())))?;
+        if let Some(name) = &self.object {
+            named_object(scene, name)?;
+            if *name == self.surface {
+                return Err(OpError::Parameter(SAME.to_owned()));
+            }
+        } else {
+            check_name(scene, &self.name)?;
+        }
+        cx.advance("scatter", 0, 1)?;
+        let instances = scene.instances().into_iter();
+        let places: Vec<DAffine3> = instances
+            .filter(|instance| instance.object.name == self.surface)
+            .map(|instance| instance.to_scene)
+            .collect();
+        let [place] = places[..] else {
+            let (name, n) = (&self.surface, places.len());
+            let message = format!(
+                "expected a surface that is shown once, but \"{name}\" is shown {n} times; Join makes one object of all"
+            );
+            return Err(OpError::Object(message));
+        };
+        let count = self.count.get() as usize;
+        let points = if place == DAffine3::IDENTITY {
+            samples(mesh, count, self.seed, cx.progress())
+        } else {
+            samples(&transformed(mesh, &place), count, self.seed, cx.progress())
+        };
+        let points = points.map_err(|_| OpError::Cancelled)?;
+        if points.is_empty() {
+            let message = format!("the surface of \"{}\" has no area", self.surface);
+            return Err(OpError::refused(Refusal::Missing, message));
+        }
+        match &self.object {
+            None => {
+                let positions = points.iter().map(|p| p.position).collect();
+                let (mut mesh, _) = Mesh::from_polygons(positions, &[[0_u32; 3]; 0])?;
+                mesh.set(VERTEX_NORMAL, points.iter().map(|p| p.normal).collect());
+                let object = Object::new(&self.name, Geometry::Mesh(mesh.into()));
+                scene.insert(object).expect("the name is free");
+            }
+            Some(name) => {
+                for (i, point) in points.iter().enumerate() {
+                    scene.graph_mut().push(Node {
+                        name: Some(format!("{name}.{}", i + 1)),
+                        placement: self.placement(point),
+                        object: Some(name.clone()),
+                        ..Node::default()
+                    });
+                }
+            }
+        }
+        Ok(Report::changed(points.len()))
+    }
+}
+
+const SAME: &str = "`object` and `surface` must be different objects";
+
+fn not_a_mesh(name: &str, kind: &str) -> String {
+    format!("expected object \"{name}\" to be a mesh, found {kind}")
+}
+
+impl Scatter {
+    fn placement(&self, point: &Sample) -> Placement {
+        let axis = self.align.map(|axis| match axis {
+            Axis::X => DVec3::X,
+            Axis::Y => DVec3::Y,
+            Axis::Z => DVec3::Z,
+        });
+        let rotation = axis.map_or(DQuat::IDENTITY, |axis| half_way(axis, point.normal));
+        Placement::Parts {
+            translation: point.position.to_array(),
+            rotation: rotation.to_array(),
+            scale: [1.0; 3],
+        }
+    }
+}
+
+/// Returns the shortest rotation from one unit vector to another, without platform trigonometry.
+fn half_way(from: DVec3, to: DVec3) -> DQuat {
+    let w = 1.0 + from.dot(to);
+    if w < 1e-12 {
+        let axis = from.any_orthonormal_vector();
+        return DQuat::from_xyzw(axis.x, axis.y, axis.z, 0.0);
+    }
+    let v = from.cross(to);
+    let length = (v.length_squared() + w * w).sqrt();
+    let v = v / length;
+    DQuat::from_xyzw(v.x, v.y, v.z, w / length)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use geometry::shapes;
+
+    fn scene() -> Scene {
+        let mut scene = Scene::new();
+        for (name, mesh) in [("ground", shapes::cube()), ("tree", shapes::tetrahedron())] {
+            scene.insert(Object::mesh(name, mesh)).unwrap();
+        }
+        scene
+    }
+
+    fn run(text: &str, scene: &mut Scene) -> Result<Report, OpError> {
+        let step: Scatter = op::test::read(text).unwrap();
+        op::test::run(&step, scene)
+    }
+
+    #[test]
+    fn copies_are_instances_at_the_points() {
+        let mut scene = scene();
+        let text = r#"(object: "tree", surface: "ground", count: 50, align: Z)"#;
+        assert_eq!(run(text, &mut scene).unwrap().changed, 50);
+        let placed: Vec<DAffine3> = (scene.instances().iter())
+            .filter(|instance| instance.object.name == "tree")
+            .map(|instance| instance.to_scene)
+            .collect();
+        assert_eq!(placed.len(), 50);
+        for map in placed {
+            let up = map.matrix3 * DVec3::Z;
+            assert!((map.translation.dot(up) - 1.0).abs() < 1e-12, "{map}");
+        }
+    }
+
+    #[test]
+    fn points_alone_are_a_mesh() {
+        let mut scene = scene();
+        run(r#"(surface: "ground", count: 9)"#, &mut scene).unwrap();
+        let points = scene.object("points").unwrap().as_mesh().unwrap();
+        assert_eq!(op::test::counts(points), [9, 0, 0]);
+        assert_eq!(points.get(VERTEX_NORMAL).unwrap().len(), 9);
+        let again = run(r#"(surface: "ground", count: 9)"#, &mut scene);
+        assert!(again.is_err());
+    }
+
+    #[test]
+    fn surfaces_without_area_or_shown_several_times_are_refused() {
+        let mut scene = scene();
+        let empty = Object::mesh("empty", Mesh::default());
+        scene.insert(empty).unwrap();
+        run(
+            r#"(object: "tree", surface: "ground", count: 2)"#,
+            &mut scene,
+        )
+        .unwrap();
+        for (text, words) in [
+            (r#"(surface: "tree", count: 2)"#, "shown 2 times"),
+            (r#"(surface: "empty", count: 2)"#, "no area"),
+            (r#"(surface: "none", count: 2)"#, "none"),
+            (
+                r#"(object: "tree", surface: "tree", count: 2)"#,
+                "different objects",
+            ),
+        ] {
+            let refused = run(text, &mut scene).unwrap_err().to_string();
+            assert!(refused.contains(words), "{refused}");
+        }
+    }
+}

@@ -45,8 +45,8 @@ pub mod sparse;
 pub mod surface_index;
 mod tangent;
 pub mod triangulate;
-mod visibility;
 pub mod uv;
+mod visibility;
 
 pub use bisect::{Bisection, SymmetrizeError, Symmetrized, bisect, symmetrize};
 pub use curvature::{gaussian_curvatures, mean_curvatures, principal_curvatures, vertex_area};

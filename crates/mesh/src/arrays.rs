@@ -63,7 +63,7 @@ pub struct Mesh {
     pub(crate) attributes: Attributes,
     /// The dead elements by domain. Corners have no marks: a corner is dead if its edge is dead.
     pub(crate) dead: [Marks; 4],
-    /// While a recording is open: the values that edits have overwritten since [`Mesh::begin`].
+    /// The values that edits have overwritten since [`Mesh::begin`]; `None` if no journal is open.
     pub(crate) journal: Option<Box<Journal>>,
 }
 
@@ -79,13 +79,13 @@ impl PartialEq for Mesh {
 impl Mesh {
     /// Creates a mesh from these arrays, without attributes. All elements are alive.
     ///
-    /// This is for operations that compute the arrays of a whole mesh themselves. The caller must ensure the
-    /// invariants; [`try_from_arrays`](Self::try_from_arrays) checks them.
+    /// Use this function in operations that compute the arrays of a whole mesh themselves. The arrays are not
+    /// checked: the caller must ensure the invariants. [`try_from_arrays`](Self::try_from_arrays) checks them.
     ///
     /// # Panics
     ///
-    /// If arrays that belong together differ in length, the number of half-edges is odd, or there are more
-    /// elements than ids.
+    /// Panics if arrays that belong together differ in length, the number of half-edges is odd, or there are more
+    /// elements than ids can number.
     pub fn from_arrays(connectivity: Connectivity, positions: Vec<DVec3>) -> Self {
         let mesh = Self {
             connectivity,
@@ -254,8 +254,8 @@ impl Mesh {
         &self.positions
     }
 
-    /// Returns the positions of all vertices mutably. An open [journal](Self::begin) copies all of them
-    /// first. To move a single vertex, use [`set_position`](Self::set_position).
+    /// Returns the positions of all vertices mutably. If a [journal](Self::begin) is open, it first copies all
+    /// positions. To move a single vertex, use [`set_position`](Self::set_position).
     pub fn positions_mut(&mut self) -> &mut [DVec3] {
         if let Some(journal) = &mut self.journal {
             journal.record(|| Entry::Positions(self.positions.clone().into()));
@@ -282,7 +282,7 @@ impl Mesh {
     ///
     /// # Panics
     ///
-    /// If the length of a column is not the number of elements of its domain.
+    /// Panics if the length of a column is not the number of elements of its domain.
     pub fn set_attributes(&mut self, attributes: Attributes) {
         for (domain, column) in attributes.iter() {
             self.assert_length(domain, column);
@@ -301,8 +301,8 @@ impl Mesh {
             .and_then(|c| T::of(&c.values))
     }
 
-    /// Returns the values of an attribute mutably, or `None` as [`get`](Self::get) does. An open
-    /// [journal](Self::begin) copies all of them first.
+    /// Returns the values of an attribute mutably, or `None` as [`get`](Self::get) does. If a
+    /// [journal](Self::begin) is open, it first copies all values.
     pub fn get_mut<I: Id, T: Value>(&mut self, attribute: Attribute<I, T>) -> Option<&mut [T]> {
         let column = self.attributes.column_mut(I::DOMAIN, attribute.name)?;
         if let Some(journal) = &mut self.journal {
@@ -311,11 +311,11 @@ impl Mesh {
         T::of_mut(&mut column.values)
     }
 
-    /// Sets an attribute of the mesh. It replaces an attribute of the same name and domain.
+    /// Sets an attribute of the mesh, in place of any attribute of the same name and domain.
     ///
     /// # Panics
     ///
-    /// If the number of values is not the number of elements of the domain.
+    /// Panics if the number of values is not the number of elements of the domain.
     pub fn set<I: Id, T: Value>(&mut self, attribute: Attribute<I, T>, values: Vec<T>) {
         let name = attribute.name.to_owned();
         self.insert_column(
@@ -328,11 +328,11 @@ impl Mesh {
         );
     }
 
-    /// Inserts a column. It replaces a column of the same name and domain.
+    /// Inserts a column, in place of any column of the same name and domain.
     ///
     /// # Panics
     ///
-    /// If the number of values is not the number of elements of the domain.
+    /// Panics if the number of values is not the number of elements of the domain.
     pub fn insert_column(&mut self, domain: Domain, column: Column) {
         self.assert_length(domain, &column);
         if let Some(journal) = &mut self.journal {
@@ -353,8 +353,8 @@ impl Mesh {
         removed
     }
 
-    /// Removes [`VERTEX_NORMAL`], [`CORNER_NORMAL`], [`TANGENT`] and [`CORNER_TANGENT`], which are wrong after the shape has
-    /// changed.
+    /// Removes [`VERTEX_NORMAL`], [`CORNER_NORMAL`], [`TANGENT`] and [`CORNER_TANGENT`], which are wrong after
+    /// the shape has changed.
     pub fn remove_normals(&mut self) {
         self.remove_column(Domain::Vertex, VERTEX_NORMAL.name);
         self.remove_column(Domain::Corner, CORNER_NORMAL.name);

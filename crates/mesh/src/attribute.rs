@@ -1,9 +1,9 @@
 //! Attributes: named, typed columns of values on vertices, corners, edges and faces.
 //!
-//! A column holds one value for each element of its domain, and a [`Rule`] for what edits do with
-//! the values. The value of a corner is stored at its half-edge: the one that leaves the corner's
-//! vertex and lies on the corner's face. Half-edges without a face have a value too. It has no
-//! meaning, and is kept at zero where that is cheap.
+//! A column has one value for each element of its domain, and a [`Rule`] that says what edits do with the
+//! values. The value of a corner is stored at its half-edge: the one that leaves the corner's vertex and lies
+//! on the corner's face. Half-edges without a face have a value too, which has no meaning. Edits keep that
+//! value at zero where this is cheap.
 //!
 //! Well-known attributes have constants ([`UV`], [`VERTEX_NORMAL`], ...). Programs may use any other name.
 
@@ -30,8 +30,9 @@ pub const VERTEX_NORMAL: Attribute<VertexId, DVec3> = Attribute::new("normal", R
 pub const CORNER_NORMAL: Attribute<HalfEdgeId, DVec3> = Attribute::new("normal", Rule::Normal);
 /// Unit vectors at vertices that are tangent to the surface. The direction in the tangent plane is arbitrary.
 pub const TANGENT: Attribute<VertexId, DVec3> = Attribute::new("tangent", Rule::Normal);
-/// Tangents of corners for normal maps: a unit vector along the u axis of texture coordinates and, as the fourth number,
-/// the sign s of the bitangent s n x t along the v axis (v points upwards), where n is the normal.
+/// Tangents of corners for normal maps. The first three numbers are the tangent t, a unit vector along the u
+/// axis of the texture coordinates. The fourth number is a sign s, 1 or -1: if n is the normal, the bitangent
+/// along the v axis, which points upwards in the texture, is s (n x t).
 pub const CORNER_TANGENT: Attribute<HalfEdgeId, DVec4> = Attribute::new("tangent", Rule::Drop);
 /// Red, green, blue and alpha of vertices, from 0 to 1.
 pub const COLOR: Attribute<VertexId, DVec4> = Attribute::new("color", Rule::Interpolate);
@@ -54,9 +55,9 @@ pub enum Rule {
     /// Subdivision drops the column, because the vectors would be wrong. Many other operations remove the normals for
     /// the same reason; see [`Mesh::remove_normals`](crate::Mesh::remove_normals).
     Normal,
-    /// A new element gets the value of the element that it was a part of. If there was none, it gets
-    /// the zero value. For example, both parts of a split edge keep the tags of the edge; a new edge
-    /// inside a face has no tags.
+    /// A new element gets the value of the old element that contained it. If no old element contained the new
+    /// one, it gets the zero value. For example, both parts of a split edge keep the tags of the edge; a new
+    /// edge inside a face has no tags.
     Copy,
     /// The first edit that changes connectivity removes the column.
     Drop,

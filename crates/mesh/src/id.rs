@@ -20,7 +20,7 @@ pub trait Id:
     ///
     /// # Panics
     ///
-    /// If `index` is not below 2³² − 1. Builders check sizes first, so a panic is a bug in this crate.
+    /// Panics if `index` is not below 2³² − 1. Builders check sizes first, so a panic is a bug in this crate.
     fn new(index: usize) -> Self;
 
     /// Returns the index of the element in the arrays of the mesh.
@@ -43,7 +43,7 @@ macro_rules! id {
             ///
             /// # Panics
             ///
-            /// If `index` is not below 2³² − 1. Builders check sizes first, so a panic is a bug in this crate.
+            /// Panics if `index` is not below 2³² − 1. Builders check sizes first, so a panic is a bug in this crate.
             #[inline]
             pub fn new(index: usize) -> Self {
                 assert!(index < u32::MAX as usize, "more than 2^32 - 2 elements of one kind");

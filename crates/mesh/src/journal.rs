@@ -6,7 +6,8 @@
 //! While no journal is open, a write costs only one additional comparison.
 //!
 //! Calls can be nested: each `begin` opens a level, which the matching `commit` or `rollback` ends. An inner
-//! `rollback` undoes the edits since the inner `begin`; an inner `commit` leaves them to the outer level.
+//! `rollback` undoes the edits since the inner `begin`; an inner `commit` makes these edits part of the outer
+//! level.
 //!
 //! The journal is a stack of entries. Elements that were added after the innermost level was opened need no entries:
 //! an undo truncates the arrays to their old lengths. An undo records the values that it overwrites in the same way.
@@ -42,7 +43,8 @@ impl Change {
     }
 }
 
-/// A journal may take the memory of its mesh plus this many bytes before it is replaced by a copy of the mesh.
+/// If a journal takes more memory than its mesh and this number of bytes together, a copy of the mesh replaces
+/// the journal.
 const JOURNAL_ALLOWANCE: usize = 1 << 16;
 
 /// The open journal of a mesh.
@@ -77,7 +79,7 @@ pub(crate) enum Entry {
     Position(VertexId),
     /// The values of an element in all columns of the domain; the bytes are in [`Change::values`].
     Values(Domain, usize),
-    /// The mark of an element as dead, to be toggled.
+    /// The dead mark of an element, which an undo toggles.
     Mark(Domain, usize),
     /// A column, which replaces the current column of the same name.
     Column(Domain, Box<Column>),
@@ -87,9 +89,9 @@ pub(crate) enum Entry {
     Attributes(Box<Attributes>),
     /// A copy of the whole mesh, without its journal.
     Whole(Box<Mesh>),
-    /// The lengths of the arrays at the start of a level, to which they are truncated.
+    /// The lengths of the arrays at the start of a level. An undo truncates the arrays to these lengths.
     Level(Box<Lengths>),
-    /// The truncated ends of the arrays, to be appended.
+    /// The ends that an undo cut off from the arrays. A redo appends them again.
     Tail(Box<Tail>),
 }
 
@@ -234,7 +236,7 @@ impl Mesh {
     ///
     /// # Panics
     ///
-    /// If no journal is open.
+    /// Panics if no journal is open.
     pub fn rollback(&mut self) {
         let mut journal = self
             .journal
@@ -252,7 +254,7 @@ impl Mesh {
     ///
     /// # Panics
     ///
-    /// If no journal is open.
+    /// Panics if no journal is open.
     pub fn commit(&mut self) -> Option<Change> {
         let mut journal = self
             .journal
@@ -263,7 +265,7 @@ impl Mesh {
             return Some(journal.recorded);
         };
         if outer.has_whole {
-            // The copy of the outer level is sufficient.
+            // The outer level already has a copy of the whole mesh, so it needs no entries of the inner level.
             journal.recorded.entries.truncate(inner.start);
             journal.recorded.values.truncate(inner.first_value);
         } else if inner.has_whole {
@@ -280,7 +282,7 @@ impl Mesh {
     ///
     /// # Panics
     ///
-    /// If a journal is open. If the change belongs to a different mesh or to a different state of it, the
+    /// Panics if a journal is open. If the change belongs to a different mesh or to a different state of it, the
     /// result is unspecified: an invalid mesh, or a panic if the change names an element that does not exist.
     ///
     /// # Examples

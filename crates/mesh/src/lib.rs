@@ -57,9 +57,9 @@
 //!
 //! # Read in this order
 //!
-//! These 18 files explain the data structure and how it is edited. The other edits follow the pattern of flip and
-//! split. Of the other files of `build`, `polygons.rs`, `buckets.rs` and `star.rs` are used for all polygons;
-//! `orient.rs`, `split.rs` and `report.rs` handle polygons that do not form a manifold.
+//! These 19 files explain the data structure and how it is edited. The other edits follow the pattern of flip
+//! and split. Of the other files of `build`, `polygons.rs`, `buckets.rs` and `star.rs` are used for all
+//! polygons; `orient.rs`, `split.rs` and `report.rs` handle polygons that do not form a manifold.
 //!
 //! | files | contents |
 //! | --- | --- |

@@ -15,9 +15,9 @@ pub fn angle_between(a: DVec3, b: DVec3) -> f64 {
 impl Mesh {
     /// Returns the area vector of a face: its length is the area, its direction is the normal.
     ///
-    /// This is half the sum of the cross products of consecutive corners, relative to the first corner
-    /// (Newell's method). It is exact for planar polygons. For other polygons, the length is the area of
-    /// the projection along the normal.
+    /// The area vector is half the sum of the cross products of consecutive corners, relative to the first
+    /// corner (Newell's method). The result is exact for planar polygons. For other polygons, the length is the
+    /// area of the projection along the normal.
     pub fn area_vector(&self, f: FaceId) -> DVec3 {
         let mut corners = self.face_vertices(f).map(|v| self.position(v));
         let Some(first) = corners.next() else {

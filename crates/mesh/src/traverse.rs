@@ -12,8 +12,8 @@ use crate::{EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 /// An iterator over the half-edges around a face, or over the outgoing half-edges of a vertex. Visits each
 /// half-edge once.
 ///
-/// This is a named type without a destructor. So `if let Some(h) = mesh.vertex_half_edges(v).find(..)`
-/// does not borrow the mesh for the block that follows.
+/// `Orbit` is a named type without a destructor. So `if let Some(h) = mesh.vertex_half_edges(v).find(..)` does
+/// not borrow the mesh for the block that follows.
 #[derive(Clone, Debug)]
 pub struct Orbit<'m> {
     mesh: &'m Mesh,

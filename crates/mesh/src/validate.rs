@@ -138,9 +138,9 @@ impl Mesh {
                 );
                 is_permutation && is_linked
             }
-            // `next` is a permutation that stays on its face. So every walk returns to its start, and the walks
-            // of different faces are disjoint; together they visit all corners only if every face is one loop.
-            // The same is true of the walks around vertices.
+            // `next` is a permutation that stays on its face. So a walk around a face returns to its start, and
+            // walks around different faces are disjoint. Together the walks visit all corners only if every
+            // face is one loop. The same is true of walks around vertices.
             && {
                 let faces = |e| self.edge_faces(e).into_iter().flatten().count();
                 self.sum(|f| self.loop_of_face(f, usize::MAX)) == self.sum(|e| Ok(faces(e)))
@@ -212,7 +212,7 @@ impl Mesh {
         check_entry("face_half_edge", f, has_edge, report);
     }
 
-    /// Checks invariants 3 and 4, except that `next` is a permutation.
+    /// Checks invariants 3 and 4, but not whether `next` is a permutation.
     fn check_links(&self, h: HalfEdgeId, report: ReportDefect) {
         let (next, twin) = (self.next(h), h.twin());
         if self.face(next) != self.face(h) {
@@ -277,7 +277,8 @@ impl Mesh {
         })
     }
 
-    /// Checks invariant 5. Returns the number of corners of a face, or `max + 1` if there are more.
+    /// Checks invariant 5. Returns the number of corners of a face, or `max + 1` if the face has more than
+    /// `max` corners.
     fn loop_of_face(&self, f: FaceId, max: usize) -> Result<usize, Defect> {
         let first = self.face_half_edge(f);
         if self.face(first) != Some(f) {
@@ -296,8 +297,8 @@ impl Mesh {
         }
     }
 
-    /// Checks invariants 6 and 7. Returns the number of outgoing half-edges of a vertex, or `max + 1` if
-    /// there are more.
+    /// Checks invariants 6 and 7. Returns the number of outgoing half-edges of a vertex, or `max + 1` if there
+    /// are more than `max`.
     fn fan_of_vertex(&self, v: VertexId, max: usize) -> Result<usize, Defect> {
         let Some(first) = self.vertex_half_edge(v) else {
             return Ok(0);
@@ -340,7 +341,7 @@ impl Mesh {
     }
 }
 
-/// Reports the entry of `element` in `array` unless the element that the entry names exists.
+/// Reports the entry of `element` in `array` if the element that the entry names does not exist.
 #[inline]
 fn check_entry(
     array: &'static str,
@@ -547,7 +548,7 @@ mod tests {
 
     #[test]
     fn a_vertex_between_two_fans_that_are_linked_is_found() {
-        // The middle vertex of a 2 x 2 grid after two opposite faces were removed.
+        // If two opposite faces of a 2 x 2 grid are removed, two fans are left at the middle vertex.
         let mut mesh = shapes::grid(2, 2);
         let v = VertexId::new(4);
         let around: Vec<_> = mesh.vertex_half_edges(v).collect();

@@ -8,8 +8,8 @@ use bytemuck::Zeroable;
 /// Arrays of at least this many bytes request large pages. Smaller arrays would waste memory.
 const LARGE: usize = 8 << 20;
 
-/// The system has no memory for a large array. [`zeroed`] unwinds with this value. This is not a bug in the program:
-/// callers catch the value and report it as an error.
+/// The system has no memory for a large array. [`zeroed`] unwinds with this value. Running out of memory is not
+/// a bug in the program: callers catch the value and report it as an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the system has no memory for another {bytes} bytes")]
 pub struct OutOfMemory {
@@ -45,10 +45,10 @@ fn ask_for_large_pages<T>(array: &[T]) {
     }
     #[expect(
         unsafe_code,
-        reason = "no safe way; Loop subdivision to 5 M triangles becomes 1.4 times as fast"
+        reason = "no safe call requests large pages; they make Loop subdivision to 5 M triangles 1.4 times as fast"
     )]
-    // SAFETY: the range is inside the array, which is alive. The advice does not change the content, and
-    // it is harmless if the system refuses it.
+    // SAFETY: the range is inside the array, which is alive. The advice to use large pages does not change the
+    // content, and a refusal by the system is harmless.
     unsafe {
         libc::madvise(
             array.as_ptr().with_addr(start).cast_mut().cast(),

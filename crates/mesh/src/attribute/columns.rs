@@ -36,8 +36,8 @@ impl IntoIterator for Attributes {
     }
 }
 
-/// For each element of a new mesh, the element of the old mesh whose values it gets; `NONE` for
-/// zero values.
+/// For each element of a new mesh, the element of the old mesh whose values the new element gets. `NONE` stands
+/// for zero values.
 #[derive(Clone, Copy, Debug)]
 pub struct Sources<'a> {
     /// The old vertex for each new vertex.
@@ -68,7 +68,8 @@ impl Attributes {
         self.find(domain, name).ok().map(|i| &self.of(domain)[i])
     }
 
-    /// Returns the index of the column with this name, or as an error the index at which it would be inserted.
+    /// Returns the index of the column with this name. If there is no such column, the error is the index at
+    /// which to insert one.
     fn find(&self, domain: Domain, name: &str) -> Result<usize, usize> {
         self.of(domain)
             .binary_search_by(|c| c.name.as_str().cmp(name))
@@ -83,8 +84,8 @@ impl Attributes {
         index.map(|i| &mut self.columns[domain as usize][i])
     }
 
-    /// Inserts a column into a domain. It replaces a column of the same name. The length of the column must be the
-    /// number of elements of this domain in the mesh that gets these attributes.
+    /// Inserts a column into a domain, in place of any column of the same name. The length of the column must
+    /// be the number of elements of this domain in the mesh that gets these attributes.
     pub fn insert(&mut self, domain: Domain, column: Column) {
         let index = self.find(domain, &column.name);
         let columns = &mut self.columns[domain as usize];
@@ -120,10 +121,10 @@ impl Attributes {
         }
     }
 
-    /// Appends the values of `other`. `lens` are, by domain, the element counts of the mesh that `self` belongs to,
-    /// and `other_lens` those of the mesh that `other` belongs to. A column that only one of the two has gets zero
-    /// values for the elements of the other mesh. If two columns have the same name but different types, the column
-    /// of `other` is skipped, and its domain and name are returned.
+    /// Appends the values of `other`. `lens` has the element count of each domain in the mesh that `self`
+    /// belongs to; `other_lens` has the counts of the mesh that `other` belongs to. A column that only one of
+    /// the two meshes has gets zero values for the elements of the other mesh. If two columns have the same
+    /// name but different types, the column of `other` is skipped, and its domain and name are returned.
     pub fn append(
         &mut self,
         lens: [usize; 4],

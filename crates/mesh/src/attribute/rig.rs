@@ -1,9 +1,10 @@
 //! The names of the vertex attributes that deform a mesh: weights of joints, and deltas of morph targets.
 //!
-//! The attribute `joint:j` has the weight of joint j of the skin at each vertex, and `morph:t` has the vector by which
-//! morph target t moves each vertex. Both follow the rule [`Rule::Interpolate`](crate::Rule::Interpolate), so that every
-//! edit that computes positions linearly computes the deformed positions too. Weights in one attribute a joint, instead
-//! of lists of joints at each vertex, make the interpolation linear.
+//! The attribute `joint:j` has the weight of joint j of the skin at each vertex, and `morph:t` has the vector
+//! by which morph target t moves each vertex. Both follow the rule
+//! [`Rule::Interpolate`](crate::Rule::Interpolate), so an edit that averages positions averages the deformed
+//! positions in the same way. This works because each joint has a separate attribute: a list of joints at each
+//! vertex could not be interpolated.
 
 use super::{Attributes, Values};
 use crate::{DVec3, Domain};
@@ -11,7 +12,7 @@ use crate::{DVec3, Domain};
 const JOINT: &str = "joint:";
 const MORPH: &str = "morph:";
 
-/// Returns the name of the attribute with the weights of a joint, a `f64` for each vertex.
+/// Returns the name of the attribute with the weights of a joint, one `f64` for each vertex.
 pub fn joint_name(joint: usize) -> String {
     format!("{JOINT}{joint}")
 }
@@ -21,12 +22,12 @@ pub fn morph_name(target: usize) -> String {
     format!("{MORPH}{target}")
 }
 
-/// Returns the joint whose weights an attribute with this name has.
+/// Returns the joint whose weights the attribute with this name stores.
 pub fn joint_of(name: &str) -> Option<usize> {
     number(name.strip_prefix(JOINT)?)
 }
 
-/// Returns the morph target whose deltas an attribute with this name has.
+/// Returns the morph target whose deltas the attribute with this name stores.
 pub fn morph_of(name: &str) -> Option<usize> {
     number(name.strip_prefix(MORPH)?)
 }

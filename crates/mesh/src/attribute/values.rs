@@ -97,7 +97,7 @@ impl Values {
         }
     }
 
-    /// Returns `n` new values: value i is the old value at `source(i)`, or zero where that is `None`.
+    /// Returns `n` new values: value i is the old value at `source(i)`, or zero if `source(i)` is `None`.
     #[must_use]
     pub fn gather(&self, n: usize, source: impl Fn(usize) -> Option<usize> + Sync) -> Self {
         fn run<T: Value>(
@@ -178,8 +178,8 @@ impl Values {
         each!(self, v => bytes.extend(bytemuck::bytes_of(&v[i])));
     }
 
-    /// Sets the value at `i` to the last value in `bytes`, which [`push_bytes`](Self::push_bytes)
-    /// appended, and removes it from `bytes`.
+    /// Removes the last value from `bytes`, to which [`push_bytes`](Self::push_bytes) appended it, and stores
+    /// the value at `i`.
     pub(crate) fn pop_bytes(&mut self, i: usize, bytes: &mut Vec<u8>) {
         each!(self, v => v[i] = pop_value(bytes));
     }
@@ -193,7 +193,7 @@ impl Values {
     ///
     /// # Panics
     ///
-    /// If an index is out of range.
+    /// Panics if an index is out of range.
     pub fn are_equal(&self, a: usize, b: usize) -> bool {
         each!(self, v => v[a] == v[b])
     }

@@ -18,7 +18,7 @@ pub(super) struct Edges {
 /// Whether the side of `c` is the first side of its edge.
 #[inline]
 fn is_first(c: usize, twin: &[u32]) -> bool {
-    // `NONE` is greater than all corners.
+    // A missing twin, `NONE`, is greater than all corners.
     c < twin[c] as usize
 }
 

@@ -4,7 +4,8 @@ use rayon::prelude::*;
 
 use super::polygons::{pieces, to_id};
 
-/// Every task reads all corners. With more tasks than this, reading takes longer than filling the buckets.
+/// The maximum number of tasks. Every task reads all corners, so with more tasks, reading would take longer
+/// than filling the buckets.
 const MAX_TASKS: usize = 8;
 
 /// The corners at each vertex, in order.
@@ -44,8 +45,8 @@ impl Buckets {
         let ends = starts.clone().skip(1).chain([vertices.len()]);
         let lengths: Vec<usize> = starts.zip(ends).map(|(start, end)| end - start).collect();
         let mut corners = crate::zeroed(vertices.len());
-        // 3. Fill the buckets. Each corner increments the start of its bucket. After all corners, this entry is the
-        //    start of the next bucket.
+        // 3. Fill the buckets. Each corner increments the start of its bucket. After all corners, the entry of
+        //    a bucket is the start of the next bucket.
         first[1..]
             .par_chunks_mut(width)
             .zip(pieces(&mut corners, lengths))

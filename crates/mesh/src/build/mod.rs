@@ -120,12 +120,12 @@ pub struct BuildOutput {
 }
 
 impl BuildOutput {
-    /// Returns, for each corner of the input, the edge of the side from it to the next corner of its
-    /// polygon; `NONE` if the polygon was dropped. `offsets` are those of the input.
+    /// Returns, for each corner of the input, the edge of the side that starts at this corner; `NONE` if the
+    /// polygon was dropped. `offsets` must be the offsets of the input.
     ///
     /// # Panics
     ///
-    /// If `offsets` do not match the corners.
+    /// Panics if `offsets` do not match the corners.
     pub fn edges_of_sides(&self, offsets: &[u32]) -> Vec<EdgeId> {
         let mut edges = Vec::with_capacity(self.half_edge_of_corner.len());
         for w in offsets.windows(2) {
@@ -182,7 +182,7 @@ impl Mesh {
 ///
 /// # Errors
 ///
-/// As [`Mesh::from_polygons`], and [`BuildError::Degenerate`], [`BuildError::NonManifoldEdge`] or
+/// The errors of [`Mesh::from_polygons`], and [`BuildError::Degenerate`], [`BuildError::NonManifoldEdge`] or
 /// [`BuildError::NonManifoldVertex`] if `non_manifold` requires an error for non-manifold input.
 pub fn build(
     positions: Vec<DVec3>,
@@ -203,7 +203,7 @@ pub fn build(
     build_without(positions, offsets, corners, degenerate, non_manifold)
 }
 
-/// Builds a mesh without the polygons listed in `dropped`; they map to `NONE` in the result.
+/// Builds a mesh without the polygons listed in `dropped`; these polygons map to `NONE` in the result.
 fn build_without(
     positions: Vec<DVec3>,
     offsets: &[u32],
@@ -294,7 +294,8 @@ fn check_manifold(paired: &PairedSides) -> Result<(), BuildError> {
     pinched.map_or(Ok(()), |v| Err(BuildError::NonManifoldVertex(v)))
 }
 
-/// Builds a mesh with some polygons reversed. The corner map of the result refers to the corners as given.
+/// Builds a mesh with some polygons reversed. The corner map of the result refers to the corners before the
+/// reversal.
 fn build_reoriented(
     positions: Vec<DVec3>,
     offsets: &[u32],

@@ -110,7 +110,7 @@ fn opposite_sides(polygons: &Polygons, buckets: &Buckets) -> Vec<u32> {
             sides.sort_unstable();
             for edge in sides.chunk_by(|a, b| a.0 == b.0) {
                 if let &[(_, c), (_, d)] = edge {
-                    // The task of the other vertex stores the same values.
+                    // The task that handles the other end of the edge stores the same values.
                     opposite_sides[c as usize].store(d, Relaxed);
                     opposite_sides[d as usize].store(c, Relaxed);
                 }

@@ -20,15 +20,16 @@ pub(super) struct PairedSides {
     /// The vertices that have more than one fan, in order. The `outgoing` of such a vertex can belong to any of
     /// its fans.
     pub(super) pinched: Vec<u32>,
-    /// The edges with more than two sides, or with two sides that run in the same direction. In order of their
+    /// The edges with more than two sides, or with two sides that run in the same direction, ordered by their
     /// vertices.
     pub(super) non_manifold_edges: Vec<[VertexId; 2]>,
     /// Whether any edge has exactly two sides that run in the same direction.
     pub(super) has_inconsistent_edge: bool,
 }
 
-/// An outgoing half-edge of a vertex: the side that starts at a corner, the boundary half-edge that is the twin of
-/// such a side, or none. Encoded as twice the corner, plus one for the boundary.
+/// An outgoing half-edge of a vertex: the side that starts at a corner, the boundary half-edge that is the twin
+/// of such a side, or none. The number is twice the corner for a side, and twice the corner plus one for a
+/// boundary half-edge.
 #[derive(Clone, Copy, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(transparent)]
 pub(super) struct Outgoing(u32);
@@ -46,7 +47,7 @@ impl Outgoing {
         Self(2 * c + 1)
     }
 
-    /// Returns the half-edge, given the half-edge of each corner.
+    /// Returns the id of the outgoing half-edge. `half_edge_of_corner` has the half-edge of each corner.
     #[inline]
     pub(super) fn half_edge(self, half_edge_of_corner: &[HalfEdgeId]) -> HalfEdgeId {
         if self == Self::NONE {

@@ -44,7 +44,7 @@ impl<'a> Polygons<'a> {
         }
     }
 
-    /// Returns the first corner of the polygon of `c`, and the corner after its last.
+    /// Returns the first corner of the polygon of `c`, and the corner after the last corner of that polygon.
     #[inline]
     fn corner_range(&self, c: u32) -> (u32, u32) {
         let f = self.face(c);
@@ -88,7 +88,7 @@ fn faces_of_corners(offsets: &[u32]) -> Vec<u32> {
         .zip(offsets.par_chunks(BLOCK))
         .enumerate()
         .for_each(|(block, (faces, firsts))| {
-            // From last to first: each polygon splits its corners off the end of the unfilled part.
+            // The polygons go from last to first. Each splits its corners off the end of the unfilled part.
             let mut unfilled = faces;
             for (i, first) in firsts.iter().enumerate().rev() {
                 let Some(of_polygon) = unfilled.split_off_mut((first - firsts[0]) as usize..)
@@ -125,7 +125,7 @@ pub(super) fn sums_before(numbers: &[usize]) -> Vec<usize> {
 ///
 /// # Errors
 ///
-/// If there are too many corners.
+/// Fails if there are too many corners.
 pub(super) fn flatten(
     polygons: &[impl AsRef<[u32]> + Sync],
 ) -> Result<(Vec<u32>, Vec<u32>), BuildError> {
@@ -205,8 +205,8 @@ pub(super) fn check(
     Ok(degenerate.concat())
 }
 
-/// Returns the index of the first value for which `is_bad` holds. Tests whole blocks, which is fast if there
-/// is none.
+/// Returns the index of the first value for which `is_bad` holds. Tests the values block by block, which is
+/// fast if no value is bad.
 fn first_of<T: Sync>(values: &[T], is_bad: impl Fn(&T) -> bool + Sync) -> Option<usize> {
     let blocks = values.par_chunks(BLOCK);
     let has_bad = |block: &[T]| block.iter().fold(false, |bad, value| bad | is_bad(value));

@@ -24,7 +24,7 @@ pub(super) struct Split<'a> {
 ///
 /// # Errors
 ///
-/// If there are too many vertices afterwards.
+/// Fails if there are too many vertices afterwards.
 pub(super) fn split_vertices<'a>(
     positions: &mut Vec<DVec3>,
     polygons: &Polygons<'a>,

@@ -10,7 +10,7 @@
 use super::pair::Outgoing;
 use super::polygons::{NONE, Polygons, to_id};
 
-/// Up to this number of corners are compared pairwise; more are sorted.
+/// The maximum number of corners that are matched by comparing all pairs; more corners are sorted.
 const MAX_COMPARED: usize = 32;
 
 /// The corners at one vertex. Corners are numbered from 0 here, in the order of the input.
@@ -29,7 +29,7 @@ pub(super) struct Star {
     pub(super) has_non_manifold_edge: bool,
 }
 
-/// Corners at a vertex that are connected through shared edges.
+/// A fan: corners at one vertex that are connected through shared edges.
 pub(super) struct Fan {
     /// An outgoing half-edge of the vertex: the boundary half-edge if the fan has one.
     pub(super) outgoing: Outgoing,
@@ -90,7 +90,8 @@ impl Star {
         };
     }
 
-    /// Does the same as [`match_by_comparing`](Self::match_by_comparing) for many corners.
+    /// Gives the same result as [`match_by_comparing`](Self::match_by_comparing), and is faster if there are
+    /// many corners.
     fn match_by_sorting(&mut self) {
         let sorted = |neighbors: &[u32]| {
             let mut sorted: Vec<(u32, u32)> = neighbors.iter().copied().zip(0..).collect();

@@ -50,7 +50,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// As [`bevel_vertex`](Self::bevel_vertex).
+    /// The errors of [`bevel_vertex`](Self::bevel_vertex).
     pub fn bevel_vertex_with(
         &mut self,
         v: VertexId,
@@ -103,7 +103,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// As [`bevel_edge`](Self::bevel_edge).
+    /// The errors of [`bevel_edge`](Self::bevel_edge).
     pub fn bevel_edge_with(
         &mut self,
         e: EdgeId,
@@ -146,7 +146,7 @@ impl Mesh {
         }
     }
 
-    /// Returns the half-edges with their fractions, after checking these.
+    /// Returns the half-edges with their fractions. Checks the fractions.
     fn check_cuts(
         &self,
         spokes: &[HalfEdgeId],

@@ -17,12 +17,13 @@ impl Mesh {
     /// the loops are rotated against each other, the band is twisted: choose `h` and `g` so that they face
     /// each other.
     ///
-    /// All existing ids stay the same. New edges and faces are numbered along the longer loop (that of `h` if both
-    /// have the same length). The first face is f. The first edge is a-d, or b-c if the loop of `g` is longer. A new
-    /// face has the values of the face beside its edge of the longer loop. A new corner is at a vertex of one of the
-    /// loops. Its face has an edge of this loop, and the corner gets the values of the existing corner at the same
-    /// vertex in the face on the other side of this edge. Only a triangle has no edge of the shorter loop. Its corner
-    /// at that loop uses the edge of the last quad before it. New edges have zero values.
+    /// All existing ids stay the same. New edges and faces are numbered along the longer loop (that of `h` if
+    /// both have the same length). The first face is f. The first edge is a-d, or b-c if the loop of `g` is
+    /// longer. A new face has the values of the face beside its edge of the longer loop. A new corner is at a
+    /// vertex of one of the loops. If its face has an edge of this loop, the corner gets the values of the
+    /// existing corner at the same vertex, in the face on the other side of this edge. A triangle has no edge
+    /// of the shorter loop; its corner at that loop uses the edge of the last quad before the triangle. New
+    /// edges have zero values.
     ///
     /// Returns the new faces.
     ///
@@ -60,8 +61,9 @@ impl Mesh {
         // The loops run in opposite directions.
         short[1..].reverse();
         let (n, m) = (long.len(), short.len());
-        // Rung i runs from the origin of half-edge i of the long loop to the target of this half-edge of the
-        // short loop. The index is rounded up, so that the first face is a quad.
+        // Rung i is a new edge. It runs from the origin of half-edge i of the long loop to the target of
+        // half-edge `short_index(i)` of the short loop. The index is rounded up, so that the first face is a
+        // quad.
         let short_index = |i: usize| (i * m).div_ceil(n);
         let rungs: Vec<_> = (0..n)
             .map(|i| (self.origin(long[i]), self.target(short[short_index(i) % m])))

@@ -21,30 +21,31 @@ impl Mesh {
     /// hole loses one edge. Inside a triangle mesh, V, E and F shrink by 1, 3 and 2; on its boundary by 1, 2
     /// and 1. V - E + F stays the same. No ids are added, and all other elements keep their ids.
     ///
-    /// Vertex attributes of v are interpolated between the two ends; attributes that are not interpolated
-    /// stay as they are at v. The corners at v of the faces beside `e` are interpolated within their face,
-    /// on each side of a seam separately. Each corner of another face at an end of `e` is
-    /// compared with the corners of the faces beside `e` at the same end, for each attribute. If it has the
-    /// same value as one of these corners, it gets the new value of that corner. Otherwise it keeps its
-    /// value. When two edges become one, the larger number is kept, so that creases stay, and a tag is set
-    /// if either edge had it. For other types, the remaining edge keeps its value.
+    /// Vertex attributes of v are interpolated between the two ends; attributes that are not interpolated stay
+    /// as they are at v. The corners at v of the faces beside `e` are interpolated within their face, on each
+    /// side of a seam separately. Each corner of another face at an end of `e` is compared with the corners of
+    /// the faces beside `e` at the same end, for each attribute. If both have the same value, the corner of the
+    /// other face gets the new value. A corner without such a match keeps its value. When two edges become one,
+    /// the larger number is kept, so that creases stay, and a tag is set if either edge had it. For other
+    /// types, the remaining edge keeps its value.
     ///
-    /// A collapse is refused if it would change the topology of the surface or make two elements coincide.
-    /// The test is the link condition of Dey, Edelsbrunner, Guha and Nekhayev ("Topology preserving edge
-    /// contraction", 1999), extended to polygons. It is applied to the surface with each hole closed by a
-    /// cone. The ends may have a common neighbor only if it is a corner of a triangle beside `e`. They may
-    /// have a common face only if it is beside `e`.
+    /// A collapse is refused if it would change the topology of the surface or make two elements coincide. The
+    /// test is the link condition of Dey, Edelsbrunner, Guha and Nekhayev ("Topology preserving edge
+    /// contraction", 1999), extended to polygons. The condition is applied to the surface with each hole closed
+    /// by a cone. The ends may share a neighbor only if the neighbor is a corner of a triangle beside `e`, and
+    /// may share a face only if the face is beside `e`.
     ///
     /// Returns v.
     ///
     /// # Errors
     ///
     /// - [`EditError::JoinsBoundaries`] if both ends are on the boundary, but `e` is not.
-    /// - [`EditError::Link`] if the ends have a common neighbor that is not a corner of a triangle beside
-    ///   `e`: it would be joined to v twice. Also if `e` is a side of a hole with three edges.
+    /// - [`EditError::Link`] if the ends have a common neighbor that is not a corner of a triangle beside `e`,
+    ///   because this neighbor would be joined to v twice. The same error if `e` is a side of a hole with three
+    ///   edges.
     /// - [`EditError::DuplicateEdge`] if a second edge joins the ends.
-    /// - [`EditError::VisitsTwice`] if a face that is not beside `e` has both ends as corners: it would
-    ///   visit v twice.
+    /// - [`EditError::VisitsTwice`] if a face that is not beside `e` has both ends as corners, because this
+    ///   face would visit v twice.
     /// - [`EditError::Vanishes`] for the edges of a single triangle, if no faces would be left, or if the
     ///   only faces left at the merged vertex would be two faces back to back, as for a tetrahedron.
     /// - [`EditError::SameFace`] if one face is on both sides of `e`, or if two edges would become one and
@@ -69,12 +70,12 @@ impl Mesh {
         self.collapse_edge_at(e, 0.5)
     }
 
-    /// Collapses an edge like [`collapse_edge`](Self::collapse_edge), to the point at `t` on the edge: 0 is the
-    /// origin of its first half, 1 its target.
+    /// Collapses an edge like [`collapse_edge`](Self::collapse_edge), to the point at `t` on the edge. `t` is 0
+    /// at the origin of the first half of the edge, and 1 at its target.
     ///
     /// # Errors
     ///
-    /// As [`collapse_edge`](Self::collapse_edge), and [`EditError::OutsideEdge`] if `t` is below 0, above
+    /// The errors of [`collapse_edge`](Self::collapse_edge), and [`EditError::OutsideEdge`] if `t` is below 0, above
     /// 1 or not a number.
     pub fn collapse_edge_at(&mut self, e: EdgeId, t: f64) -> Result<VertexId, EditError> {
         self.check_edge(e)?;
@@ -90,7 +91,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// As [`collapse_edge`](Self::collapse_edge), and [`EditError::BadNumber`] if a coordinate is not
+    /// The errors of [`collapse_edge`](Self::collapse_edge), and [`EditError::BadNumber`] if a coordinate is not
     /// finite.
     pub fn collapse_edge_to(&mut self, e: EdgeId, point: DVec3) -> Result<VertexId, EditError> {
         self.check_edge(e)?;
@@ -106,11 +107,11 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// As [`collapse_edge_to`](Self::collapse_edge_to). The weights are not checked.
+    /// The errors of [`collapse_edge_to`](Self::collapse_edge_to). The weights are not checked.
     ///
     /// # Panics
     ///
-    /// If one of the `corners` does not exist.
+    /// Panics if one of the `corners` does not exist.
     pub fn collapse_edge_in(
         &mut self,
         e: EdgeId,
@@ -189,7 +190,7 @@ impl Mesh {
         }
         self.check_outer_faces(e)?;
 
-        // The third corners of the triangles beside the edge. Only these may be neighbors of both ends.
+        // The third corners of the triangles beside the edge. Only these corners may be neighbors of both ends.
         let apexes = [ab, ba].map(|h| {
             self.is_beside_triangle(h)
                 .then(|| self.target(self.next(h)))
@@ -250,9 +251,10 @@ impl Mesh {
         Ok(())
     }
 
-    /// Checks each triangle beside `e`. Its other two edges become one edge. The faces on the far sides of
-    /// these two edges must not both be missing, and must not both be the face on the other side of `e`. If
-    /// there is a triangle on the other side of `e`, neither of them may be this triangle.
+    /// Checks the outer faces of each triangle beside `e`: the faces on the far sides of its other two edges,
+    /// which become one edge. The outer faces must not both be missing, and must not both be the face on the
+    /// other side of `e`. If the face on the other side of `e` is a triangle, no outer face may be that
+    /// triangle.
     fn check_outer_faces(&self, e: EdgeId) -> Result<(), EditError> {
         for h in e.half_edges() {
             if !self.is_beside_triangle(h) {
@@ -280,8 +282,8 @@ impl Mesh {
         Ok(())
     }
 
-    /// Must be called only if the merged vertex would have two edges and two faces. Returns whether these faces would
-    /// lie back to back, which is true if every vertex of one of them would have two edges.
+    /// Must be called only if the merged vertex would have two edges and two faces. Returns whether these faces
+    /// would lie back to back, which is true if every vertex of one of these faces would have two edges.
     fn would_fold(&self, e: EdgeId, apexes: [Option<VertexId>; 2]) -> bool {
         let [ab, ba] = e.half_edges();
         // Finds one of the two faces. A face beside e that is not a triangle remains. If both are triangles,

@@ -77,7 +77,7 @@ impl Mesh {
     ///
     /// # Panics
     ///
-    /// If the face does not have a corner that a diagonal names.
+    /// Panics if the face does not have a corner that a diagonal names.
     pub fn cut_face(
         &mut self,
         f: FaceId,

@@ -17,9 +17,9 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::Pinch`] if the remaining faces around a vertex would not form one fan: the vertex is on
-    /// the boundary, but neither edge of `f` at this vertex is. [`EditError::NoSuchFace`]. The mesh is
-    /// unchanged.
+    /// [`EditError::Pinch`] if the remaining faces around a vertex would not form one fan. This is so if the
+    /// vertex is on the boundary, but both edges of `f` at the vertex are inside. [`EditError::NoSuchFace`].
+    /// The mesh is unchanged.
     pub fn delete_face(&mut self, f: FaceId) -> Result<(), EditError> {
         self.delete_faces(&[f])
     }
@@ -211,7 +211,7 @@ mod tests {
     #[test]
     fn deleting_faces_gives_the_mesh_that_is_built_without_them() {
         for shape in sample_shapes() {
-            // Every subset of the first eight faces.
+            // Tries to delete every subset of the first eight faces.
             let n = shape.n_faces().min(8);
             for set in 0..1_usize << n {
                 let (deleted, kept): (Vec<_>, Vec<_>) = shape

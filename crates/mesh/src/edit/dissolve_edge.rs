@@ -38,12 +38,13 @@ impl Mesh {
         self.dissolve_edge_with(e, Seams::Refuse)
     }
 
-    /// Removes an edge like [`dissolve_edge`](Self::dissolve_edge); `seams` decides whether a seam is refused or
-    /// dropped. If it is dropped, the corners at the ends of the edge keep the values of the remaining face.
+    /// Removes an edge like [`dissolve_edge`](Self::dissolve_edge); `seams` decides whether a seam is refused
+    /// or dropped. If a seam is dropped, the corners at the ends of the edge keep the values of the remaining
+    /// face.
     ///
     /// # Errors
     ///
-    /// As [`dissolve_edge`](Self::dissolve_edge), but [`EditError::Seam`] only for [`Seams::Refuse`].
+    /// The errors of [`dissolve_edge`](Self::dissolve_edge), but [`EditError::Seam`] only for [`Seams::Refuse`].
     pub fn dissolve_edge_with(&mut self, e: EdgeId, seams: Seams) -> Result<FaceId, EditError> {
         self.check_edge(e)?;
         let sides = e.half_edges();

@@ -59,13 +59,13 @@ impl Mesh {
         self.dissolve_vertex_with(v, Seams::Refuse)
     }
 
-    /// Removes a vertex like [`dissolve_vertex`](Self::dissolve_vertex); `seams` decides whether a seam is refused or
-    /// dropped. If it is dropped, the corner at the other end of the edge keeps its value in the face that is
-    /// counter-clockwise of the edge around `v`.
+    /// Removes a vertex like [`dissolve_vertex`](Self::dissolve_vertex); `seams` decides whether a seam is
+    /// refused or dropped. If a seam is dropped, the corner at the other end of the seam edge keeps the value
+    /// that it has in one of the two faces: the one that is counter-clockwise of the edge around `v`.
     ///
     /// # Errors
     ///
-    /// As [`dissolve_vertex`](Self::dissolve_vertex), but [`EditError::Seam`] only for [`Seams::Refuse`].
+    /// The errors of [`dissolve_vertex`](Self::dissolve_vertex), but [`EditError::Seam`] only for [`Seams::Refuse`].
     pub fn dissolve_vertex_with(&mut self, v: VertexId, seams: Seams) -> Result<FaceId, EditError> {
         self.check_vertex(v)?;
         let spokes: Vec<HalfEdgeId> = self.vertex_half_edges(v).collect();

@@ -78,7 +78,8 @@ impl Mesh {
         Ok(sides)
     }
 
-    /// Separates faces from the mesh along their rim and adds side faces between, without changing positions.
+    /// Separates faces from the mesh along their rim and adds side faces in between, without changing
+    /// positions.
     pub(super) fn raise(&mut self, rim: &Rim) -> Vec<FaceId> {
         self.drop_columns_by_rule();
         let bases = rim.bases.iter();

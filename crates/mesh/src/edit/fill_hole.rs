@@ -78,7 +78,7 @@ impl Mesh {
     ///
     /// # Panics
     ///
-    /// If `ears` does not have exactly n - 2 different numbers, where n is the number of edges of the hole, or
+    /// Panics if `ears` does not have exactly n - 2 different numbers, where n is the number of edges of the hole, or
     /// if a number is not below n.
     pub fn fill_hole_by_ears(
         &mut self,

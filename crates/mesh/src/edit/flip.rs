@@ -56,7 +56,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// As [`flip_edge`](Self::flip_edge), but [`EditError::Seam`] only for [`Seams::Refuse`].
+    /// The errors of [`flip_edge`](Self::flip_edge), but [`EditError::Seam`] only for [`Seams::Refuse`].
     pub fn flip_edge_with(&mut self, e: EdgeId, seams: Seams) -> Result<(), EditError> {
         self.check_edge(e)?;
         let [ab, ba] = e.half_edges();

@@ -57,7 +57,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// As [`inset_face`](Self::inset_face); also [`EditError::BadNumber`] if `height` or a raised coordinate
+    /// The errors of [`inset_face`](Self::inset_face); also [`EditError::BadNumber`] if `height` or a raised coordinate
     /// is not finite.
     pub fn bevel_face(
         &mut self,

@@ -48,8 +48,8 @@ pub enum EditError {
     /// The edit needs a face on both sides.
     #[error("{0} is on the boundary")]
     Boundary(EdgeId),
-    /// The edit needs a half-edge without a face, but this half-edge has one. The edge can be on the boundary: its
-    /// other half-edge may have no face.
+    /// The edit needs a half-edge without a face, but this half-edge has one. The edge can still be on the
+    /// boundary, if its other half-edge has no face.
     #[error("{0} has a face, so it is not a boundary half-edge")]
     NotBoundary(HalfEdgeId),
     /// The edit needs a vertex inside the surface.
@@ -85,7 +85,7 @@ pub enum EditError {
     /// The edit would remove the last faces of a component, or fold two faces onto each other.
     #[error("no valid faces would be left around {0}")]
     Vanishes(EdgeId),
-    /// The ends of the edge have a common neighbor that is not a corner of a triangle at the edge, so they
+    /// The ends of the edge have a common neighbor that is not a corner of a triangle at the edge, so the ends
     /// cannot be merged.
     #[error("both ends of {0} are adjacent to {1}, but not through a triangle at the edge")]
     Link(EdgeId, VertexId),
@@ -129,13 +129,13 @@ pub enum EditError {
     /// The ends of the edge would become one vertex.
     #[error("{0} would start and end at the same vertex")]
     SelfLoop(EdgeId),
-    /// Two corners of the face would become one vertex, or already are.
+    /// Two corners of the face would become one vertex, or are already at one vertex.
     #[error("{0} would visit {1} twice")]
     VisitsTwice(FaceId, VertexId),
     /// The list of elements to edit is empty.
     #[error("the list of elements to edit is empty")]
     NoElements,
-    /// The mesh has as many elements as ids can number.
+    /// The mesh has as many elements as there are ids.
     #[error("the mesh has too many elements: ids end at 2^32 - 2")]
     Full,
 }

@@ -52,7 +52,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// As [`poke_face`](Self::poke_face), and [`EditError::BadNumber`] if `position` is not finite.
+    /// The errors of [`poke_face`](Self::poke_face), and [`EditError::BadNumber`] if `position` is not finite.
     pub fn poke_face_at(&mut self, f: FaceId, position: DVec3) -> Result<VertexId, EditError> {
         self.check_face(f)?;
         check_finite(&[position])?;

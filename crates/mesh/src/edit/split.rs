@@ -67,7 +67,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// As [`split_edge`](Self::split_edge).
+    /// The errors of [`split_edge`](Self::split_edge).
     pub fn insert_vertex(&mut self, e: EdgeId, t: f64) -> Result<EdgeId, EditError> {
         self.check_edge(e)?;
         if !(t > 0.0 && t < 1.0) {

@@ -22,9 +22,9 @@ impl Mesh {
     /// be a hole; then the edge is on the boundary. V and E grow by 1. All existing ids stay the same.
     ///
     /// [`split_face`](Self::split_face) is the corresponding edit for faces. The inverse is
-    /// [`collapse_edge_to`](Self::collapse_edge_to) the old position. That collapse is always allowed,
-    /// unless two edges joined v to the same vertex or a face visits v twice. To undo a collapse that
-    /// removed triangles, call `split_face` after this.
+    /// [`collapse_edge_to`](Self::collapse_edge_to) the old position. That collapse is always allowed, unless
+    /// two edges joined v to the same vertex or a face visits v twice. To undo a collapse that removed
+    /// triangles, call `split_vertex`, then `split_face`.
     ///
     /// The new vertex is at `position` and has the attributes of v. On each side, both corners at the new edge
     /// have the values of the old corner. The edge has zero values.

@@ -1,4 +1,5 @@
-//! A second builder, slow and simple. The builder of the crate must produce the same result for any polygons.
+//! A second builder, which is slow and simple. The builder of the crate must produce the same result for any
+//! polygons.
 
 use std::collections::BTreeMap;
 

@@ -166,7 +166,8 @@ fn the_majority_of_each_part_decides() {
 
 #[test]
 fn an_edge_with_three_faces_does_not_connect_parts() {
-    // Three wings of two triangles each at the edge 0-1; the outer triangle of the second is reversed.
+    // Three wings meet at the edge 0-1. Each wing has two triangles; the outer triangle of the second wing is
+    // reversed.
     let wings: [&[u32]; 6] = [
         &[0, 1, 2],
         &[2, 1, 3], // first

@@ -61,7 +61,7 @@ fn extruding_the_top_of_a_cube_adds_four_sides() {
 #[test]
 fn ids_are_given_as_documented() {
     let (mesh, sides) = extruded(&shapes::cube(), &[1]);
-    // The corners were 4, 5, 7, 6.
+    // Before the extrusion, the corners of the face were 4, 5, 7 and 6.
     assert_eq!(corners(&mesh, FaceId::new(1)), [8, 9, 10, 11]);
     let around: Vec<_> = sides.iter().map(|&side| corners(&mesh, side)).collect();
     assert_eq!(
@@ -100,7 +100,7 @@ fn the_same_face_can_be_extruded_repeatedly() {
 fn faces_that_share_an_edge_move_together() {
     let (mesh, sides) = extruded(&shapes::grid(3, 3), &[4, 5]);
     assert_eq!(sides.len(), 6);
-    // They still share an edge.
+    // The two moved faces still share an edge.
     let pair = [FaceId::new(4), FaceId::new(5)].map(Some);
     assert!(mesh.edges().any(|e| {
         let [f, g] = mesh.edge_faces(e);

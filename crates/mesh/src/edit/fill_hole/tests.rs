@@ -3,7 +3,8 @@ use crate::edit::testing::{checked_edit, half_edge, polygons, with_slit};
 use crate::{EdgeId, MATERIAL, UV, shapes};
 use glam::{DVec2, DVec3};
 
-/// Returns meshes with holes: holes of one face and of several, the outer boundary of a sheet, and tubes.
+/// Returns meshes with holes: where one face or several faces were removed, the outer boundary of a sheet, and
+/// tubes.
 fn open_shapes() -> Vec<Mesh> {
     let mut shapes = vec![
         shapes::square(),
@@ -152,7 +153,7 @@ fn triangles_never_repeat_an_edge() {
 
 #[test]
 fn a_hole_whose_diagonals_are_all_edges_is_refused() {
-    // The torus with seven vertices, in which every two vertices share an edge, without one of the vertices.
+    // Any two of the seven vertices of this torus share an edge. One of the vertices is removed.
     let positions = shapes::icosahedron().positions()[..7].to_vec();
     let polygons: Vec<[u32; 3]> = (0..7)
         .flat_map(|i| [[i, i + 1, i + 3], [i, i + 3, i + 2]])

@@ -123,7 +123,7 @@ fn a_collapse_undoes_a_split() {
             let mut mesh = shape.clone();
             let m = mesh.split_edge(e, 0.25).unwrap();
             let ends = shape.edge_vertices(e);
-            // m has the highest id, so a collapse of either half of the edge keeps the other end of that half.
+            // m has the highest id, so collapsing the edge between m and an end keeps this end.
             for v in ends {
                 let mut mesh = mesh.clone();
                 let half = edge(&mesh, v.index(), m.index());

@@ -99,7 +99,7 @@ fn naive(mesh: &Mesh, before: &Topology, e: EdgeId) -> Option<Vec<(usize, Vec<us
     }
     let n = mesh.domain_len(Domain::Vertex);
     let after = Topology::of(n, &remaining)?;
-    // The removed vertex is an isolated vertex of the list.
+    // In the list of polygons, the removed vertex stays as an isolated vertex.
     let expected = Topology {
         euler: before.euler + 1,
         edges: before.edges - 1 - n_vanished,

@@ -6,9 +6,9 @@ use mesh::blocks::BLOCK;
 use mesh::{DVec3, Domain, EdgeId, Mesh, VertexId, angle_between};
 use rayon::prelude::*;
 
-/// Returns the Gaussian curvature at each vertex, by vertex index, in 1 / scene unit²: 1 / r² on a sphere of
-/// radius r, 0 on a cylinder. NaN for dead vertices, for isolated vertices, and for vertices whose faces have no
-/// area.
+/// Returns the Gaussian curvature at each vertex, by vertex index, in 1 / scene unit². The curvature is 1 / r²
+/// on a sphere of radius r, and 0 on a cylinder. The value is NaN for dead vertices, for isolated vertices, and
+/// for vertices whose faces have no area.
 ///
 /// The curvature is the angle defect divided by the [vertex area](vertex_area). The angle defect is 2π (π on
 /// the boundary) minus the sum of the corner angles: Meyer, Desbrun, Schröder, Barr, "Discrete
@@ -26,9 +26,9 @@ pub fn gaussian_curvatures(mesh: &Mesh) -> Vec<f64> {
     })
 }
 
-/// Returns the mean curvature at each vertex, by vertex index, in 1 / scene unit: 1 / r on an outward-facing
-/// sphere of radius r, 1 / (2r) on a cylinder, negative where the surface is concave. NaN for dead vertices, for
-/// isolated vertices, and for vertices whose faces have no area.
+/// Returns the mean curvature at each vertex, by vertex index, in 1 / scene unit. The curvature is 1 / r on an
+/// outward-facing sphere of radius r, 1 / (2r) on a cylinder, and negative where the surface is concave. The
+/// value is NaN for dead vertices, for isolated vertices, and for vertices whose faces have no area.
 ///
 /// Each edge contributes half of its signed dihedral angle times its length, shared equally by its two ends.
 /// The sum at a vertex is divided by the [vertex area](vertex_area): Cohen-Steiner, Morvan, "Restricted

@@ -1,5 +1,5 @@
-//! Fills a hole with triangles, computed as a sequence of ears to cut off. An ear is a vertex of the hole that is cut
-//! off by a triangle with its two neighbors p and q.
+//! Fills a hole with triangles by cutting off ears, one after another. An ear is a vertex of the hole that is
+//! cut off by a triangle with its two neighbors p and q.
 //!
 //! ```text
 //!      p --- ear               p
@@ -14,7 +14,7 @@ use std::collections::BinaryHeap;
 use mesh::{DVec3, EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 
 /// Holes of at most this many edges are filled with triangles of minimal total area. The time grows with the
-/// third power of the number of edges; for this many edges it is about a tenth of a second.
+/// third power of the number of edges; for 500 edges, it is about a tenth of a second.
 const MAX_EXACT_EDGES: usize = 500;
 
 /// The largest cost that the shape of a triangle adds to its area, as a fraction of the mean squared edge length of
@@ -32,14 +32,15 @@ const SHAPE_WEIGHT: f64 = 1e-6;
 /// ```
 ///
 /// If the hole has at most 500 edges, the triangles have the smallest total area of all triangulations of the
-/// vertices around the hole: Barequet and Sharir, "Filling gaps in the boundary of a polyhedron", 1995, in time
-/// n³. If several triangulations have the same area, as in a flat hole, the triangulation whose triangles are
-/// closest to equilateral is used. To this end, a shape term is added to the area of each triangle. It is at
-/// most 1e-6 times the mean squared edge length of the hole.
+/// vertices around the hole: Barequet and Sharir, "Filling gaps in the boundary of a polyhedron", 1995. The
+/// time is proportional to n³ for n edges. If several triangulations have the same area, as in a flat hole, the
+/// triangulation whose triangles are closest to equilateral is used. To find this triangulation, a shape term
+/// is added to the area of each triangle. The shape term is at most 1e-6 times the mean squared edge length of
+/// the hole.
 ///
-/// In larger holes, the corner whose neighbors are nearest to each other is cut off repeatedly, in time n log
-/// n. Corners that are straight or reflex, as seen along the mean normal, come last. In a hole that is far from
-/// convex, the triangles can overlap.
+/// In larger holes, the corner whose neighbors are nearest to each other is cut off repeatedly, in a time
+/// proportional to n log n. Corners that are straight or reflex, as seen along the mean normal, are cut off
+/// last. In a hole that is far from convex, the triangles can overlap.
 ///
 /// A new edge never connects two vertices that already share an edge.
 ///
@@ -53,8 +54,8 @@ const SHAPE_WEIGHT: f64 = 1e-6;
 /// # Errors
 ///
 /// [`EditError::DuplicateEdge`] if every triangulation needs an edge that already exists (for holes of more
-/// than 500 edges: if the search finds no other), [`EditError::Full`], and the errors of [`Mesh::fill_hole`].
-/// The mesh is unchanged.
+/// than 500 edges: if the search finds no triangulation without such an edge), [`EditError::Full`], and the
+/// errors of [`Mesh::fill_hole`]. The mesh is unchanged.
 pub fn fill_hole_triangles(mesh: &mut Mesh, h: HalfEdgeId) -> Result<Vec<FaceId>, EditError> {
     let ears = ears(mesh, &mesh.rim(h)?)?;
     mesh.fill_hole_by_ears(h, &ears)
@@ -187,8 +188,8 @@ impl<'m> Hole<'m> {
         let mut is_cut = vec![false; n];
         while ears.len() < n - 3 {
             let Reverse((_, ear, p, q)) = queue.pop()?;
-            // An entry is out of date if a neighbor of its corner was cut off. It is skipped, because the
-            // queue has a newer entry.
+            // An entry is out of date if a neighbor of its corner was cut off. Such an entry is skipped,
+            // because the queue has a newer one.
             let is_outdated = is_cut[ear] || before[ear] != p || next[ear] != q;
             if is_outdated || self.is_joined(p, q) {
                 continue;

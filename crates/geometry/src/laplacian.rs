@@ -10,9 +10,9 @@
 //!            l
 //! ```
 //!
-//! Sources: Pinkall, Polthier, "Computing Discrete Minimal Surfaces and Their Conjugates", 1993, for the weights; Bunge,
-//! Herholz, Kazhdan, Botsch, "Polygon Laplacian Made Simple", 2020, for polygons; Sharp, Crane, "A Laplacian for
-//! Nonmanifold Triangle Meshes", 2020, section 4.5, for degenerate triangles.
+//! Sources: Pinkall, Polthier, "Computing Discrete Minimal Surfaces and Their Conjugates", 1993, for the
+//! weights; Bunge, Herholz, Kazhdan, Botsch, "Polygon Laplacian Made Simple", 2020, for polygons; Sharp, Crane,
+//! "A Laplacian for Nonmanifold Triangle Meshes", 2020, section 4.5, for degenerate triangles.
 
 use mesh::{DVec3, Domain, FaceId, Mesh};
 use progress::{Cancelled, Meter, Progress};
@@ -21,9 +21,10 @@ use rayon::prelude::*;
 use crate::sparse::SymmetricMatrix;
 use crate::triangulate::Cutter;
 
-/// The faces with more corners are cut into triangles; the others get a virtual vertex.
+/// The largest number of corners of a polygon that gets a virtual vertex. Polygons with more corners are cut
+/// into triangles.
 const MAX_CORNERS: usize = 16;
-/// The slack of the triangle inequality after mollification, relative to the mean edge length.
+/// The slack in the triangle inequality after edges were lengthened, relative to the mean edge length.
 const SLACK: f64 = 1e-5;
 const FACES: usize = 4096;
 
@@ -45,24 +46,26 @@ const FACES: usize = 4096;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Laplacian {
-    /// The stiffness matrix, with one row for each vertex. It is positive semidefinite, its rows add up to 0, and the
-    /// entry of an edge is minus its weight. It has no unit.
+    /// The stiffness matrix, with one row for each vertex. The matrix is positive semidefinite, and each row
+    /// adds up to 0. The entry of an edge is minus the weight of the edge. The entries have no unit.
     pub stiffness: SymmetricMatrix,
-    /// The diagonal of the lumped mass matrix: the area that belongs to each vertex, in scene unit², at most 1.8e308. 0 for
-    /// vertices without faces, otherwise more than 0 unless the area is below the smallest number.
+    /// The diagonal of the lumped mass matrix: the area that belongs to each vertex, in scene unit², at most
+    /// 1.8e308. The area is 0 for vertices without faces. For other vertices it is more than 0, unless it is
+    /// too small for an `f64`.
     pub areas: Vec<f64>,
 }
 
 impl Laplacian {
     /// Computes the Laplacian of a mesh. Rows of dead vertices are empty.
     ///
-    /// A polygon with 4 to 16 corners is divided by a virtual vertex at the mean of its corners, whose value is the mean
-    /// of the values at the corners. So the result does not depend on a triangulation. Linear functions on a flat polygon
-    /// keep their exact gradient. Polygons with more corners are cut into triangles.
+    /// A polygon with 4 to 16 corners is divided by a virtual vertex at the mean of its corners, whose value is
+    /// the mean of the values at the corners. So the result does not depend on a triangulation. Linear
+    /// functions on a flat polygon keep their exact gradient. Polygons with more corners are cut into
+    /// triangles.
     ///
-    /// If a triangle is degenerate, the same small length is added to the lengths of all edges, so that the triangle
-    /// inequality holds with a slack of 1e-5 of the mean edge length. So all entries are finite for any finite positions.
-    /// If all triangles have this slack, nothing is added.
+    /// If a triangle is degenerate, the same small length is added to the lengths of all edges, so that the
+    /// triangle inequality holds with a slack of 1e-5 of the mean edge length. So all entries are finite for
+    /// any finite positions. If all triangles have this slack, nothing is added.
     ///
     /// # Errors
     ///
@@ -81,7 +84,7 @@ impl Laplacian {
             let all = (b * FACES..n_faces.min((b + 1) * FACES)).map(FaceId::new);
             all.filter(|&f| mesh.has_face(f))
         };
-        // The sum and the number of the lengths.
+        // For each block of faces, the sum and the number of the lengths.
         let sums: Result<Vec<[f64; 2]>, Cancelled> = blocks()
             .map(|b| {
                 let (mut sum, mut n, mut pieces) = (0.0, 0.0, Pieces::default());
@@ -155,7 +158,7 @@ pub(crate) fn scaled(p: DVec3, exponent: i32) -> DVec3 {
     DVec3::from_array(p.to_array().map(|x| libm::scalbn(x, exponent)))
 }
 
-/// Returns the lengths of the sides: the side opposite of corner i is at i.
+/// Returns the lengths of the sides: entry i is the length of the side opposite corner i.
 fn lengths([a, b, c]: [DVec3; 3]) -> [f64; 3] {
     [b.distance(c), c.distance(a), a.distance(b)]
 }
@@ -172,7 +175,7 @@ fn half_cotangents(corners: [DVec3; 3], more: f64) -> ([f64; 3], f64) {
         );
     }
     let [a, b, c] = lengths(corners).map(|l| l + more);
-    // Heron's formula. The factors are more than 0 by the choice of `more`.
+    // Heron's formula. `more` was chosen so that all factors are more than 0.
     let area = 0.25 * ((a + b + c) * (b + c - a) * (c + a - b) * (a + b - c)).sqrt();
     let half_cot = |a: f64, b: f64, c: f64| (b * b + c * c - a * a) / (8.0 * area);
     (

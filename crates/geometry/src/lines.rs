@@ -8,9 +8,10 @@ use rayon::prelude::*;
 pub(crate) enum Kind {
     /// On no line: it may move anywhere.
     Inside,
-    /// On one line: it may merge with its neighbors on the line.
+    /// The vertex is on one line, and may merge with its neighbors on the line.
     Line,
-    /// At the end of a line, where lines meet, where the values on a line change, or pinned: it stays in place.
+    /// The vertex stays in place: it is pinned, or lies at the end of a line, where lines meet, or where the
+    /// values on a line change.
     Fixed,
 }
 

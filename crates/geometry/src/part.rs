@@ -58,17 +58,18 @@ pub fn separated(mesh: &Mesh) -> Vec<Mesh> {
 }
 
 /// Splits the mesh into separate meshes: one part for each number in `part_of_face`, which is indexed by face.
-/// Parts are in ascending order of these numbers. Faces with `usize::MAX` and isolated vertices are left out.
+/// Parts are in ascending order of these numbers. Faces with the number `usize::MAX` and isolated vertices are
+/// left out.
 ///
 /// Elements keep their order and their values. An edge between two parts is copied to both. If the faces of a
 /// part form several fans around a vertex, the fan with the lowest boundary half-edge keeps the vertex, and
 /// each of the other fans gets a copy, numbered after all other vertices. A part with a new boundary loses the
-/// columns with [`Rule::Drop`](mesh::Rule::Drop). The parts are dense. Except for sorting, takes linear time
-/// for any number of parts.
+/// columns with [`Rule::Drop`](mesh::Rule::Drop). The parts are dense. Apart from a sort of the faces, takes
+/// linear time for any number of parts.
 ///
 /// # Panics
 ///
-/// If `part_of_face` does not have one number for each face, dead faces included.
+/// Panics if `part_of_face` does not have one number for each face, dead faces included.
 pub fn parts(mesh: &Mesh, part_of_face: &[usize]) -> Vec<Mesh> {
     assert_eq!(
         part_of_face.len(),

@@ -1,34 +1,35 @@
 //! Exact geometric predicates.
 //!
-//! The answers are those of exact arithmetic on the given coordinates, after Shewchuk, "Adaptive Precision
-//! Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997 (crate `robust`). They are exact if the products
-//! of the differences of coordinates neither overflow nor underflow: always for coordinates that are 0 or from 1e-90 to
-//! 1e90 in magnitude.
+//! The results are those of exact arithmetic on the given coordinates. Source: Shewchuk, "Adaptive Precision
+//! Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997, as implemented by the crate `robust`.
+//! The results are exact if the products of the differences of coordinates neither overflow nor underflow. This
+//! is always true for coordinates that are 0 or from 1e-90 to 1e90 in magnitude.
 
 use std::cmp::Ordering;
 
 use mesh::{DVec2, DVec3};
 
-/// Returns on which side of the line from `a` to `b` the point `c` lies: `Greater` on the left, `Less` on the right,
-/// `Equal` on the line. It is the sign of the area of the triangle.
+/// Returns on which side of the line from `a` to `b` the point `c` lies: `Greater` on the left, `Less` on the
+/// right, `Equal` on the line. The result is the sign of the area of the triangle.
 pub fn orient2d(a: DVec2, b: DVec2, c: DVec2) -> Ordering {
     let coord = |p: DVec2| robust::Coord { x: p.x, y: p.y };
     sign(robust::orient2d(coord(a), coord(b), coord(c)))
 }
 
-/// Returns on which side of the plane through `a`, `b` and `c` the point `d` lies: `Greater` on the side of the normal
-/// (b − a) × (c − a), `Less` on the other side, `Equal` on the plane. It is the sign of the volume of the tetrahedron.
+/// Returns on which side of the plane through `a`, `b` and `c` the point `d` lies: `Greater` on the side of the
+/// normal (b − a) × (c − a), `Less` on the other side, `Equal` on the plane. The result is the sign of the
+/// volume of the tetrahedron.
 pub fn orient3d(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> Ordering {
     let coord = |p: DVec3| robust::Coord3D {
         x: p.x,
         y: p.y,
         z: p.z,
     };
-    // Shewchuk's sign is that of a − d, b − d, c − d.
+    // `robust::orient3d` has the opposite sign.
     sign(-robust::orient3d(coord(a), coord(b), coord(c), coord(d)))
 }
 
-/// The sign of a number; `Equal` for NaN, which only coordinates that are not finite give.
+/// Returns the sign of a number. NaN gives `Equal`; it occurs only for coordinates that are not finite.
 fn sign(x: f64) -> Ordering {
     x.partial_cmp(&0.0).unwrap_or(Ordering::Equal)
 }
@@ -48,7 +49,7 @@ mod tests {
         assert_eq!(orient3d(o, x, y, x + y), Ordering::Equal);
     }
 
-    /// In plain arithmetic, many of these points are on the wrong side.
+    /// Floating-point arithmetic without correction would put many of these points on the wrong side.
     #[test]
     fn points_next_to_a_line_and_a_plane_are_on_their_sides() {
         let ulp = f64::EPSILON / 2.0;

@@ -1,7 +1,7 @@
 //! Simple meshes for examples, tests and recipes.
 //!
-//! All except [`square`] are centered at the origin. Faces are counter-clockwise when seen from outside (faces
-//! of flat shapes: from above, +z).
+//! All shapes except [`square`] are centered at the origin. Faces are counter-clockwise when seen from outside,
+//! and faces of flat shapes when seen from above (from +z).
 
 use mesh::{DVec3, Mesh, VertexId};
 
@@ -22,7 +22,8 @@ pub fn square() -> Mesh {
 ///    0 ------ 1
 /// ```
 ///
-/// Vertex number = (x > 0) + 2 (y > 0) + 4 (z > 0). Faces: bottom, top, front, right, back, left.
+/// The number of a vertex is (x > 0) + 2 (y > 0) + 4 (z > 0), where a true condition counts as 1. The faces
+/// are, in order, bottom, top, front, right, back and left.
 pub fn cube() -> Mesh {
     let side = |bit: usize| if bit == 0 { -1.0 } else { 1.0 };
     let positions = (0..8)
@@ -129,7 +130,7 @@ pub fn icosahedron() -> Mesh {
 ///
 /// # Panics
 ///
-/// If there are more squares than ids.
+/// Panics if there are more squares than ids.
 pub fn grid(columns: u32, rows: u32) -> Mesh {
     let corner = DVec3::new(f64::from(columns), f64::from(rows), 0.0) / 2.0;
     let positions = (0..=rows)
@@ -149,7 +150,7 @@ pub fn grid(columns: u32, rows: u32) -> Mesh {
 ///
 /// # Panics
 ///
-/// If `around` or `across` is below 3, `major + minor` is not finite, or there are more faces than ids.
+/// Panics if `around` or `across` is below 3, `major + minor` is not finite, or there are more faces than ids.
 pub fn torus(around: u32, across: u32, major: f64, minor: f64) -> Mesh {
     assert!(
         around >= 3 && across >= 3,
@@ -178,7 +179,7 @@ pub fn torus(around: u32, across: u32, major: f64, minor: f64) -> Mesh {
 ///
 /// # Panics
 ///
-/// If `around` is below 3.
+/// Panics if `around` is below 3.
 pub fn cylinder(around: u32, caps: bool) -> Mesh {
     assert!(around >= 3, "a cylinder needs at least 3 sides");
     let positions = [-1.0, 1.0]
@@ -208,7 +209,7 @@ pub fn cylinder(around: u32, caps: bool) -> Mesh {
 ///
 /// # Panics
 ///
-/// If `around` is below 3 or `rings` below 2.
+/// Panics if `around` is below 3 or `rings` below 2.
 pub fn uv_sphere(around: u32, rings: u32) -> Mesh {
     assert!(
         around >= 3 && rings >= 2,
@@ -239,7 +240,7 @@ pub fn uv_sphere(around: u32, rings: u32) -> Mesh {
 }
 
 /// Returns the mesh with each polygon triangulated as a fan at its first corner. The triangles are in the order
-/// of the polygons. This is meant for convex polygons, such as the faces of these shapes. Attributes are dropped.
+/// of the polygons. The polygons should be convex, as the faces of these shapes are. Attributes are dropped.
 pub fn fans(mesh: &Mesh) -> Mesh {
     let number = |v: VertexId| u32::try_from(v.index()).expect("ids are below 2^32");
     let mut triangles = Vec::new();

@@ -1,4 +1,4 @@
-//! Tangents for normal maps by the `MikkTSpace` algorithm.
+//! Computes the tangents for normal maps with the `MikkTSpace` algorithm.
 //!
 //! ```text
 //!        v  b = w n x t             t: tangent, along u
@@ -7,8 +7,9 @@
 //!        n----> u  t                w: 1, or -1 if the texture is mirrored
 //! ```
 //!
-//! Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008. All tools that bake or show normal maps use this
-//! algorithm, and a normal map is only right with the tangents for which it was made.
+//! Source: Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008. All tools that bake or show normal
+//! maps use this algorithm, and a normal map gives correct shading only with the tangents for which it was
+//! made.
 
 use bevy_mikktspace::{Geometry, Ops, TangentSpace, generate_tangents};
 use mesh::{CORNER_NORMAL, DVec2, DVec3, DVec4, HalfEdgeId, Mesh, VERTEX_NORMAL};
@@ -26,11 +27,13 @@ pub struct Tangents {
     pub n_arbitrary: usize,
 }
 
-/// Computes the tangents of a dense mesh from `uvs`, the texture coordinates of its half-edges with v upwards, and
-/// from its corner normals or else its vertex normals. Returns `None` if it has no normals.
+/// Computes the tangents of a dense mesh from `uvs`, the texture coordinates of its half-edges with v upwards,
+/// and from its corner normals or, if there are none, its vertex normals. Returns `None` if the mesh has no
+/// normals.
 ///
-/// The computation uses 32-bit numbers. Polygons are triangulated, as by the glTF writer. Corners share a tangent if
-/// they have the same position, normal and texture coordinates and their faces are connected.
+/// The computation uses 32-bit numbers. Polygons are triangulated in the same way as by the glTF writer.
+/// Corners share a tangent if they have the same position, normal and texture coordinates and their faces are
+/// connected.
 pub fn tangents(mesh: &Mesh, uvs: &[DVec2]) -> Option<Tangents> {
     let normals = match (mesh.get(CORNER_NORMAL), mesh.get(VERTEX_NORMAL)) {
         (Some(normals), _) => Normals::Corners(normals),
@@ -44,7 +47,7 @@ pub fn tangents(mesh: &Mesh, uvs: &[DVec2]) -> Option<Tangents> {
         triangles: triangles(mesh),
         found: vec![None; mesh.n_half_edges()],
     };
-    // There are no errors.
+    // The error type has no values, so this never fails.
     let Ok(()) = generate_tangents(&mut corners) else {
         return None;
     };
@@ -106,7 +109,7 @@ struct Corners<'a> {
 }
 
 impl Corners<'_> {
-    /// The normal of a corner; that of the face if it has no direction.
+    /// Returns the unit normal of a corner, or the face normal if the normal of the corner is zero.
     fn unit_normal(&self, h: HalfEdgeId) -> DVec3 {
         let normal = match self.normals {
             Normals::Corners(normals) => normals[h.index()],
@@ -148,14 +151,15 @@ impl Geometry<Libm> for Corners<'_> {
 
     fn set_tangent(&mut self, tangent: Option<TangentSpace>, face: usize, corner: usize) {
         let found = &mut self.found[self.triangles[face][corner].index()];
-        // A corner of a polygon can belong to several triangles. The first one that has a tangent counts.
+        // A corner of a polygon can belong to several triangles. The first of these triangles that has a
+        // tangent determines the result.
         if found.is_none() {
             *found = tangent.map(|tangent| tangent.tangent_encoded());
         }
     }
 }
 
-/// The same results on all platforms.
+/// Mathematical functions that give the same results on all platforms.
 struct Libm;
 
 impl Ops for Libm {

@@ -12,8 +12,8 @@
 //! diagonals are flipped until it is a constrained Delaunay triangulation. If ear clipping fails, the polygon becomes
 //! a fan. See [`Cutter`] for the details.
 //!
-//! Corners are numbered from 0 along the face. The corners of a triangle are in ascending order, which has the
-//! orientation of the face.
+//! Corners are numbered from 0 along the face. The corners of a triangle are in ascending order, so a triangle
+//! has the orientation of the face.
 
 use earcut::{Earcut, Refiner};
 
@@ -95,13 +95,13 @@ impl Cut {
 /// A quadrilateral is cut along its shorter diagonal. If both are equally long (relative difference of the
 /// squared lengths at most 1e-12), it is cut along the diagonal at its lowest vertex. A diagonal is avoided if
 /// one of its triangles has no area or is flipped, as seen along the face normal. If both diagonals have this
-/// problem, neither is avoided. So a quadrilateral with a reflex corner is cut at that corner.
+/// problem, neither is avoided. A quadrilateral with a reflex corner is therefore cut at that corner.
 ///
 /// A larger face is projected along its normal and cut by ear clipping (Held, "FIST: Fast Industrial-Strength
 /// Triangulation of Polygons", 2001, as implemented by the crate `earcut`). Then diagonals are flipped until it
-/// is a constrained Delaunay triangulation. Ear clipping can fail if the face has no area or its sides cross; it is
-/// not tried for faces with more than ten million corners. In these cases the face becomes a fan around its lowest
-/// vertex.
+/// is a constrained Delaunay triangulation. Ear clipping can fail if the face has no area or its sides cross;
+/// ear clipping is not tried for faces with more than ten million corners. In these cases the face becomes a
+/// fan around its lowest vertex.
 ///
 /// # Examples
 ///
@@ -278,8 +278,8 @@ fn insert_skipped_corners(n: usize, triangles: &mut Vec<Triangle>) {
         let place = used.partition_point(|&u| u <= i);
         used.get(place).copied().unwrap_or(first)
     };
-    // Consider the polygon of the used corners. For each side of this polygon, the triangle at the side,
-    // indexed by the first corner of the side.
+    // The used corners form a polygon. `owner` has the triangle at each side of this polygon, indexed by the
+    // first corner of the side.
     let mut owner = vec![None; n];
     for (t, triangle) in triangles.iter().enumerate() {
         for k in 0..3 {
@@ -364,7 +364,8 @@ mod tests {
     fn invalid_triangulations_are_detected() {
         assert!(is_triangulation(5, &[[0, 1, 2], [0, 2, 3], [0, 3, 4]]));
         for wrong in [
-            // Too few triangles, a duplicate triangle, crossing diagonals, a corner twice in a triangle.
+            // These lists have, in order, too few triangles, a duplicate triangle, crossing diagonals, and a
+            // corner twice in a triangle.
             vec![[0, 1, 2], [0, 2, 4]],
             vec![[0, 1, 2], [0, 2, 4], [0, 2, 4]],
             vec![[0, 1, 2], [1, 2, 3], [0, 3, 4]],
@@ -382,7 +383,7 @@ mod tests {
         insert_skipped_corners(8, &mut triangles);
         triangles.sort_unstable();
         assert!(is_triangulation(8, &triangles), "{triangles:?}");
-        // Two triangles with skipped corners at all sides except the shared one.
+        // Two triangles that skip corners at all sides except their shared side.
         let mut triangles = vec![[0, 2, 4], [0, 4, 6]];
         insert_skipped_corners(8, &mut triangles);
         triangles.sort_unstable();

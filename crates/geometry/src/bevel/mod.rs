@@ -16,7 +16,8 @@ pub use edges::{BevelRefusal, Beveled, bevel_edges, shortest_edge_at};
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Cuts {
-    /// The remaining fraction of each edge, by index. Edges beyond the end are uncut and have 1.
+    /// The remaining fraction of each edge, by index. Edges beyond the end of the list are uncut: their
+    /// fraction is 1.
     remaining: Vec<f64>,
 }
 
@@ -27,8 +28,8 @@ impl Cuts {
         fraction / self.remaining.get(e.index()).unwrap_or(&1.0)
     }
 
-    /// Records that a bevel of a vertex or an edge made the face `new`, and that it cut `fraction` of their original
-    /// lengths off the edges that end at the corners of this face.
+    /// Records a bevel of a vertex or an edge that made the face `new`. The bevel cut the edges that end at the
+    /// corners of this face, and removed `fraction` of the original length of each.
     pub fn cut(&mut self, mesh: &Mesh, new: FaceId, fraction: f64) {
         for h in mesh.face_half_edges(new) {
             let e = mesh.next(h.twin()).edge();

@@ -38,7 +38,7 @@ pub(super) fn chords_along_line(corners: &[Corner], normal: DVec3) -> Vec<[u32; 
     let n = corners.len();
     let is_good = |chords: &[[u32; 2]]| {
         let is_one_sided = |part: &Vec<usize>| {
-            // Numbers below n are sides of the polygon, which start at the corner with that number.
+            // A half-edge number h below n is the side of the polygon that starts at corner h.
             let sides = part.iter().filter(|&&h| h < n);
             let heights = sides.flat_map(|&i| [corners[i].height, corners[(i + 1) % n].height]);
             let (low, high) = heights.fold((0.0_f64, 0.0_f64), |(low, high), h| {
@@ -104,11 +104,11 @@ fn inside_chords(corners: &[Corner], normal: DVec3) -> Option<Vec<[u32; 2]>> {
 }
 
 /// Returns two flags for a corner on the line: whether the line is inside the polygon just behind the corner,
-/// and whether it is inside the polygon just ahead of the corner.
+/// and whether it is inside just ahead of the corner.
 ///
 /// The directions to the next and to the previous corner are measured in quarter turns from the line: 0 is
-/// ahead, 1 left, 2 behind, 3 right. Counter-clockwise, the inside starts at the direction to the next corner
-/// and ends at the direction to the previous corner.
+/// ahead, 1 left, 2 behind, 3 right. Going counter-clockwise around the corner, the inside starts at the
+/// direction to the next corner and ends at the direction to the previous corner.
 fn sees_inside(before: &Corner, corner: &Corner, after: &Corner, normal: DVec3) -> [bool; 2] {
     let quarter = |other: &Corner| {
         if other.height > 0.0 {
@@ -133,7 +133,7 @@ fn sees_inside(before: &Corner, corner: &Corner, after: &Corner, normal: DVec3) 
     [contains(2) || contains(6), contains(4)]
 }
 
-/// Returns, for each chain of corners to the left of the line, the chord that cuts it off.
+/// Returns, for each chain of corners to the left of the line, the chord that cuts the chain off.
 fn left_chords(corners: &[Corner]) -> Vec<[u32; 2]> {
     let n = corners.len();
     let is_left = |i: usize| corners[i % n].height > 0.0;
@@ -214,8 +214,8 @@ mod tests {
             (-1., -1.),
             (-1., 0.),
         ];
-        // An edge crosses the line at (-2, 0). The test inserts a corner there, as the caller of the function
-        // does.
+        // An edge crosses the line at (-2, 0). The test inserts a corner at the crossing, as the caller of
+        // `chords_along_line` does.
         let mut crossed = zigzag.to_vec();
         crossed.insert(7, (-2., 0.));
         assert_eq!(cut(&crossed), [[7, 10]]);
@@ -251,7 +251,7 @@ mod tests {
 
     #[test]
     fn self_intersecting_polygons_are_cut_too() {
-        // A bow tie that intersects itself, which is legal for a face.
+        // A bow tie intersects itself. A face may have this shape.
         let bow = [
             (0., 0.),
             (2., -2.),

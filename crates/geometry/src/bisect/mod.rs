@@ -14,8 +14,8 @@ pub use symmetrize::{SymmetrizeError, Symmetrized, symmetrize};
 
 /// Vertices nearer to the plane than this fraction of the largest extent of the mesh count as on the plane.
 const RELATIVE_TOLERANCE: f64 = 1e-9;
-/// Vertices nearer to the plane than this fraction of the largest coordinate also count as on the plane. Far
-/// from the origin, rounding errors have this size.
+/// Vertices nearer to the plane than this fraction of the largest coordinate also count as on the plane,
+/// because rounding errors of coordinates far from the origin have this size.
 const ROUNDING_TOLERANCE: f64 = 1e-14;
 
 /// The result of [`bisect`].
@@ -29,7 +29,7 @@ pub struct Bisection {
     pub back: Vec<FaceId>,
 }
 
-/// Cuts the mesh along a plane, so that every face lies on one side of it.
+/// Cuts the mesh along a plane, so that every face lies on one side of the plane.
 ///
 /// ```text
 ///    +-------+-------+           +-------+-------+
@@ -46,21 +46,22 @@ pub struct Bisection {
 /// vertex is decided once, for all its edges and faces. A crossing point does not depend on the direction of
 /// its edge.
 ///
-/// Ids change as follows. When an edge is split, the part at the origin of its first half keeps the id of the edge.
-/// The other parts and the crossing points are new, in order of the edges. The new edges on the plane come after
-/// them, face by face. When a face is cut, the part with its first corner keeps the id of the face; the other parts
-/// are new.
+/// Ids change as follows. When an edge is split, the part at the origin of its first half keeps the id of the
+/// edge. The other parts and the crossing points are new, in order of the edges. The new edges on the plane are
+/// numbered after these edges, face by face. When a face is cut, the part with its first corner keeps the id of
+/// the face; the other parts are new.
 ///
 /// Values are interpolated at crossing points. Corner values are interpolated within their face, so that seams
 /// are kept. Parts of an edge or a face copy its values, and new edges on the plane have zero values.
 ///
 /// The plane meets a flat face in a line. This line crosses the sides of the face an even number of times, and
-/// the intervals between crossings are alternately inside and outside of the face. A face that is twisted or
-/// intersects itself can lack this property. Then each part in front of the plane is cut off separately. If two faces
-/// share both edges that the plane crosses, each gets a separate edge between the same two crossing points.
+/// the intervals between crossings are alternately inside and outside of the face. On a face that is twisted or
+/// intersects itself, the intervals can be inconsistent. Then each part of the face in front of the plane is
+/// cut off separately. If two faces share both edges that the plane crosses, each gets a separate edge between
+/// the same two crossing points.
 ///
-/// A face that lies in the plane counts as behind it if its normal points to the front, because the solid that
-/// it bounds lies behind. Otherwise it counts as in front.
+/// A face that lies in the plane counts as behind the plane if its normal points to the front, because the
+/// solid that the face bounds lies behind the plane. Otherwise the face counts as in front.
 ///
 /// # Errors
 ///
@@ -107,8 +108,8 @@ fn heights(mesh: &Mesh, point: DVec3, normal: DVec3) -> Result<Vec<f64>, EditErr
             return Ok(0.0);
         }
         let height = (mesh.position(v) - point).dot(normal);
-        // The difference of two heights must be finite too. Its magnitude is at most twice the larger magnitude of
-        // the two.
+        // The difference of two heights must be finite too. The difference is at most twice the larger absolute
+        // height.
         if !(2.0 * height).is_finite() || !near.is_finite() {
             return Err(EditError::BadNumber(height));
         }

@@ -99,14 +99,14 @@ fn every_shape_can_be_cut_along_any_plane() {
 
 #[test]
 fn vertices_on_the_plane_do_not_move_and_edges_on_it_are_returned() {
-    // Cuts along the four edges around the middle of an octahedron.
+    // The plane contains the four edges around the middle of an octahedron.
     let (mesh, found) = cut(&shapes::octahedron(), DVec3::ZERO, DVec3::Z);
     assert_eq!(mesh, shapes::octahedron());
     assert_eq!(
         (found.edges.len(), found.front.len(), found.back.len()),
         (4, 4, 4)
     );
-    // Below the tolerance.
+    // The plane is nearer to the vertices than the tolerance.
     let (mesh, _) = cut(&shapes::octahedron(), DVec3::Z * 1e-9, DVec3::Z);
     assert_eq!(mesh, shapes::octahedron());
     let (mesh, _) = cut(&shapes::octahedron(), DVec3::Z * 1e-8, DVec3::Z);

@@ -4,9 +4,10 @@ use mesh::DVec3;
 
 use crate::sin_cos_degrees;
 
-/// The coordinates of a deformation: an origin and three orthogonal unit vectors, right-handed. The deformation changes
-/// along the third, the axis, from the height `from` to the height `to`. Below `from` and above `to`, space moves rigidly
-/// or, for [`Taper`], is scaled uniformly.
+/// The coordinates of a deformation: an origin and three orthogonal unit vectors, right-handed. The third
+/// vector is the axis, along which heights are measured. The deformation changes from the height `from` to the
+/// height `to`. Below `from` and above `to`, points move rigidly or, for [`Taper`], are scaled by a constant
+/// factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     /// The origin.
@@ -32,7 +33,8 @@ impl Frame {
         self.origin + p.x * x + p.y * y + p.z * z
     }
 
-    /// Returns how much of the deformation applies at a height: from 0 to 1. If `from` equals `to`, a step.
+    /// Returns the part of the deformation that applies at a height, from 0 to 1. If `from` equals `to`, the
+    /// part jumps from 0 to 1 at this height.
     fn part(&self, height: f64) -> f64 {
         if height <= self.from {
             0.0
@@ -44,8 +46,9 @@ impl Frame {
     }
 }
 
-/// Rotates around the axis, the further the higher: (x, y, z) moves to (x cos θ - y sin θ, x sin θ + y cos θ, z), where θ
-/// grows linearly from 0 at `from` to the angle at `to`. Keeps all volumes. The inverse has the opposite angle.
+/// Rotates points around the axis, by an angle that grows with the height: (x, y, z) moves to (x cos θ - y sin
+/// θ, x sin θ + y cos θ, z), where θ grows linearly from 0 at `from` to the angle at `to`. The twist keeps all
+/// volumes. Its inverse is the twist by the opposite angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Twist {
     /// The coordinates.
@@ -64,8 +67,8 @@ impl Twist {
     }
 }
 
-/// Scales around the axis, the further the higher: (x, y, z) moves to (s x, s y, z), where s changes linearly from 1 at
-/// `from` to the factor at `to`.
+/// Scales points around the axis, by a factor that changes with the height: (x, y, z) moves to (s x, s y, z),
+/// where s changes linearly from 1 at `from` to the factor at `to`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Taper {
     /// The coordinates.
@@ -100,8 +103,8 @@ impl Taper {
 ///                                              where k = angle / (to - from) is the curvature.
 /// ```
 ///
-/// The plane at `from` stays. Volumes change by the factor 1 - k x: beyond the center of the circle, at x = 1 / k, the result
-/// turns inside out.
+/// The plane at `from` stays. Volumes change by the factor 1 - k x. The center of the circle is at x = 1 / k;
+/// beyond the center, the factor is negative and the result is inside out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bend {
     /// The coordinates.
@@ -119,8 +122,8 @@ impl Bend {
         let length = part * (to - from);
         let beyond = p.z - from - length;
         let (s, c) = sin_cos_degrees(self.angle * part);
-        // The chord of the arc has the direction of half the angle. Its length is 2 sin(θ / 2) / k, which is `length`
-        // times a factor that tends to 1 for small angles.
+        // The direction of the chord of the arc is at half the angle θ. The length of the chord is 2 sin(θ / 2)
+        // / k, which is `length` times a factor that tends to 1 for small angles.
         let (half_sin, half_cos) = sin_cos_degrees(0.5 * self.angle * part);
         let half_angle = (0.5 * self.angle * part).to_radians();
         let chord = if half_angle == 0.0 {

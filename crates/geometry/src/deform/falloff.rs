@@ -3,8 +3,9 @@
 use mesh::DVec3;
 use rayon::prelude::*;
 
-/// Returns a weight for each point: 1 for selected points, and (1 - (d / radius)²)² for a point at the distance d from the
-/// nearest selected point; 0 from `radius` on. The weight and its derivative are continuous at both ends.
+/// Returns a weight for each point: 1 for selected points, (1 - (d / radius)²)² for a point at a distance d
+/// from the nearest selected point, and 0 if d is `radius` or more. The weight and its derivative are
+/// continuous at both ends.
 pub fn falloff(points: &[DVec3], is_selected: &[bool], radius: f64) -> Vec<f64> {
     let selected = points.iter().zip(is_selected).filter(|p| *p.1);
     let mut selected: Vec<DVec3> = selected.map(|p| *p.0).collect();
@@ -28,11 +29,12 @@ pub fn falloff(points: &[DVec3], is_selected: &[bool], radius: f64) -> Vec<f64> 
         .collect()
 }
 
-/// The longest part that is searched point by point.
+/// The largest number of points in a part of the tree that is searched point by point.
 const LEAF: usize = 16;
 
-/// Sorts points as a balanced tree (Bentley, "Multidimensional Binary Search Trees Used for Associative Searching",
-/// 1975): the middle point divides each part along `axis`, and its halves are divided along the next axis.
+/// Sorts points as a balanced tree (Bentley, "Multidimensional Binary Search Trees Used for Associative
+/// Searching", 1975): the middle point divides each part in two halves along `axis`, and the halves are divided
+/// along the next axis.
 fn sort(points: &mut [DVec3], axis: usize) {
     if points.len() > LEAF {
         let middle = points.len() / 2;

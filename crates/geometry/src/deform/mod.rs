@@ -20,8 +20,8 @@ pub use barr::{Bend, Frame, Taper, Twist};
 pub use falloff::falloff;
 pub use lattice::Lattice;
 
-/// Returns a unit normal for each vertex index: the sum of the area vectors of its faces. Zero for dead vertices, and if
-/// there is no such direction.
+/// Returns a unit normal for each vertex index: the sum of the area vectors of its faces. The result is zero
+/// for dead vertices, and for vertices whose area vectors add up to zero.
 pub fn vertex_directions(mesh: &Mesh) -> Vec<DVec3> {
     let exponent = crate::laplacian::exponent(mesh.positions());
     let area_vector = |f| {
@@ -43,7 +43,7 @@ pub fn vertex_directions(mesh: &Mesh) -> Vec<DVec3> {
             sum += vector;
             size += vector.length();
         }
-        // A sum that is much shorter than its parts is a rounding error.
+        // If the sum is much shorter than the sum of the lengths, it is only a rounding error.
         if sum.length() > 1e-14 * size {
             sum.normalize_or_zero()
         } else {

@@ -3,8 +3,8 @@
 
 use mesh::DVec3;
 
-/// Returns a number from -1 to 1, exclusive of 1, for a seed and an index: the generator `SplitMix64` of Steele, Lea, Flood, "Fast
-/// Splittable Pseudorandom Number Generators", 2014.
+/// Returns a number from -1 to 1 (excluding 1) for a seed and an index. The numbers come from the generator
+/// `SplitMix64` of Steele, Lea, Flood, "Fast Splittable Pseudorandom Number Generators", 2014.
 pub fn random(seed: u64, index: u64) -> f64 {
     let bits = mixed(mixed(seed).wrapping_add(index));
     // 53 bits, which an f64 represents exactly.
@@ -18,9 +18,9 @@ fn mixed(x: u64) -> u64 {
     x ^ (x >> 31)
 }
 
-/// Returns smooth noise from -1 to 1 at a point: 0 at all points with integer coordinates, with waves about as long as 1
-/// or 2 between them. The value and its first two derivatives are continuous. Perlin, "Improving Noise", 2002, with
-/// directions that depend on the seed.
+/// Returns smooth noise from -1 to 1 at a point: 0 at all points with integer coordinates, with waves of a
+/// length of about 1 or 2 between these points. The value and its first two derivatives are continuous. Source:
+/// Perlin, "Improving Noise", 2002; here the directions of the gradients depend on the seed.
 pub fn gradient(seed: u64, p: DVec3) -> f64 {
     let floor = p.floor();
     let inside = p - floor;
@@ -38,10 +38,10 @@ pub fn gradient(seed: u64, p: DVec3) -> f64 {
     sum
 }
 
-/// Returns the product of the offset from a corner of the lattice and the gradient there: one of the twelve directions
-/// from the center of a cube to its edges.
+/// Returns the dot product of the offset from a corner of the lattice and the gradient at this corner. The
+/// gradient is one of the twelve vectors from the center of a cube to the midpoints of its edges.
 fn slope(seed: u64, corner: DVec3, offset: DVec3) -> f64 {
-    // Adding 0 turns -0 into 0, which must have the same direction.
+    // Adding 0 turns -0 into 0, because both must give the same gradient.
     let cell = corner.to_array().map(|x| (x + 0.0).to_bits());
     let hash = cell
         .iter()

@@ -23,7 +23,7 @@ fn twists_follow_the_closed_form_and_the_opposite_angle_is_the_inverse() {
         angle: -180.0,
         ..twist
     };
-    // A quarter of the way, 45 degrees; beyond the end, 180 degrees.
+    // At a quarter of the height, the angle is 45 degrees; beyond the end, 180 degrees.
     let h = 0.5_f64.sqrt();
     assert!(twist.point(DVec3::X).distance(DVec3::new(h, h, 0.0)) < 1e-15);
     assert_eq!(
@@ -83,7 +83,7 @@ fn a_tapered_column_has_the_volume_of_a_frustum() {
 #[test]
 fn bends_put_the_axis_on_a_circle_and_keep_its_length() {
     use std::f64::consts::PI;
-    // The length of 4 becomes a quarter of a circle with the radius 8 / pi.
+    // An axis of length 4 becomes a quarter of a circle with the radius 8 / pi.
     let bend = Bend {
         frame: FRAME,
         angle: 90.0,

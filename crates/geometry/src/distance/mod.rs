@@ -1,9 +1,9 @@
 //! The distance between two surfaces: the largest distance, with a bound of its error, and the mean distance.
 //!
-//! The Hausdorff distance is the largest distance from a point of one surface to the other surface. It can be
-//! reached inside a face: a spike of the other surface can end over the middle of a face. Therefore triangles
-//! are cut into pieces. The cutting stops when no piece can exceed the largest distance found by more than a
-//! tolerance:
+//! The Hausdorff distance is the largest distance from a point of one surface to the other surface. The largest
+//! distance can be at a point inside a face: for example, a spike of the other surface can end over the middle
+//! of a face. Therefore triangles are cut into pieces. The cutting stops when no piece can exceed the largest
+//! distance found by more than a tolerance:
 //!
 //! ```text
 //!     c              c
@@ -43,13 +43,13 @@ pub struct Distance {
 /// The distances from the points of one surface to another surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OneSided {
-    /// The largest distance found, exact up to rounding. It is only a lower bound if the search for a nearest
-    /// point was stopped early, because very many places are almost equally near.
+    /// The largest distance found, exact up to rounding. The value is only a lower bound if very many places
+    /// are almost equally near, because the search for a nearest point then stops early.
     pub largest: f64,
     /// An upper bound of the distances of all points of this surface.
     pub at_most: f64,
-    /// The mean distance over the area, from samples at the corners and inside the triangles. If the surface
-    /// has no area, the mean over the vertices.
+    /// The mean distance over the area, computed from samples at the corners and inside the triangles. If the
+    /// surface has no area, it is the mean over the vertices.
     pub mean: f64,
     /// The point of this surface with the largest distance.
     pub from: SurfacePoint,
@@ -72,14 +72,15 @@ pub const TOLERANCE: f64 = 1e-5;
 /// The name of this work in progress reports.
 const WHAT: &str = "measure the distance";
 
-/// Asks the progress listener whether to continue. Called at least every few milliseconds.
+/// Asks the progress listener whether to continue. The measurement calls this function at least every few
+/// milliseconds.
 type Ask<'a> = dyn Fn() -> Result<(), Cancelled> + Sync + 'a;
 
 impl Distance {
     /// Measures the distance between two surfaces. `tolerance` is the largest allowed error of the Hausdorff
-    /// distance, in scene units. If `None`, it is [`TOLERANCE`] times the [`diagonal`]. The search can stop before it
-    /// reaches a very small tolerance; [`at_most`](Self::at_most) is a valid bound in any case. Returns `None` if one
-    /// of the meshes has no faces.
+    /// distance, in scene units. If `None`, the tolerance is [`TOLERANCE`] times the [`diagonal`]. The search
+    /// can stop before it reaches a very small tolerance; even then, [`at_most`](Self::at_most) is a valid
+    /// bound. Returns `None` if one of the meshes has no faces.
     pub fn between(a: &Mesh, b: &Mesh, tolerance: Option<f64>) -> Option<Self> {
         let found = Self::between_with(a, b, tolerance, &NoProgress);
         found.expect("never cancelled")
@@ -124,7 +125,7 @@ impl Distance {
         }
     }
 
-    /// Returns the largest distance found. The Hausdorff distance is between this and
+    /// Returns the largest distance found. The Hausdorff distance is between the largest distance found and
     /// [`at_most`](Self::at_most).
     pub fn largest(&self) -> f64 {
         self.worst().largest
@@ -159,8 +160,8 @@ impl std::fmt::Display for SurfacePoint {
 /// The approximate number of samples for the mean distance of a surface with few large triangles.
 const SAMPLES: f64 = 50_000.0;
 
-/// The number of vertices or faces that one task measures. It is fixed, so that sums do not depend on the number of
-/// threads.
+/// The number of vertices or faces that one task measures. The number is fixed, so that sums do not depend on
+/// the number of threads.
 const BLOCK: usize = 1024;
 
 /// The result of one task.
@@ -301,8 +302,8 @@ impl Block {
         for i in 0..n {
             ask()?;
             for j in 0..n - i {
-                // The smaller triangle with the orientation of the triangle, and the inverted one if it lies
-                // inside the triangle.
+                // At each place there is a smaller triangle with the orientation of the large one, and an
+                // inverted one if it lies inside the large one.
                 let n_parts = if i + j + 2 <= n { 2 } else { 1 };
                 for shift in [third, 2.0 * third].into_iter().take(n_parts) {
                     let (u, v) = (f64::from(i) + shift, f64::from(j) + shift);

@@ -34,11 +34,11 @@ pub(super) struct Farthest {
 /// The number of pieces cut by one task.
 const BLOCK: usize = 64;
 
-/// The maximum number of pieces in a round. If there are more, those with the largest bounds are kept.
+/// The maximum number of pieces in a round. If there are more pieces, those with the largest bounds are kept.
 const MAX_PIECES: usize = 1 << 18;
 
-/// The search stops after it has visited this number of nodes in the tree of the other surface. This takes a
-/// few seconds.
+/// The search stops after it has visited this number of nodes in the tree of the other surface. Visiting so
+/// many nodes takes a few seconds.
 const MAX_VISITS: u64 = 1 << 28;
 
 impl Farthest {
@@ -75,18 +75,18 @@ impl Piece {
         piece
     }
 
-    /// Returns an upper bound of the distances from all points of the piece to the other surface. It is the
-    /// smallest of these bounds:
+    /// Returns an upper bound of the distances from all points of the piece to the other surface. The result is
+    /// the smallest of these bounds:
     ///
     /// 1. The largest distance from a corner of the piece to one triangle of the other surface. The distance
     ///    to a triangle is a convex function, so its maximum over the piece is at a corner.
     /// 2. If the nearest points of the corners lie on two triangles with a common edge, the sum of two
-    ///    distances. The first is the largest distance from a corner to its nearest point: no point of the
-    ///    piece is further than this from the triangle that the three nearest points span. The second is the
-    ///    largest distance from the common edge to a side of the spanned triangle that leads from one of the
-    ///    two triangles to the other: no point of such a side is further than this from the two triangles.
-    /// 3. The largest distance of a corner, plus 1/√3 times the longest side. Each point of the piece has a
-    ///    corner within 1/√3 times the longest side.
+    ///    distances d and e. d is the largest distance from a corner to its nearest point. No point of the
+    ///    piece is further than d from the triangle that the three nearest points span. e is the largest
+    ///    distance from the common edge to a side of the spanned triangle that leads from one of the two
+    ///    triangles to the other. No point of such a side is further than e from the two triangles.
+    /// 3. The largest distance of a corner, plus 1/√3 times the longest side. No point of the piece is further
+    ///    than 1/√3 times the longest side from the nearest corner.
     fn bound(&self, to: &SurfaceIndex) -> f64 {
         let [a, b, c] = self.corners;
         let far = self.corners.iter().fold(0.0, |d, s| s.hit.distance.max(d));
@@ -201,8 +201,8 @@ pub(super) fn refine(
     ask: &Ask,
 ) -> Result<(Farthest, f64), Cancelled> {
     let mut visits_left = MAX_VISITS;
-    // A round has only as many pieces as the remaining visits allow. The earlier searches show how many visits
-    // a search takes.
+    // A round has only as many pieces as the remaining visits allow. The number of visits of a search is
+    // estimated from earlier searches.
     let visits = pieces.iter().map(|p| u64::from(p.corners[0].hit.visits));
     // Cutting a piece takes at most three searches. The factor 5 leaves a margin.
     let per_piece = 5 * (visits.sum::<u64>() / (pieces.len() as u64).max(1)).max(1);

@@ -185,7 +185,7 @@ fn the_bounds_hold_for_randomly_deformed_meshes() {
                 side.at_most >= sampled - 1e-12,
                 "{round}: {side:?} {sampled}"
             );
-            // Samples are a fortieth of a side apart.
+            // The distance between samples is a fortieth of a side.
             assert!(
                 side.largest <= sampled + 0.12,
                 "{round}: {side:?} {sampled}"

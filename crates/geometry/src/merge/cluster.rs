@@ -158,11 +158,11 @@ impl Reach {
         }
     }
 
-    /// Whether the difference is at most one step. If it is, every difference with smaller absolute coordinates
-    /// is at most one step too.
+    /// Whether the difference is at most one step. If a difference is at most one step, every difference with
+    /// smaller absolute coordinates is at most one step too.
     fn covers(&self, difference: DVec3) -> bool {
         if self.squared == 0.0 {
-            // The square of a tiny difference would be 0 too.
+            // Squares are not compared, because the square of a tiny difference is 0 too.
             difference == DVec3::ZERO
         } else {
             (self.scale * difference).length_squared() <= self.squared
@@ -295,7 +295,7 @@ mod tests {
     fn a_million_close_points_become_one_cluster_quickly() {
         let equal = vec![DVec3::splat(0.1); 1_000_000];
         assert!(clustered(&equal, 0.0).iter().all(|&low| low == 0));
-        // Two groups of points, once nearer to each other than the distance and once farther.
+        // There are two groups of points: first nearer to each other than the distance, then farther.
         for (apart, expected) in [(0.9, 1), (1.1, 2)] {
             let mut groups: Vec<DVec3> = noise(200_000).iter().map(|&p| p * 1e-3).collect();
             for p in &mut groups[100_000..] {
@@ -388,7 +388,7 @@ mod tests {
             let a = DVec3::from_array(at) + offset;
             for (factor, near) in [(0.9, true), (1.1, false)] {
                 let mut points = vec![a, a + factor * distance * direction];
-                // Points far away, which only make the tree deeper.
+                // The points far away only make the tree deeper.
                 points.extend(noise(others).iter().map(|&p| a + 1e4 * (p + 1.0)));
                 // Skips cases in which rounding of the sum could move a point too far.
                 prop_assume!(offset.abs() * 1e-15 < 0.01 * distance);

@@ -63,7 +63,7 @@ pub enum MergeError {
 ///
 /// # Panics
 ///
-/// If the mesh is not dense.
+/// Panics if the mesh is not dense.
 ///
 /// # Examples
 ///
@@ -114,7 +114,7 @@ pub fn merge_vertices(
 ///
 /// # Panics
 ///
-/// If the mesh is not dense, if `lowest` does not have one number for each vertex, or if a number is not the
+/// Panics if the mesh is not dense, if `lowest` does not have one number for each vertex, or if a number is not the
 /// index of a vertex.
 pub fn merge_clusters(mesh: &mut Mesh, lowest: &[u32]) -> Result<Merged, BuildError> {
     assert!(mesh.is_dense(), "the mesh must be dense");
@@ -152,8 +152,8 @@ struct Polygons {
 }
 
 impl Polygons {
-    /// Maps the faces of the mesh to the merged vertices. `lowest` has for each vertex the lowest vertex of its
-    /// cluster.
+    /// Replaces the vertices of the faces by the merged vertices. `lowest` has for each vertex the lowest
+    /// vertex of its cluster.
     fn of(mesh: &Mesh, lowest: &[u32]) -> Self {
         let mut kept = Vec::new();
         let mut number = vec![0; lowest.len()];

@@ -1,10 +1,10 @@
 //! A bound of the distance by which a collapse moves the surface.
 //!
-//! The triangles around a collapsed edge before and after the collapse are seen along one direction. If both cover the
-//! same region once, the points above each other are pairs. The distance of a pair is largest at a corner of a cell,
-//! where a cell is the region that one old and one new triangle share. This bounds the Hausdorff distance in both
-//! directions. Source of the idea: Cohen, Manocha, Olano, "Simplifying Polygonal Models Using Successive Mappings",
-//! 1997.
+//! The triangles around a collapsed edge before and after the collapse are seen along one direction. If the old
+//! and the new triangles cover the same region once, each point of the old triangles forms a pair with the
+//! point of the new triangles above or below it. The distance of a pair is largest at a corner of a cell, where
+//! a cell is the region that one old and one new triangle share. This bounds the Hausdorff distance in both
+//! directions. Source: Cohen, Manocha, Olano, "Simplifying Polygonal Models Using Successive Mappings", 1997.
 
 use mesh::{DVec3, EdgeId, FaceId};
 
@@ -14,8 +14,8 @@ use super::Blocked;
 use super::collapse::{Collapser, Target};
 
 impl Collapser<'_> {
-    /// If there is a limit: returns the faces that remain around an edge after its collapse, with their bounds in the
-    /// coordinates of the collapser.
+    /// If there is an error limit, returns the faces that remain around an edge after its collapse, each with a
+    /// bound of its distance to the original surface, in the scaled coordinates of the [`Collapser`].
     pub(super) fn errors_after(
         &self,
         e: EdgeId,
@@ -56,8 +56,8 @@ impl Collapser<'_> {
         Ok(faces.into_iter().zip(bounds).collect())
     }
 
-    /// If `e` is a boundary edge: the position of the end that a collapse removes, and of its neighbors on the
-    /// boundary after the collapse.
+    /// If `e` is a boundary edge, returns the position of the end that the collapse removes, and the positions
+    /// of the two vertices beside it on the boundary after the collapse.
     fn cut(&self, e: EdgeId, target: &Target) -> Option<(DVec3, [DVec3; 2])> {
         let h = e
             .half_edges()
@@ -82,11 +82,12 @@ struct Patch {
     old: Vec<([DVec3; 3], f64)>,
     /// The triangles after the collapse. The first corner of each is the new vertex.
     new: Vec<[DVec3; 3]>,
-    /// For an edge of the boundary: its end that is removed, and the two vertices beside it on the new boundary.
+    /// For a boundary edge, the position of the removed end, and of the two vertices beside it on the new
+    /// boundary.
     cut: Option<(DVec3, [DVec3; 2])>,
 }
 
-/// The share of a bound that is added for rounding errors.
+/// The fraction of a bound that is added to it for rounding errors.
 const SLACK: f64 = 1e-9;
 
 impl Patch {
@@ -121,7 +122,8 @@ impl Patch {
         if !all().all(faces_ahead) || n_turns(&new) > 1 {
             return None;
         }
-        // Beyond the old or the new boundary, a triangle has no partner. The points there are near the boundary.
+        // Between the old and the new boundary, a point has no partner on the other triangles, but it is near
+        // the boundary.
         let beyond = self.cut.map_or(0.0, |(removed, [p, q])| {
             let largest = self
                 .old
@@ -139,16 +141,16 @@ impl Patch {
     }
 }
 
-/// Returns how often the triangles around their common first corner go around it, rounded up or down.
+/// Returns the number of turns that the triangles make around their common first corner, rounded up or down.
 fn n_turns(triangles: &[[DVec3; 3]]) -> usize {
-    // Each turn has one triangle that crosses the half-line from the corner in the direction of x.
+    // In each turn, exactly one triangle crosses the half-line from the corner in the direction of x.
     let crosses = |&&[p, a, b]: &&[DVec3; 3]| a.y < p.y && b.y >= p.y;
     triangles.iter().filter(crosses).count()
 }
 
 /// Returns the largest difference of the heights of two triangles in the region that they share, if there is one.
 fn cell_gap(old: &[DVec3; 3], new: &[DVec3; 3]) -> Option<f64> {
-    // Cuts the old triangle by the lines of the new one. Each cut adds at most one corner.
+    // Clips the old triangle by the side lines of the new one. Each cut adds at most one corner.
     let (mut cell, mut n) = ([DVec3::ZERO; 6], 3);
     cell[..3].copy_from_slice(old);
     for i in 0..3 {

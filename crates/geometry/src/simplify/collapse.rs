@@ -11,19 +11,21 @@ use super::quadric::{Quadric, Spread};
 use super::queue::Queue;
 use super::{Blocked, Options};
 
-/// The weight of the squared distance to the area that a vertex stands for, relative to the squared distance to its
-/// planes, when costs are compared. Without it, triangles become thin where the surface is flat or curved in one
-/// direction. Measured on a torus of 1,000,000 triangles reduced to a tenth: with 1e-6, one percent of the triangles has
-/// an angle below 9°; with 2e-5, below 15°, at the same distance.
+/// When costs are compared, the weight of the squared distance to the area that a vertex stands for. The
+/// squared distance to the planes of that area has the weight 1. Without this weight, triangles become thin
+/// where the surface is flat or curved in one direction. On a torus of 1,000,000 triangles reduced to a tenth,
+/// one percent of the triangles has an angle below 9° with the weight 1e-6, and below 15° with 2e-5. The
+/// distance to the original is the same.
 const ROUNDNESS: f64 = 2e-5;
 
-/// The same weight when the new position is chosen. It decides only where the planes do not.
+/// The weight that replaces [`ROUNDNESS`] when the new position is chosen. It is so small that it matters only
+/// if many positions have the same distance to the planes.
 const FIRMNESS: f64 = 1e-8;
 
 /// The least cosine of the angle by which a collapse may turn a triangle.
 const TURN: f64 = 0.2;
 
-/// What the queue knows about an edge.
+/// The state of an edge in the queue.
 #[derive(Clone, Copy, PartialEq)]
 enum State {
     Queued,
@@ -39,29 +41,30 @@ pub(super) struct Collapser<'a> {
     /// very large meshes give the same result.
     center: DVec3,
     pub(super) scale: f64,
-    /// By vertex.
+    /// The quadric of each vertex, by index.
     quadrics: Vec<Quadric>,
     spreads: Vec<Spread>,
     kinds: Vec<Kind>,
     /// The pass in which a collapse changed the vertex or one of its neighbors.
     touched: Vec<u32>,
-    /// By face, if there is a limit: a bound of the distance between the face and its place on the original surface.
+    /// If there is an error limit, a bound of the distance between each face and the original surface, by face
+    /// index.
     pub(super) errors: Vec<f64>,
-    /// By edge.
+    /// Whether each edge belongs to a line, by index.
     lines: Vec<bool>,
     states: Vec<State>,
     queue: Queue,
     pub(super) options: &'a Options<'a>,
 }
 
-/// Where the vertex of a collapsed edge would lie.
+/// The position of the vertex to which an edge would collapse.
 pub(super) struct Target {
-    /// In the coordinates of the collapser.
+    /// The position, in the scaled coordinates of the [`Collapser`].
     pub(super) point: DVec3,
-    /// The end of the edge that keeps its position, if one does.
+    /// The end of the edge that keeps its position; `None` if both ends move.
     pub(super) end: Option<VertexId>,
-    /// The mean squared distance from the point to the planes of the triangles that the vertex stands for, and a share
-    /// of the mean squared distance to these triangles.
+    /// The mean squared distance from the point to the planes of the triangles that the vertex stands for, plus
+    /// the mean squared distance to these triangles, with a small weight.
     cost: f64,
 }
 
@@ -112,7 +115,8 @@ impl<'a> Collapser<'a> {
         this
     }
 
-    /// Collapses edges until the mesh has few enough faces, or no edge is left that may be collapsed.
+    /// Collapses edges until the mesh has at most the requested number of faces, or no remaining edge may be
+    /// collapsed.
     pub(super) fn run(&mut self, progress: &dyn Progress) -> Result<(), Cancelled> {
         let start = self.n_faces;
         let mut visits = 0_u32;
@@ -132,7 +136,7 @@ impl<'a> Collapser<'a> {
         Ok(())
     }
 
-    /// Returns how many of the remaining edges are blocked, by reason.
+    /// Returns the number of blocked edges for each reason.
     pub(super) fn blocked(&self) -> Vec<(Blocked, usize)> {
         let blocked = |e: EdgeId| match self.states[e.index()] {
             State::Blocked(reason) => Some(reason),
@@ -170,7 +174,7 @@ impl<'a> Collapser<'a> {
                 for w in self.mesh.vertex_neighbors(v) {
                     self.touched[w.index()] = pass;
                 }
-                // Edges that were blocked can now be possible.
+                // The collapse can make it possible to collapse edges that were blocked.
                 let around: Vec<EdgeId> = self
                     .mesh
                     .vertex_half_edges(v)
@@ -288,8 +292,8 @@ impl<'a> Collapser<'a> {
         })
     }
 
-    /// Returns the corners of the triangle at one of the vertices that is nearest to `point`, and the barycentric
-    /// coordinates of its nearest point.
+    /// Among the triangles at the given vertices, finds the one that is nearest to `point`. Returns its
+    /// corners, and the barycentric coordinates of its point nearest to `point`.
     fn nearest_corners(
         &self,
         vertices: [VertexId; 2],
@@ -342,7 +346,7 @@ impl<'a> Collapser<'a> {
         })
     }
 
-    /// Returns the quadric and the area of a vertex: a third of each of its triangles.
+    /// Returns the quadric and the area of a vertex. Each triangle contributes a third to each of its vertices.
     fn measures_at(&self, v: VertexId) -> (Quadric, Spread) {
         let (mut quadric, mut spread) = (Quadric::default(), Spread::default());
         for h in self.mesh.vertex_half_edges(v) {
@@ -363,8 +367,8 @@ impl<'a> Collapser<'a> {
         (quadric, spread)
     }
 
-    /// Returns the squared distances to the planes through a line that are perpendicular to its faces. They keep
-    /// vertices near the line.
+    /// Returns the sum of the squared distances to the planes that contain the edge and are perpendicular to
+    /// one of its faces. This quadric keeps vertices near the line.
     fn line_quadric(&self, e: EdgeId) -> Quadric {
         let mut sum = Quadric::default();
         for h in e.half_edges() {
@@ -385,7 +389,8 @@ impl<'a> Collapser<'a> {
     }
 }
 
-/// Returns the barycentric coordinates of a point of a triangle; those of its center if the triangle has no area.
+/// Returns the barycentric coordinates of a point of a triangle; the coordinates of its center if the triangle
+/// has no area.
 fn barycentric(p: DVec3, [a, b, c]: [DVec3; 3]) -> [f64; 3] {
     let normal = (b - a).cross(c - a);
     let whole = normal.length_squared();

@@ -1,11 +1,12 @@
 //! Simplification: fewer triangles for nearly the same surface.
 //!
-//! Edges are collapsed, the cheapest first. The cost of a collapse is the mean squared distance from the new vertex to
-//! the planes of all triangles that it stands for, after Garland, Heckbert, "Surface Simplification Using Quadric Error
-//! Metrics", 1997. As a mean over the area, small details count as much as large ones: on a rocker arm of 20,088
-//! triangles reduced to a tenth, the largest distance fell from 0.5 % of the diagonal to 0.3 %. A small weight on the
-//! distance to the area itself keeps triangles round, similar to Trettner, Kobbelt, "Fast and Robust QEM Simplification
-//! of Large Meshes Using Probabilistic Quadrics", 2020.
+//! Edges are collapsed, the cheapest first. The cost of a collapse is the mean squared distance from the new
+//! vertex to the planes of all original triangles that this vertex stands for, after Garland, Heckbert,
+//! "Surface Simplification Using Quadric Error Metrics", 1997. Because the cost is a mean over the area, small
+//! details count as much as large ones. On a rocker arm of 20,088 triangles reduced to a tenth, the largest
+//! distance fell from 0.5 % of the diagonal to 0.3 % when the mean replaced the sum. A small weight on the
+//! distance to the area itself keeps triangles round, similar to Trettner, Kobbelt, "Fast and Robust QEM
+//! Simplification of Large Meshes Using Probabilistic Quadrics", 2020.
 //!
 //! Lines of the mesh keep their places:
 //!
@@ -33,12 +34,13 @@ pub struct Options<'a> {
     /// The number of faces at which simplification stops. The result has this many faces, one fewer at the end of some
     /// collapses, or more if no edge may be collapsed.
     pub faces: usize,
-    /// The largest allowed Hausdorff distance between the original and the simplified surface, in scene units; `None`
-    /// sets no limit. The limit is guaranteed: each collapse adds a bound of the distance that it moves the surface to
-    /// the bounds of the triangles around it. The bounds add up, so the true distance is usually below the limit: a third of it to nearly all of it.
+    /// The largest allowed Hausdorff distance between the original and the simplified surface, in scene units;
+    /// `None` sets no limit. The limit is guaranteed. Each triangle has a bound of its distance, to which each
+    /// collapse adds a bound of the distance by which it moves the surface. These sums overestimate the
+    /// distance: the true distance is usually between a third of the limit and the limit.
     pub error: Option<f64>,
-    /// Edges whose lines are kept, in addition to boundaries, seams, borders of face tags and materials, tagged edges
-    /// and creases.
+    /// Edges that are kept as lines, in addition to boundaries, seams, borders of face tags and materials,
+    /// tagged edges and creases.
     pub features: &'a [EdgeId],
     /// Vertices that keep their positions.
     pub pinned: &'a [VertexId],
@@ -47,10 +49,10 @@ pub struct Options<'a> {
 /// The result of [`simplify`].
 #[derive(Clone, Debug)]
 pub struct Simplified {
-    /// The simplified mesh. It is dense: elements are numbered anew, in the order of the old numbers.
+    /// The simplified mesh. The mesh is dense: elements are renumbered in the order of their old numbers.
     pub mesh: Mesh,
-    /// If the mesh has more faces than [`Options::faces`]: how many of the edges that are left could not be collapsed,
-    /// by reason.
+    /// If the mesh has more faces than [`Options::faces`], the number of remaining edges that could not be
+    /// collapsed, for each reason.
     pub blocked: Vec<(Blocked, usize)>,
 }
 
@@ -104,10 +106,10 @@ pub enum SimplifyError {
 
 /// Simplifies a mesh of triangles by collapsing edges.
 ///
-/// Keeps the topology: the Euler characteristic, the boundary loops and the graph of lines stay. No triangle is turned
-/// by more than 78° in one collapse. The positions of remaining vertices change, except at pinned vertices and at ends
-/// and meeting points of lines. Attributes of a vertex are those at the nearest point on the collapsed edge, on each
-/// side of a seam separately, including normals. Isolated vertices stay.
+/// Keeps the topology: the Euler characteristic, the boundary loops and the graph of lines stay. No triangle is
+/// turned by more than 78° in one collapse. The positions of remaining vertices change, except at pinned
+/// vertices and at ends and meeting points of lines. Attributes of a vertex, including normals, are those at
+/// the nearest point on the collapsed edge. On a seam, each side is treated separately. Isolated vertices stay.
 ///
 /// # Errors
 ///
@@ -116,7 +118,7 @@ pub enum SimplifyError {
 ///
 /// # Panics
 ///
-/// If the mesh is not dense (see [`Mesh::is_dense`]), or a feature or a pinned vertex does not exist.
+/// Panics if the mesh is not dense (see [`Mesh::is_dense`]), or a feature or a pinned vertex does not exist.
 ///
 /// # Examples
 ///

@@ -43,7 +43,7 @@ impl Quadric {
     /// Returns the point with the lowest value, or `None` if many points have this value.
     pub(super) fn lowest(&self) -> Option<DVec3> {
         let (d, m) = (self.diagonal, self.mixed);
-        // The columns of the adjugate of A, which is symmetric too.
+        // The columns of the adjugate of A. The adjugate is symmetric, as A is.
         let x = DVec3::new(
             d.y * d.z - m.x * m.x,
             m.y * m.x - m.z * d.z,
@@ -82,7 +82,7 @@ pub(super) struct Spread {
 }
 
 impl Spread {
-    /// Returns an area that lies at one point.
+    /// Returns the spread of an area that lies at one point.
     pub(super) fn at_point(point: DVec3, area: f64) -> Self {
         Self {
             area,
@@ -96,7 +96,7 @@ impl Spread {
         at_least_zero((self.area * p - 2.0 * self.first).dot(p) + self.second)
     }
 
-    /// Returns this integral, times `weight`, as a quadric.
+    /// Returns the integral of the squared distance, times `weight`, as a quadric.
     pub(super) fn quadric(&self, weight: f64) -> Quadric {
         Quadric {
             diagonal: DVec3::splat(weight * self.area),

@@ -319,12 +319,12 @@ fn an_error_is_never_exceeded() {
     };
     let sphere = triangles(&shapes::uv_sphere(40, 20));
     let cylinder = triangles(&shapes::cylinder(40, true));
-    // Each mesh with the number of faces that are left at most at an error of 0.05.
+    // For each mesh, the largest allowed number of remaining faces at an error of 0.05.
     for (mesh, most) in [(torus(), 700), (waves(), 90), (sphere, 450), (cylinder, 90)] {
         let sizes = [1e-9, 0.001, 0.01, 0.05].map(|error| reduced(&mesh, error));
         assert!(sizes[3] <= most, "{sizes:?}");
     }
-    // Flat regions vanish at any error.
+    // Flat regions are reduced as far as possible at any error.
     assert_eq!(reduced(&square(20), 1e-6), 2);
 }
 
@@ -347,7 +347,7 @@ fn it_can_be_cancelled() {
 }
 
 proptest! {
-    /// Any soup of triangles, with degenerate ones and any coordinates.
+    /// The input is any list of triangles, with degenerate ones and any coordinates.
     #[test]
     fn soups_of_triangles_keep_the_invariants(
         points in proptest::collection::vec((0..4_u8, 0..4_u8, 0..4_u8), 4..24),

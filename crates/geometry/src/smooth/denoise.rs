@@ -1,12 +1,14 @@
-//! Bilateral filtering of face normals, and vertices that follow the normals.
+//! Denoising: filters the face normals, then moves the vertices so that the faces have the filtered normals.
 //!
 //! ```text
-//!     n(f) <- normalized sum over the faces g around f of  a(g) exp(-|c(f) - c(g)|² / 2 s²) exp(-|n(f) - n(g)|² / 2 t²) n(g)
+//!     n(f) <- normalized sum over the faces g around f of
+//!             a(g) exp(-|c(f) - c(g)|² / 2 s²) exp(-|n(f) - n(g)|² / 2 t²) n(g)
 //!     x(v) <- x(v) + mean over the faces f of v of  n(f) (n(f) . (c(f) - x(v)))
 //! ```
 //!
-//! Here a, c and n are areas, centers and normals of faces. The length s is the mean distance between centers of adjacent
-//! faces, and t is half the distance between two unit normals with the angle of the method: sin(angle / 2).
+//! Here a, c and n are areas, centers and normals of faces. The length s is the mean distance between centers
+//! of adjacent faces, and t is half the distance between two unit normals with the angle of the method:
+//! sin(angle / 2).
 
 use mesh::{DVec3, Domain, FaceId, Mesh, VertexId};
 use progress::{Cancelled, Meter, Progress};
@@ -86,7 +88,7 @@ fn filtered_normals(
         })
         .collect();
     let spread = spread_of_centers(mesh, &centers);
-    // Half of the distance between two unit normals with this angle.
+    // Half of the distance between the ends of two unit normals with this angle.
     let (tolerance, _) = sin_cos_degrees(0.5 * angle);
     // exp(-|difference|² / 2 s²): a difference of 0 has the weight 1 even if s is 0.
     let falloff = |square: f64, spread: f64| {

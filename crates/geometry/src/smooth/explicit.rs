@@ -7,7 +7,7 @@ use super::{Role, SmoothError, Smoother, Weights};
 use crate::Laplacian;
 use crate::sparse::SymmetricMatrix;
 
-/// Returns the negative factor μ of a Taubin pass: 1 / factor + 1 / μ = `pass_band`.
+/// Returns the negative factor μ of a Taubin pass, for which 1 / factor + 1 / μ = `pass_band`.
 pub(super) fn growing_factor(factor: f64, pass_band: f64) -> f64 {
     factor / (pass_band * factor - 1.0)
 }
@@ -59,7 +59,8 @@ fn neighbors<'a>(
     others.map(move |(w, entry)| (mesh.positions()[w as usize] - p, f64::max(0.0, -entry)))
 }
 
-/// Returns the vector to the mean of the two neighbors on the boundary, with a weight for each length.
+/// Returns the vector to the mean of the two neighbors on the boundary, where `weight` gives the weight of a
+/// neighbor at a given distance.
 fn along_rim(mesh: &Mesh, v: VertexId, weight: impl Fn(f64) -> f64) -> DVec3 {
     let p = mesh.position(v);
     let rim = mesh

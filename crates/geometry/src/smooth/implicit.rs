@@ -8,13 +8,15 @@ use super::{Role, SmoothError, Smoother};
 use crate::sparse::{Factor, SymmetricMatrix};
 use crate::{Laplacian, bounds};
 
-/// The longest time, in squares of the diagonal of the bounding box. After it, the shape has shrunk to less than a
-/// thousandth; the equations are still well conditioned.
+/// The longest time, in multiples of the squared diagonal of the bounding box. After this time, the shape has
+/// shrunk to less than a thousandth of its size, and the equations are still well conditioned.
 const LONGEST: f64 = 1e3;
-/// The shortest length of a boundary edge, relative to the mean.
+/// The shortest length of a boundary edge in the equations, relative to the mean length. Shorter edges count as
+/// this long.
 const SHORTEST: f64 = 1e-5;
 
-/// Solves (M + time L) x' = M x, as (M + time L) d = -time L x for the displacements d = x' - x. So the result does not
+/// Solves (M + time L) x' = M x for the new positions x', where L is the Laplacian and M has the vertex areas.
+/// The solver computes the displacements d = x' - x from (M + time L) d = -time L x, so the result does not
 /// depend on the distance of the mesh from the origin.
 pub(super) fn step(
     smoother: &Smoother,
@@ -23,7 +25,7 @@ pub(super) fn step(
     progress: &dyn Progress,
 ) -> Result<(), SmoothError> {
     let diagonal = bounds(mesh).map_or(0.0, |[min, max]| min.distance(max));
-    // A mesh whose vertices are all at one point stays.
+    // A mesh whose vertices are all at one point does not change.
     if diagonal == 0.0 {
         return Ok(());
     }
@@ -80,8 +82,8 @@ fn solve(
     Ok(())
 }
 
-/// Returns the Laplacian of the boundary as a set of curves: the weight of an edge is 1 / length. The mass of a vertex is
-/// half the length of its two edges.
+/// Returns the Laplacian of the boundary as a set of curves: the weight of an edge is 1 / length. The mass of a
+/// vertex is half the length of its two edges.
 fn rim_laplacian(mesh: &Mesh) -> (SymmetricMatrix, Vec<f64>) {
     let edges = || mesh.edges().filter(|&e| mesh.is_boundary_edge(e));
     let lengths = edges().map(|e| mesh.length(e.half_edge()));

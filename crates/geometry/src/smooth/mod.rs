@@ -7,8 +7,8 @@
 //! | [`Method::Implicit`] | one backward Euler step of mean curvature flow | `implicit.rs` |
 //! | [`Method::Denoise`] | filter the normals of the faces, then fit the vertices | `denoise.rs` |
 //!
-//! Every vertex is computed by one task from the positions of the pass before. The result has the same bits for any
-//! number of threads.
+//! One task computes the new position of a vertex from the positions after the previous pass. The result has
+//! the same bits for any number of threads.
 
 mod denoise;
 mod explicit;
@@ -34,25 +34,30 @@ pub enum Method {
         /// From 0 to 1.
         factor: f64,
     },
-    /// Alternates a Laplacian step with `factor`, and one with a negative factor μ: 1 / factor + 1 / μ = `pass_band`. Taubin, "A
-    /// Signal Processing Approach to Fair Surface Design", 1995. One pass is both steps.
+    /// Alternates a Laplacian step with `factor` and a Laplacian step with a negative factor μ, for which
+    /// `pass_band` = 1 / factor + 1 / μ. Source: Taubin, "A Signal Processing Approach to Fair Surface Design",
+    /// 1995. One pass consists of both steps.
     Taubin {
         /// The weights of the neighbors.
         weights: Weights,
-        /// From 0 to 1. With `pass_band`, it must be [stable](Method::is_stable).
+        /// From 0 to 1. Together with `pass_band`, the factor must make the method [stable](Method::is_stable).
         factor: f64,
-        /// The frequency below which nothing is removed, from 0 to 1. The frequencies of a mesh are between 0 and 2.
+        /// The frequency below which the filter removes nothing, from 0 to 1. The frequencies of a mesh are
+        /// between 0 and 2.
         pass_band: f64,
     },
-    /// Solves (M + time L) x' = M x for the [`Laplacian`](crate::Laplacian) L with the vertex areas M: Desbrun, Meyer,
-    /// Schröder, Barr, "Implicit Fairing of Irregular Meshes Using Diffusion and Curvature Flow", 1999.
+    /// Solves (M + time L) x' = M x for the new positions x', where x are the old positions, L is the
+    /// [`Laplacian`](crate::Laplacian) and M has the vertex areas. Source: Desbrun, Meyer, Schröder, Barr,
+    /// "Implicit Fairing of Irregular Meshes Using Diffusion and Curvature Flow", 1999.
     Implicit {
-        /// In scene unit². A time above 1000 times the square of the diagonal of the bounding box acts like this time.
+        /// In scene unit². The longest time is 1000 times the squared diagonal of the bounding box; a longer
+        /// time has the same effect.
         time: f64,
     },
-    /// Filters the normals of the faces with weights that fall with the distance and with the angle between normals, then
-    /// moves the vertices so that the faces have these normals: Zheng, Fu, Au, Tai, "Bilateral Normal Filtering for Mesh
-    /// Denoising", 2011; Sun, Rosin, Martin, Langbein, "Fast and Effective Feature-Preserving Mesh Denoising", 2007.
+    /// Filters the normals of the faces with weights that fall with the distance and with the angle between
+    /// normals, then moves the vertices so that the faces have these normals: Zheng, Fu, Au, Tai, "Bilateral
+    /// Normal Filtering for Mesh Denoising", 2011; Sun, Rosin, Martin, Langbein, "Fast and Effective
+    /// Feature-Preserving Mesh Denoising", 2007.
     Denoise {
         /// The angle between two normals at which their weight has fallen to exp(-2) = 0.14, in degrees from 0 to 180.
         angle: f64,
@@ -62,10 +67,10 @@ pub enum Method {
 }
 
 impl Method {
-    /// Whether no frequency of a mesh grows without bound.
+    /// Whether the method is stable: no frequency of a mesh grows with each pass.
     ///
-    /// A Taubin pass multiplies the frequency k by (1 - factor k)(1 - μ k). At the highest frequency, 2, the absolute
-    /// value must be at most 1.
+    /// A Taubin pass multiplies the amplitude of the frequency k by (1 - factor k)(1 - μ k). At the highest
+    /// frequency, 2, the absolute value of this factor must be at most 1.
     pub fn is_stable(&self) -> bool {
         match *self {
             Self::Taubin {
@@ -85,18 +90,19 @@ pub enum Weights {
     /// The same weight for all vertices that share an edge with the vertex.
     #[default]
     Uniform,
-    /// The weights of the cotangent Laplacian, computed anew for each step. Negative weights count as 0, so that a vertex
-    /// stays between its neighbors.
+    /// The weights of the cotangent Laplacian, computed anew for each step. Negative weights count as 0, so
+    /// that a vertex stays between its neighbors.
     Cotangent,
 }
 
-/// What boundary vertices do.
+/// How boundary vertices move.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Boundary {
-    /// They stay.
+    /// Boundary vertices stay in place.
     #[default]
     Fixed,
-    /// They are smoothed as a curve, without regard to the surface. With [`Method::Denoise`], they move like all others.
+    /// The boundary is smoothed as a curve, without regard to the surface. With [`Method::Denoise`], boundary
+    /// vertices move like all others.
     Free,
 }
 
@@ -105,14 +111,14 @@ pub enum Boundary {
 pub struct Smoothing<'a> {
     /// The method.
     pub method: Method,
-    /// How many times.
+    /// The number of times that the method is applied.
     pub passes: u32,
-    /// Whether each vertex may move, by vertex index. All other vertices keep their bits.
+    /// Whether each vertex may move, by vertex index. All other vertices keep exactly the same positions.
     pub is_free: &'a [bool],
-    /// What boundary vertices do.
+    /// How boundary vertices move.
     pub boundary: Boundary,
-    /// Whether the free vertices are moved along their normals at the end, all by the same distance, so that the mesh has
-    /// the volume it had. The mesh must be closed.
+    /// Whether, at the end, the free vertices are all moved by the same distance along their normals, so that
+    /// the mesh keeps its volume. The mesh must be closed.
     pub keep_volume: bool,
 }
 
@@ -122,7 +128,7 @@ pub enum SmoothError {
     /// The volume of a mesh with a boundary is not defined.
     #[error("the volume can only be kept if the mesh is closed, but it has a boundary")]
     NotClosed,
-    /// No distance along the normals gives the volume.
+    /// No distance along the normals restores the volume.
     #[error(
         "the volume was {before}, and moving the free vertices along their normals gives {after} at best; smooth less, or \
          do not keep the volume"
@@ -130,7 +136,7 @@ pub enum SmoothError {
     Volume {
         /// The volume before.
         before: f64,
-        /// The nearest volume that was found.
+        /// The volume found that is nearest to `before`.
         after: f64,
     },
     /// The factors of [`Method::Taubin`] amplify the highest frequency.
@@ -159,7 +165,7 @@ pub enum SmoothError {
 ///
 /// # Panics
 ///
-/// If `is_free` does not have one entry for each vertex index.
+/// Panics if `is_free` does not have one entry for each vertex index.
 pub fn smooth(
     mesh: &mut Mesh,
     smoothing: &Smoothing,
@@ -174,7 +180,8 @@ pub fn smooth(
         return Err(SmoothError::NotClosed);
     }
     let before = mesh.positions().to_vec();
-    // Coordinates near 1, so that squares are finite. A power of two does not change the result.
+    // Scales the coordinates to a size near 1, so that squares are finite. Scaling by a power of two does not
+    // change the result.
     let exponent = exponent(&before);
     let scale = |points: &mut [DVec3], e: i32| {
         points
@@ -206,7 +213,7 @@ pub fn smooth(
     Ok(moved)
 }
 
-/// What a vertex does.
+/// How a vertex moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Role {
     Pinned,
@@ -297,8 +304,8 @@ impl<'a> Smoother<'a> {
         mesh.positions_mut().copy_from_slice(&new);
     }
 
-    /// Moves the free vertices along their normals until the mesh has the volume. The step follows from the derivative of
-    /// the volume, which is the area of the free vertices.
+    /// Moves the free vertices along their normals until the mesh has the volume `target`. The first step is
+    /// computed from the derivative of the volume, which is the area of the free vertices.
     fn restore_volume(&self, mesh: &mut Mesh, target: f64) -> Result<(), SmoothError> {
         const STEPS: usize = 50;
         let area_vector = |v: VertexId| {
@@ -325,7 +332,7 @@ impl<'a> Smoother<'a> {
             volume(mesh)
         };
         let (mut distance, mut best) = (0.0, volume(mesh));
-        // The secant method, which starts with the derivative.
+        // This is the secant method, with the derivative as the first slope.
         let (mut at, mut error, mut slope) = (0.0, target - best, slope);
         for _ in 0..STEPS {
             if error.abs() <= 1e-14 * target.abs() || slope == 0.0 || !slope.is_finite() {

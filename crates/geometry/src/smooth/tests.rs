@@ -339,7 +339,8 @@ fn the_volume_is_kept_with_and_without_pins() {
 
 #[test]
 fn a_free_boundary_is_smoothed_as_a_curve() {
-    // The inner vertices have any height; the boundary is flat and stays flat, but its corners become round.
+    // The inner vertices have arbitrary heights. The boundary is flat and stays flat, but its corners become
+    // round.
     let mut mesh = shapes::grid(8, 8);
     let inner: Vec<VertexId> = mesh
         .vertices()
@@ -414,7 +415,8 @@ fn degenerate_isolated_and_extreme_meshes_stay_finite() {
         shapes::cylinder(300, true),
         shapes::tetrahedron(),
     ];
-    // A needle, a doubled triangle, a lone vertex, and a mesh of one point.
+    // The meshes have a needle-shaped triangle, a doubled triangle, an isolated vertex, or all vertices at one
+    // point.
     let points = vec![DVec3::ZERO, DVec3::X, DVec3::X * 0.5, DVec3::Y, DVec3::Z];
     meshes.push(
         Mesh::from_polygons(points, &[[0, 1, 2], [2, 1, 3], [3, 1, 2]])

@@ -1,8 +1,8 @@
-//! The numbers of the factor, and solutions.
+//! The numbers of the factor L D Lᵀ, and the solution of equations.
 //!
-//! Each supernode has a front: a dense symmetric matrix of the rows of the supernode. It is the sum of entries of the
-//! matrix and of the updates of the children. Eliminating the pivots gives the columns of L and the update for the
-//! parent:
+//! Each supernode has a front: a dense symmetric matrix of the rows of the supernode. The front is the sum of
+//! entries of the matrix and of the updates U from the children in the tree of supernodes. Eliminating the
+//! pivots P gives the columns of L and the update for the parent:
 //!
 //! ```text
 //!     | P      |   pivots        | L      |
@@ -24,7 +24,7 @@ use front::{Front, Update};
 const MAX_ENTRIES: u64 = 1 << 31;
 /// The largest accepted residual, relative to the size of the terms of the equations.
 const MAX_RESIDUAL: f64 = 1e-9;
-/// A solution is refined until its residual is at most this.
+/// A solution is refined until its relative residual is at most this number.
 const GOOD_RESIDUAL: f64 = 1e-14;
 const REFINEMENTS: usize = 3;
 /// The task in progress reports.
@@ -35,12 +35,12 @@ const TASK: &str = "factor the matrix";
 #[derive(Debug)]
 pub struct Factor<'a> {
     matrix: &'a SymmetricMatrix,
-    /// The rows of the free unknowns, and the place of each row among them.
+    /// The rows of the free unknowns.
     free: Vec<u32>,
     symbolic: Symbolic,
     /// The entries of L of consecutive supernodes. The entries of a supernode are one slice, column by column.
     values: Vec<Vec<f64>>,
-    /// The part of `values` and the start in it, for each supernode.
+    /// For each supernode, the part of `values` with its entries, and the start of the entries in that part.
     places: Vec<(usize, usize)>,
     diagonal: Vec<f64>,
 }
@@ -70,7 +70,7 @@ impl<'a> Factor<'a> {
     ///
     /// # Panics
     ///
-    /// If `is_pinned` does not have one entry for each row.
+    /// Panics if `is_pinned` does not have one entry for each row.
     pub fn with_pins(
         matrix: &'a SymmetricMatrix,
         is_pinned: &[bool],
@@ -135,7 +135,8 @@ impl<'a> Factor<'a> {
         self.symbolic.n_entries()
     }
 
-    /// Computes the numbers. Returns the entries of L and of D in parts that belong to consecutive supernodes.
+    /// Computes the numbers of the factor. Returns the entries of L and of D in parts that belong to
+    /// consecutive supernodes.
     #[expect(clippy::type_complexity, reason = "two lists of parts")]
     fn eliminate<I: Iterator<Item = (u32, f64)>>(
         &self,
@@ -147,8 +148,8 @@ impl<'a> Factor<'a> {
         let total = supernodes.iter().map(Supernode::work).sum();
         let meter = Meter::new(progress, TASK, total).every(10_000_000);
         let n = self.free.len();
-        // First the subtrees in parallel, then the supernodes above them one after another. The parallel loops inside
-        // a large front compute each number the same way.
+        // First computes the subtrees in parallel, then the supernodes above them one after another. The
+        // parallel loops inside a large front compute each number in the same way for any number of threads.
         let subtrees: Result<Vec<_>, SolveError> = units
             .par_iter()
             .map(|unit| {
@@ -198,19 +199,20 @@ impl<'a> Factor<'a> {
     ///
     /// # Errors
     ///
-    /// [`SolveError::Residual`] if the residual is larger than 1e-9 times the largest term of the equations. `x` is then
-    /// unspecified.
+    /// [`SolveError::Residual`] if the residual is larger than 1e-9 times the largest term of the equations.
+    /// `x` is then unspecified.
     ///
     /// # Panics
     ///
-    /// If `b` or `x` does not have one entry for each row.
+    /// Panics if `b` or `x` does not have one entry for each row.
     pub fn solve<T: Entry>(&self, b: &[T], x: &mut [T]) -> Result<(), SolveError> {
         let n = self.matrix.len();
         assert!(b.len() == n && x.len() == n, "one entry for each row");
         for &i in &self.free {
             x[i as usize] = T::default();
         }
-        // With the free unknowns at 0, the residual is the right-hand side without the terms of the pinned ones.
+        // With the free unknowns at 0, the residual is the right-hand side minus the terms of the pinned
+        // unknowns.
         let (mut residual, _) = self.residual(b, x);
         let mut best = f64::INFINITY;
         for _ in 0..=REFINEMENTS {
@@ -307,7 +309,7 @@ struct Unit {
     is_subtree: bool,
 }
 
-/// Divides the tree into subtrees with little work each, and the supernodes above them.
+/// Divides the tree into subtrees of limited work, and the supernodes above them.
 fn units(supernodes: &[Supernode]) -> Vec<Unit> {
     let mut work: Vec<u64> = supernodes.iter().map(Supernode::work).collect();
     let mut first: Vec<usize> = (0..supernodes.len()).collect();

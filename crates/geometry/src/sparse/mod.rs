@@ -49,8 +49,8 @@ pub struct SymmetricMatrix {
     values: Vec<f64>,
 }
 
-/// A number or a vector that a matrix is multiplied with: each row of a right-hand side is one of them. With `DVec3`, one
-/// solve gives the solutions for three right-hand sides.
+/// The type of one entry of a right-hand side or a solution: a number or a vector. With `DVec3`, one solve
+/// gives the solutions for three right-hand sides.
 pub trait Entry:
     Copy + Default + Send + Sync + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self>
 {
@@ -103,12 +103,13 @@ pub enum SolveError {
 }
 
 impl SymmetricMatrix {
-    /// Creates a matrix with `n` rows from entries (row, column, value) in any order. Give each pair of rows only once:
-    /// the entry at (column, row) is added. Entries at the same place are added up in the order of the list.
+    /// Creates a matrix with `n` rows from entries (row, column, value) in any order. Give each pair of a row
+    /// and a column only once: the symmetric entry at (column, row) is added automatically. Entries at the same
+    /// place are added up in the order of the list.
     ///
     /// # Panics
     ///
-    /// If a row or column is not less than `n`.
+    /// Panics if a row or column is not less than `n`.
     pub fn from_entries(n: usize, entries: Vec<(u32, u32, f64)>) -> Self {
         let mut starts = vec![0; n + 1];
         for &(i, j, _) in &entries {
@@ -137,8 +138,9 @@ impl SymmetricMatrix {
         })
     }
 
-    /// Creates a matrix with `n` rows. `row` appends the entries (column, value) of one row to an empty list, in any
-    /// order; entries of the same column are added up in this order. The rows must be symmetric to the bit.
+    /// Creates a matrix with `n` rows. `row` appends the entries (column, value) of one row to an empty list,
+    /// in any order; entries of the same column are added up in this order. The entries at (i, j) and (j, i)
+    /// must have the same bits.
     pub(crate) fn from_rows(n: usize, row: impl Fn(usize, &mut Vec<(u32, f64)>) + Sync) -> Self {
         const ROWS: usize = 4096;
         let blocks: Vec<_> = (0..n.div_ceil(ROWS))
@@ -219,7 +221,7 @@ impl SymmetricMatrix {
     ///
     /// # Panics
     ///
-    /// If `x` does not have one entry for each row.
+    /// Panics if `x` does not have one entry for each row.
     pub fn times<T: Entry>(&self, x: &[T]) -> Vec<T> {
         assert_eq!(x.len(), self.len(), "one entry for each row");
         let product = |i| {
@@ -234,7 +236,7 @@ impl SymmetricMatrix {
     ///
     /// # Panics
     ///
-    /// If `diagonal` does not have one entry for each row.
+    /// Panics if `diagonal` does not have one entry for each row.
     #[must_use]
     pub fn scaled_plus_diagonal(&self, factor: f64, diagonal: &[f64]) -> Self {
         assert_eq!(diagonal.len(), self.len(), "one entry for each row");

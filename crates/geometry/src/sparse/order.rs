@@ -10,16 +10,16 @@
 //!           c                        'c'
 //! ```
 //!
-//! Vertices with the same neighbors are merged into one supervariable. Ties are broken by the order of insertion, which
-//! depends on nothing but the graph.
+//! Vertices with the same neighbors are merged into one supervariable. Ties are broken by the order of
+//! insertion, which depends only on the graph.
 
 use progress::{Cancelled, Progress};
 
 /// The end of a linked list.
 const NONE: u32 = u32::MAX;
 
-/// Returns the numbers from 0 to n - 1 in an order in which Gaussian elimination creates few nonzero entries. `neighbors[i]`
-/// has the columns of row i without i itself.
+/// Returns the rows from 0 to n - 1 in an order that makes Gaussian elimination create few nonzero entries.
+/// `neighbors[i]` has the columns of row i without i itself.
 pub(super) fn minimum_degree(
     neighbors: Vec<Vec<u32>>,
     progress: &dyn Progress,
@@ -39,13 +39,13 @@ pub(super) fn minimum_degree(
 }
 
 struct Quotient {
-    /// The adjacent variables of each variable that are in no common element.
+    /// For each variable, the adjacent variables that share no element with it.
     variables: Vec<Vec<u32>>,
     /// The adjacent elements of each variable.
     elements: Vec<Vec<u32>>,
     /// The variables of each element; empty if it was absorbed by another element.
     members: Vec<Vec<u32>>,
-    /// The weight of the members of each element, which does not change.
+    /// The total weight of the members of each element, set when the element is created.
     size: Vec<u32>,
     /// The number of rows that each variable stands for; 0 if it was eliminated or merged.
     weight: Vec<u32>,
@@ -177,8 +177,8 @@ impl Quotient {
         eliminated as usize
     }
 
-    /// Returns the members of the new element p: the neighbors of p. Absorbs the elements of p. The members are removed
-    /// from the buckets and marked with the stamp.
+    /// Returns the members of the new element p: the neighbors of p. The elements adjacent to p are absorbed.
+    /// The members are removed from the buckets and marked with the stamp.
     fn new_element(&mut self, p: u32) -> Vec<u32> {
         self.stamp += 1;
         self.mark[p as usize] = self.stamp;
@@ -198,9 +198,9 @@ impl Quotient {
         members
     }
 
-    /// Sets `outside` of all elements of the members.
+    /// Computes `outside` for all elements that are adjacent to the members.
     fn measure_elements(&mut self, members: &[u32]) {
-        // All later values are above all earlier values, so nothing has to be cleared.
+        // The stamp grows, so all new values are above all earlier values, and no old value has to be cleared.
         let base = self.stamp << 32;
         for &i in members {
             for &e in &self.elements[i as usize] {
@@ -213,14 +213,14 @@ impl Quotient {
         }
     }
 
-    /// Removes from the lists of i what the new element p covers. Returns the degree of i outside of p, as an upper
-    /// bound, and a hash of the lists.
+    /// Removes the variables and elements that the new element p covers from the lists of i. Returns the degree
+    /// of i outside of p, as an upper bound, and a hash of the lists.
     fn update(&mut self, i: u32, p: u32) -> (u32, u64) {
         let base = self.stamp << 32;
         let (mut degree, mut hash) = (0_u64, u64::from(p));
         let (outside, list) = (&self.outside, &self.members);
         self.elements[i as usize].retain(|&e| {
-            // An element without members was absorbed. One without members outside of p is covered by p.
+            // An element without members was absorbed. An element without members outside of p is covered by p.
             let more = outside[e as usize].saturating_sub(base);
             let keep = !list[e as usize].is_empty() && more > 0;
             if keep {

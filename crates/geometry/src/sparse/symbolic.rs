@@ -18,7 +18,7 @@ use std::ops::Range;
 pub(super) struct Symbolic {
     /// The row of the matrix that stands at each position of the factor.
     pub(super) order: Vec<u32>,
-    /// In an order in which children come before their parents, and all descendants of a supernode just before it.
+    /// The supernodes, children before their parents. All descendants of a supernode come directly before it.
     pub(super) supernodes: Vec<Supernode>,
 }
 
@@ -45,11 +45,11 @@ impl Supernode {
     }
 }
 
-/// The end of the tree.
+/// Marks the parent of a root of the tree.
 const NONE: u32 = u32::MAX;
 
 impl Symbolic {
-    /// Computes the pattern. `neighbors(i)` are the columns of row i in any order, with or without i.
+    /// Computes the pattern. `neighbors(i)` iterates over the columns of row i in any order, with or without i.
     pub(super) fn new<I: Iterator<Item = u32>>(
         order: &[u32],
         neighbors: impl Fn(usize) -> I,
@@ -99,7 +99,7 @@ fn elimination_tree<I: Iterator<Item = u32>>(
 ) -> Vec<u32> {
     let position = inverse(order);
     let mut parent = vec![NONE; order.len()];
-    // The highest known ancestor of each column, so that paths are short.
+    // The highest known ancestor of each column, which shortens the paths to the root.
     let mut ancestor = vec![NONE; order.len()];
     for (k, &row) in (0..).zip(order) {
         for i in neighbors(row as usize) {
@@ -120,7 +120,7 @@ fn elimination_tree<I: Iterator<Item = u32>>(
     parent
 }
 
-/// Returns the columns such that all descendants of a column stand just before it.
+/// Returns the columns in an order in which all descendants of a column come directly before it.
 fn postorder(parent: &[u32]) -> Vec<u32> {
     let n = parent.len();
     let (mut first, mut next, mut roots) = (vec![NONE; n], vec![NONE; n], Vec::new());
@@ -153,7 +153,7 @@ fn counts<I: Iterator<Item = u32>>(parent: &[u32], row: impl Fn(usize) -> I) -> 
     for i in 0..n {
         let this = as_row(i);
         mark[i] = this;
-        // Row i has an entry in every column on the paths from its columns up to i.
+        // Row i has an entry in every column on the paths through the tree from its columns up to i.
         for mut j in row(i).filter(|&j| j < this) {
             while mark[j as usize] != this {
                 mark[j as usize] = this;
@@ -186,7 +186,7 @@ fn supernode_ranges(parent: &[u32], counts: &[u32]) -> Vec<Range<usize>> {
             last.columns.end = j + 1;
             part = last;
         }
-        // The last child is merged while few zeros are stored for it.
+        // The last child is merged as long as the merge stores few zeros.
         while let Some(last) = parts.last() {
             let end = last.columns.end;
             if end != part.columns.start || !part.columns.contains(&(parent[end - 1] as usize)) {

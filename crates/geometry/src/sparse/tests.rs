@@ -3,7 +3,7 @@ use mesh::DVec3;
 use progress::NoProgress;
 use proptest::prelude::*;
 
-/// Solves the equations by Gaussian elimination with full rows.
+/// Solves the equations by Gaussian elimination on a full matrix.
 fn dense_solution(matrix: &SymmetricMatrix, b: &[f64]) -> Vec<f64> {
     let n = matrix.len();
     let mut rows: Vec<Vec<f64>> = (0..n)
@@ -79,7 +79,7 @@ fn empty_systems_are_solved() {
 
 #[test]
 fn large_fronts_agree_with_the_known_solution() {
-    // Large enough for several subtrees, blocks of pivots and parallel updates.
+    // The matrix is large enough for several subtrees, blocks of pivots and parallel updates.
     let a = grid(150, 1e-3);
     let expected: Vec<DVec3> = (0..a.len())
         .map(|i| DVec3::new(1.0, (i % 7) as f64, -((i % 11) as f64)))
@@ -149,7 +149,7 @@ fn indefinite_singular_and_bad_matrices_are_refused() {
         let refused = Factor::new(&matrix, &NoProgress).map(|f| f.n_entries());
         let is_refused = match refused {
             Err(SolveError::NotPositiveDefinite { row, .. }) => row < 25,
-            // The last pivot of a singular matrix is a rounding error of either sign.
+            // The last pivot of a singular matrix is a rounding error, positive or negative.
             other => other.is_ok() && matrix.get(0, 0) == 2.0,
         };
         assert!(is_refused);
@@ -208,7 +208,8 @@ proptest! {
         let factor = Factor::with_pins(&a, pins, &NoProgress).unwrap();
         let mut x = vec![0.25; n as usize];
         factor.solve(b, &mut x).unwrap();
-        // The oracle solves the same equations with the rows and columns of pinned unknowns replaced.
+        // The oracle solves the same equations, with the rows and columns of the pinned unknowns replaced by
+        // those of the identity matrix.
         let mut replaced = Vec::new();
         for i in 0..n {
             for (j, value) in a.row(i as usize).filter(|&(j, _)| j <= i) {

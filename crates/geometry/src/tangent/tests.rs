@@ -1,4 +1,4 @@
-//! Tangents of known surfaces and of random ones.
+//! Tests of the tangents of known surfaces and of random surfaces.
 
 use super::*;
 use crate::shapes;

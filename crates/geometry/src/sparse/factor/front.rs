@@ -4,16 +4,17 @@ use rayon::prelude::*;
 
 use crate::sparse::symbolic::Supernode;
 
-/// The number of columns that are updated together, and of columns that are subtracted together.
+/// The number of columns that are updated together, and also the number of columns that are subtracted from
+/// them together.
 const TILE: usize = 4;
 /// The number of pivot columns that are updated in parallel.
 const BLOCK: usize = 64;
 /// Fronts with less work than this are computed by one thread.
 const PARALLEL_WORK: usize = 1 << 20;
 
-/// What the elimination of a supernode subtracts from the front of its parent.
+/// The matrix that the elimination of a supernode subtracts from the front of its parent.
 pub(super) struct Update {
-    /// The rows in ascending order, which are also the columns.
+    /// The rows, in ascending order. The columns are the same.
     rows: Vec<u32>,
     /// The lower triangle, column by column.
     values: Vec<f64>,
@@ -25,7 +26,8 @@ pub(super) struct Front {
     pub(super) values: Vec<f64>,
     /// The pivots of all supernodes so far.
     pub(super) pivots: Vec<f64>,
-    /// The place in the front for each row of the matrix. Allocated when the first supernode is eliminated.
+    /// The place in the front for each row of the matrix. The list is allocated when the first supernode is
+    /// eliminated.
     place: Vec<u32>,
     n: usize,
 }
@@ -135,7 +137,7 @@ fn factor_panel(panel: &mut [f64], m: usize, pivots: &mut [f64]) -> Result<(), (
         for c in block..end {
             let (column, later) = open[(c - block) * m..].split_at_mut(m);
             let d = column[c];
-            // Also false for NaN.
+            // The condition also rejects NaN.
             if !(d > 0.0 && d.is_finite()) {
                 return Err((c, d));
             }
@@ -166,8 +168,8 @@ struct Tile<'a> {
     columns: Vec<&'a mut [f64]>,
 }
 
-/// Divides the columns from `first` to `end` of a front with `m` rows into tiles. A packed column starts at its diagonal,
-/// other columns at row 0.
+/// Divides the columns from `first` to `end` of a front with `m` rows into tiles. A packed column starts at its
+/// diagonal, other columns at row 0.
 fn tiles(values: &mut [f64], first: usize, end: usize, m: usize, is_packed: bool) -> Vec<Tile<'_>> {
     let mut tiles: Vec<Tile> = Vec::with_capacity((end - first).div_ceil(TILE));
     let mut rest = values;
@@ -186,7 +188,8 @@ fn tiles(values: &mut [f64], first: usize, end: usize, m: usize, is_packed: bool
 }
 
 impl Tile<'_> {
-    /// Subtracts the products of the columns of a panel with `m` rows: entry (i, j) loses the sum of l(i, c) d(c) l(j, c).
+    /// Subtracts the products of the columns of a panel with `m` rows: entry (i, j) decreases by the sum over
+    /// the columns c of l(i, c) d(c) l(j, c), where d are the pivots.
     fn subtract(&mut self, panel: &[f64], m: usize, pivots: &[f64]) {
         let mut sources = panel.chunks_exact(m).zip(pivots);
         let first = self.first;

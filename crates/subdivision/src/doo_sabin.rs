@@ -1,10 +1,10 @@
 //! The connectivity of Doo-Sabin subdivision: every corner becomes a vertex, and every face, edge and vertex
 //! becomes a face.
 //!
-//! Half-edge h runs from a to b and has face f; its twin t has face g. The corner at the origin of h becomes
-//! vertex h. If h has no face, two points on the edge replace the missing corners: vertex h near a, and vertex
-//! 2E + (rank of h among the half-edges without a face) near b. Write p(h) and q(h) for the new vertices beside
-//! h, near a and near b:
+//! V, E and F are the numbers of old vertices, edges and faces. Half-edge h runs from a to b and has face f;
+//! its twin t has face g. The corner at the origin of h becomes vertex h. If h has no face, two points on the
+//! edge replace the missing corners: vertex h near a, and vertex 2E + (rank of h among the half-edges without a
+//! face) near b. Write p(h) and q(h) for the new vertices beside h, near a and near b:
 //!
 //! ```text
 //!                  |         f         |             along(h)  = 2h, from p(h) to q(h), in face f
@@ -29,8 +29,8 @@
 //! Face f keeps its number, edge e becomes face F + e, and the faces of vertices follow in order of the
 //! vertices. An isolated vertex has no face; it is kept, after all other vertices. An inner vertex of valence 2
 //! has no face either, because the face would have two corners. Its outgoing half-edges h and k share one edge:
-//! across(h) if h is lower than k, and across(k) is its twin. So each such vertex lowers the numbers of the
-//! edges after it by one.
+//! across(h) if h is lower than k, and across(k) is its twin. So each such vertex lowers the numbers of all
+//! later edges by one.
 
 use mesh::{Connectivity, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};

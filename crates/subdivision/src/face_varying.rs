@@ -1,8 +1,8 @@
 //! Smooths corner values, such as texture coordinates, piece by piece between seams.
 //!
 //! A piece is the set of corners around a vertex that have the same value, and the edges between pieces are
-//! seams. Inside a piece values are smoothed as positions are. Along its border a piece is either smoothed as a
-//! boundary is, from its own values only, or stays linear:
+//! seams. Inside a piece, values are smoothed as positions are. Along the border of a piece, values are either
+//! smoothed as on a boundary, from values of this piece only, or stay linear:
 //!
 //! ```text
 //!            \   |   /                     a: the value at v in the upper piece becomes
@@ -13,10 +13,11 @@
 //! ```
 //!
 //! [`FaceVarying`] decides which vertices are corners of a piece. The rules are those of OpenSubdiv's
-//! face-varying interpolation, applied to each level on its own, so that computing two levels at once equals
-//! computing one level twice. (One exception: if two pieces meet at a vertex, a semi-sharp piece can
-//! sharpen the other piece. OpenSubdiv decides this on the first level and keeps the decision. If the pieces,
-//! their seam and their vertex have different semi-sharp values, the results on later levels can differ.)
+//! face-varying interpolation. Here they are applied to each level separately, so computing two levels at once
+//! gives the same result as computing one level twice. The results can differ from those of OpenSubdiv in one
+//! case: if two pieces meet at a vertex, a semi-sharp piece can sharpen the other piece. OpenSubdiv decides on
+//! the first level whether it does, and keeps the decision. If the pieces, their seam and their vertex have
+//! different semi-sharp values, later levels can differ.
 
 use mesh::{DVec4, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};

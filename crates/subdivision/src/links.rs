@@ -14,7 +14,7 @@ pub(crate) struct Arrays<'n> {
 }
 
 impl Arrays<'_> {
-    /// Splits into the first `n` half-edges and the remaining ones.
+    /// Splits the range into the first `n` half-edges and the remaining half-edges.
     pub(crate) fn split_at(self, n: usize) -> (Self, Self) {
         let (next, rest_next) = self.next.split_at_mut(n);
         let (origin, rest_origin) = self.origin.split_at_mut(n);

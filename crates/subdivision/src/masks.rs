@@ -24,7 +24,7 @@ pub(crate) trait Masks: Sync {
     /// The weights sum to 1. A vertex can occur more than once.
     fn mask(&self, i: usize, add: &mut impl FnMut(usize, f64));
 
-    /// Computes the values at the `n` vertices of the next level. They equal the weighted sums of
+    /// Computes the values at the `n` vertices of the next level. The values equal the weighted sums of
     /// [`mask`](Self::mask) up to rounding.
     fn values(&self, n: usize, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, Cancelled> {
         let mut new: Vec<DVec3> = mesh::zeroed(n);

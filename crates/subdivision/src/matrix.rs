@@ -76,8 +76,8 @@ impl SparseMatrix {
             for i in block {
                 entries.clear();
                 row(i, &mut |column, w| entries.push((column, w)));
-                // A stable sort, so that the weights of one column are summed in the order in which they were
-                // added.
+                // The sort is stable, so that the weights of one column are summed in the order in which they
+                // were added.
                 entries.sort_by_key(|&(column, _)| column);
                 for same in entries.chunk_by(|a, b| a.0 == b.0) {
                     let weight = same.iter().map(|&(_, w)| w).sum();

@@ -1,8 +1,9 @@
 //! The connectivity of the next level when every face with n corners is split into n quads.
 //!
-//! Corners are numbered face by face, and c(h) is the number of the corner at the origin of half-edge h. Edges
-//! are split in two as in [`halves`](crate::halves). Each part of a face is the quad at one corner. Between two
-//! of these quads, an edge called a spoke runs from the middle of an old edge to the center:
+//! V, E and F are the numbers of old vertices, edges and faces. Corners are numbered face by face, and c(h) is
+//! the number of the corner at the origin of half-edge h. Edges are split in two as in
+//! [`halves`](crate::halves). Each part of a face is the quad at one corner. Between two of these quads, an
+//! edge called a spoke runs from the middle of an old edge to the center:
 //!
 //! ```text
 //!     . <------------ .
@@ -22,8 +23,8 @@
 //! half-edge h of its face.
 //!
 //! In a mesh of quads the corners of face f are 4f to 4f + 3, and the corner of a half-edge follows from its
-//! position in the face. Otherwise the corner numbers are computed in advance. This happens on the first level only,
-//! whose mesh is the smallest: after it, all faces are quads. The idea is from Dupuy and Vanhoey, "A Halfedge
+//! position in the face. In other meshes, the corner numbers are computed in advance. Only the first level can
+//! need this, because afterwards all faces are quads. The idea is from Dupuy and Vanhoey, "A Halfedge
 //! Refinement Rule for Parallel Catmull-Clark Subdivision", 2021, adapted to half-edges stored in pairs.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh, VertexId};

@@ -30,7 +30,7 @@ pub(crate) struct Sharpness<'a> {
     mesh: &'a Mesh,
     boundary: Boundary,
     creasing: Creasing,
-    /// `None` if all inner edges are smooth.
+    /// The sharpness of each edge; `None` if all inner edges are smooth.
     edges: Option<&'a [f64]>,
     vertices: Option<&'a [f64]>,
 }
@@ -38,15 +38,15 @@ pub(crate) struct Sharpness<'a> {
 /// How a vertex moves. `K` is the type that identifies edges around the vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum VertexRule<K> {
-    /// By the mask of the scheme.
+    /// The vertex moves by the mask of the scheme.
     Smooth,
-    /// By the mask of a crease along these two edges.
+    /// The vertex moves by the mask of a crease along these two edges.
     Crease([K; 2]),
     /// The vertex stays in place.
     Corner,
 }
 
-/// The rule of a vertex, and the rule that it changes to within the level.
+/// The rule of a vertex, and the rule that replaces it within the level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Blend<K> {
     /// The rule for the sharpness on this level.
@@ -100,7 +100,7 @@ pub(crate) struct SemiSharp {
 }
 
 impl SemiSharp {
-    /// Collects the semi-sharp edges, given the sharpness of all edges at the vertex. Stays empty unless
+    /// Collects the semi-sharp edges, given the sharpness of all edges at the vertex. Collects nothing unless
     /// Chaikin's rule is used.
     pub(crate) fn of(creasing: Creasing, edges: impl Iterator<Item = f64>) -> Self {
         let mut semi_sharp = Self::default();
@@ -133,8 +133,9 @@ pub(crate) fn decreased(s: f64) -> f64 {
     }
 }
 
-/// Returns the weight of this level's rule if elements become smooth within the level: their mean sharpness, at
-/// most 1. Each pair has the sharpness of an element on this level and on the next.
+/// Returns the weight of this level's rule if elements become smooth within the level. This weight is the mean
+/// sharpness of these elements, at most 1. Each pair has the sharpness of an element on this level and on the
+/// next.
 pub(crate) fn fading_weight(pairs: impl Iterator<Item = [f64; 2]>) -> f64 {
     let (mut sum, mut n) = (0.0, 0_u32);
     for [now, next] in pairs {

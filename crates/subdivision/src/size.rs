@@ -59,7 +59,7 @@ pub struct Size<N = u64> {
     pub faces: N,
     /// The number of corners of all faces together.
     pub corners: N,
-    /// The number of isolated vertices. It does not change with levels.
+    /// The number of isolated vertices, which is the same on all levels.
     pub isolated: N,
     /// The number of inner vertices of valence 2.
     pub inner_of_valence_2: N,
@@ -103,8 +103,8 @@ impl Size {
     }
 
     /// Estimates how much the given levels, starting from this size, add to the [`Meter`](progress::Meter): one
-    /// for each new vertex, and one for each old edge and new face. With Sqrt3 and Doo-Sabin it is one for each
-    /// new vertex and each new edge.
+    /// for each new vertex, and one for each old edge and new face. Levels of Sqrt3 and Doo-Sabin add one for
+    /// each new vertex and each new edge.
     pub(crate) fn work(self, scheme: Scheme, levels: Range<u32>) -> u64 {
         let (mut size, mut sum) = (self, 0);
         for level in levels {

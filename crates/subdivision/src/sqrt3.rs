@@ -1,10 +1,10 @@
 //! The connectivity of Sqrt3 subdivision: every triangle is split into three, then the old edges are flipped.
 //!
-//! Half-edge h runs from a to b and has face f, whose opposite corner is c; its twin t has face g. Every face
-//! gets the vertex V + f at its center and three spokes, the edges from its corners to the center. Every inner
-//! edge is flipped, so that it connects two centers. Edges keep their numbers. The spoke of the k-th corner of
-//! face f is edge E + 3f + k, and spoke(h) is the half-edge of that spoke that starts at the origin of h. T(h), the
-//! k-th triangle of face f, is 3f + k:
+//! V, E and F are the numbers of old vertices, edges and faces. Half-edge h runs from a to b and has face f,
+//! whose opposite corner is c; its twin t has face g. Every face gets the vertex V + f at its center and three
+//! spokes, the edges from its corners to the center. Every inner edge is flipped, so that it connects two
+//! centers. Edges keep their numbers. The spoke of the k-th corner of face f is edge E + 3f + k, and spoke(h)
+//! is the half-edge of that spoke that starts at the origin of h. T(h), the k-th triangle of face f, is 3f + k:
 //!
 //! ```text
 //!              c                           c
@@ -18,9 +18,9 @@
 //! ```
 //!
 //! At a boundary, even and odd levels differ; levels are counted from 0. On even levels a boundary edge stays
-//! unchanged. On odd levels each triangle at the boundary has exactly one boundary edge, because the level
-//! before made it so. The triangle gets two vertices on that edge instead of a center: x = V + f, and
-//! y = V + F + (rank of the edge's half-edge without a face among all half-edges without a face):
+//! unchanged. On odd levels each triangle at the boundary has exactly one boundary edge, because the previous,
+//! even level made the mesh. The triangle gets two vertices on that edge instead of a center: x is V + f, and y
+//! is V + F + r, where r is the rank of the boundary half-edge of that edge among all boundary half-edges:
 //!
 //! ```text
 //!          c                  c                 T(h) is (a, b, m), next(h) = spoke(next(h)),
@@ -32,10 +32,9 @@
 //!      even level          odd level
 //! ```
 //!
-//! The other two edges of the triangle are flipped. The flipped edge that is nearer to x than to y ends at x instead
-//! of the center, and the other flipped edge ends at y. After two
-//! levels every boundary edge, and every old edge, has become three edges. Source: Kobbelt, "√3-Subdivision",
-//! 2000.
+//! The other two edges of the triangle are flipped. The flipped edge that is nearer to x than to y ends at x
+//! instead of the center, and the other flipped edge ends at y. After two levels, every old edge, including
+//! every boundary edge, has become three edges. Source: Kobbelt, "√3-Subdivision", 2000.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};

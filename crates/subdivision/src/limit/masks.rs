@@ -7,7 +7,8 @@ use mesh::{DMat3, DVec3};
 use super::star::Star;
 use crate::sharpness::VertexRule;
 
-/// The number of levels after which a dart has converged: each level reduces the error by more than a third.
+/// The number of levels after which a dart (the end of a single sharp edge) has converged. Each level reduces
+/// the error by more than a third.
 const LEVELS_TO_CONVERGE: usize = 96;
 
 /// A sector of a star with one tangent plane: `n_faces` faces from spoke `first` on, counter-clockwise.
@@ -117,11 +118,12 @@ impl Star {
     }
 
     /// Returns a tangent along the crease, and a tangent across it into the k faces of the sector. With θ =
-    /// π/k, the second tangent is the left eigenvector with the weight sin(iθ) at inner spoke i and m (sin(iθ) +
-    /// sin((i+1)θ)) at the opposite corners. The weights at the ends of the crease and at the center follow
-    /// from these. (The literature gives the eigenvector for k ≤ 3 and for other crease rules.) If the
-    /// sector has six or more triangles, the surface has no tangent plane there; the returned plane contains
-    /// the tangent of the crease.
+    /// π/k, the second tangent is the left eigenvector with the weight sin(iθ) at inner spoke i and m (sin(iθ)
+    /// + sin((i+1)θ)) at the opposite corner between spokes i and i + 1. The factor m depends on the scheme and
+    /// on θ. The weights at the ends of the crease and at the center follow from the other weights. (The
+    /// literature gives the eigenvector for k ≤ 3 and for other crease rules.) If the sector has six or more
+    /// triangles, the surface has no tangent plane there; the returned plane contains the tangent of the
+    /// crease.
     fn crease_tangents(&self, sector: Sector) -> [DVec3; 2] {
         let k = sector.n_faces;
         let [first, last] = [0, k].map(|i| self.spoke(sector, i));
@@ -191,8 +193,9 @@ impl Star {
         // levels only the direction that shrinks most slowly would remain. Orthogonal iteration preserves all
         // directions: after each level the columns x, y and z are made orthonormal. An upper triangular matrix
         // converts the orthonormal columns back to the columns before. The product of these matrices over all
-        // levels is, up to a common factor, the matrix 1 b c / 0 1 e / 0 0 1 with its rows multiplied by 1, s and
-        // s q. The first two rows converge to vectors that span the plane.
+        // levels is, up to a common factor, the matrix 1 b c / 0 1 e / 0 0 1 with its rows multiplied by 1, s
+        // and s q. Each level updates b, c, e, s and q. The first two rows converge to vectors that span the
+        // plane.
         let mut star = self.clone();
         let to_frame = frame.transpose();
         for p in star.points() {

@@ -1,5 +1,5 @@
-//! The limit surface at the vertices of a mesh: the positions to which they converge under infinite
-//! subdivision, and the tangent planes there.
+//! The limit surface at the vertices of a mesh: the positions to which the vertices converge under infinite
+//! subdivision, and the tangent planes at these positions.
 //!
 //! If the sharpness at a vertex does not change with levels, the limit is a mask over the one-ring. The masks
 //! are the left eigenvectors of the matrix that maps the one-ring to the one-ring of the next level (Halstead,
@@ -29,8 +29,8 @@ pub struct Limit {
     /// The limit position of each vertex.
     pub positions: Vec<DVec3>,
     /// Two vectors that span the tangent plane at each vertex, not normalized. Their cross product points
-    /// outside. At an inner crease they span the tangent plane of one side of the crease. They are zero for an isolated
-    /// vertex.
+    /// outward. At an inner crease, the vectors span the tangent plane of one side of the crease. At an
+    /// isolated vertex, they are zero.
     pub tangents: Vec<[DVec3; 2]>,
     /// The unit normal of each corner, by half-edge, and zero for half-edges without a face. `None` if no faces
     /// meet at a sharp inner edge, so that one normal for each vertex is enough.

@@ -22,7 +22,7 @@ pub(crate) struct Star {
     /// The sharpness of the vertex.
     pub(crate) vertex_sharpness: f64,
     creasing: Creasing,
-    /// `None` for Catmull-Clark.
+    /// The weights of Loop subdivision; `None` for Catmull-Clark.
     pub(crate) loop_weights: Option<LoopWeights>,
     /// A buffer for the centers of faces.
     face_points: Vec<DVec3>,

@@ -31,8 +31,9 @@ impl<'a> ConnectivityBuilder<'a> {
                 last = pieces.second(h);
                 let m = pieces.on_edge(h.edge());
                 new.origin[last.index()] = m;
-                // The half-edge of m is the second part of the first half-edge of the edge. If the second half-edge
-                // has no face, m stores its second part instead.
+                // m is the new vertex on the edge. Its stored half-edge is the second part of the first
+                // half-edge of the edge or, if the second half-edge has no face, the second part of the second
+                // half-edge.
                 if h.index().is_multiple_of(2) || mesh.face(h).is_none() {
                     new.vertex_half_edge[m.index()] = last;
                 }

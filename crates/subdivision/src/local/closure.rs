@@ -1,4 +1,5 @@
-//! Decides which faces and edges a level cuts.
+//! Decides which faces and edges a level cuts. A hanging vertex lies in the middle of a straight side of a
+//! face.
 
 use mesh::{EdgeId, FaceId, HalfEdgeId, Mesh};
 use progress::{Cancelled, Meter};
@@ -42,8 +43,9 @@ pub(super) struct Cuts {
 }
 
 impl Cuts {
-    /// Returns the cuts that cut the chosen triangles into four, and repeatedly any triangle that would get a second
-    /// hanging vertex. The result does not depend on the order in which triangles are visited.
+    /// Returns the cuts of a level that cuts the chosen triangles into four, and then, repeatedly, every
+    /// triangle that would get a second hanging vertex. The result does not depend on the order in which
+    /// triangles are visited.
     ///
     /// A face with four corners is a triangle with a hanging vertex.
     pub(super) fn of_triangles(
@@ -88,7 +90,7 @@ impl Cuts {
         Ok(Self { faces, edges })
     }
 
-    /// Returns the cuts that cut each triangle with a hanging vertex in two.
+    /// Returns the cuts of a level that cuts each triangle with a hanging vertex in two.
     pub(super) fn in_two(mesh: &Mesh) -> Self {
         let cut = |f| {
             if mesh.is_triangle(f) {
@@ -103,7 +105,7 @@ impl Cuts {
         }
     }
 
-    /// Returns the cuts that cut the chosen faces into quads.
+    /// Returns the cuts of a level that cuts the chosen faces into quads.
     pub(super) fn of_polygons(mesh: &Mesh, chosen: &[bool]) -> Self {
         let cut = |f: FaceId| {
             if chosen[f.index()] {

@@ -21,14 +21,15 @@
 //!
 //! If both ends are extraordinary, the new vertex is the mean of both masks. Source: Zorin, Schröder and
 //! Sweldens, "Interpolating Subdivision for Meshes with Arbitrary Topology", 1996. The mask on the boundary is
-//! from Dyn, Levin and Gregory, "A 4-point interpolatory subdivision scheme for curve design", 1987. Cases that
-//! these papers leave open:
+//! from Dyn, Levin and Gregory, "A 4-point interpolatory subdivision scheme for curve design", 1987. These
+//! papers leave three cases open:
 //!
 //! - If the vertex with weight -1/16 is missing because it would lie beyond a boundary edge, the reflection of
 //!   the corner opposite that edge replaces it, so that flat regular parts stay on their grid up to the
 //!   boundary.
 //! - Boundary vertices are never extraordinary.
-//! - For n = 2 the neighbors have 3/8 and -1/8: as for n = 4, without the two weights of 0.
+//! - For n = 2, the neighbors have the weights 3/8 and -1/8. These are the weights for n = 4 without the two
+//!   zeros.
 
 use std::f64::consts::TAU;
 
@@ -154,8 +155,8 @@ mod tests {
 
     #[test]
     fn quadratic_functions_around_a_vertex_are_reproduced_exactly() {
-        // Halfway to the one-ring, r cos t is 1/2 and r² cos 2t is 1/4. The second function needs five
-        // neighbors.
+        // The new vertex is halfway to the one-ring, at r = 1/2 and t = 0. There, r cos t is 1/2 and r² cos 2t
+        // is 1/4. The second function needs at least five neighbors.
         for n in 5..20 {
             let ring = |k: f64| -> f64 {
                 let at = |j: usize| libm::cos(k * TAU * j as f64 / n as f64);

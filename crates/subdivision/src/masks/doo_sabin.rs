@@ -11,9 +11,9 @@
 //! ```
 //!
 //! In a face with n corners, the point of a corner has the weight (n + 5)/(4n) at that corner and (3 + 2
-//! cos(2πj/n))/(4n) at the j-th corner from there. Source: Doo and Sabin, "Behaviour of recursive division
-//! surfaces near extraordinary points", 1978. The mask on the boundary is from Chaikin, "An algorithm for
-//! high-speed curve generation", 1974.
+//! cos(2πj/n))/(4n) at the j-th corner after that corner. Source: Doo and Sabin, "Behaviour of recursive
+//! division surfaces near extraordinary points", 1978. The mask on the boundary is from Chaikin, "An algorithm
+//! for high-speed curve generation", 1974.
 
 use super::Masks;
 use crate::doo_sabin::{DooSabin, Source};

@@ -101,7 +101,7 @@ fn polygons_keep_their_topology() {
 
 #[test]
 fn a_regular_grid_becomes_the_biquadratic_b_spline_of_its_vertices() {
-    // Knot intervals are halved in both directions, each by Chaikin's rule.
+    // Chaikin's rule halves the knot intervals in both directions.
     let (columns, rows) = (5, 4);
     let mut old = shapes::grid(columns, rows);
     let height = |i: u32, j: u32| f64::from((7 * i + 5 * j * j + i * j) % 11);

@@ -1,4 +1,5 @@
-//! How many triangles per second become a mesh, relative to copying the bytes of the mesh?
+//! How many triangles per second does the library build into a mesh, and how does the time compare with copying
+//! the bytes of the mesh?
 //!
 //! The input is a torus of a million triangles and half a million vertices. Vertices are numbered row by row, so that
 //! neighbors are close in memory. The input is in memory before the timing starts; the output is written to newly

@@ -114,7 +114,7 @@ fn gltf_peer(group: &mut Group, path: &Path) {
     });
 }
 
-/// Measures single calls, without dropping the results.
+/// Measures single calls. The time to drop the results is not included.
 fn measure<T>(group: &mut Group, name: &str, mut call: impl FnMut() -> T) {
     group.bench_function(name, |b| {
         b.iter_batched(|| (), |()| call(), BatchSize::PerIteration);

@@ -81,7 +81,7 @@ impl Sides {
         let n = u64::from(segments);
         let square = |x: u64| x.saturating_mul(x);
         let collapsed = self.collapsed.iter().filter(|&&side| side).count() as u64;
-        // The corners between two collapsed sides.
+        // The number of corners between two collapsed sides.
         let corners = (0..4)
             .filter(|&a| self.collapsed[a] && self.collapsed[(a + 1) % 4])
             .count();
@@ -101,8 +101,8 @@ impl Sides {
         if cells == 0 || (n == 2 && collapsed == 4) {
             return Counts::default();
         }
-        // The samples of a chain become one vertex. A chain of k sides has k n + 1 samples, or 4 n if it has all four
-        // sides.
+        // The samples of a chain become one vertex. With n segments, a chain of k sides has k n + 1 samples, or
+        // 4 n if it has all four sides.
         let merged = n * collapsed - u64::from(collapsed == 4);
         let vertices = square(n.saturating_add(1)) - merged;
         match faces {

@@ -55,10 +55,11 @@ impl Point for DVec3 {
 
 /// A Bezier curve of degree n, given by n + 1 control points.
 ///
-/// The curve starts at the first control point (t = 0) and ends at the last (t = 1). There it is tangent
-/// to the first and the last leg of the control polygon. For t from 0 to 1, it is inside the convex hull
-/// of the control points. Every function also accepts parameters outside this range: it evaluates the same polynomial
-/// there. If the parameter is NaN, the resulting points have NaN coordinates; no function panics.
+/// The curve starts at the first control point (t = 0) and ends at the last (t = 1). At its ends, the curve is
+/// tangent to the first and the last leg of the control polygon; a leg joins two consecutive control points.
+/// For t from 0 to 1, the curve is inside the convex hull of the control points. Every function also accepts
+/// parameters outside this range: there, the function evaluates the same polynomial. If the parameter is NaN,
+/// the resulting points have NaN coordinates; no function panics.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve<P> {
     /// At least one point and at most [`MAX_POINTS`].
@@ -135,7 +136,7 @@ impl<P: Point> Curve<P> {
 
     /// Returns the derivative with respect to t at `t`; zero for degree 0.
     ///
-    /// It is n times the Bezier curve of the differences of the control points (Farin 2002, §5.3).
+    /// The derivative is n times the Bezier curve of the differences of the control points (Farin 2002, §5.3).
     pub fn derivative(&self, t: f64) -> P {
         let n = self.degree() as f64;
         let differences = self.points.windows(2).map(|pair| (pair[1] - pair[0]) * n);

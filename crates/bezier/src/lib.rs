@@ -5,8 +5,8 @@
 //!
 //! - A **Bezier curve** of degree n is a weighted mean of n + 1 *control points*: c(t) is the
 //!   sum of `p_i B(n, i)(t)` with the Bernstein polynomials B(n, i). See [`Curve`], in 2D and 3D.
-//! - **De Casteljau's algorithm** computes c(t) in levels. The points of each level divide the legs
-//!   of the level before in the ratio t : 1 - t. See [`one_step`] and [`Curve::levels`].
+//! - **De Casteljau's algorithm** computes c(t) in levels. The points of a level are joined by legs, and each
+//!   point of the next level divides one leg in the ratio t : 1 - t. See [`one_step`] and [`Curve::levels`].
 //! - A **bicubic patch** s(u, v) has 4 by 4 control points: u runs along the rows, v across them.
 //!   Each row is a cubic curve in u; the points of these curves are the control points of a cubic
 //!   curve in v. See [`Patch`].

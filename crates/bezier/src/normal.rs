@@ -9,8 +9,9 @@
 //!    *---+---*  v = 0
 //! ```
 //!
-//! Let N = du x dv, a polynomial in u and v. Consider a straight line from the point into the patch,
-//! (u + e a, v + e b) for small e > 0. Along this line, N is a polynomial in e:
+//! Let N = du x dv, a polynomial in u and v. Consider a straight line from the point into the patch, (u + e a,
+//! v + e b) for small e > 0, where (a, b) is the direction of the line. Along this line, N is a polynomial in
+//! e:
 //!
 //! ```text
 //! N(e) = N0 + e N1 + e² N2 + ...      N(e) / |N(e)|  ->  Nk / |Nk|  as e goes to 0,
@@ -38,8 +39,8 @@ use crate::patch::size;
 /// A coefficient of the scaled normal that is at most this is treated as zero.
 ///
 /// The value is well above the rounding errors of the coefficients (1e-14), and above the coefficients at an
-/// edge that is collapsed only within the tolerance of [`tessellate`](crate::tessellate()). This close to a
-/// pole (1e-10 of the patch), the next coefficient gives a better normal anyway.
+/// edge that is collapsed only within the tolerance of [`tessellate`](crate::tessellate()). So close to a pole
+/// (within 1e-10 of the size of the patch), the next coefficient gives a better normal anyway.
 pub const VANISHING: f64 = 1e-10;
 
 /// Returns the limit of the normals along a line into the patch from `uv`; `None` if the normals are zero along all
@@ -124,7 +125,8 @@ mod tests {
         }
     }
 
-    /// Returns the patch in all eight orientations: reversed in u, in v, and transposed.
+    /// Returns the patch in all eight orientations: each combination of reversed in u, reversed in v, and
+    /// transposed.
     fn all_orientations(patch: &Patch) -> Vec<Patch> {
         let mut orientations = vec![*patch];
         let reversed_u = |p: &Patch| {

@@ -22,15 +22,15 @@ use crate::weights::Weights;
 
 /// The largest magnitude of a coordinate of a [`Patch`].
 ///
-/// This is far larger than in any model (the largest `f32` is 3.4e38), and small enough that products
-/// of two derivatives do not overflow.
+/// The limit is far larger than the coordinates of any model (the largest `f32` is 3.4e38), and small enough
+/// that products of two derivatives do not overflow.
 pub const MAX_COORDINATE: f64 = 1e100;
 
 /// A bicubic Bezier patch: a surface in two parameters, u along the rows of its control points
 /// and v across them.
 ///
-/// Every function also accepts parameters outside 0 to 1: it evaluates the same polynomial there. If a parameter is
-/// NaN, the resulting point has NaN coordinates and the normal is zero; no function panics.
+/// Every function also accepts parameters outside 0 to 1: there, the function evaluates the same polynomial. If
+/// a parameter is NaN, the resulting point has NaN coordinates and the normal is zero; no function panics.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Patch {
     points: [[DVec3; 4]; 4],

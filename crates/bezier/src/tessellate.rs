@@ -15,13 +15,13 @@
 //! the result to join them. If two patches have the same control points on a common boundary, in either
 //! direction, their positions there are equal bit for bit.
 //!
-//! A collapsed side, whose points coincide (as at the pole of a teapot's lid), becomes one vertex, and
-//! adjacent collapsed sides together become one vertex. A cell with one collapsed side becomes a triangle;
-//! a cell with more of them becomes no face. To test a side, its boundary curve is sampled at 0, 1/m, ...
-//! 1, where m is n, but at most 3. The side is collapsed if every sample differs from the first sample by
-//! at most 1e-12 times the extent of the control points of the patch, in every coordinate. The vertex of
-//! adjacent collapsed sides is at the start of the first of these sides, in the order v = 0, u = 1, v = 1,
-//! u = 0. Its UV and its normal are those of the middle of that first side.
+//! A collapsed side, whose points coincide (as at the pole of a teapot's lid), becomes one vertex, and adjacent
+//! collapsed sides together become one vertex. A cell with one collapsed side becomes a triangle; a cell with
+//! more collapsed sides becomes no face. To test a side, its boundary curve is sampled at 0, 1/m, ... 1, where
+//! m is n, but at most 3. The side is collapsed if every sample differs from the first sample by at most 1e-12
+//! times the extent of the control points of the patch, in every coordinate. The vertex of adjacent collapsed
+//! sides is at the start of the first of these sides, in the order v = 0, u = 1, v = 1, u = 0. The UV and the
+//! normal of this vertex are those of the middle of that first side.
 //!
 //! A patch is a curve or a point if all of its rows or all of its columns coincide, with the same
 //! tolerance. Such a patch, and a patch of which no cell becomes a face, gives no vertices and no faces.
@@ -388,7 +388,7 @@ mod tests {
             (Counts::default(), vec![0, 1])
         );
 
-        // A tube: with one segment around, only a line would remain.
+        // The patch is a tube. With one segment around the tube, only a line would remain.
         let mut points = *random.patch().points();
         for row in &mut points {
             row[3] = row[0];

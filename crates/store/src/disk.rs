@@ -104,8 +104,8 @@ impl Store for Disk {
     }
 }
 
-/// Removes a folder with its content, like [`fs::remove_dir_all`], but with few file descriptors: each folder is listed and
-/// closed before the next one is opened, and empty folders are not opened.
+/// Removes a folder with its content, like [`fs::remove_dir_all`], but with few file descriptors. Each folder
+/// is listed and closed before the next one is opened, and empty folders are not opened.
 fn remove_all(folder: &Path) -> io::Result<()> {
     if fs::remove_dir(folder).is_ok() {
         return Ok(());
@@ -122,7 +122,8 @@ fn remove_all(folder: &Path) -> io::Result<()> {
     fs::remove_dir(folder)
 }
 
-/// Replaces the content of a file. If the path is a link, it stays a link. The permissions of the file are kept.
+/// Replaces the content of a file. If the path is a link, the link stays and the file that it names is
+/// replaced. The permissions of the file are kept.
 ///
 /// # Errors
 ///

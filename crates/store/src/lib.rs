@@ -80,9 +80,9 @@ pub trait Store: Debug + Send + Sync {
     /// [`StoreError`] if the folder cannot be created.
     fn make_folder(&self, folder: &Path) -> Result<(), StoreError>;
 
-    /// Creates an empty folder with a new name, inside `folder` or, if that is `None`, in the default location for
-    /// temporary files. On disk, the name begins with the [`temporary_prefix`] of this process. [`TemporaryFolder`]
-    /// also removes the folder.
+    /// Creates an empty folder with a new name, inside `folder` or, if that is `None`, in the default location
+    /// for temporary files. On disk, the name begins with the [`temporary_prefix`] of this process. To have the
+    /// folder removed automatically, use [`TemporaryFolder`].
     ///
     /// # Errors
     ///
@@ -115,7 +115,7 @@ pub trait Store: Debug + Send + Sync {
     ///
     /// # Errors
     ///
-    /// As [`read_up_to`](Self::read_up_to).
+    /// The errors of [`read_up_to`](Self::read_up_to).
     fn read(&self, path: &Path) -> Result<Vec<u8>, StoreError> {
         self.read_up_to(path, u64::MAX)
     }
@@ -156,8 +156,8 @@ pub trait Store: Debug + Send + Sync {
     }
 }
 
-/// Returns the name of a file without its extension, and without `.gz` after it: `model` for `model.obj.gz`. Empty if
-/// the path has no file name.
+/// Returns the name of a file without its extension, and without a `.gz` after the extension: `model` for
+/// `model.obj.gz`. The result is empty if the path has no file name.
 pub fn stem(path: &Path) -> &OsStr {
     let is_compressed = path
         .extension()
@@ -193,11 +193,12 @@ pub trait NewFile: Write + Send {
 /// A description of a file or folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Entry {
-    /// Whether it is a file, a folder or something else.
+    /// Whether the entry is a file, a folder or something else.
     pub kind: Kind,
     /// The length of a file in bytes.
     pub len: u64,
-    /// The time of the last change, if known. For files in memory, it is not a real time, but later for later changes.
+    /// The time of the last change, if known. For files in memory, this is not a real time, but a later change
+    /// always has a later value.
     pub modified: Option<SystemTime>,
 }
 

@@ -88,7 +88,7 @@ impl<P: Point> Curve<P> {
         }
     }
 
-    /// Returns the control points, first to last. There is at least one.
+    /// Returns the control points, first to last. A curve has at least one control point.
     pub fn points(&self) -> &[P] {
         &self.points
     }
@@ -118,8 +118,8 @@ impl<P: Point> Curve<P> {
 
     /// Returns all degree + 1 levels of de Casteljau's algorithm at `t`.
     ///
-    /// The first level is the control points. Each level has one point less than the level before. The
-    /// last level is the point of the curve.
+    /// The first level is the control points. Each level has one point less than the previous level. The only
+    /// point of the last level is the point of the curve.
     pub fn levels(&self, t: f64) -> Vec<Vec<P>> {
         let mut levels = vec![self.points.clone()];
         for k in 0..self.degree() {

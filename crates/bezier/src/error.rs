@@ -16,14 +16,14 @@ pub enum BezierError {
         /// The number of control points.
         count: usize,
     },
-    /// A coordinate that is infinite or not a number. In a patch, `index` is 4 * row + column.
+    /// A coordinate is infinite or not a number. In a patch, `index` is 4 * row + column.
     #[error("expected finite coordinates, but control point {index} has an infinity or a NaN")]
     NotFinite {
         /// The index of the control point, from 0.
         index: usize,
     },
-    /// A coordinate of a patch whose magnitude exceeds [`MAX_COORDINATE`](crate::MAX_COORDINATE).
-    /// `index` is 4 * row + column.
+    /// The magnitude of a coordinate of a patch exceeds [`MAX_COORDINATE`](crate::MAX_COORDINATE). `index` is
+    /// 4 * row + column.
     #[error(
         "expected coordinates with a magnitude of at most {:e}, but control point {index} exceeds it",
         crate::MAX_COORDINATE

@@ -50,7 +50,7 @@ pub(crate) fn octant() -> Patch {
 /// derivatives across the edges u = 0 and v = 0 are zero. No edge is collapsed. The normal is (-y, -x, 1),
 /// normalized.
 pub(crate) fn squared() -> Patch {
-    // The control points of t² as a cubic.
+    // The control points of the function t², written as a cubic.
     let square = [0.0, 0.0, 1.0 / 3.0, 1.0];
     Patch::new(square.map(|y| square.map(|x| DVec3::new(x, y, x * y)))).unwrap()
 }

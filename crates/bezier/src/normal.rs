@@ -28,9 +28,9 @@
 //! lines beside it are tried; if N is zero along these too, the point has no normal.
 //!
 //! Before the coefficients are compared with zero, the derivatives along u are divided by the largest
-//! difference of control points that are neighbors along u, and the derivatives along v likewise. A
-//! coefficient of at most [`VANISHING`] is then treated as zero. This scaling gives thin and tiny patches
-//! normals too.
+//! difference of control points that are neighbors along u, and the derivatives along v by the largest
+//! difference along v. A coefficient of at most [`VANISHING`] is then treated as zero. Because of this scaling,
+//! thin and tiny patches get normals too.
 
 use glam::{DVec2, DVec3};
 
@@ -75,7 +75,7 @@ fn inward_directions(uv: DVec2) -> [DVec2; 3] {
 
 /// Returns the first nonzero coefficient of N along `direction`, scaled to length 1; `None` if all are zero.
 fn limit_along(c: &[[DVec3; 4]; 4], max_steps: DVec2, direction: DVec2) -> Option<DVec3> {
-    // The coefficients of du and dv along the line, by powers of e.
+    // The coefficients of the powers of e in du and dv along the line.
     let mut du = [DVec3::ZERO; 6];
     let mut dv = [DVec3::ZERO; 6];
     let (a, b) = (powers(direction.x), powers(direction.y));
@@ -152,7 +152,8 @@ mod tests {
 
     #[test]
     fn normals_of_a_collapsed_edge_are_limits() {
-        // A lid whose first and third rows are points, like the lid of the teapot, and a bottom.
+        // The first patch is a lid whose first and third rows are points, like the lid of the teapot. The
+        // second is a bottom.
         let lid = quarter_turn([[0.0, 3.15], [0.8, 3.15], [0.0, 2.85], [0.2, 2.7]]);
         let bottom = quarter_turn([[0.0, 0.0], [1.4, 0.0], [1.5, 0.1], [1.5, 0.2]]);
         for patch in [octant(), lid, bottom] {
@@ -164,7 +165,7 @@ mod tests {
 
     #[test]
     fn a_pole_with_two_collapsed_rows_has_a_normal() {
-        // Two rows are the same point: du and dv are both zero on the edge.
+        // All points of the first two rows coincide, so du and dv are both zero on the edge.
         let patch = quarter_turn([[0.0, 1.0], [0.0, 1.0], [1.0, 1.0], [2.0, 0.5]]);
         for patch in all_orientations(&patch) {
             assert_normals_are_limits(&patch);
@@ -193,7 +194,7 @@ mod tests {
 
     #[test]
     fn a_corner_with_parallel_derivatives_has_a_normal() {
-        // A planar patch whose corner (0, 0) is a straight angle.
+        // The patch is planar, and the angle at its corner (0, 0) is 180 degrees.
         let mut points = *Lcg::new(21).patch().points();
         for (r, row) in points.iter_mut().enumerate() {
             for (c, p) in row.iter_mut().enumerate() {

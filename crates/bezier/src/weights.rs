@@ -4,10 +4,10 @@ use crate::Point;
 
 /// The weights 1 - t and t of the two ends of a leg.
 ///
-/// Both are stored, because computing one from the other is not symmetric in floating point. With
-/// [`Weights::ratio`], evaluating a curve at i/n and the reversed curve at (n - i)/n gives the same products.
-/// The products are added in the opposite order, which does not change any bit of the sum. So if two patches
-/// share a boundary, in either direction, they have the same samples on this boundary.
+/// Both weights are stored, because rounding would make the result depend on which weight is computed from the
+/// other. With [`Weights::ratio`], evaluating a curve at i/n and the reversed curve at (n - i)/n gives the same
+/// products. The products are added in the opposite order, which does not change any bit of the sum. So if two
+/// patches share a boundary, in either direction, they have the same samples on this boundary.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Weights {
     /// 1 - t.

@@ -154,7 +154,8 @@ impl<'m> Hole<'m> {
             }
         }
 
-        // A triangle becomes an ear after the parts on both sides of it are cut off, so the order is reversed.
+        // A triangle becomes an ear only after the parts on both sides of the triangle are cut off, so the
+        // order is reversed.
         let mut ears = Vec::with_capacity(n - 2);
         let mut parts = vec![(0, n - 1)];
         while let Some((i, k)) = parts.pop() {

@@ -50,8 +50,8 @@ pub struct Laplacian {
     /// adds up to 0. The entry of an edge is minus the weight of the edge. The entries have no unit.
     pub stiffness: SymmetricMatrix,
     /// The diagonal of the lumped mass matrix: the area that belongs to each vertex, in scene unit², at most
-    /// 1.8e308. The area is 0 for vertices without faces. For other vertices it is more than 0, unless it is
-    /// too small for an `f64`.
+    /// 1.8e308. The area is 0 for vertices without faces. For other vertices, the area is more than 0, unless
+    /// it is too small for an `f64`.
     pub areas: Vec<f64>,
 }
 
@@ -260,7 +260,8 @@ impl Pieces {
             }
         }
         if self.has_virtual {
-            // The energy is the sum of s(i) (u(i) - mean of u)² for the weights s of the spokes.
+            // The energy of the values u is the sum of s(i) (u(i) - mean of u)² over the corners i, where s are
+            // the weights of the spokes.
             let total: f64 = self.spokes.iter().sum();
             let count = n as f64;
             for i in 0..n {

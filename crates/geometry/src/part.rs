@@ -140,7 +140,7 @@ impl PartBuilder<'_> {
             c.face_half_edge.push(half_edge(old.face_half_edge(f)));
         }
         // A vertex inside the part keeps its half-edge. A vertex on the boundary of the part gets its half-edge
-        // below.
+        // later, in `link_boundary`.
         for (v, slot) in vertices.iter().zip(&mut c.vertex_half_edge) {
             let h = old
                 .vertex_half_edge(*v)

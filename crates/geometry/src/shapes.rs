@@ -174,8 +174,8 @@ pub fn torus(around: u32, across: u32, major: f64, minor: f64) -> Mesh {
     of(positions, &polygons)
 }
 
-/// Makes a cylinder around the z axis with radius 1, from z = -1 to z = 1. It has `around` quadrilaterals and,
-/// if `caps` is true, two faces with `around` corners.
+/// Makes a cylinder around the z axis with radius 1, from z = -1 to z = 1. The cylinder has `around`
+/// quadrilaterals and, if `caps` is true, two faces with `around` corners.
 ///
 /// # Panics
 ///
@@ -204,8 +204,8 @@ pub fn cylinder(around: u32, caps: bool) -> Mesh {
     of(positions, &polygons)
 }
 
-/// Makes a sphere of radius 1 with poles at ±z. It has `around` meridians and `rings` bands of faces from pole
-/// to pole: triangles at the poles and quadrilaterals between them.
+/// Makes a sphere of radius 1 with poles at ±z. The sphere has `around` meridians and `rings` bands of faces
+/// from pole to pole: triangles at the poles and quadrilaterals between them.
 ///
 /// # Panics
 ///

@@ -47,7 +47,7 @@ pub fn tangents(mesh: &Mesh, uvs: &[DVec2]) -> Option<Tangents> {
         triangles: triangles(mesh),
         found: vec![None; mesh.n_half_edges()],
     };
-    // The error type has no values, so this never fails.
+    // The error type has no values, so this call never fails.
     let Ok(()) = generate_tangents(&mut corners) else {
         return None;
     };

@@ -80,8 +80,8 @@ impl Cut {
     /// Replaces the contents of `into` by the diagonals: sorted pairs of corners, the lower corner first.
     pub fn diagonals(&self, into: &mut Vec<[u32; 2]>) {
         into.clear();
-        // Each diagonal is the side from the last to the first corner of one triangle. One triangle has a side
-        // of the face there instead.
+        // Every diagonal is the side from the last to the first corner of one triangle. For one remaining
+        // triangle, this side is a side of the face.
         let triangles = self.triangles();
         let last = u32::try_from(triangles.len()).expect("corners fit 32 bits") + 1;
         let sides = triangles.iter().map(|&[a, _, c]| [a, c]);
@@ -98,10 +98,10 @@ impl Cut {
 /// problem, neither is avoided. A quadrilateral with a reflex corner is therefore cut at that corner.
 ///
 /// A larger face is projected along its normal and cut by ear clipping (Held, "FIST: Fast Industrial-Strength
-/// Triangulation of Polygons", 2001, as implemented by the crate `earcut`). Then diagonals are flipped until it
-/// is a constrained Delaunay triangulation. Ear clipping can fail if the face has no area or its sides cross;
-/// ear clipping is not tried for faces with more than ten million corners. In these cases the face becomes a
-/// fan around its lowest vertex.
+/// Triangulation of Polygons", 2001, as implemented by the crate `earcut`). Then diagonals are flipped until
+/// the result is a constrained Delaunay triangulation. Ear clipping can fail if the face has no area or its
+/// sides cross; ear clipping is not tried for faces with more than ten million corners. In these cases the face
+/// becomes a fan around its lowest vertex.
 ///
 /// # Examples
 ///
@@ -320,14 +320,14 @@ fn insert_skipped_corners(n: usize, triangles: &mut Vec<Triangle>) {
 }
 
 /// Whether sorted triangles are a triangulation of a polygon with `n` corners: there are n - 2 triangles, each
-/// side of the polygon belongs to one of them, and each diagonal to two triangles on opposite sides.
+/// side of the polygon belongs to one triangle, and each diagonal belongs to two triangles on opposite sides.
 fn is_triangulation(n: usize, triangles: &[Triangle]) -> bool {
     if triangles.len() + 2 != n {
         return false;
     }
     let n = u32::try_from(n).expect("corners fit 32 bits");
-    // The sides whose corner numbers ascend, and the sides whose corner numbers descend, both with the lower
-    // corner first.
+    // Two lists: the sides whose corner numbers ascend, and the sides whose corner numbers descend. In both,
+    // the lower corner is first.
     let mut ascending: Vec<[u32; 2]> = triangles
         .iter()
         .flat_map(|&[a, b, c]| [[a, b], [b, c]])

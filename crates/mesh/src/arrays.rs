@@ -96,8 +96,8 @@ impl Mesh {
         mesh
     }
 
-    /// Returns the arrays of the connectivity. They include dead elements unless the mesh
-    /// [is dense](Self::is_dense).
+    /// Returns the arrays of the connectivity. The arrays include dead elements unless the mesh [is
+    /// dense](Self::is_dense).
     #[inline]
     pub fn connectivity(&self) -> &Connectivity {
         &self.connectivity

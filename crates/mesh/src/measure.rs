@@ -6,8 +6,8 @@ use crate::{Element, FaceId, HalfEdgeId, Mesh};
 
 /// Returns the angle between two directions, in radians from 0 to π; 0 if one of the vectors is zero.
 ///
-/// The angle is computed as the arc tangent of sine and cosine. This is accurate for angles near 0 and π, where the
-/// arc cosine is not: Kahan, "How Futile are Mindless Assessments of Roundoff", 2006, §12.
+/// The angle is computed as the arc tangent of sine and cosine. The arc tangent is accurate for angles near 0
+/// and π, unlike the arc cosine. Source: Kahan, "How Futile are Mindless Assessments of Roundoff", 2006, §12.
 pub fn angle_between(a: DVec3, b: DVec3) -> f64 {
     libm::atan2(a.cross(b).length(), a.dot(b))
 }

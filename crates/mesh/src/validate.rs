@@ -475,7 +475,7 @@ mod tests {
 
     #[test]
     fn a_face_of_two_corners_is_found() {
-        // A face of two half-edges, between two edges with the same ends.
+        // A face with only two half-edges lies between two edges with the same ends.
         let mut mesh = Mesh::default();
         let (a, b) = (mesh.push_vertex(DVec3::ZERO), mesh.push_vertex(DVec3::X));
         let e = mesh.push_edge(a, b);

@@ -181,8 +181,8 @@ impl NewFile for UnfinishedFile {
 fn beside(path: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".meshwright-");
-    // Temporary files are private to the user by default. This one becomes a normal file, so it gets normal
-    // permissions.
+    // Temporary files are private to the user by default. This temporary file becomes a normal file, so it gets
+    // normal permissions.
     #[cfg(unix)]
     let open: Permissions = std::os::unix::fs::PermissionsExt::from_mode(0o666);
     #[cfg(unix)]

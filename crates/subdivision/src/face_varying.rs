@@ -16,8 +16,8 @@
 //! face-varying interpolation. Here they are applied to each level separately, so computing two levels at once
 //! gives the same result as computing one level twice. The results can differ from those of OpenSubdiv in one
 //! case: if two pieces meet at a vertex, a semi-sharp piece can sharpen the other piece. OpenSubdiv decides on
-//! the first level whether it does, and keeps the decision. If the pieces, their seam and their vertex have
-//! different semi-sharp values, later levels can differ.
+//! the first level whether this happens, and keeps the decision. If the pieces, their seam and their vertex
+//! have different semi-sharp values, later levels can differ.
 
 use mesh::{DVec4, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};
@@ -221,8 +221,8 @@ impl<'a> Field<'a> {
 
     /// Collects the pieces around a vertex.
     fn pieces(&self, v: VertexId, start: HalfEdgeId) -> VertexPieces {
-        // The corners are in counter-clockwise order. At a boundary vertex they go from one boundary edge to the
-        // other.
+        // The corners are in counter-clockwise order. At a boundary vertex, they run from one boundary edge to
+        // the other.
         let corners = self.mesh.vertex_half_edges(v);
         let mut ring: Vec<HalfEdgeId> = corners.filter(|&h| self.mesh.face(h).is_some()).collect();
         ring.reverse();

@@ -138,7 +138,7 @@ pub fn refine_faces(
             cuts,
             SmoothedElements::of(&mesh, &vec![false; chosen.len()]),
         );
-        // The last cut smooths no position and decreases no sharpness.
+        // The cut into green triangles does not smooth positions or decrease sharpness.
         let linear = Rules {
             scheme: Scheme::Midpoint(Split::Triangles),
             ..rules
@@ -158,7 +158,8 @@ fn finer(mesh: &Mesh, pieces: &Pieces, rules: Rules, meter: &Meter) -> Result<Me
     })
 }
 
-/// Estimates how much the levels add to the meter. Ignores the faces that are cut around the chosen ones.
+/// Estimates how much the levels add to the meter. Ignores the faces around the chosen faces, which can be cut
+/// too.
 fn work(mesh: &Mesh, chosen: &[bool], levels: u32) -> u64 {
     let kept = (mesh.n_vertices() + mesh.n_faces()) as u64;
     let n_chosen = chosen.iter().filter(|&&c| c).count() as u64;

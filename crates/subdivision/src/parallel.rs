@@ -29,8 +29,8 @@ pub(crate) fn fill<T: Send>(
     fill_counted(array, meter, 1, value)
 }
 
-/// Computes an array like [`fill`], but adds nothing to the meter. It is meant for arrays that the total of the
-/// meter does not include.
+/// Computes an array like [`fill`], but adds nothing to the meter. Use this function for arrays that the total
+/// of the meter does not include.
 pub(crate) fn fill_uncounted<T: Send>(
     array: &mut [T],
     meter: &Meter,

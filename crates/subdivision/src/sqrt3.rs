@@ -321,8 +321,9 @@ impl Topology for Sqrt3<'_> {
         links::connectivity(self, meter)
     }
 
-    /// Returns the place of a corner. A triangle at a flipped edge lies in two old faces. At its old vertex, triangle
-    /// 3f + k has the value of the corner of face f. At each center it has the value of the face of that center.
+    /// Returns the place of a corner. A triangle at a flipped edge lies in two old faces. At its old vertex,
+    /// triangle 3f + k has the value of the corner of face f. At each center, the triangle has the value of the
+    /// face of that center.
     fn corner(&self, finer: &Connectivity, i: usize) -> Place {
         let mesh = self.mesh;
         let Some(face) = finer.face[i].some() else {

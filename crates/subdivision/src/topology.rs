@@ -39,7 +39,8 @@ pub(crate) trait Topology: Sync {
         true
     }
 
-    /// Whether the new vertex on an edge follows the masks of the scheme. Otherwise it lies in the middle.
+    /// Whether the new vertex on an edge follows the masks of the scheme. Otherwise the new vertex lies in the
+    /// middle of the edge.
     fn smooths_edge(&self, _: EdgeId) -> bool {
         true
     }

@@ -193,6 +193,6 @@ fn direction(vector: DVec3) -> Result<DVec3, EditError> {
     if largest == 0.0 {
         return Err(EditError::BadNumber(0.0));
     }
-    // Scales to a size near 1 first, so that squares neither overflow nor underflow.
+    // Scales the vector to a length near 1 first, so that squares neither overflow nor underflow.
     Ok((vector / largest).normalize())
 }

@@ -106,7 +106,7 @@ fn vertices_on_the_plane_do_not_move_and_edges_on_it_are_returned() {
         (found.edges.len(), found.front.len(), found.back.len()),
         (4, 4, 4)
     );
-    // The plane is nearer to the vertices than the tolerance.
+    // The distance from the plane to the vertices is below the tolerance.
     let (mesh, _) = cut(&shapes::octahedron(), DVec3::Z * 1e-9, DVec3::Z);
     assert_eq!(mesh, shapes::octahedron());
     let (mesh, _) = cut(&shapes::octahedron(), DVec3::Z * 1e-8, DVec3::Z);
@@ -144,14 +144,14 @@ fn a_concave_face_is_cut_several_times() {
     );
     assert!((area(&mesh) - area(&comb)).abs() < 1e-12);
     assert!(mesh.faces().all(|f| mesh.area_vector(f).z > 0.0));
-    // A cut through the bottoms of the gaps, which are corners.
+    // The plane cuts through the bottoms of the gaps, which are corners.
     let (mesh, found) = cut(&comb, DVec3::Y, DVec3::Y);
     assert_eq!(
         (found.front.len(), found.back.len(), found.edges.len()),
         (4, 1, 4)
     );
     assert!(mesh.faces().all(|f| mesh.area_vector(f).z > 0.0));
-    // A cut along the bottom.
+    // The plane cuts along the bottom of the comb.
     let (mesh, found) = cut(&comb, DVec3::ZERO, DVec3::Y);
     assert_eq!((mesh, found.edges.len()), (comb, 1));
 }
@@ -191,7 +191,7 @@ fn two_faces_that_share_both_crossed_edges_get_separate_edges() {
 
 #[test]
 fn a_face_around_a_hole_is_cut_on_both_sides_of_it() {
-    // A square with a hole, connected by a slit between their first corners: two coincident sides.
+    // A square with a hole. A slit of two coincident sides connects their first corners.
     let ring = |x: f64| [(-x, -x), (x, -x), (x, x), (-x, x)];
     let mut points = ring(4.0).to_vec();
     points.extend(ring(2.0).into_iter().rev());

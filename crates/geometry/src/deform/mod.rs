@@ -43,7 +43,7 @@ pub fn vertex_directions(mesh: &Mesh) -> Vec<DVec3> {
             sum += vector;
             size += vector.length();
         }
-        // If the sum is much shorter than the sum of the lengths, it is only a rounding error.
+        // A sum that is much shorter than the sum of the lengths is only a rounding error.
         if sum.length() > 1e-14 * size {
             sum.normalize_or_zero()
         } else {

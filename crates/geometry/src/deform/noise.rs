@@ -7,7 +7,7 @@ use mesh::DVec3;
 /// `SplitMix64` of Steele, Lea, Flood, "Fast Splittable Pseudorandom Number Generators", 2014.
 pub fn random(seed: u64, index: u64) -> f64 {
     let bits = mixed(mixed(seed).wrapping_add(index));
-    // 53 bits, which an f64 represents exactly.
+    // Keeps 53 bits, which an f64 represents exactly.
     (bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
 }
 

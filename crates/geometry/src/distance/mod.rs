@@ -302,8 +302,8 @@ impl Block {
         for i in 0..n {
             ask()?;
             for j in 0..n - i {
-                // At each place there is a smaller triangle with the orientation of the large one, and an
-                // inverted one if it lies inside the large one.
+                // Place (i, j) has a smaller triangle with the orientation of the large triangle. It also has
+                // an inverted one, except at the end of a row.
                 let n_parts = if i + j + 2 <= n { 2 } else { 1 };
                 for shift in [third, 2.0 * third].into_iter().take(n_parts) {
                     let (u, v) = (f64::from(i) + shift, f64::from(j) + shift);

@@ -201,8 +201,8 @@ pub(super) fn refine(
     ask: &Ask,
 ) -> Result<(Farthest, f64), Cancelled> {
     let mut visits_left = MAX_VISITS;
-    // A round has only as many pieces as the remaining visits allow. The number of visits of a search is
-    // estimated from earlier searches.
+    // Limits the number of pieces in a round, so that the round does not exceed the remaining visits. The
+    // number of visits of a search is estimated from earlier searches.
     let visits = pieces.iter().map(|p| u64::from(p.corners[0].hit.visits));
     // Cutting a piece takes at most three searches. The factor 5 leaves a margin.
     let per_piece = 5 * (visits.sum::<u64>() / (pieces.len() as u64).max(1)).max(1);

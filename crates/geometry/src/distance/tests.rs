@@ -290,7 +290,7 @@ fn star(n: u32) -> Mesh {
 
 #[test]
 fn a_face_with_reflex_corners_is_measured_inside_its_sides() {
-    // The letter U. A fan from its first corner would cover the gap.
+    // The face has the shape of the letter U. A fan of triangles around its first corner would cover the gap.
     let corners = [
         (0, 0),
         (3, 0),

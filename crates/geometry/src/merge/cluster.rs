@@ -72,8 +72,8 @@ fn sort_into_tree(points: &mut [Point]) {
     if points.len() <= LEAF || min == max {
         return;
     }
-    // The sides of the box are compared at half their length, because the difference of two finite numbers can be
-    // infinite.
+    // The sides of the box are compared by half their length, because the difference of two finite numbers can
+    // be infinite.
     let axis = (0.5 * max - 0.5 * min).max_position();
     let n = points.len();
     let middle = n / 2;
@@ -346,7 +346,7 @@ mod tests {
     #[test]
     fn clusters_are_the_same_for_any_number_of_threads() {
         let points = noise(100_000);
-        // Includes the distance at which most clusters of this cloud become connected.
+        // At about one of these distances, most points of this cloud become connected.
         for distance in [0.005, 0.015, 0.02] {
             let with = |threads| {
                 let pool = rayon::ThreadPoolBuilder::new()

@@ -8,8 +8,8 @@
 //!    +-----+ +-----+            +-----+-----+
 //! ```
 //!
-//! [`clusters`] finds the vertices that belong together. [`merge_clusters`] merges them and rebuilds the mesh
-//! from its polygons.
+//! [`clusters`] finds the vertices that belong together. [`merge_clusters`] merges the vertices of each cluster
+//! and rebuilds the mesh from its polygons.
 
 mod cluster;
 pub(crate) mod union_find;
@@ -201,7 +201,7 @@ impl Polygons {
         let has_reversed = !built.report.reversed_faces.is_empty();
         let mut mesh = built.mesh;
         let mut vertices = self.kept;
-        // Copies come after all other vertices, in this order.
+        // Copies come after all other vertices, in the order of this list.
         for (original, _) in &built.report.split_vertices {
             vertices.push(vertices[original.index()]);
         }

@@ -27,7 +27,8 @@ impl UnionFind {
                 return v;
             }
             let above = self.parent[parent as usize].load(Relaxed);
-            // Path halving for later calls. A parent is only ever replaced by one of its ancestors.
+            // Halves the path to the root, which makes later calls faster. A parent is only replaced by one of
+            // its own ancestors.
             let _ = self.parent[v as usize].compare_exchange(parent, above, Relaxed, Relaxed);
             v = above;
         }

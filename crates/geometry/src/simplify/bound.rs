@@ -3,8 +3,9 @@
 //! The triangles around a collapsed edge before and after the collapse are seen along one direction. If the old
 //! and the new triangles cover the same region once, each point of the old triangles forms a pair with the
 //! point of the new triangles above or below it. The distance of a pair is largest at a corner of a cell, where
-//! a cell is the region that one old and one new triangle share. This bounds the Hausdorff distance in both
-//! directions. Source: Cohen, Manocha, Olano, "Simplifying Polygonal Models Using Successive Mappings", 1997.
+//! a cell is the region that one old and one new triangle share. The largest distance of all pairs bounds the
+//! Hausdorff distance in both directions. Source: Cohen, Manocha, Olano, "Simplifying Polygonal Models Using
+//! Successive Mappings", 1997.
 
 use mesh::{DVec3, EdgeId, FaceId};
 
@@ -34,7 +35,8 @@ impl Collapser<'_> {
                 let next = self.mesh.next(h);
                 let is_beside = [self.mesh.origin(next), self.mesh.target(next)].contains(&other);
                 let triangle = self.triangle(h);
-                // A triangle beside the edge has both ends. It is listed once, and vanishes.
+                // A triangle beside the edge has both ends as corners. It is listed only once, and the collapse
+                // removes it.
                 if !is_beside || v == a {
                     old.push((triangle, self.errors[f.index()]));
                 }
@@ -174,7 +176,7 @@ fn cell_gap(old: &[DVec3; 3], new: &[DVec3; 3]) -> Option<f64> {
     }
     let [a, b, c] = *new;
     let normal = (b - a).cross(c - a);
-    // The height of the plane of the new triangle.
+    // The height of the plane of the new triangle directly above or below p.
     let height = |p: DVec3| a.z - (normal.x * (p.x - a.x) + normal.y * (p.y - a.y)) / normal.z;
     Some(
         cell[..n]

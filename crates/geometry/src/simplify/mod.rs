@@ -28,16 +28,17 @@ use progress::{Cancelled, Progress};
 
 use collapse::Collapser;
 
-/// When [`simplify`] stops, and what it keeps.
+/// The options of [`simplify`]: when it stops, and which edges and vertices it keeps.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Options<'a> {
     /// The number of faces at which simplification stops. The result has this many faces, one fewer at the end of some
     /// collapses, or more if no edge may be collapsed.
     pub faces: usize,
     /// The largest allowed Hausdorff distance between the original and the simplified surface, in scene units;
-    /// `None` sets no limit. The limit is guaranteed. Each triangle has a bound of its distance, to which each
-    /// collapse adds a bound of the distance by which it moves the surface. These sums overestimate the
-    /// distance: the true distance is usually between a third of the limit and the limit.
+    /// `None` sets no limit. The limit is guaranteed. Each triangle has a bound of its distance to the
+    /// original. A collapse moves the surface, and adds a bound of this movement to the bounds of the triangles
+    /// around it. These sums overestimate the distance: the true distance is usually between a third of the
+    /// limit and the limit.
     pub error: Option<f64>,
     /// Edges that are kept as lines, in addition to boundaries, seams, borders of face tags and materials,
     /// tagged edges and creases.

@@ -130,7 +130,7 @@ fn very_small_and_very_large_meshes_give_the_same_result() {
 
 #[test]
 fn a_seam_stays_and_texture_coordinates_do_not_blend_across_it() {
-    // Left of x = 0.5, u is x; right of it, u is x + 10.
+    // The texture coordinate u is x left of the line x = 0.5, and x + 10 right of this line.
     let mut mesh = square(16);
     let uv: Vec<DVec2> = (0..mesh.n_half_edges())
         .map(|h| {

@@ -88,7 +88,7 @@ fn filtered_normals(
         })
         .collect();
     let spread = spread_of_centers(mesh, &centers);
-    // Half of the distance between the ends of two unit normals with this angle.
+    // Half of the distance between the ends of two unit normals that enclose this angle.
     let (tolerance, _) = sin_cos_degrees(0.5 * angle);
     // exp(-|difference|² / 2 s²): a difference of 0 has the weight 1 even if s is 0.
     let falloff = |square: f64, spread: f64| {

@@ -222,7 +222,8 @@ fn explicit_steps_stay_within_the_bounds_of_the_mesh() {
 
 #[test]
 fn one_implicit_step_shrinks_a_sphere_by_the_exact_factor() {
-    // The coordinates on a unit sphere are eigenfunctions of the Laplacian: the factor is 1 / (1 + 2 time).
+    // The coordinates on a unit sphere are eigenfunctions of the Laplacian, so a step multiplies the radius by
+    // 1 / (1 + 2 time).
     let sphere = shapes::uv_sphere(96, 48);
     for time in [1e-3, 0.1, 1.0, 10.0] {
         let after = smoothed(sphere.clone(), Method::Implicit { time }, 1);

@@ -66,7 +66,7 @@ impl<'a> Factor<'a> {
     ///
     /// # Errors
     ///
-    /// The same as for [`new`](Self::new).
+    /// The same errors as [`new`](Self::new).
     ///
     /// # Panics
     ///

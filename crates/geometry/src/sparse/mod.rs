@@ -49,8 +49,8 @@ pub struct SymmetricMatrix {
     values: Vec<f64>,
 }
 
-/// The type of one entry of a right-hand side or a solution: a number or a vector. With `DVec3`, one solve
-/// gives the solutions for three right-hand sides.
+/// The type of one entry of a right-hand side or a solution: a number or a vector. If the entries are `DVec3`,
+/// one call of `solve` computes the solutions for three right-hand sides.
 pub trait Entry:
     Copy + Default + Send + Sync + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self>
 {

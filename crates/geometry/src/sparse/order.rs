@@ -141,8 +141,8 @@ impl Quotient {
         }
     }
 
-    /// Eliminates a variable with the lowest degree, and all variables that become equal to it. `remaining` is the number
-    /// of rows that are not eliminated. Returns the number of eliminated rows.
+    /// Eliminates a variable with the lowest degree, and all variables that then have the same neighbors.
+    /// `remaining` is the number of rows that are not eliminated. Returns the number of eliminated rows.
     fn eliminate(&mut self, remaining: usize) -> usize {
         let p = self.buckets.lowest();
         self.buckets.remove(p, self.degree[p as usize]);
@@ -155,7 +155,7 @@ impl Quotient {
         for &i in &members {
             let (d, hash) = self.update(i, p);
             if self.elements[i as usize].len() == 1 && self.variables[i as usize].is_empty() {
-                // All neighbors of i are members of p, so eliminating i next creates no entries.
+                // All neighbors of i are members of p, so eliminating i directly after p creates no entries.
                 eliminated += self.weight[i as usize];
                 self.merge(i, p);
             } else {

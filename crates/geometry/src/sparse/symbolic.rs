@@ -25,9 +25,9 @@ pub(super) struct Symbolic {
 /// A range of columns with the same pattern.
 pub(super) struct Supernode {
     pub(super) columns: Range<usize>,
-    /// All rows in ascending order. The first ones are the columns.
+    /// All rows in ascending order. The first rows have the same numbers as the columns.
     pub(super) rows: Vec<u32>,
-    /// The supernode of the first row after the columns.
+    /// The parent in the tree: the supernode that contains the first row after the columns.
     pub(super) parent: Option<usize>,
     pub(super) n_children: usize,
 }

@@ -45,7 +45,7 @@ fn assert_orthonormal(mesh: &Mesh, tangents: &Tangents) {
 
 #[test]
 fn the_tangent_of_a_plane_points_along_u_and_the_bitangent_along_v() {
-    // For each map, the expected tangent. The bitangent w n x t must point along v.
+    // Each map has an expected tangent t. The bitangent, w times the cross product n x t, must point along v.
     let (x, y) = (DVec2::X, DVec2::Y);
     for (u, v) in [(x, y), (-x, y), (x, -y), (y, x), (-y, x), (-x, -y)] {
         let mesh = mapped(shapes::grid(4, 3), |p| {
@@ -80,7 +80,7 @@ fn mirrored_halves_have_opposite_signs() {
 #[test]
 fn the_tangent_of_a_cylinder_runs_around_its_axis() {
     let mut mesh = mapped(shapes::torus(48, 24, 3.0, 1.0), |_| DVec2::ZERO);
-    // The angle around the axis, without a jump inside a face.
+    // u is the angle around the axis, without a jump inside a face.
     let mut uvs = vec![DVec2::ZERO; mesh.n_half_edges()];
     for f in mesh.faces() {
         let center = mesh.face_center(f);

@@ -132,7 +132,7 @@ impl BuildOutput {
             let half_edges = &self.half_edge_of_corner[w[0] as usize..w[1] as usize];
             let following = half_edges.iter().cycle().skip(1);
             edges.extend(half_edges.iter().zip(following).map(|(&h, &next)| {
-                // The half-edge of one of the two corners lies on the side between them.
+                // A side joins two corners. The half-edge of one of these corners lies on the side.
                 match h.some() {
                     None => EdgeId::NONE,
                     Some(h) if self.mesh.next(h) == next => h.edge(),

@@ -75,8 +75,8 @@ impl Star {
                 free &= !(1 << hit);
                 self.after.push(hit);
             } else {
-                // No corner is left to follow this one. If another corner has a side to the same neighbor, the
-                // edge is non-manifold.
+                // No corner is left that could follow the current corner. If another corner has a side to the
+                // same neighbor, the edge is non-manifold.
                 let n_sides = self.to.iter().filter(|&&other| other == to).count();
                 self.has_non_manifold_edge |= n_sides > 1;
                 self.after.push(NONE);
@@ -155,8 +155,8 @@ impl Star {
             if is_visited[lowest as usize] {
                 continue;
             }
-            // Walk back to the corner that has no predecessor. If every corner has one, walk once around the
-            // vertex.
+            // Walk back to the corner that has no predecessor. If every corner has a predecessor, walk once
+            // around the vertex.
             let mut start = lowest;
             while predecessor[start as usize] != NONE {
                 start = predecessor[start as usize];
@@ -184,7 +184,8 @@ impl Star {
     }
 
     /// Returns the neighbors that share a non-manifold edge with the vertex: several sides run in the same
-    /// direction. Each is `(neighbor, number of sides to it, number of sides from it)`.
+    /// direction. Each entry is `(neighbor, number of sides to the neighbor, number of sides from the
+    /// neighbor)`.
     pub(super) fn non_manifold_edges(&self) -> Vec<(u32, usize, usize)> {
         let sides = self
             .to

@@ -189,8 +189,8 @@ impl Mesh {
         }
         let new = self.push_copy_of_face(f, ring[n - 1][1]);
 
-        // Sets the values of the corners at the cuts. The corners to the right of the cut edges come first,
-        // because they need the old values of the corners to the left.
+        // Sets the values of the corners at the cuts. The corners to the right of the cut edges are set first,
+        // because their values depend on the old values of the corners to the left.
         for (&(h, t), [along, _]) in cuts.iter().zip(&ring) {
             let corner = self.next(h.twin());
             self.copy_values(corner, *along);

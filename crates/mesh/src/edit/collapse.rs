@@ -160,8 +160,8 @@ impl Mesh {
         }
         self.kill(e);
         self.kill(removed);
-        // A triangle beside e has become a face of two edges. Of these, the edge at the removed vertex is
-        // removed. On the side of the first half of e, the edge at b comes after e and the edge at a before
+        // A triangle beside e has become a face of two edges. Of these two edges, the one at the removed vertex
+        // is removed. On the side of the first half of e, the edge at b comes after e and the edge at a before
         // it. On the side of the second half, the edge at a comes after e and the edge at b before it.
         for (i, h) in sides.into_iter().enumerate().filter(|&(i, _)| vanishes[i]) {
             let after = self.next(h);
@@ -286,8 +286,8 @@ impl Mesh {
     /// would lie back to back, which is true if every vertex of one of these faces would have two edges.
     fn would_fold(&self, e: EdgeId, apexes: [Option<VertexId>; 2]) -> bool {
         let [ab, ba] = e.half_edges();
-        // Finds one of the two faces. A face beside e that is not a triangle remains. If both are triangles,
-        // the next face at a remains.
+        // Finds one of the two faces. A face beside e that is not a triangle remains. If both faces beside e
+        // are triangles, the next face at a remains.
         let around = match apexes {
             [None, _] => ab,
             [_, None] => ba,
@@ -355,7 +355,7 @@ impl Mesh {
         if !self.has_corner_columns() {
             return;
         }
-        // For the face on each side, its corners at a and at b.
+        // For each side of the edge, the corners of its face at a and at b.
         let [ab, ba] = e.half_edges();
         let corners = [[ab, self.next(ab)], [self.next(ba), ba]];
         let sides = [0, 1].map(|i| Some(corners[i]).filter(|_| self.face(corners[i][i]).is_some()));

@@ -5,7 +5,7 @@ use crate::{EdgeId, EditError, HalfEdgeId, Mesh, VertexId};
 
 /// A part of the faces around a vertex, between two cuts, or between a cut and the boundary.
 struct Part {
-    /// The outgoing half-edges of the vertex, clockwise. The first has no face.
+    /// The outgoing half-edges of the vertex, clockwise. The first half-edge has no face.
     outgoing: Vec<HalfEdgeId>,
     /// The boundary half-edge that ends at the vertex.
     incoming: HalfEdgeId,

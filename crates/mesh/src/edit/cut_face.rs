@@ -26,7 +26,8 @@ pub fn polygon_parts(n: usize, diagonals: &[[u32; 2]]) -> Option<Vec<Vec<usize>>
         outgoing.push((b, (a + n - b) % n, n + 2 * k + 1));
     }
     outgoing.sort_unstable();
-    // After a half-edge that ends at a corner comes the next outgoing half-edge at that corner, going clockwise.
+    // A half-edge that ends at a corner is followed by the next outgoing half-edge at that corner, going
+    // clockwise.
     let mut next: Vec<usize> = (1..=n).map(|i| i % n).collect();
     next.resize(n + outgoing.len(), 0);
     let twin = |h: usize| n + ((h - n) ^ 1);
@@ -34,8 +35,8 @@ pub fn polygon_parts(n: usize, diagonals: &[[u32; 2]]) -> Option<Vec<Vec<usize>>
     for (i, &(corner, _, h)) in outgoing.iter().enumerate() {
         let is_first = i == 0 || outgoing[i - 1].0 != corner;
         next[twin(h)] = if is_first { corner } else { clockwise };
-        // The last diagonal at the corner follows the side that ends there. Each diagonal overwrites the entry
-        // of the diagonal before it.
+        // The last diagonal at the corner follows the side that ends at the corner. Each diagonal overwrites
+        // the entry of the diagonal before it.
         next[(corner + n - 1) % n] = h;
         clockwise = h;
     }

@@ -178,7 +178,8 @@ mod tests {
 
     #[test]
     fn a_face_that_would_pinch_a_vertex_is_refused() {
-        // The middle of a 3 x 3 grid is a hole that shares only a vertex with the face at each corner.
+        // The middle face of a 3 x 3 grid is a hole. Each corner face of the grid shares only a vertex with the
+        // hole.
         let mut mesh = shapes::grid(3, 3);
         mesh.delete_face(FaceId::new(4)).unwrap();
         let before = mesh.clone();
@@ -252,7 +253,7 @@ mod tests {
         for shape in sample_shapes() {
             for f in shape.faces() {
                 let error = checked_edit_mesh(&shape, |mesh| mesh.delete_face(f)).err();
-                // Corners on the boundary at which the face has no boundary edge.
+                // Finds corners on the boundary at which the face has no boundary edge.
                 let pinched = shape.face_half_edges(f).filter(|&h| {
                     let sides = [h, shape.prev(h)].map(|h| shape.is_boundary_edge(h.edge()));
                     shape.is_boundary_vertex(shape.origin(h)) && sides == [false; 2]

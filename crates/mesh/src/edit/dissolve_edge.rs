@@ -236,8 +236,8 @@ mod tests {
 
     #[test]
     fn faces_with_another_common_vertex_are_not_merged() {
-        // The tube has three squares. Two of them were merged, and both side edges of the third square are
-        // edges of the merged face.
+        // The tube has three squares. Two of these squares were merged, and both side edges of the third square
+        // are edges of the merged face.
         let mut tube = shapes::cylinder(3, false);
         tube.dissolve_edge(between(&tube, 1, 4)).unwrap();
         let refused = refused(&tube, between(&tube, 2, 5));

@@ -190,7 +190,7 @@ impl Mesh {
         let (x, y) = if x.edge() < y.edge() { (x, y) } else { (y, x) };
         let (before, after) = (self.prev(y.twin()), self.next(y));
         let (v, b) = (self.origin(x), self.target(y));
-        // Half-edge x now leaves b. It stores the corner that the twin of y stored before.
+        // Half-edge x now leaves b. So x now stores the corner that the twin of y stored before.
         self.copy_values(y.twin(), x);
         self.set_next(x.twin(), after);
         self.set_next(before, x);

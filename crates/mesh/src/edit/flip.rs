@@ -238,7 +238,7 @@ mod tests {
 
     #[test]
     fn an_edge_at_a_vertex_with_two_edges_does_not_flip() {
-        // The new vertex on the edge of a cube has two edges; a flip would leave it with one.
+        // The new vertex on the edge of a cube has two edges. A flip would leave it with one edge.
         let mut mesh = shapes::cube();
         let m = mesh.split_edge(EdgeId::new(0), 0.5).unwrap();
         assert_eq!(refused(&mesh, EdgeId::new(0)), EditError::FewEdges(m));

@@ -52,8 +52,8 @@ impl Mesh {
     }
 
     /// Insets a face like [`inset_face`](Self::inset_face), and raises the inner face by `height` along the
-    /// normal of `f`, in scene units. A negative height lowers it. A face without area has no normal and stays
-    /// flat.
+    /// normal of `f`, in scene units. A negative height lowers the inner face. A face without area has no
+    /// normal and stays flat.
     ///
     /// # Errors
     ///
@@ -102,11 +102,11 @@ impl Mesh {
         Ok(ring)
     }
 
-    /// Sets the interpolated values of each element of `to`. They lie at `t` between the values of the
-    /// corresponding element of `from` and the mean of all elements of `from`.
+    /// Sets the interpolated values of each element of `to`. The new values lie at `t` between the values of
+    /// the corresponding element of `from` and the mean of all elements of `from`.
     fn mix_with_mean<I: Id>(&mut self, from: &[I], t: f64, to: &[I]) {
         let &[.., last] = to else { return };
-        // The last element stores the mean until it is set itself.
+        // The last element stores the mean until its own values are set.
         self.average_values(from, last);
         for (&from, &to) in from.iter().zip(to) {
             self.mix_values(from, last, t, to);

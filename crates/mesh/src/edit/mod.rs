@@ -89,7 +89,7 @@ pub enum EditError {
     /// cannot be merged.
     #[error("both ends of {0} are adjacent to {1}, but not through a triangle at the edge")]
     Link(EdgeId, VertexId),
-    /// Both ends of the edge are on the boundary, but the edge is not. Collapsing it would split one
+    /// Both ends of the edge are on the boundary, but the edge is not. Collapsing such an edge would split one
     /// boundary loop in two, or merge two loops.
     #[error("{0} is inside the surface, but both of its ends are on the boundary")]
     JoinsBoundaries(EdgeId),

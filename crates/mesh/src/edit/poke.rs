@@ -21,9 +21,9 @@ impl Mesh {
     /// keeps the id of `f`. The new elements are the edges m-a, m-b, ... and the faces (b, c, m), ... in the
     /// order of the corners. The first half of a new edge starts at m.
     ///
-    /// Vertex attributes at m are the mean of those of the corners if they are interpolated, and zero
-    /// otherwise. The corners at m get the mean of the corner values of the face; the other corners keep
-    /// their values. New faces have the values of `f`, new edges have zero values.
+    /// Interpolated vertex attributes at m are the mean of the attributes of the corners; other vertex
+    /// attributes are zero. The corners at m get the mean of the corner values of the face; the other corners
+    /// keep their values. New faces have the values of `f`, new edges have zero values.
     ///
     /// Returns m. [`dissolve_vertex`](Self::dissolve_vertex) is the inverse.
     ///
@@ -47,8 +47,8 @@ impl Mesh {
         self.poke_face_at(f, self.face_center(f))
     }
 
-    /// Pokes a face like [`poke_face`](Self::poke_face), with the vertex at `position`, in scene units. As
-    /// in `poke_face`, the attributes at the vertex are means. They do not depend on `position`.
+    /// Pokes a face like [`poke_face`](Self::poke_face), with the vertex at `position`, in scene units. As in
+    /// `poke_face`, the attributes at the vertex are means, which do not depend on `position`.
     ///
     /// # Errors
     ///

@@ -48,7 +48,7 @@ impl Mesh {
         let cuts = [am, ma].map(|h| self.face(h).is_some_and(|f| self.is_triangle(f)));
 
         let [mb, bm] = self.insert_vertex(e, t)?.half_edges();
-        // Cut to the opposite corners: the part of each triangle at b becomes a new face.
+        // Cuts each triangle from m to its opposite corner. The part of the triangle at b becomes a new face.
         if cuts[0] {
             let opposite = self.next(self.next(mb));
             self.insert_edge(mb, opposite, mb);
@@ -81,7 +81,7 @@ impl Mesh {
         let m = self.push_vertex((1.0 - t) * self.position(a) + t * self.position(b));
         self.mix_values(a, b, t, m);
 
-        // m-b, with both halves on the faces of e.
+        // The new edge m-b. Its halves lie on the faces of e.
         let new = self.push_edge(m, b);
         self.copy_values(e, new);
         let [mb, bm] = new.half_edges();
@@ -89,8 +89,8 @@ impl Mesh {
         self.set_face(bm, self.face(ma));
         self.copy_values(ma, bm);
         self.mix_values(am, after_b, t, mb);
-        // ma now stores the corner at m. Its values are interpolated between the corner at b, which bm now
-        // stores, and the corner at a.
+        // The half-edge from m to a now stores the corner at m. The values of this corner are interpolated
+        // between the corner at b, which the half-edge from b to m now stores, and the corner at a.
         let at_a = self.next(ma);
         self.mix_values(bm, at_a, 1.0 - t, ma);
         self.set_next(am, mb);
@@ -219,7 +219,7 @@ mod tests {
     #[test]
     fn attributes_follow_their_rules() {
         let mut mesh = triangles(&[[0, 1, 2], [1, 0, 3]]);
-        // Corner values that are linear on each face, with a seam along the edge.
+        // The corner values are linear on each face, with a seam along the edge.
         let uvs = mesh
             .half_edges()
             .map(|h| {

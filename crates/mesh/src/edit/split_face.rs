@@ -13,9 +13,9 @@ impl Mesh {
     /// ```
     ///
     /// `x` and `y` are half-edges of the face and denote the corners at their origins. The new edge runs from
-    /// the origin of `x` to the origin of `y`. Its first half and `y` are on the old face, its second half
-    /// and `x` on the new face. Each corner at an end of the new edge has the values of the old corner there.
-    /// The new face has the values of the old face, and the new edge has zero values.
+    /// the origin of `x` to the origin of `y`. The first half of the new edge and `y` are on the old face; the
+    /// second half and `x` are on the new face. Each corner at an end of the new edge has the values of the old
+    /// corner at this end. The new face has the values of the old face, and the new edge has zero values.
     ///
     /// Returns the new edge.
     ///

@@ -18,13 +18,14 @@ impl Mesh {
     /// ```
     ///
     /// `x` and `y` denote the corners at their origin: `x` the corner in f, `y` the corner in g. The new edge
-    /// runs from v to w. Its first half is on f, its second half on g, and both faces gain a corner. f or g can
-    /// be a hole; then the edge is on the boundary. V and E grow by 1. All existing ids stay the same.
+    /// runs from v to w. The first half of the new edge is on f, the second half is on g, and both faces gain a
+    /// corner. f or g can be a hole; then the edge is on the boundary. V and E grow by 1. All existing ids stay
+    /// the same.
     ///
-    /// [`split_face`](Self::split_face) is the corresponding edit for faces. The inverse is
-    /// [`collapse_edge_to`](Self::collapse_edge_to) the old position. That collapse is always allowed, unless
-    /// two edges joined v to the same vertex or a face visits v twice. To undo a collapse that removed
-    /// triangles, call `split_vertex`, then `split_face`.
+    /// [`split_face`](Self::split_face) is the corresponding edit for faces. The inverse is to collapse the new
+    /// edge with [`collapse_edge_to`](Self::collapse_edge_to), to the old position. That collapse is always
+    /// allowed, unless two edges joined v to the same vertex or a face visits v twice. To undo a collapse that
+    /// removed triangles, call `split_vertex`, then `split_face`.
     ///
     /// The new vertex is at `position` and has the attributes of v. On each side, both corners at the new edge
     /// have the values of the old corner. The edge has zero values.
@@ -94,9 +95,9 @@ impl Mesh {
             self.set_face(new, face);
         }
 
-        // If the stored half-edge of v now leaves w, it becomes the stored half-edge of w, and vw becomes that
-        // of v. Otherwise v keeps its half-edge, and wv becomes that of w. In both cases, a vertex on the
-        // boundary has a boundary half-edge.
+        // If the stored half-edge of v now leaves w, it becomes the stored half-edge of w, and vw becomes the
+        // stored half-edge of v. Otherwise v keeps its stored half-edge, and wv becomes the stored half-edge of
+        // w. In both cases, a vertex on the boundary has a boundary half-edge.
         let old = self.vertex_half_edge(v);
         let is_moved = old.is_some_and(|h| self.origin(h) == w);
         let first = if is_moved { old } else { Some(wv) };
@@ -347,7 +348,7 @@ mod tests {
 
     #[test]
     fn two_corners_of_one_face_are_refused() {
-        // Two faces that share two edges. After a flip of one of these edges, the second face visits vertex 2
+        // The two faces share two edges. After a flip of one of these edges, the second face visits vertex 2
         // twice.
         let polygons: [&[u32]; 2] = [&[0, 1, 2, 3], &[1, 0, 4, 3, 2, 5]];
         let (mut mesh, _) = Mesh::from_polygons(vec![DVec3::ZERO; 6], &polygons).unwrap();

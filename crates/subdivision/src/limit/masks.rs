@@ -118,11 +118,11 @@ impl Star {
     }
 
     /// Returns a tangent along the crease, and a tangent across it into the k faces of the sector. With θ =
-    /// π/k, the second tangent is the left eigenvector with the weight sin(iθ) at inner spoke i and m (sin(iθ)
-    /// + sin((i+1)θ)) at the opposite corner between spokes i and i + 1. The factor m depends on the scheme and
-    /// on θ. The weights at the ends of the crease and at the center follow from the other weights. (The
-    /// literature gives the eigenvector for k ≤ 3 and for other crease rules.) If the sector has six or more
-    /// triangles, the surface has no tangent plane there; the returned plane contains the tangent of the
+    /// π/k, the second tangent is the left eigenvector with the weight sin(iθ) at inner spoke i and m
+    /// (sin(iθ) + sin((i+1)θ)) at the opposite corner between spokes i and i + 1. The factor m depends on the scheme and
+    /// on the angle θ. The weights at the ends of the crease and at the center follow from the other weights.
+    /// (The literature gives the eigenvector for k ≤ 3 and for other crease rules.) If the sector has six or
+    /// more triangles, the surface has no tangent plane there; the returned plane contains the tangent of the
     /// crease.
     fn crease_tangents(&self, sector: Sector) -> [DVec3; 2] {
         let k = sector.n_faces;
@@ -133,7 +133,7 @@ impl Star {
         }
         let theta = PI / k as f64;
         let (sin, cos) = libm::sincos(theta);
-        // The sum of sin(iθ) over the inner spokes.
+        // The sum of sin(iθ) over the inner spokes i.
         let sines = (1.0 + cos) / sin;
         let (m, end) = if self.loop_weights.is_some() {
             (0.0, -cos * sines / (1.0 + 2.0 * cos))
@@ -158,8 +158,8 @@ impl Star {
     }
 
     /// Returns the directions of the first and the last spoke, which at a corner are tangents of the crease
-    /// curves. They are swapped if the corner is concave. If they do not span a plane, or if the sector goes
-    /// all the way around (a cone), returns a plane whose normal is the mean of the face normals.
+    /// curves. The directions are swapped if the corner is concave. If they do not span a plane, or if the
+    /// sector goes all the way around (a cone), returns a plane whose normal is the mean of the face normals.
     fn corner_tangents(&self, sector: Sector) -> [DVec3; 2] {
         let arm = |i: usize| self.spoke(sector, i) - self.center;
         let faces = 0..sector.n_faces;
@@ -192,10 +192,9 @@ impl Star {
         // The one-ring shrinks by different factors in different directions. Without a correction, after some
         // levels only the direction that shrinks most slowly would remain. Orthogonal iteration preserves all
         // directions: after each level the columns x, y and z are made orthonormal. An upper triangular matrix
-        // converts the orthonormal columns back to the columns before. The product of these matrices over all
-        // levels is, up to a common factor, the matrix 1 b c / 0 1 e / 0 0 1 with its rows multiplied by 1, s
-        // and s q. Each level updates b, c, e, s and q. The first two rows converge to vectors that span the
-        // plane.
+        // converts the orthonormal columns back to the previous columns. The product of these matrices over all
+        // levels is stored, up to a common factor, as the rows (1, b, c), s (0, 1, e) and s q (0, 0, 1). The
+        // first two rows converge to vectors that span the plane.
         let mut star = self.clone();
         let to_frame = frame.transpose();
         for p in star.points() {

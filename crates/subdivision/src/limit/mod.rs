@@ -32,8 +32,8 @@ pub struct Limit {
     /// outward. At an inner crease, the vectors span the tangent plane of one side of the crease. At an
     /// isolated vertex, they are zero.
     pub tangents: Vec<[DVec3; 2]>,
-    /// The unit normal of each corner, by half-edge, and zero for half-edges without a face. `None` if no faces
-    /// meet at a sharp inner edge, so that one normal for each vertex is enough.
+    /// The unit normal of each corner, by half-edge, and zero for half-edges without a face. The value is
+    /// `None` if no inner edge is sharp, because then one normal for each vertex is enough.
     pub corner_normals: Option<Vec<DVec3>>,
 }
 

@@ -15,7 +15,8 @@ pub(crate) struct Star {
     pub(crate) spokes: Vec<DVec3>,
     /// For Catmull-Clark, the positions of the opposite corners: corner i is in the quad between spokes i and i + 1.
     pub(crate) opposite: Vec<DVec3>,
-    /// Whether the vertex is inside the mesh. Then a face also lies between the last spoke and the first spoke.
+    /// Whether the vertex is inside the mesh. In this case, a face also lies between the last spoke and the
+    /// first spoke.
     pub(crate) is_inner: bool,
     /// The sharpness of the spokes.
     pub(crate) spoke_sharpness: Vec<f64>,

@@ -111,7 +111,8 @@ impl<'a> ConnectivityBuilder<'a> {
             let n_to = self.ring.len();
             self.ring.push(across);
             pieces.push_ring_from_middle(before, &mut self.ring);
-            // Between two parts of one half-edge is a hanging vertex. The face starts there.
+            // If the ring has two parts of one half-edge, a hanging vertex lies between them. The face starts
+            // at this vertex.
             let start = match (n_to, self.ring.len() - n_to) {
                 (2, _) => 1,
                 (_, 3) => 3,

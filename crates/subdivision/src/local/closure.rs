@@ -12,7 +12,8 @@ use crate::parallel::BLOCK;
 pub(super) enum Cut {
     /// The face is not cut. New vertices on its sides become additional corners.
     Whole,
-    /// A triangle is not cut but gets a hanging vertex. The first half-edge of the new face starts there.
+    /// A triangle is not cut but gets a hanging vertex. The first half-edge of the new face starts at this
+    /// vertex.
     Hanging,
     /// A triangle becomes two. The cut runs from its hanging vertex to the opposite corner.
     Two,

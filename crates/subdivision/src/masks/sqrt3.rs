@@ -57,7 +57,7 @@ impl Sqrt3<'_> {
     /// Adds the mask of the new vertex on the boundary edge of `h`, at a third of the way from its origin.
     fn on_boundary(&self, h: HalfEdgeId, add: &mut impl FnMut(usize, f64)) {
         let mesh = self.mesh;
-        // Either half of the boundary edge can be h.
+        // h can be either half of the boundary edge.
         let beyond = if mesh.face(h).is_none() {
             mesh.origin(mesh.prev(h))
         } else {

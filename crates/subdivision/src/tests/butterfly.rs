@@ -48,7 +48,7 @@ fn cubic_functions_over_a_regular_sheet_are_reproduced_inside() {
     let new = once(&old);
     let inner = |v: VertexId| !old.is_boundary_vertex(v);
     let is_inside = |&e: &EdgeId| {
-        // The mask has all its eight vertices.
+        // None of the eight vertices of the mask is missing.
         let ends = old.edge_vertices(e);
         ends.iter()
             .all(|&v| inner(v) && old.vertex_neighbors(v).all(inner))
@@ -63,8 +63,8 @@ fn cubic_functions_over_a_regular_sheet_are_reproduced_inside() {
 
 #[test]
 fn a_tetrahedron_has_the_masks_of_valence_three() {
-    // The vertex between a and b is the mean of 3/4 a + 5/12 b - 1/12 (c + d) and the same with a and b
-    // swapped. With c + d = -(a + b) this is 7/12 (a + b) + 1/12 (a + b).
+    // The vertex between a and b is the mean of 3/4 a + 5/12 b - 1/12 (c + d) and the same sum with a and b
+    // swapped. Because c + d = -(a + b), this mean is 7/12 (a + b) + 1/12 (a + b).
     let old = shapes::tetrahedron();
     let new = once(&old);
     for e in old.edges() {

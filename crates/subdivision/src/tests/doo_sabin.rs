@@ -40,7 +40,7 @@ fn a_cube_gets_a_face_for_each_face_edge_and_vertex() {
     };
     assert_eq!(degrees(0..18), [4; 18]);
     assert_eq!(degrees(18..26), [3; 8]);
-    // The face made from an old face is half as wide.
+    // The face made from an old face is half as wide as the old face.
     let f = FaceId::new(0);
     let area = |m: &Mesh| m.face_area(f);
     assert!((area(&new) - area(&old) / 4.0).abs() < 1e-15);

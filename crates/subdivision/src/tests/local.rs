@@ -197,7 +197,7 @@ fn the_cotangent_of_the_smallest_angle_is_at_most_three_times_the_old_one() {
             );
         }
     }
-    // Equilateral triangles have no angle below 30 degrees, half of 60 degrees, on any level.
+    // Refining equilateral triangles makes no angle below 30 degrees (half of 60 degrees) on any level.
     let mesh = shapes::icosahedron();
     let faces = some(&mesh, 4, 0);
     for levels in 1..=6 {
@@ -268,7 +268,7 @@ fn neighbors_differ_by_one_level_at_most() {
             assert!(step < 1.01, "{e} {step}");
         }
     }
-    // So the result has far fewer triangles than 4^5 for each old triangle.
+    // So the result has far fewer triangles than a full refinement, which makes 4^5 of each old triangle.
     assert!(new.n_faces() < 4 * 1024, "{}", new.n_faces());
 }
 

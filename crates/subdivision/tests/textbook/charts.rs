@@ -360,7 +360,7 @@ impl Vertex<'_> {
         let number = |k: usize| match (states[k], next[k]) {
             (State::Regular, _) => self.regular(values[k]),
             (_, State::Crease) => {
-                // The rule of a dependent value has the weight of the other value.
+                // A dependent value uses the weight that the rule of the other value has.
                 let source = if states[k] == State::Dependent {
                     1 - k
                 } else {

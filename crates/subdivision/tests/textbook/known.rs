@@ -124,7 +124,7 @@ fn doo_sabin_of_a_cube() {
 #[test]
 fn butterfly_of_a_tetrahedron() {
     // Both ends have three neighbors, so the new vertex is the mean of 3/4 a + 5/12 b - 1/12 (c + d) and the
-    // same with a and b swapped. With a + b + c + d = 0 this is (7/12 + 1/12) (a + b).
+    // same sum with a and b swapped. Because a + b + c + d = 0, this mean is (7/12 + 1/12) (a + b).
     let fine = one_level(&tetrahedron(), Scheme::Butterfly);
     assert_has(&fine, [4.0 / 3.0, 0.0, 0.0]);
     assert_has(&fine, [1.0, 1.0, 1.0]);
@@ -132,8 +132,8 @@ fn butterfly_of_a_tetrahedron() {
 
 #[test]
 fn sqrt3_of_a_tetrahedron() {
-    // a = (4 + 1) / 9: the weight is 4/9 for the vertex and 5/27 for each neighbor, and the neighbors sum to
-    // the negative of the vertex.
+    // The total weight of the neighbors is a = (4 + 1) / 9. So the vertex has the weight 4/9 and each neighbor
+    // 5/27. The neighbors sum to the negative of the vertex.
     let fine = one_level(&tetrahedron(), Scheme::Sqrt3);
     assert_eq!((fine.positions.len(), fine.faces.len()), (8, 12));
     assert_has(&fine, [7.0 / 27.0, 7.0 / 27.0, 7.0 / 27.0]);
@@ -316,7 +316,7 @@ fn fractional_sharpness_blends_the_rules() {
     for ((&a, &b), &c) in smooth.iter().zip(&half).zip(&full) {
         assert!(is_near(b, 0.5 * a + 0.5 * c));
     }
-    // The crease mask: 3/4 of the vertex and 1/8 of each of two neighbors.
+    // The crease mask is 3/4 of the vertex plus 1/8 of each of two neighbors.
     assert!(is_near(full[0], DVec3::new(-0.75, -0.75, -1.0)));
 }
 

@@ -1,5 +1,6 @@
-//! A second, slow implementation of every scheme, as textbooks describe it. It works on lists of polygons, without
-//! half-edges, and computes one level at a time. The tests compare the crate with this implementation.
+//! A second, slow implementation of every scheme, as textbooks describe it. This implementation works on lists
+//! of polygons, without half-edges, and computes one level at a time. The tests compare the crate with this
+//! implementation.
 
 mod butterfly;
 mod charts;

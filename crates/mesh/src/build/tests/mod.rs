@@ -172,7 +172,7 @@ fn polygons_of(mesh: &Mesh) -> (Vec<u32>, Vec<u32>) {
 
 #[test]
 fn a_vertex_with_many_faces_does_not_take_quadratic_time() {
-    // Around one vertex: a closed fan, an open fan, and triangles without common edges.
+    // One vertex has a closed fan, an open fan, or triangles without common edges.
     let n = 200_000;
     let wheel = |i: u32| [0, 1 + i, 1 + (i + 1) % n];
     let closed: Vec<[u32; 3]> = (0..n).map(wheel).collect();

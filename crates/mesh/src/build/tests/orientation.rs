@@ -85,7 +85,8 @@ fn reversed_faces_of_any_shape_are_restored() {
             assert_eq!(built.mesh.defects(), []);
             check_maps(&offsets, &input, &built);
 
-            // All faces are in one part: the majority keeps its orientation; in a tie, face 0 keeps it.
+            // All faces are in one part. The majority keeps its orientation; in a tie, face 0 keeps its
+            // orientation.
             let unflipped: Vec<usize> = (0..n).filter(|f| !flipped.contains(f)).collect();
             let flipped_are_minority = flipped.len() < unflipped.len()
                 || flipped.len() == unflipped.len() && unflipped[0] == 0;
@@ -195,7 +196,7 @@ fn reports_use_the_face_numbers_of_the_input_even_if_faces_were_dropped() {
     assert_eq!(built.report.reversed_faces, [2]);
     let edges = built.edges_of_sides(&offsets);
     assert_eq!(edges[0], EdgeId::NONE);
-    // The side from 0 to 1 in both polygons.
+    // Both polygons have a side from 0 to 1.
     assert_eq!(edges[3], edges[6]);
     assert_ne!(
         built.half_edge_of_corner[3].edge(),

@@ -116,7 +116,8 @@ fn every_pair_of_edges_on_two_loops_is_joined_or_refused() {
 
 #[test]
 fn linear_uvs_stay_linear_and_materials_are_those_of_the_longer_loop() {
-    // A sheet without the ring around its middle square: a boundary loop of 12 edges around one of 4.
+    // The ring around the middle square of the sheet is removed, so the hole has an outer loop of 12 edges and
+    // an inner loop of 4.
     let mut mesh = shapes::grid(5, 5);
     let uv = |h| mesh.position(mesh.origin(h)).truncate() * 2.0 + DVec2::X;
     mesh.set(UV, mesh.half_edges().map(uv).collect());

@@ -98,7 +98,7 @@ fn two_triangles_vanish_and_the_documented_ids_remain() {
 #[test]
 fn the_end_with_the_lower_id_remains() {
     for is_reversed in [false, true] {
-        // The edge runs from 0 to 1 on the first face, or from 1 to 0.
+        // The edge runs from 0 to 1 on the first face, and in the second round from 1 to 0.
         let polygons: [&[u32]; 2] = if is_reversed {
             [&[1, 0, 2, 3], &[0, 1, 4]]
         } else {
@@ -130,7 +130,7 @@ fn larger_faces_lose_a_corner() {
 
 #[test]
 fn collapsing_a_boundary_edge_removes_its_triangle() {
-    // The outer edges of a fan of four triangles over a row of points.
+    // Collapses each outer edge of a fan of four triangles over a row of points.
     for first in [0, 1, 2, 3] {
         let points: Vec<DVec3> = (0..5).map(|i| point(f64::from(i), 0.)).collect();
         let positions = [&points[..], &[point(2., 2.)]].concat();

@@ -182,7 +182,7 @@ fn a_seam_is_dropped_only_with_seams_drop() {
 
 #[test]
 fn a_seam_that_ends_at_the_vertex_is_allowed() {
-    // The corners at the tip have different values, as at the pole of a sphere; those on the rim do not.
+    // The corners at the tip have different values, as at the pole of a sphere. The corners on the rim do not.
     let mut mesh = shapes::square();
     let m = mesh.poke_face(FaceId::new(0)).unwrap();
     let n = mesh.n_half_edges();
@@ -216,7 +216,7 @@ fn vertices_with_few_edges_are_refused() {
     let spoke = mesh.find_half_edge(vertex(4), vertex(5)).unwrap().edge();
     let m = mesh.split_edge(spoke, 0.5).unwrap();
     assert_eq!(refused(&mesh, 4), EditError::FewEdges(m));
-    // A vertex on an edge that ends inside a face.
+    // The vertex is on an edge that ends inside a face.
     let mut mesh = spur();
     let m = mesh.split_edge(EdgeId::new(4), 0.5).unwrap();
     assert_eq!(refused(&mesh, m.index()), EditError::FewEdges(vertex(4)));

@@ -110,7 +110,7 @@ fn faces_that_share_an_edge_move_together() {
 
 #[test]
 fn vertices_inside_the_faces_keep_their_ids() {
-    // The four squares in the middle of 4 x 4, around vertex 12.
+    // Extrudes the four squares in the middle of a 4 x 4 grid, around vertex 12.
     let (mesh, sides) = extruded(&shapes::grid(4, 4), &[5, 6, 9, 10]);
     assert_eq!(sides.len(), 8);
     let middle = VertexId::new(12);
@@ -121,7 +121,7 @@ fn vertices_inside_the_faces_keep_their_ids() {
 
 #[test]
 fn each_fan_at_a_shared_vertex_gets_a_separate_copy() {
-    // Opposite squares around the middle vertex, 4.
+    // Extrudes two opposite squares at the middle vertex, 4.
     let (mesh, sides) = extruded(&shapes::grid(2, 2), &[0, 3]);
     assert_eq!(sides.len(), 8);
     let middle = VertexId::new(4);

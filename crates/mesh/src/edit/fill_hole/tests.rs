@@ -185,7 +185,7 @@ fn a_hole_with_many_edges_is_filled_quickly() {
     let expected = shapes::cylinder(n, true);
     assert!((crate::geometry::area(&filled) - crate::geometry::area(&expected)).abs() < 1e-9);
     assert!((crate::geometry::volume(&filled) - crate::geometry::volume(&expected)).abs() < 1e-9);
-    // The triangles do not form a fan: no vertex gets many edges.
+    // The triangles do not form a fan, so no vertex gets many edges.
     assert!(filled.vertices().all(|v| filled.valence(v) < 30));
 }
 
@@ -202,7 +202,7 @@ fn a_loop_of_two_edges_and_a_pinched_loop_are_refused() {
         assert_eq!(many.unwrap_err(), refused);
     }
 
-    // Two triangles at one vertex, linked into one loop.
+    // Two triangles share a vertex, and their boundaries are linked into one loop.
     let p = |x: f64, y: f64| DVec3::new(x, y, 0.0);
     let positions = vec![p(0., 0.), p(1., 0.), p(0., 1.), p(-1., 0.), p(0., -1.)];
     let (mut mesh, _) = Mesh::from_polygons(positions, &[[0, 1, 2], [0, 3, 4]]).unwrap();

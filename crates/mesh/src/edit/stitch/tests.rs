@@ -180,18 +180,19 @@ fn edges_that_would_give_an_invalid_mesh_are_refused() {
     let missing = HalfEdgeId::new(99);
     let no_such = EditError::NoSuchHalfEdge(missing);
     assert_eq!(refused(&mesh, h, missing), no_such);
-    // Opposite sides of one square.
+    // Stitches two opposite sides of one square.
     let g = rim(&mesh, 0, 3);
     assert_eq!(refused(&mesh, h, g), EditError::SameFace(h.edge()));
 
-    // Two edges of a hole with three edges: the third edge would start and end at the same vertex.
+    // Stitches two edges of a hole with three edges. The third edge would start and end at the same vertex.
     let mut mesh = shapes::octahedron();
     mesh.delete_face(FaceId::new(0)).unwrap();
     let hole: Vec<_> = mesh.loop_half_edges(rims(&mesh)[0]).collect();
     let third = EditError::SelfLoop(hole[2].edge());
     assert_eq!(refused(&mesh, hole[0], hole[1]), third);
 
-    // Bottom and top of a sheet of two rows: the merged vertex would be joined to a middle vertex twice.
+    // Stitches the bottom of a sheet of two rows to its top. The merged vertex would be joined to a middle
+    // vertex twice.
     let mesh = shapes::grid(2, 2);
     let (h, g) = (rim(&mesh, 1, 0), rim(&mesh, 6, 7));
     let reason = refused(&mesh, h, g);

@@ -15,7 +15,7 @@ fn attributes_follow_their_elements() {
         for (color, p) in new.get(COLOR).unwrap().iter().zip(new.positions()) {
             assert_eq!(color.truncate(), *p, "{name}");
         }
-        // The parts of a face cover it, in order.
+        // The parts of a face cover the face and are in order.
         let linear = refined(&mesh, &faces, MIDPOINT, 2);
         let material = linear.get(MATERIAL).unwrap();
         assert!(material.is_sorted(), "{name}");
@@ -72,7 +72,7 @@ fn creases_keep_their_length_and_decrease_only_between_chosen_faces() {
         let length: f64 = parts.map(|part| new.length(part.half_edge())).sum();
         assert!((length - mesh.length(e.half_edge())).abs() < 1e-13, "{e}");
     }
-    // Between two chosen faces sharpness decreases to 0; elsewhere it is kept.
+    // The sharpness of edges between two chosen faces decreases to 0; the sharpness of other edges is kept.
     mesh.set(CREASE, vec![2.0; mesh.n_edges()]);
     let new = refined(&mesh, &faces, LOOP, 2);
     let crease = new.get(CREASE).unwrap();

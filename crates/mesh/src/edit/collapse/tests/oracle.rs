@@ -1,4 +1,5 @@
-//! A second implementation of the collapse, on lists of polygons. Both must give the same result.
+//! A second implementation of the collapse, on lists of polygons. Both implementations must give the same
+//! result.
 
 use super::*;
 
@@ -111,7 +112,8 @@ fn naive(mesh: &Mesh, before: &Topology, e: EdgeId) -> Option<Vec<(usize, Vec<us
     (after == expected).then_some(remaining)
 }
 
-/// Whether a list of polygons represents the mesh: it has no parallel edges, and no face visits a vertex twice.
+/// Whether a list of polygons can represent the mesh: the mesh has no parallel edges, and no face visits a
+/// vertex twice.
 fn is_simple(mesh: &Mesh) -> bool {
     let mut ends: Vec<_> = mesh
         .edges()

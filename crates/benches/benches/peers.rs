@@ -24,9 +24,9 @@
 //! the edge to the other end if the link condition allows this; this crate moves both ends to the midpoint. tri-mesh
 //! makes no checks before a collapse, so its collapses are not measured. All positions are `f64`.
 //!
-//! This crate prefetches memory for the next edits. It also checks for an open journal, for attribute columns and for
-//! dead elements; the mesh has none of these. alum marks dead elements too. tri-mesh finds its elements through hash
-//! maps.
+//! This crate prefetches memory for the next edits. This crate also checks for an open journal, for attribute
+//! columns and for dead elements; the mesh has none of these. alum marks dead elements too. tri-mesh finds its
+//! elements through hash maps.
 //!
 //! At the end the program checks that all libraries that check for double edges flipped the same number of edges.
 

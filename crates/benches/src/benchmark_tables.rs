@@ -76,8 +76,8 @@ fn main() -> std::io::Result<()> {
 }
 
 /// Returns the time, in seconds with one thread, of copying, reading or writing only the bytes that `row`
-/// processes. This time is in another row of the group: its name contains `bytes alone`, and starts with the
-/// first word of `row` or with `bytes`. Returns `None` if `row` itself is such a row.
+/// processes. Another row of the group has this time. The name of that row contains `bytes alone`, and starts
+/// with the first word of `row` or with `bytes`. Returns `None` if `row` itself is such a row.
 fn reference(row: &Row, rows: &[Row]) -> Option<f64> {
     let is_bytes = |row: &Row| row.name.contains("bytes alone");
     let word = row.name.split([' ', ',']).next()?;

@@ -23,8 +23,8 @@ use crate::weights::Weights;
 
 /// The largest number of control points of a [`Curve`].
 ///
-/// De Casteljau's algorithm computes n (n + 1) / 2 points for n control points. This limit bounds
-/// the cost of one evaluation (8 million steps) and the memory of [`Curve::levels`] (200 MB).
+/// De Casteljau's algorithm computes n (n + 1) / 2 points for n control points. The maximum bounds the cost of
+/// one evaluation (8 million steps) and the memory of [`Curve::levels`] (200 MB).
 pub const MAX_POINTS: usize = 4096;
 
 /// A point or a vector, in 2D or 3D. The default is the origin.

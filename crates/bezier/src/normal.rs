@@ -17,10 +17,11 @@
 //! N(e) = N0 + e N1 + e² N2 + ...      N(e) / |N(e)|  ->  Nk / |Nk|  as e goes to 0,
 //! ```
 //!
-//! where Nk is the first nonzero coefficient. At a regular point, this is N0 = du x dv. On a collapsed
-//! edge v = 0, where du = 0 along the edge, it is N1 = duv x dv, with the mixed derivative duv. On the
-//! edge v = 1, the line into the patch has b = -1, and N1 = -duv x dv. Collapsed corners, and edges along which N1 is
-//! zero too, need N2 and higher coefficients. N has degree 5 in u and in v, so N10 is the last.
+//! where Nk is the first nonzero coefficient. At a regular point, this is N0 = du x dv. On a collapsed edge v =
+//! 0, where du = 0 along the edge, the first nonzero coefficient is N1 = duv x dv, with the mixed derivative
+//! duv. On the edge v = 1, the line into the patch has b = -1, and N1 = -duv x dv. Collapsed corners, and edges
+//! along which N1 is zero too, need N2 and higher coefficients. N has degree 5 in u and in v, so N10 is the
+//! last.
 //!
 //! The line runs straight across the edge, or along the diagonal from a corner. If the limit exists, it is
 //! the same along every line. If the limit does not exist (at the tip of a cone at the corner of a patch,

@@ -95,12 +95,13 @@ impl Patch {
         self.normal_at(Weights::at(u), Weights::at(v), self.max_steps())
     }
 
-    /// Returns the point at a pair of weights.
+    /// Returns the point at the parameters u and v, which are given as weights.
     pub(crate) fn point_at(&self, u: Weights, v: Weights) -> DVec3 {
         cubic(self.points.map(|row| cubic(row, u)), v)
     }
 
-    /// Returns the normal at a pair of weights. `max_steps` is the result of [`Patch::max_steps`].
+    /// Returns the normal at the parameters u and v, which are given as weights. `max_steps` is the result of
+    /// [`Patch::max_steps`].
     pub(crate) fn normal_at(&self, u: Weights, v: Weights, max_steps: DVec2) -> DVec3 {
         if max_steps.x == 0.0 || max_steps.y == 0.0 {
             return DVec3::ZERO;
@@ -124,7 +125,7 @@ impl Patch {
         DVec2::new(along(self), along(&self.transposed()))
     }
 
-    /// Returns the derivatives at a pair of weights.
+    /// Returns the derivatives at the parameters u and v, which are given as weights.
     fn derivatives_at(&self, u: Weights, v: Weights) -> (DVec3, DVec3) {
         let du = cubic(self.points.map(|row| slope(row, u)), v);
         let dv = slope(self.points.map(|row| cubic(row, u)), v);

@@ -23,9 +23,9 @@
 //! sides is at the start of the first of these sides, in the order v = 0, u = 1, v = 1, u = 0. The UV and the
 //! normal of this vertex are those of the middle of that first side.
 //!
-//! A patch is a curve or a point if all of its rows or all of its columns coincide, with the same
-//! tolerance. Such a patch, and a patch of which no cell becomes a face, gives no vertices and no faces.
-//! The result lists these patches.
+//! A patch is a curve or a point if all of its rows or all of its columns coincide, with the same tolerance. A
+//! patch that is a curve or a point, or of which no cell becomes a face, gives no vertices and no faces. The
+//! result lists these patches.
 //!
 //! Other degeneracies are not detected. Faces can have no area if a patch folds onto itself, or if the
 //! segments are so few that the corners of a cell are collinear (as at the tip of the teapot's spout with

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 /// for vertices whose faces have no area.
 ///
 /// The curvature is the angle defect divided by the [vertex area](vertex_area). The angle defect is 2π (π on
-/// the boundary) minus the sum of the corner angles: Meyer, Desbrun, Schröder, Barr, "Discrete
+/// the boundary) minus the sum of the corner angles. Source: Meyer, Desbrun, Schröder, Barr, "Discrete
 /// Differential-Geometry Operators for Triangulated 2-Manifolds", 2003. On a closed mesh of flat faces, the sum
 /// of curvature times vertex area is 2π times the Euler characteristic.
 pub fn gaussian_curvatures(mesh: &Mesh) -> Vec<f64> {
@@ -31,7 +31,7 @@ pub fn gaussian_curvatures(mesh: &Mesh) -> Vec<f64> {
 /// value is NaN for dead vertices, for isolated vertices, and for vertices whose faces have no area.
 ///
 /// Each edge contributes half of its signed dihedral angle times its length, shared equally by its two ends.
-/// The sum at a vertex is divided by the [vertex area](vertex_area): Cohen-Steiner, Morvan, "Restricted
+/// The sum at a vertex is divided by the [vertex area](vertex_area). Source: Cohen-Steiner, Morvan, "Restricted
 /// Delaunay Triangulations and Normal Cycle", 2003. Boundary edges contribute 0.
 pub fn mean_curvatures(mesh: &Mesh) -> Vec<f64> {
     at_vertices(mesh, |v| {

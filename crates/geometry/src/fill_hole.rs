@@ -32,11 +32,11 @@ const SHAPE_WEIGHT: f64 = 1e-6;
 /// ```
 ///
 /// If the hole has at most 500 edges, the triangles have the smallest total area of all triangulations of the
-/// vertices around the hole: Barequet and Sharir, "Filling gaps in the boundary of a polyhedron", 1995. The
-/// time is proportional to n³ for n edges. If several triangulations have the same area, as in a flat hole, the
-/// triangulation whose triangles are closest to equilateral is used. To find this triangulation, a shape term
-/// is added to the area of each triangle. The shape term is at most 1e-6 times the mean squared edge length of
-/// the hole.
+/// vertices around the hole. Source: Barequet and Sharir, "Filling gaps in the boundary of a polyhedron", 1995.
+/// The time is proportional to n³ for n edges. If several triangulations have the same area, as in a flat hole,
+/// the triangulation whose triangles are closest to equilateral is used. To find this triangulation, a shape
+/// term is added to the area of each triangle. The shape term is at most 1e-6 times the mean squared edge
+/// length of the hole.
 ///
 /// In larger holes, the corner whose neighbors are nearest to each other is cut off repeatedly, in a time
 /// proportional to n log n. Corners that are straight or reflex, as seen along the mean normal, are cut off

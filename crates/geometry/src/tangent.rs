@@ -22,8 +22,8 @@ pub struct Tangents {
     /// For each half-edge with a face, the unit tangent of its corner and the sign of the bitangent, 1 or -1. Zero for
     /// other half-edges.
     pub values: Vec<DVec4>,
-    /// The number of corners at which texture coordinates define no direction. Their tangents are arbitrary unit
-    /// vectors perpendicular to the normals.
+    /// The number of corners at which texture coordinates define no direction. The tangents of these corners
+    /// are arbitrary unit vectors perpendicular to the normals.
     pub n_arbitrary: usize,
 }
 

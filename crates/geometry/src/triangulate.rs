@@ -36,7 +36,7 @@ pub enum Cut {
     Keep,
     /// The face is a quadrilateral and is cut along one diagonal.
     Quad {
-        /// Whether the diagonal runs from corner 0 to 2. Otherwise it runs from 1 to 3.
+        /// Whether the diagonal runs from corner 0 to 2. Otherwise the diagonal runs from corner 1 to 3.
         from_zero: bool,
         /// Whether the other diagonal would be valid too.
         is_free: bool,

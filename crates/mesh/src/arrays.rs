@@ -28,7 +28,7 @@ pub struct Connectivity {
 }
 
 impl Connectivity {
-    /// Appends the elements of `other`. Their ids are shifted by the element counts of `self`.
+    /// Appends the elements of `other`. The ids of these elements are shifted by the element counts of `self`.
     pub fn append(&mut self, other: &Self) {
         fn push<I: Id + PartialEq>(all: &mut Vec<I>, more: &[I], by: usize) {
             let shifted = |&id: &I| {

@@ -23,10 +23,10 @@
 //!
 //! 1. Arrays that belong together have the same length, and the number of half-edges is even.
 //! 2. Every stored id belongs to an element that was not removed.
-//! 3. `next` is a permutation of the half-edges. It stays on the same face (or around the same hole), and
-//!    starts where the half-edge ends: `origin(next(h)) == target(h)`.
+//! 3. `next` is a permutation of the half-edges. The next half-edge lies on the same face (or around the same
+//!    hole), and starts where the half-edge ends: `origin(next(h)) == target(h)`.
 //! 4. The two ends of an edge are different vertices, and each edge has a face on at least one side. Both
-//!    halves always exist; on the boundary `face(h)` is `None`.
+//!    halves of an edge always exist; on the boundary `face(h)` is `None`.
 //! 5. A face has at least three corners, and its half-edges are one loop through its
 //!    [`face_half_edge`](Mesh::face_half_edge).
 //! 6. The [`vertex_half_edge`](Mesh::vertex_half_edge) of a vertex is an outgoing half-edge of that vertex.

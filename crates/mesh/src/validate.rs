@@ -1,4 +1,5 @@
-//! Validation: listing every broken invariant with its element, and a faster test for whether there are any.
+//! Validation: listing every broken invariant with its element, and a faster test of whether any invariant is
+//! broken.
 
 use glam::DVec3;
 use rayon::prelude::*;

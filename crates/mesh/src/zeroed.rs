@@ -1,7 +1,7 @@
 //! Large zeroed arrays.
 //!
 //! The system maps each page of memory when it is first touched. For an array that is written once, mapping
-//! pages of 4 KiB takes as long as writing the array; mapping pages of 2 MiB takes a third of that.
+//! pages of 4 KiB takes as long as writing the array; mapping pages of 2 MiB takes a third of that time.
 
 use bytemuck::Zeroable;
 

@@ -24,13 +24,13 @@
 //!
 //! At a boundary vertex, whose outgoing boundary half-edge is h, the half-edge join(h) from p(h) to q(prev(h))
 //! closes the face of the vertex. The twin of join(h) is on the boundary, between along(prev(h)) and along(h).
-//! These edges come after all other edges, in order of h.
+//! The edges of these half-edges come after all other edges, in order of h.
 //!
 //! Face f keeps its number, edge e becomes face F + e, and the faces of vertices follow in order of the
 //! vertices. An isolated vertex has no face; it is kept, after all other vertices. An inner vertex of valence 2
-//! has no face either, because the face would have two corners. Its outgoing half-edges h and k share one edge:
-//! across(h) if h is lower than k, and across(k) is its twin. So each such vertex lowers the numbers of all
-//! later edges by one.
+//! has no face either, because the face would have two corners. The two outgoing half-edges h and k of such a
+//! vertex share one new edge: across(h) if h is lower than k, and across(k) is its twin. So each such vertex
+//! lowers the numbers of all later edges by one.
 
 use mesh::{Connectivity, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};

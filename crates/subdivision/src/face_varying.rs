@@ -13,11 +13,11 @@
 //! ```
 //!
 //! [`FaceVarying`] decides which vertices are corners of a piece. The rules are those of OpenSubdiv's
-//! face-varying interpolation. Here they are applied to each level separately, so computing two levels at once
-//! gives the same result as computing one level twice. The results can differ from those of OpenSubdiv in one
-//! case: if two pieces meet at a vertex, a semi-sharp piece can sharpen the other piece. OpenSubdiv decides on
-//! the first level whether this happens, and keeps the decision. If the pieces, their seam and their vertex
-//! have different semi-sharp values, later levels can differ.
+//! face-varying interpolation. In this crate, the rules are applied to each level separately, so computing two
+//! levels at once gives the same result as computing one level twice. The results can differ from those of
+//! OpenSubdiv in one case: if two pieces meet at a vertex, a semi-sharp piece can sharpen the other piece.
+//! OpenSubdiv decides on the first level whether this happens, and keeps the decision. If the pieces, their
+//! seam and their vertex have different semi-sharp values, later levels can differ.
 
 use mesh::{DVec4, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};

@@ -13,10 +13,10 @@
 //! | [`Sqrt3`](Scheme::Sqrt3) | 3 triangles each, turned | move | smooth |
 //! | [`DooSabin`](Scheme::DooSabin) | one face each, plus one face for each old edge and vertex | are replaced by faces | smooth |
 //!
-//! A level is not a sequence of edits. Its arrays are computed directly from the old arrays, each element
-//! independently and in parallel, and the result is the same bytes for any number of threads. The modules `halves`,
-//! `triangles`, `quads`, `doo_sabin` and `sqrt3` explain how the ids of new elements follow from the old ids. The
-//! weighted means are in `masks`, and creases are in `sharpness`.
+//! A level is not a sequence of edits. The arrays of a level are computed directly from the old arrays, each
+//! element independently and in parallel. The result has the same bytes for any number of threads. The modules
+//! `halves`, `triangles`, `quads`, `doo_sabin` and `sqrt3` explain how the ids of new elements follow from the
+//! old ids. The weighted means are in `masks`, and creases are in `sharpness`.
 //!
 //! # Convergence
 //!

@@ -52,10 +52,10 @@ pub enum Scheme {
 /// 1 - n u.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 pub enum LoopWeights {
-    /// 3/16 for n = 3, otherwise 3/(8n): Warren, "Subdivision Methods for Geometric Design", 1995.
+    /// u is 3/16 for n = 3, otherwise 3/(8n). Source: Warren, "Subdivision Methods for Geometric Design", 1995.
     #[default]
     Warren,
-    /// (5/8 - (3/8 + cos(2π/n)/4)²)/n: the weights in Loop's thesis, 1987.
+    /// u is (5/8 - (3/8 + cos(2π/n)/4)²)/n, as in Loop's thesis, 1987.
     Loop,
 }
 
@@ -75,7 +75,7 @@ pub enum Boundary {
     /// The boundary becomes a smooth curve that depends on boundary vertices only.
     #[default]
     EdgesOnly,
-    /// As `EdgesOnly`, but vertices with one face stay in place.
+    /// Like `EdgesOnly`, but vertices with one face stay in place.
     EdgesAndCorners,
     /// Boundary vertices stay in place, and new vertices on the boundary lie in the middle of their edges.
     Fixed,
@@ -85,13 +85,14 @@ pub enum Boundary {
 /// 10.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 pub enum Creasing {
-    /// Decreases by 1: DeRose, Kass and Truong, "Subdivision Surfaces in Character Animation", 1998.
+    /// The sharpness decreases by 1. Source: DeRose, Kass and Truong, "Subdivision Surfaces in Character
+    /// Animation", 1998.
     #[default]
     Uniform,
-    /// Takes the mean with the neighboring edges of the crease, then decreases by 1, so that sharpness varies
-    /// smoothly along a crease: OpenSubdiv's rule after Chaikin's curves. (One difference: if one half of an
-    /// edge with sharpness above 1 becomes smooth, the new vertex stays in the middle, while OpenSubdiv moves
-    /// it beyond the middle.)
+    /// The sharpness is averaged with the sharpness of the neighboring edges of the crease, then decreases
+    /// by 1. So sharpness varies smoothly along a crease. This is OpenSubdiv's rule after Chaikin's curves, with
+    /// one difference: if one half of an edge with sharpness above 1 becomes smooth, the new vertex stays in
+    /// the middle, while OpenSubdiv moves the vertex beyond the middle.
     Chaikin,
 }
 
@@ -100,24 +101,24 @@ pub enum Creasing {
 /// rules.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 pub enum FaceVarying {
-    /// Smooth everywhere. Seams are smoothed as boundaries are.
+    /// Values are smooth everywhere. Seams are smoothed as boundaries are.
     None,
-    /// As `None`, but values stay at a vertex where a piece has a single face.
+    /// Like `None`, but values stay at a vertex where a piece has a single face.
     CornersOnly,
-    /// As `CornersOnly`, and values stay where three or more pieces meet.
+    /// Like `CornersOnly`, but values also stay where three or more pieces meet.
     CornersPlus1,
-    /// As `CornersPlus1`, and values stay at the ends of seams. If the value of one piece at a vertex stays,
-    /// those of all pieces there stay.
+    /// Like `CornersPlus1`, but values also stay at the ends of seams. If the value of one piece at a vertex
+    /// stays, the values of all pieces at this vertex stay.
     CornersPlus2,
-    /// Linear along seams and boundaries, smooth elsewhere.
+    /// Values are linear along seams and boundaries, and smooth elsewhere.
     Boundaries,
-    /// Linear everywhere: each new value is a mean of values of one old face.
+    /// Values are linear everywhere: each new value is a mean of values of one old face.
     #[default]
     All,
 }
 
 impl Scheme {
-    /// Returns the name of the scheme for messages. It starts with a capital letter.
+    /// Returns the name of the scheme for messages. The name starts with a capital letter.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Loop(_) => "Loop subdivision",

@@ -50,7 +50,7 @@ pub(crate) struct Sqrt3<'a> {
     n_vertices: usize,
     n_edges: usize,
     n_faces: usize,
-    /// The half-edges without a face, on odd levels only. Their edges are cut in three.
+    /// The half-edges without a face, on odd levels only. The edges of these half-edges are cut in three.
     cut: Option<Subset>,
 }
 

@@ -2,8 +2,8 @@
 //!
 //! Edges are split in two as in [`halves`](crate::halves). V and E are the numbers of old vertices and edges.
 //! Face f has the half-edges h0, h1, h2, counted from its first one. Face 4f + k is the triangle at the origin
-//! of hk, and face 4f + 3 is the middle triangle. The edge between these two is 2E + 3f + k. Its first half,
-//! cut k, belongs to the corner triangle, and its second half to the middle triangle:
+//! of hk, and face 4f + 3 is the middle triangle. The edge between these two is 2E + 3f + k. The first half of
+//! this edge, cut k, belongs to the corner triangle, and the second half to the middle triangle:
 //!
 //! ```text
 //!                  v2

@@ -29,7 +29,7 @@ impl Cuts {
     }
 
     /// Records a bevel of a vertex or an edge that made the face `new`. The bevel cut the edges that end at the
-    /// corners of this face, and removed `fraction` of the original length of each.
+    /// corners of this face, and removed `fraction` of the original length of each edge.
     pub fn cut(&mut self, mesh: &Mesh, new: FaceId, fraction: f64) {
         for h in mesh.face_half_edges(new) {
             let e = mesh.next(h.twin()).edge();

@@ -29,7 +29,8 @@ pub struct Merged {
     pub vertices: usize,
     /// The number of faces that lost corners but kept at least three.
     pub smaller_faces: usize,
-    /// The changes that made the result a manifold. Its `dropped_faces` are the faces that disappeared.
+    /// The changes that made the result a manifold. The `dropped_faces` of the report are the faces that
+    /// disappeared.
     pub report: BuildReport,
 }
 

@@ -18,8 +18,8 @@ use super::{Blocked, Options};
 /// distance to the original is the same.
 const ROUNDNESS: f64 = 2e-5;
 
-/// The weight that replaces [`ROUNDNESS`] when the new position is chosen. It is so small that it matters only
-/// if many positions have the same distance to the planes.
+/// The weight that replaces [`ROUNDNESS`] when the new position is chosen. This weight is so small that it
+/// matters only if many positions have the same distance to the planes.
 const FIRMNESS: f64 = 1e-8;
 
 /// The least cosine of the angle by which a collapse may turn a triangle.

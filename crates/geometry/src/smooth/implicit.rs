@@ -82,8 +82,8 @@ fn solve(
     Ok(())
 }
 
-/// Returns the Laplacian of the boundary as a set of curves: the weight of an edge is 1 / length. The mass of a
-/// vertex is half the length of its two edges.
+/// Returns the Laplacian of the boundary, which is treated as a set of curves. The weight of an edge is 1 /
+/// length. The mass of a vertex is half the length of its two edges.
 fn rim_laplacian(mesh: &Mesh) -> (SymmetricMatrix, Vec<f64>) {
     let edges = || mesh.edges().filter(|&e| mesh.is_boundary_edge(e));
     let lengths = edges().map(|e| mesh.length(e.half_edge()));

@@ -55,9 +55,9 @@ pub enum Method {
         time: f64,
     },
     /// Filters the normals of the faces with weights that fall with the distance and with the angle between
-    /// normals, then moves the vertices so that the faces have these normals: Zheng, Fu, Au, Tai, "Bilateral
-    /// Normal Filtering for Mesh Denoising", 2011; Sun, Rosin, Martin, Langbein, "Fast and Effective
-    /// Feature-Preserving Mesh Denoising", 2007.
+    /// normals, then moves the vertices so that the faces have the filtered normals. Sources: Zheng, Fu, Au,
+    /// Tai, "Bilateral Normal Filtering for Mesh Denoising", 2011; Sun, Rosin, Martin, Langbein, "Fast and
+    /// Effective Feature-Preserving Mesh Denoising", 2007.
     Denoise {
         /// The angle between two normals at which their weight has fallen to exp(-2) = 0.14, in degrees from 0 to 180.
         angle: f64,

@@ -1,9 +1,9 @@
 //! The names of the vertex attributes that deform a mesh: weights of joints, and deltas of morph targets.
 //!
 //! The attribute `joint:j` has the weight of joint j of the skin at each vertex, and `morph:t` has the vector
-//! by which morph target t moves each vertex. Both follow the rule
+//! by which morph target t moves each vertex. Both attributes follow the rule
 //! [`Rule::Interpolate`](crate::Rule::Interpolate), so an edit that averages positions averages the deformed
-//! positions in the same way. This works because each joint has a separate attribute: a list of joints at each
+//! positions in the same way. For this purpose, each joint has a separate attribute: a list of joints at each
 //! vertex could not be interpolated.
 
 use super::{Attributes, Values};

@@ -1,10 +1,10 @@
 //! Building a mesh from polygons, without a hash map. The result is the same for any number of threads.
 //!
-//! A corner c of a polygon represents the directed side from its vertex a to the next vertex b. Its
-//! twin is the corner of a side from b to a. The corners are bucketed by vertex. Around each vertex,
-//! outgoing sides are then paired with incoming sides, which also shows whether the faces form one
-//! fan. Edges are numbered in the order in which the polygons first use them. The first half of an
-//! edge lies on the polygon that first used it.
+//! A corner c of a polygon represents the directed side from its vertex a to the next vertex b. The twin of c
+//! is the corner of a side from b to a. The corners are bucketed by vertex. Around each vertex, outgoing sides
+//! are then paired with incoming sides, which also shows whether the faces form one fan. Edges are numbered in
+//! the order in which the polygons first use them. The first half of an edge lies on the polygon that first
+//! used it.
 //!
 //! ```text
 //!    polygons --> buckets --> star, pair ----------------> assemble --> mesh
@@ -19,9 +19,9 @@
 //!   each part is treated separately. If reversing some of its polygons makes all neighbors consistent, the minority
 //!   is reversed. In a tie, the polygons that agree with the lowest-numbered one stay. If no choice of polygons makes
 //!   all neighbors consistent, none is reversed. The first corner of a reversed polygon stays the first.
-//! - Two vertices a and b can have more than two sides between them, or two sides that run in the same direction even
-//!   after these reversals. Then the k-th side from a to b is paired with the k-th side from b to a, in order of
-//!   corners. Unpaired sides become boundary edges.
+//! - Two vertices a and b can have more than two sides between them, or two sides that run in the same
+//!   direction even after these reversals. In this case, the k-th side from a to b is paired with the k-th side
+//!   from b to a, in order of corners. Unpaired sides become boundary edges.
 //! - If the faces around a vertex form several fans, the fan of the first corner keeps the vertex. Each
 //!   other fan gets a copy of the vertex, appended after all other vertices.
 //! - A polygon that has fewer than three corners, or that visits a vertex twice, is dropped.
@@ -64,7 +64,7 @@ pub enum BuildError {
     /// A position is infinite or not a number.
     #[error("the position of vertex {0} is not finite")]
     NotFinite(usize),
-    /// There are more elements than ids.
+    /// The mesh would have more elements than there are ids.
     #[error("{0} {1} exceed the size of a mesh: ids end at 2^32 - 2")]
     TooLarge(usize, &'static str),
     /// The offsets do not divide the corners into polygons.

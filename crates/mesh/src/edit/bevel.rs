@@ -14,9 +14,9 @@ impl Mesh {
     ///         |                    |
     /// ```
     ///
-    /// `v` dies. Its n edges keep their ids and end at the cuts. The new elements are, in clockwise order
-    /// from the first edge of [`vertex_half_edges`](Self::vertex_half_edges): n vertices, the n edges from
-    /// each new vertex to the next, and the face, whose first corner is the first new vertex. V, E and F
+    /// `v` dies. The n edges of `v` keep their ids and end at the cuts. The new elements are, in clockwise
+    /// order from the first edge of [`vertex_half_edges`](Self::vertex_half_edges): n vertices, the n edges
+    /// from each new vertex to the next, and the face, whose first corner is the first new vertex. V, E and F
     /// grow by n - 1, n and 1. Each face at v gains one corner for each of its corners at v.
     ///
     /// At a cut, vertex attributes are interpolated between v and the other end of the edge, and corner

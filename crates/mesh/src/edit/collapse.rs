@@ -21,13 +21,13 @@ impl Mesh {
     /// hole loses one edge. Inside a triangle mesh, V, E and F shrink by 1, 3 and 2; on its boundary by 1, 2
     /// and 1. V - E + F stays the same. No ids are added, and all other elements keep their ids.
     ///
-    /// Vertex attributes of v are interpolated between the two ends; attributes that are not interpolated stay
-    /// as they are at v. The corners at v of the faces beside `e` are interpolated within their face, on each
-    /// side of a seam separately. Each corner of another face at an end of `e` is compared with the corners of
-    /// the faces beside `e` at the same end, for each attribute. If both have the same value, the corner of the
-    /// other face gets the new value. A corner without such a match keeps its value. When two edges become one,
-    /// the larger number is kept, so that creases stay, and a tag is set if either edge had it. For other
-    /// types, the remaining edge keeps its value.
+    /// Vertex attributes of v are interpolated between the two ends, except attributes whose rule does not
+    /// interpolate: these keep their values at v. The corners at v of the faces beside `e` are interpolated
+    /// within their face, on each side of a seam separately. Each corner of another face at an end of `e` is
+    /// compared with the corners of the faces beside `e` at the same end, for each attribute. If both have the
+    /// same value, the corner of the other face gets the new value. A corner without such a match keeps its
+    /// value. When two edges become one, the larger number is kept, so that creases stay, and a tag is set if
+    /// either edge had it. For other types, the remaining edge keeps its value.
     ///
     /// A collapse is refused if it would change the topology of the surface or make two elements coincide. The
     /// test is the link condition of Dey, Edelsbrunner, Guha and Nekhayev ("Topology preserving edge
@@ -101,9 +101,10 @@ impl Mesh {
         self.collapse(e, t, point)
     }
 
-    /// Collapses an edge like [`collapse_edge`](Self::collapse_edge), to any point. The attributes of the vertex and of
-    /// all its corners are the weighted means of the attributes at three `corners`. This is useful if the point lies in
-    /// a face beside the edge; on a seam, use [`collapse_edge_to`](Self::collapse_edge_to).
+    /// Collapses an edge like [`collapse_edge`](Self::collapse_edge), to any point. The attributes of the
+    /// vertex and of all its corners are the weighted means of the attributes at three `corners`. Use this
+    /// function if the point lies in a face beside the edge; on a seam, use
+    /// [`collapse_edge_to`](Self::collapse_edge_to).
     ///
     /// # Errors
     ///

@@ -17,9 +17,9 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::Pinch`] if the remaining faces around a vertex would not form one fan. This is so if the
-    /// vertex is on the boundary, but both edges of `f` at the vertex are inside. [`EditError::NoSuchFace`].
-    /// The mesh is unchanged.
+    /// [`EditError::Pinch`] if the remaining faces around a vertex would not form one fan. This error occurs if
+    /// the vertex is on the boundary, but both edges of `f` at the vertex are inside.
+    /// [`EditError::NoSuchFace`]. The mesh is unchanged.
     pub fn delete_face(&mut self, f: FaceId) -> Result<(), EditError> {
         self.delete_faces(&[f])
     }

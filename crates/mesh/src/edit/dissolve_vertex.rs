@@ -24,9 +24,9 @@ impl Mesh {
     /// ```
     ///
     /// When faces are merged, the one with the lowest id remains, with its values; the same applies to edges.
-    /// `v` and its other edges die. V - E + F stays the same. All other ids and values stay the same. This is
-    /// the inverse of [`poke_face`](Self::poke_face), and of [`split_edge`](Self::split_edge) if the split cut no
-    /// triangles.
+    /// `v` and its other edges die. V - E + F stays the same. All other ids and values stay the same. This edit
+    /// is the inverse of [`poke_face`](Self::poke_face), and of [`split_edge`](Self::split_edge) if the split
+    /// cut no triangles.
     ///
     /// Returns the merged face. If `v` has two edges, returns the face with the lower id beside them.
     ///
@@ -37,8 +37,7 @@ impl Mesh {
     ///   the neighbor first).
     /// - [`EditError::RepeatedVertex`] if a face visits `v` twice, or the merged face would visit another
     ///   vertex twice.
-    /// - [`EditError::DuplicateEdge`] if two edges would become one between vertices that already share an
-    ///   edge.
+    /// - [`EditError::DuplicateEdge`] if two edges would become one edge, but its ends already share an edge.
     /// - [`EditError::FewCorners`] if a face would be left with fewer than three corners.
     /// - [`EditError::Seam`] with an edge at `v` if, at the other end of this edge, corner attributes differ between
     ///   the two sides of the edge.

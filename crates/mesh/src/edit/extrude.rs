@@ -35,9 +35,9 @@ impl Mesh {
     /// their copies.
     ///
     /// **Attributes.** New vertices and the new edges of the rim have the values of the old ones; the edges
-    /// v-v' have zero values. A side face has the values of the face f at its rim edge. Its corners at v and v' both
-    /// have the values that the corner of f had at v, so that there is no seam between f and the side face. Normals
-    /// do not change.
+    /// v-v' have zero values. A side face has the values of the face f at its rim edge. The corners of the side
+    /// face at v and v' both have the values that the corner of f had at v, so that there is no seam between f
+    /// and the side face. Normals do not change.
     ///
     /// Returns the side faces, in the order of their half-edges h.
     ///

@@ -128,8 +128,8 @@ pub(super) fn checked_edit_mesh(
 }
 
 /// Applies an edit to a copy of the mesh and checks the result. A refused edit must leave every array
-/// unchanged. Otherwise the mesh must be valid and have no additional parallel edges, and undo and redo must
-/// restore the same bytes.
+/// unchanged. After an accepted edit, the mesh must be valid and have no additional parallel edges, and undo
+/// and redo must restore the same bytes.
 pub(super) fn checked_edit<T: Debug>(
     mesh: &Mesh,
     edit: impl Fn(&mut Mesh) -> Result<T, EditError>,
@@ -175,7 +175,8 @@ pub(super) fn half_edge(mesh: &Mesh, v: usize, w: usize) -> HalfEdgeId {
         .expect("the vertices share an edge")
 }
 
-/// Cuts an edge without splitting its ends, which gives a hole with two edges. Both ends must be inside.
+/// Cuts an edge without splitting its ends, which gives a hole with two edges. Both ends of the edge must be
+/// inside the mesh.
 pub(super) fn with_slit(mut mesh: Mesh, e: EdgeId) -> Mesh {
     let [_, old] = e.half_edges();
     let (before, after, face) = (mesh.prev(old), mesh.next(old), mesh.face(old).unwrap());

@@ -28,12 +28,12 @@ use star::Star;
 pub struct Limit {
     /// The limit position of each vertex.
     pub positions: Vec<DVec3>,
-    /// Two vectors that span the tangent plane at each vertex, not normalized. Their cross product points
-    /// outward. At an inner crease, the vectors span the tangent plane of one side of the crease. At an
-    /// isolated vertex, they are zero.
+    /// Two vectors that span the tangent plane at each vertex, not normalized. The cross product of the two
+    /// vectors points outward. At an inner crease, the vectors span the tangent plane of one side of the
+    /// crease. At an isolated vertex, they are zero.
     pub tangents: Vec<[DVec3; 2]>,
     /// The unit normal of each corner, by half-edge, and zero for half-edges without a face. The value is
-    /// `None` if no inner edge is sharp, because then one normal for each vertex is enough.
+    /// `None` if each vertex has only one tangent plane, because then one normal for each vertex is enough.
     pub corner_normals: Option<Vec<DVec3>>,
 }
 
@@ -161,7 +161,8 @@ impl<'a> LimitContext<'a> {
         })
     }
 
-    /// Reads the star of `v` and refines it until it is settled. Returns `false` for an isolated vertex.
+    /// Reads the star of `v`, and refines the star until no element is semi-sharp. Returns `false` for an
+    /// isolated vertex.
     fn read_settled(&self, star: &mut Star, v: VertexId) -> bool {
         let Some(start) = self.mesh.vertex_half_edge(v) else {
             return false;

@@ -102,9 +102,9 @@ impl Star {
         )
     }
 
-    /// Replaces this star by the star of the next level. (Chaikin's rule can need the sharpness
-    /// of the edges at the other end of an edge whose sharpness is below 1. The other end is assumed to have the
-    /// same sharpness as this end.)
+    /// Replaces this star by the star of the next level. (Chaikin's rule can need the sharpness of the edges at
+    /// the other end of an edge whose sharpness is below 1. The edges at the other end are assumed to have the
+    /// same sharpness as those at this end.)
     pub(crate) fn refine(&mut self) {
         self.face_points.clear();
         if self.loop_weights.is_none() {

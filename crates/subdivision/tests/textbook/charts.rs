@@ -145,7 +145,7 @@ struct Span {
     size: usize,
     /// Whether the faces are not consecutive, or a seam runs between them.
     is_torn: bool,
-    /// The other ends of the edges between the faces.
+    /// The other ends of the edges that separate two of the faces.
     inner: Vec<usize>,
     /// The corners of the first and the last face, counter-clockwise.
     ends: [(usize, usize); 2],

@@ -6,7 +6,8 @@
 //! allocated memory.
 //!
 //! - `build`: from offsets and corners.
-//! - `from_polygons`: from a list for each triangle, which is first copied into offsets and corners.
+//! - `from_polygons`: from one list of corners for each triangle, which is first copied into offsets and
+//!   corners.
 //! - `shuffled`: the same triangles and vertices in random order, the worst order that a file can have.
 //! - `half reversed`: every second triangle has the opposite orientation. The library builds the mesh, searches for the
 //!   triangles to reverse, reverses them, and builds the mesh again.

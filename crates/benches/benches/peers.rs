@@ -19,10 +19,11 @@
 //! | alum, with double-edge check | 1, 2 and 3, and 4 by a separate search |
 //! | tri-mesh | 1 and 4 |
 //!
-//! A split adds a vertex on the edge and connects the vertex to the far corners. alum does not have this edit: its
-//! `split_edge` leaves quadrilaterals, which are split here by two calls of `insert_edge`. A collapse moves one end of
-//! the edge to the other end if the link condition allows this; this crate moves both ends to the midpoint. tri-mesh
-//! makes no checks before a collapse, so its collapses are not measured. All positions are `f64`.
+//! A split adds a vertex on the edge and connects the vertex to the far corners. alum does not have this edit:
+//! its `split_edge` leaves quadrilaterals, which are split here by two calls of `insert_edge`. A collapse moves
+//! one end of the edge to the other end if the topology of the surface stays the same (the link condition);
+//! this crate moves both ends to the midpoint. tri-mesh makes no checks before a collapse, so its collapses are
+//! not measured. All positions are `f64`.
 //!
 //! This crate prefetches memory for the next edits. This crate also checks for an open journal, for attribute
 //! columns and for dead elements; the mesh has none of these. alum marks dead elements too. tri-mesh finds its
@@ -168,7 +169,8 @@ fn alum_of(mesh: &Mesh, ends: &[[u32; 2]]) -> Start<Alum, alum::EH> {
     }
 }
 
-/// Splits an edge between two triangles at its midpoint, and joins the new vertex to their far corners.
+/// Splits an edge between two triangles at its midpoint, and joins the new vertex to the far corners of the
+/// triangles.
 fn alum_split(mesh: &mut Alum, e: alum::EH) -> Result<(), alum::Error> {
     let (h, twin) = e.halfedges();
     let middle = (mesh.point(h.tail(mesh))? + mesh.point(h.head(mesh))?) * 0.5;

@@ -20,7 +20,7 @@ use crate::patch::{cubic, size};
 use crate::weights::Weights;
 use crate::{Counts, Faces, Patch};
 
-/// Points coincide if their distance is at most this, relative to the extent of the patch.
+/// Points coincide if their distance is at most this fraction of the extent of the patch.
 const TOLERANCE: f64 = 1e-12;
 
 /// The collapsed sides of a patch.

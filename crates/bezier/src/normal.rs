@@ -17,7 +17,7 @@
 //! N(e) = N0 + e N1 + e² N2 + ...      N(e) / |N(e)|  ->  Nk / |Nk|  as e goes to 0,
 //! ```
 //!
-//! where Nk is the first nonzero coefficient. At a regular point, this is N0 = du x dv. On a collapsed edge v =
+//! where Nk is the first nonzero coefficient. At a regular point, Nk is N0 = du x dv. On a collapsed edge v =
 //! 0, where du = 0 along the edge, the first nonzero coefficient is N1 = duv x dv, with the mixed derivative
 //! duv. On the edge v = 1, the line into the patch has b = -1, and N1 = -duv x dv. Collapsed corners, and edges
 //! along which N1 is zero too, need N2 and higher coefficients. N has degree 5 in u and in v, so N10 is the
@@ -37,7 +37,7 @@ use glam::{DVec2, DVec3};
 
 use crate::patch::size;
 
-/// A coefficient of the scaled normal that is at most this is treated as zero.
+/// The largest coefficient of the scaled normal that is treated as zero.
 ///
 /// The value is well above the rounding errors of the coefficients (1e-14), and above the coefficients at an
 /// edge that is collapsed only within the tolerance of [`tessellate`](crate::tessellate()). So close to a pole

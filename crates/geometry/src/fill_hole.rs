@@ -13,8 +13,8 @@ use std::collections::BinaryHeap;
 
 use mesh::{DVec3, EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 
-/// Holes of at most this many edges are filled with triangles of minimal total area. The time grows with the
-/// third power of the number of edges; for 500 edges, it is about a tenth of a second.
+/// The maximum number of edges of a hole that is filled with triangles of minimal total area. The time grows
+/// with the third power of the number of edges; for 500 edges, it is about a tenth of a second.
 const MAX_EXACT_EDGES: usize = 500;
 
 /// The largest cost that the shape of a triangle adds to its area, as a fraction of the mean squared edge length of

@@ -58,10 +58,10 @@ pub struct Laplacian {
 impl Laplacian {
     /// Computes the Laplacian of a mesh. Rows of dead vertices are empty.
     ///
-    /// A polygon with 4 to 16 corners is divided by a virtual vertex at the mean of its corners, whose value is
-    /// the mean of the values at the corners. So the result does not depend on a triangulation. Linear
-    /// functions on a flat polygon keep their exact gradient. Polygons with more corners are cut into
-    /// triangles.
+    /// A polygon with 4 to 16 corners is divided by a virtual vertex at the mean of its corners. The value at
+    /// the virtual vertex is the mean of the values at the corners. So the result does not depend on a
+    /// triangulation. Linear functions on a flat polygon keep their exact gradient. Polygons with more corners
+    /// are cut into triangles.
     ///
     /// If a triangle is degenerate, the same small length is added to the lengths of all edges, so that the
     /// triangle inequality holds with a slack of 1e-5 of the mean edge length. So all entries are finite for
@@ -274,7 +274,8 @@ impl Pieces {
         }
     }
 
-    /// Appends the entries of the energy `weight` times (u(i) - u(j))².
+    /// Appends the matrix entries of the energy `weight` times (u(i) - u(j))², where u are the values at the
+    /// vertices.
     fn edge(&self, i: usize, j: usize, weight: f64, entries: &mut Vec<(u32, u32, f64)>) {
         let [i, j] = [self.corners[i], self.corners[j]];
         if i != j {

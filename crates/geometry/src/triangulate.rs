@@ -8,9 +8,9 @@
 //!    a ------- b          a ------- b          '---'                  '---'
 //! ```
 //!
-//! A quadrilateral is cut along its shorter diagonal. A larger polygon is cut by ear clipping, then its
-//! diagonals are flipped until it is a constrained Delaunay triangulation. If ear clipping fails, the polygon becomes
-//! a fan. See [`Cutter`] for the details.
+//! A quadrilateral is cut along its shorter diagonal. A larger polygon is cut by ear clipping, then diagonals
+//! are flipped until the result is a constrained Delaunay triangulation. If ear clipping fails, the polygon
+//! becomes a fan. See [`Cutter`] for the details.
 //!
 //! Corners are numbered from 0 along the face. The corners of a triangle are in ascending order, so a triangle
 //! has the orientation of the face.
@@ -22,8 +22,8 @@ use mesh::{DVec3, FaceId, Mesh};
 /// The numbers of three corners of a face, in ascending order.
 pub type Triangle = [u32; 3];
 
-/// Squared lengths whose relative difference is at most this are treated as equal. An area that is smaller than this,
-/// relative to the size of the face, is treated as 0.
+/// Squared lengths whose relative difference is at most this number are treated as equal. An area that is
+/// smaller than this, relative to the size of the face, is treated as 0.
 const TOLERANCE: f64 = 1e-12;
 /// The largest number of corners for which a face is cut by ear clipping, which uses 32-bit indices. A face
 /// with more corners becomes a fan.
@@ -92,10 +92,11 @@ impl Cut {
 
 /// Triangulates faces one after another, and reuses its buffers.
 ///
-/// A quadrilateral is cut along its shorter diagonal. If both are equally long (relative difference of the
-/// squared lengths at most 1e-12), it is cut along the diagonal at its lowest vertex. A diagonal is avoided if
-/// one of its triangles has no area or is flipped, as seen along the face normal. If both diagonals have this
-/// problem, neither is avoided. A quadrilateral with a reflex corner is therefore cut at that corner.
+/// A quadrilateral is cut along its shorter diagonal. If both diagonals are equally long (relative difference
+/// of the squared lengths at most 1e-12), the quadrilateral is cut along the diagonal at its lowest vertex. A
+/// diagonal is avoided if one of its triangles has no area or is flipped, as seen along the face normal. If
+/// both diagonals have this problem, neither is avoided. A quadrilateral with a reflex corner is therefore cut
+/// at that corner.
 ///
 /// A larger face is projected along its normal and cut by ear clipping (Held, "FIST: Fast Industrial-Strength
 /// Triangulation of Polygons", 2001, as implemented by the crate `earcut`). Then diagonals are flipped until

@@ -156,7 +156,7 @@ impl EdgeId {
 pub enum Domain {
     /// One value for each vertex.
     Vertex,
-    /// One value for each half-edge: the corner of its face at its origin.
+    /// One value for each half-edge, which represents the corner of its face at its origin.
     Corner,
     /// One value for each edge.
     Edge,

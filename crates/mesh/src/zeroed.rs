@@ -17,8 +17,8 @@ pub struct OutOfMemory {
     pub bytes: usize,
 }
 
-/// Returns `n` zero values. The memory is not touched until it is written, so the threads that fill the
-/// array share the work of mapping its pages. Large arrays request large pages from the system.
+/// Returns `n` zero values. The memory is first touched when it is written, so the threads that fill the array
+/// share the work of mapping its pages. Large arrays request large pages from the system.
 ///
 /// # Panics
 ///

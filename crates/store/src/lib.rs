@@ -80,9 +80,9 @@ pub trait Store: Debug + Send + Sync {
     /// [`StoreError`] if the folder cannot be created.
     fn make_folder(&self, folder: &Path) -> Result<(), StoreError>;
 
-    /// Creates an empty folder with a new name, inside `folder` or, if that is `None`, in the default location
-    /// for temporary files. On disk, the name begins with the [`temporary_prefix`] of this process. To have the
-    /// folder removed automatically, use [`TemporaryFolder`].
+    /// Creates an empty folder with a new name, inside `folder` or, if `folder` is `None`, in the default
+    /// location for temporary files. On disk, the name begins with the [`temporary_prefix`] of this process. To
+    /// have the folder removed automatically, use [`TemporaryFolder`].
     ///
     /// # Errors
     ///
@@ -170,8 +170,8 @@ pub fn stem(path: &Path) -> &OsStr {
     }
 }
 
-/// A file that is written to a temporary location. If it is dropped without [`commit`](Self::commit), the
-/// temporary file is removed.
+/// A file that is written to a temporary location. If the value is dropped without [`commit`](Self::commit),
+/// the temporary file is removed.
 pub trait NewFile: Write + Send {
     /// Waits until the bytes are on the disk. Some systems only report a full disk at this point.
     ///

@@ -34,10 +34,10 @@ impl AttributeSources<'_> {
     /// Computes the columns of the next level:
     ///
     /// - Vertices: [`Rule::Interpolate`] uses the masks of the positions. [`Rule::Copy`] keeps the values of
-    ///   old vertices, and new vertices have zero.
+    ///   old vertices, and new vertices have the value zero.
     /// - Corners: [`Rule::Interpolate`] smooths each piece between seams separately, as [`FaceVarying`] says.
     ///   [`Rule::Copy`] works as for vertices.
-    /// - Edges: parts of an old edge copy its value, other new edges have zero.
+    /// - Edges: parts of an old edge copy its value, and other new edges have the value zero.
     /// - Faces: parts of an old face copy its value.
     ///
     /// Columns with [`Rule::Normal`] or [`Rule::Drop`] are dropped. If `sharpness` is given, the sharpness of edges

@@ -1,8 +1,8 @@
 //! Splits every old edge in two, as most schemes do.
 //!
-//! New edges are numbered so that the id of each new half-edge follows from the old ids without a search. Old
-//! edge e consists of the half-edge h = 2e, from a to b, and its twin. The edge becomes the new edges 2e and
-//! 2e + 1, which meet at the new vertex V + e. V is the number of old vertices:
+//! New edges are numbered so that the id of each new half-edge follows from the old ids without a search. V is
+//! the number of old vertices. Old edge e consists of the half-edge h = 2e, from a to b, and its twin. The edge
+//! becomes the new edges 2e and 2e + 1, which meet at the new vertex V + e:
 //!
 //! ```text
 //!            first(h) = 4e            second(h) = 4e + 2

@@ -73,8 +73,8 @@ use smoothed::{LocalMasks, SmoothedElements};
 /// Vertex attributes are blended with the weights of the positions. Where positions are smoothed, corner values
 /// are smoothed as [`Rules::face_varying`] says. Elsewhere each corner value is a mean of values of its own
 /// face, so that seams are kept. Parts of an edge or a face copy the values of the old edge or face, and new
-/// edges inside faces have zero. Sharpness decreases where positions are smoothed and is kept elsewhere.
-/// Normals are dropped.
+/// edges inside faces have the value zero. Sharpness decreases where positions are smoothed and is kept
+/// elsewhere. Normals are dropped.
 ///
 /// If the result is refined again, triangles that were cut in two are treated as ordinary triangles. So each call can
 /// halve angles once, however many levels it computes.

@@ -1,6 +1,6 @@
 //! Creases and corners: which rule applies to a vertex or an edge, and how sharpness decreases.
 //!
-//! Sharpness is a number. 0 is smooth, and 10 or more is sharp on every level. A value s between them is
+//! Sharpness is a number. 0 is smooth, and 10 or more is sharp on every level. A value s between 0 and 10 is
 //! semi-sharp: the element is sharp for s levels and then smooth. If the sharpness reaches 0 within a level,
 //! the sharp and the smooth rule are blended (DeRose, Kass and Truong, "Subdivision Surfaces in Character
 //! Animation", 1998, in the form used by OpenSubdiv). The rule of a vertex depends on the sharp edges at it:
@@ -113,8 +113,8 @@ impl SemiSharp {
         semi_sharp
     }
 
-    /// Returns the sharpness on the next level of the part at this vertex of an edge with sharpness `s`. Each edge
-    /// has two parts, one at each end.
+    /// An edge with sharpness `s` has two parts on the next level, one at each end. Returns the sharpness of
+    /// the part at this vertex.
     pub(crate) fn half_of(self, s: f64) -> f64 {
         if s <= 0.0 || s >= INFINITE || self.n < 2 {
             return decreased(s);

@@ -18,9 +18,9 @@
 //! ```
 //!
 //! At a boundary, even and odd levels differ; levels are counted from 0. On even levels a boundary edge stays
-//! unchanged. On odd levels each triangle at the boundary has exactly one boundary edge, because the previous,
-//! even level made the mesh. The triangle gets two vertices on that edge instead of a center: x is V + f, and y
-//! is V + F + r, where r is the rank of the boundary half-edge of that edge among all boundary half-edges:
+//! unchanged. On odd levels, the mesh is the result of an even level, so each triangle at the boundary has
+//! exactly one boundary edge. The triangle gets two vertices on that edge instead of a center: x is V + f, and
+//! y is V + F + r, where r is the rank of the boundary half-edge of that edge among all boundary half-edges:
 //!
 //! ```text
 //!          c                  c                 T(h) is (a, b, m), next(h) = spoke(next(h)),

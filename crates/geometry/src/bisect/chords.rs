@@ -12,7 +12,7 @@ use mesh::{DVec3, polygon_parts};
 
 /// A corner of a polygon, in coordinates relative to a line near the plane of the polygon.
 pub(super) struct Corner {
-    /// The signed distance from the line: positive to its left, 0 on the line.
+    /// The signed distance from the line: positive to the left of the line, 0 on the line.
     height: f64,
     /// The coordinate along the line.
     place: f64,

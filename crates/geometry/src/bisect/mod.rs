@@ -47,18 +47,18 @@ pub struct Bisection {
 /// direction of its edge.
 ///
 /// Ids change as follows. When an edge is split, the part at the origin of its first half keeps the id of the
-/// edge. The other parts and the crossing points are new, in order of the edges. The new edges on the plane are
-/// numbered after these edges, face by face. When a face is cut, the part with its first corner keeps the id of
-/// the face; the other parts are new.
+/// edge. The other parts and the crossing points are new, and numbered in the order of the edges. The new edges
+/// on the plane are numbered after the parts of the split edges, face by face. When a face is cut, the part
+/// with its first corner keeps the id of the face; the other parts are new.
 ///
 /// Values are interpolated at crossing points. Corner values are interpolated within their face, so that seams
 /// are kept. Parts of an edge or a face copy its values, and new edges on the plane have zero values.
 ///
 /// The plane meets a flat face in a line. This line crosses the sides of the face an even number of times, and
 /// the intervals between crossings are alternately inside and outside of the face. On a face that is twisted or
-/// intersects itself, the intervals can be inconsistent. Then each part of the face in front of the plane is
-/// cut off separately. If two faces share both edges that the plane crosses, each gets a separate edge between
-/// the same two crossing points.
+/// intersects itself, the intervals can be inconsistent; then each part of the face in front of the plane is
+/// cut off separately. If two faces share both edges that the plane crosses, each face gets a separate edge
+/// between the same two crossing points.
 ///
 /// A face that lies in the plane counts as behind the plane if its normal points to the front, because the
 /// solid that the face bounds lies behind the plane. Otherwise the face counts as in front.

@@ -4,10 +4,10 @@ use mesh::DVec3;
 
 use crate::sin_cos_degrees;
 
-/// The coordinates of a deformation: an origin and three orthogonal unit vectors, right-handed. The third
-/// vector is the axis, along which heights are measured. The deformation changes from the height `from` to the
-/// height `to`. Below `from` and above `to`, points move rigidly or, for [`Taper`], are scaled by a constant
-/// factor.
+/// The coordinates of a deformation: an origin and three orthogonal unit vectors, which form a right-handed
+/// system. The third vector is the axis, along which heights are measured. The deformation changes from the
+/// height `from` to the height `to`. Below `from` and above `to`, points move rigidly or, for [`Taper`], are
+/// scaled by a constant factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     /// The origin.
@@ -109,7 +109,8 @@ impl Taper {
 pub struct Bend {
     /// The coordinates.
     pub frame: Frame,
-    /// The angle between the ends of the axis, in degrees. A negative angle bends to the other side.
+    /// The angle between the directions of the bent axis at its two ends, in degrees. A negative angle bends to
+    /// the other side.
     pub angle: f64,
 }
 

@@ -154,8 +154,8 @@ impl Piece {
         Sample { at, hit }
     }
 
-    /// Lowers the bound if the triangle nearest to the center gives a lower bound. `middle` is the sample at
-    /// the center.
+    /// Lowers the upper bound if the triangle nearest to the center gives a smaller upper bound. `middle` is
+    /// the sample at the center.
     pub(super) fn lower(&mut self, middle: &Sample, to: &SurfaceIndex) {
         self.upper = self.upper.min(self.to_triangle(to, middle.hit.triangle));
     }

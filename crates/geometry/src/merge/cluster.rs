@@ -19,9 +19,9 @@ use progress::{Cancelled, Meter, Progress};
 
 use super::union_find::UnionFind;
 
-/// Boxes of at most this many points are not split, because comparing all pairs is faster.
+/// The maximum number of points in a box that is not split, because comparing all pairs is faster.
 const LEAF: usize = 8;
-/// Boxes with at most this many points are not processed in a separate task.
+/// The maximum number of points in a box that is not processed in a separate task.
 const TASK: usize = 8192;
 
 /// Returns for each point the lowest index of the points in its cluster. A cluster is a set of points that are

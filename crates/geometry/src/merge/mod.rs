@@ -102,11 +102,11 @@ pub fn merge_vertices(
 /// ids are renumbered without gaps. Edges between the same two vertices become one edge with the values of the
 /// lowest edge. Faces keep their order and values, and corners keep their values, so that seams are kept.
 ///
-/// A face loses each corner that merges with the next corner around it. The face is dropped if fewer than three
-/// corners are left or if it would visit a vertex twice. If connected faces then have opposite orientations,
-/// and reversing some of them makes all orientations agree, the minority is reversed and normals are dropped.
-/// If the result is still non-manifold, it is split as by [`build()`]: the third face at an edge gets a copy of
-/// the edge.
+/// A face loses each corner that merges with the next corner of the face. The face is dropped if fewer than
+/// three corners are left or if it would visit a vertex twice. If connected faces then have opposite
+/// orientations, and reversing some of them makes all orientations agree, the minority is reversed and normals
+/// are dropped. If the result is still non-manifold, it is split in the same way as in [`build()`]: the third
+/// face at an edge gets a copy of the edge.
 ///
 /// # Errors
 ///

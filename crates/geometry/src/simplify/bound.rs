@@ -1,6 +1,6 @@
 //! A bound of the distance by which a collapse moves the surface.
 //!
-//! The triangles around a collapsed edge before and after the collapse are seen along one direction. If the old
+//! The triangles around an edge, before and after its collapse, are projected along one direction. If the old
 //! and the new triangles cover the same region once, each point of the old triangles forms a pair with the
 //! point of the new triangles above or below it. The distance of a pair is largest at a corner of a cell, where
 //! a cell is the region that one old and one new triangle share. The largest distance of all pairs bounds the
@@ -89,7 +89,7 @@ struct Patch {
     cut: Option<(DVec3, [DVec3; 2])>,
 }
 
-/// The fraction of a bound that is added to it for rounding errors.
+/// The fraction of a bound that is added to the bound for rounding errors.
 const SLACK: f64 = 1e-9;
 
 impl Patch {
@@ -185,7 +185,8 @@ fn cell_gap(old: &[DVec3; 3], new: &[DVec3; 3]) -> Option<f64> {
     )
 }
 
-/// Adds a corner. Rounding can give more corners than a convex polygon has; then the last one is replaced.
+/// Adds a corner. Rounding can give more corners than a convex polygon has; in this case, the last corner is
+/// replaced.
 fn push(corners: &mut [DVec3; 6], n: &mut usize, p: DVec3) {
     corners[(*n).min(5)] = p;
     *n = (*n + 1).min(6);

@@ -11,11 +11,11 @@ use super::quadric::{Quadric, Spread};
 use super::queue::Queue;
 use super::{Blocked, Options};
 
-/// When costs are compared, the weight of the squared distance to the area that a vertex stands for. The
-/// squared distance to the planes of that area has the weight 1. Without this weight, triangles become thin
-/// where the surface is flat or curved in one direction. On a torus of 1,000,000 triangles reduced to a tenth,
-/// one percent of the triangles has an angle below 9° with the weight 1e-6, and below 15° with 2e-5. The
-/// distance to the original is the same.
+/// When costs are compared, the weight of the squared distance to the area of the original surface that a
+/// vertex represents. The squared distance to the planes of that area has the weight 1. Without this weight,
+/// triangles become thin where the surface is flat or curved in one direction. On a torus of 1,000,000
+/// triangles reduced to a tenth, one percent of the triangles has an angle below 9° with the weight 1e-6, and
+/// below 15° with 2e-5. The distance to the original is the same.
 const ROUNDNESS: f64 = 2e-5;
 
 /// The weight that replaces [`ROUNDNESS`] when the new position is chosen. This weight is so small that it
@@ -63,8 +63,8 @@ pub(super) struct Target {
     pub(super) point: DVec3,
     /// The end of the edge that keeps its position; `None` if both ends move.
     pub(super) end: Option<VertexId>,
-    /// The mean squared distance from the point to the planes of the triangles that the vertex stands for, plus
-    /// the mean squared distance to these triangles, with a small weight.
+    /// The mean squared distance from the point to the planes of the original triangles that the vertex
+    /// represents, plus the mean squared distance to these triangles, with a small weight.
     cost: f64,
 }
 

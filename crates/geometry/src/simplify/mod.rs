@@ -1,11 +1,11 @@
 //! Simplification: fewer triangles for nearly the same surface.
 //!
 //! Edges are collapsed, the cheapest first. The cost of a collapse is the mean squared distance from the new
-//! vertex to the planes of all original triangles that this vertex stands for, after Garland, Heckbert,
+//! vertex to the planes of all original triangles that this vertex represents, after Garland, Heckbert,
 //! "Surface Simplification Using Quadric Error Metrics", 1997. Because the cost is a mean over the area, small
-//! details count as much as large ones. On a rocker arm of 20,088 triangles reduced to a tenth, the largest
-//! distance fell from 0.5 % of the diagonal to 0.3 % when the mean replaced the sum. A small weight on the
-//! distance to the area itself keeps triangles round, similar to Trettner, Kobbelt, "Fast and Robust QEM
+//! details count as much as large ones. On a model of a rocker arm with 20,088 triangles reduced to a tenth,
+//! the largest distance fell from 0.5 % of the diagonal to 0.3 % when the mean replaced the sum. A small weight
+//! on the distance to the area itself keeps triangles round, similar to Trettner, Kobbelt, "Fast and Robust QEM
 //! Simplification of Large Meshes Using Probabilistic Quadrics", 2020.
 //!
 //! Lines of the mesh keep their places:
@@ -31,8 +31,8 @@ use collapse::Collapser;
 /// The options of [`simplify`]: when it stops, and which edges and vertices it keeps.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Options<'a> {
-    /// The number of faces at which simplification stops. The result has this many faces, one fewer at the end of some
-    /// collapses, or more if no edge may be collapsed.
+    /// The number of faces at which simplification stops. The result has this number of faces, one fewer if the
+    /// last collapse removed two faces, or more if no further edge may be collapsed.
     pub faces: usize,
     /// The largest allowed Hausdorff distance between the original and the simplified surface, in scene units;
     /// `None` sets no limit. The limit is guaranteed. Each triangle has a bound of its distance to the

@@ -71,7 +71,8 @@ impl Add for Quadric {
     }
 }
 
-/// The area that a vertex stands for, with the mean squared distance of the area from a point.
+/// The area of the original surface that a vertex represents, with the mean squared distance of this area from
+/// a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Spread {
     pub(super) area: f64,

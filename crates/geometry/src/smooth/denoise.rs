@@ -17,8 +17,8 @@ use rayon::prelude::*;
 use super::{SmoothError, Smoother};
 use crate::sin_cos_degrees;
 
-/// At vertices with more faces than this, only faces that share an edge are neighbors, so that the work stays in
-/// proportion to the number of faces.
+/// At vertices with more faces than this number, only faces that share an edge are neighbors, so that the work
+/// stays in proportion to the number of faces.
 const MAX_FAN: u8 = 64;
 /// The number of faces between two checks for cancellation.
 const CHECK: usize = 1024;

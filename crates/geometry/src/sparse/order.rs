@@ -269,8 +269,8 @@ impl Quotient {
         self.hashes = hashes;
     }
 
-    /// Whether the lists of `j` have the same lengths as those of `i`, and only marked entries. Variables and elements
-    /// have different numbers.
+    /// Whether the lists of `j` have the same lengths as those of `i`, and contain only marked entries.
+    /// Variables and elements have different numbers.
     fn has_marked_lists_like(&self, j: u32, i: u32) -> bool {
         let [i, j] = [i as usize, j as usize];
         let lists = self.variables[j].iter().chain(&self.elements[j]);

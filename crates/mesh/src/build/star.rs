@@ -56,8 +56,8 @@ impl Star {
         }
     }
 
-    /// Finds the corner after each corner. For each neighbor w of the vertex, the k-th corner with a
-    /// side to w is followed by the k-th corner that has a side from w before it.
+    /// Finds the corner after each corner. Consider the sides between the vertex and a neighbor w. The corner
+    /// at the start of the k-th side to w is followed by the corner at the end of the k-th side from w.
     fn match_by_comparing(&mut self) {
         let n = self.to.len();
         let mut free = if n == MAX_COMPARED {

@@ -24,10 +24,11 @@ impl Mesh {
     /// Vertex attributes of v are interpolated between the two ends, except attributes whose rule does not
     /// interpolate: these keep their values at v. The corners at v of the faces beside `e` are interpolated
     /// within their face, on each side of a seam separately. Each corner of another face at an end of `e` is
-    /// compared with the corners of the faces beside `e` at the same end, for each attribute. If both have the
-    /// same value, the corner of the other face gets the new value. A corner without such a match keeps its
-    /// value. When two edges become one, the larger number is kept, so that creases stay, and a tag is set if
-    /// either edge had it. For other types, the remaining edge keeps its value.
+    /// compared with the corners of the faces beside `e` at the same end, for each attribute. If two compared
+    /// corners have the same value, the corner of the other face gets the new value of the corner beside `e`. A
+    /// corner without such a match keeps its value. When two edges become one, the larger number is kept, so
+    /// that creases stay, and a tag is set if either edge had it. For other types, the remaining edge keeps its
+    /// value.
     ///
     /// A collapse is refused if it would change the topology of the surface or make two elements coincide. The
     /// test is the link condition of Dey, Edelsbrunner, Guha and Nekhayev ("Topology preserving edge

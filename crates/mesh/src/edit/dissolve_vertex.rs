@@ -28,7 +28,8 @@ impl Mesh {
     /// is the inverse of [`poke_face`](Self::poke_face), and of [`split_edge`](Self::split_edge) if the split
     /// cut no triangles.
     ///
-    /// Returns the merged face. If `v` has two edges, returns the face with the lower id beside them.
+    /// Returns the merged face. If `v` has two edges, returns the face beside these edges; if there are two
+    /// such faces, the one with the lower id.
     ///
     /// # Errors
     ///

@@ -31,8 +31,8 @@ impl Mesh {
     ///
     /// If faces meet only at a vertex, each of their fans gets a separate copy of the vertex. A sheet of which
     /// all faces are extruded becomes a box that is open where the sheet was. A closed component of which all
-    /// faces are extruded has no rim: it only moves. If two edges of the rim join the same two vertices, so do
-    /// their copies.
+    /// faces are extruded has no rim: it only moves. If two edges of the rim join the same two vertices, their
+    /// copies also join the same two vertices.
     ///
     /// **Attributes.** New vertices and the new edges of the rim have the values of the old ones; the edges
     /// v-v' have zero values. A side face has the values of the face f at its rim edge. The corners of the side

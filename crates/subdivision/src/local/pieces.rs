@@ -81,8 +81,8 @@ impl<I: Copy> PartTable<I> {
     }
 }
 
-/// A side of a triangle that is cut into four, as the old half-edges to and from its middle. The two half-edges
-/// differ if the side has a hanging vertex; otherwise both are the half-edge of the side.
+/// A side of a triangle that is cut into four: the old half-edges before and after the middle of the side. The
+/// two half-edges differ if the side has a hanging vertex; otherwise both are the half-edge of the side.
 #[derive(Clone, Copy)]
 pub(super) struct Side {
     pub(super) to: HalfEdgeId,

@@ -1,8 +1,8 @@
 //! Corner values and their subdivision, as in OpenSubdiv's face-varying data.
 //!
-//! Corners at one vertex with equal numbers share one value. The rule for a value is decided on each level,
-//! from the sharpness on that level. OpenSubdiv decides only once which of two values depends on the other; the
-//! results differ only if sharpness ends on one side of a vertex earlier than on the other side.
+//! Corners at one vertex share one value if their numbers are equal. The rule for a value is decided on each
+//! level, from the sharpness on that level. OpenSubdiv decides only once which of two values depends on the
+//! other; the results differ only if sharpness ends on one side of a vertex earlier than on the other side.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -379,7 +379,7 @@ impl Vertex<'_> {
         (0..values.len()).map(|k| (values[k], number(k))).collect()
     }
 
-    /// Returns the weight of the corner rule, from the inner edges of the faces of a value.
+    /// Returns the weight of the corner rule, computed from the inner edges of the faces that share a value.
     fn fraction(&self, value: usize) -> f64 {
         let span = self.charts.span(self.v, value, self.adjacency);
         self.sharpness.fraction(self.v, &span.inner)

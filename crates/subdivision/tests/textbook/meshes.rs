@@ -106,8 +106,8 @@ fn prism(n: usize) -> Polygons {
     Polygons::new(positions, faces)
 }
 
-/// Returns a rectangle of squares without those for which `holes` is true. Opposite ends are connected in the
-/// directions in which `wraps` is true.
+/// Returns a rectangle of squares, without the squares for which `holes` is true. Opposite ends are connected
+/// in the directions in which `wraps` is true.
 fn sheet(
     [columns, rows]: [usize; 2],
     wraps: [bool; 2],

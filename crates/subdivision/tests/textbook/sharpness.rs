@@ -132,7 +132,7 @@ impl Sharpness {
         self.edges[&edge(a, b)]
     }
 
-    /// Returns the sharpness on the next level of the half at `v` of the edge from `v` to `w`.
+    /// Returns the sharpness, on the next level, of the half of the edge from `v` to `w` that is at `v`.
     pub(crate) fn of_half(&self, v: usize, w: usize) -> f64 {
         self.halves[&edge(v, w)][usize::from(v > w)]
     }
@@ -167,8 +167,8 @@ impl Sharpness {
             .collect()
     }
 
-    /// Returns the weight of the old rule of a vertex if its rule changes: the mean sharpness, at most 1, of
-    /// those elements that become smooth, among the vertex and its edges to `neighbors`.
+    /// Returns the weight of the old rule of a vertex whose rule changes. This weight is the mean sharpness, at
+    /// most 1, of the elements that become smooth. The elements are the vertex and its edges to `neighbors`.
     pub(crate) fn fraction(&self, v: usize, neighbors: &[usize]) -> f64 {
         let mut ending = Vec::new();
         if self.vertices[v] > 0.0 && self.children[v] <= 0.0 {

@@ -16,7 +16,7 @@ fn rims(mesh: &Mesh) -> Vec<HalfEdgeId> {
         .collect()
 }
 
-/// Returns two squares side by side with a small gap: 0 1 2 3 and 4 5 6 7.
+/// Returns two squares side by side with a small gap. Their vertices are 0 1 2 3 and 4 5 6 7.
 fn two_squares() -> Mesh {
     let p = |x: f64, y: f64| DVec3::new(x, y, 0.0);
     let positions = vec![

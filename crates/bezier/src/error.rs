@@ -7,10 +7,10 @@ use crate::Counts;
 /// Why a curve, a patch or a tessellation was refused.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum BezierError {
-    /// A curve without control points.
+    /// The curve has no control points.
     #[error("expected at least one control point, found none")]
     NoPoints,
-    /// A curve with more control points than [`MAX_POINTS`](crate::MAX_POINTS).
+    /// The curve has more control points than [`MAX_POINTS`](crate::MAX_POINTS).
     #[error("expected at most {} control points, found {count}", crate::MAX_POINTS)]
     TooManyPoints {
         /// The number of control points.
@@ -40,10 +40,10 @@ pub enum BezierError {
         /// The number of control points.
         count: usize,
     },
-    /// A tessellation with no segments.
+    /// The number of segments of a tessellation is 0.
     #[error("expected at least 1 segment per side, found 0")]
     NoSegments,
-    /// A tessellation with more elements than 32-bit ids can number. A count that exceeds 64 bits is
+    /// The tessellation would have more elements than 32-bit ids can number. A count that exceeds 64 bits is
     /// replaced by the largest 64-bit number.
     #[error(
         "expected at most {} vertices, faces and face corners each, found {} vertices, {} faces and {} face corners",

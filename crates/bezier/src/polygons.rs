@@ -119,7 +119,7 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// Adds the counts, saturating at the largest number.
+    /// Adds the counts. A sum that exceeds 64 bits is replaced by the largest 64-bit number.
     pub(crate) fn plus(&self, other: &Self) -> Self {
         Self {
             vertices: self.vertices.saturating_add(other.vertices),

@@ -163,7 +163,8 @@ fn lengths([a, b, c]: [DVec3; 3]) -> [f64; 3] {
     [b.distance(c), c.distance(a), a.distance(b)]
 }
 
-/// Returns half the cotangents of the angles, and the area, of a triangle. `more` is added to its lengths.
+/// Returns half the cotangents of the angles, and the area, of a triangle. `more` is added to the lengths of
+/// the sides.
 fn half_cotangents(corners: [DVec3; 3], more: f64) -> ([f64; 3], f64) {
     if more == 0.0 {
         let [a, b, c] = corners;

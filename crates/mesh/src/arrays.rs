@@ -10,8 +10,8 @@ use crate::journal::{Entry, Journal};
 use crate::marks::Marks;
 use crate::{Domain, EdgeId, FaceId, HalfEdgeId, Id, VertexId};
 
-/// The five arrays that store how the elements of a mesh are connected. The crate's documentation lists
-/// their invariants.
+/// The five arrays that store how the elements of a mesh are connected. The crate's documentation lists the
+/// invariants of these arrays.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Connectivity {
     /// For each half-edge, the half-edge that follows it around its face, or around its hole.
@@ -61,7 +61,7 @@ pub struct Mesh {
     pub(crate) connectivity: Connectivity,
     pub(crate) positions: Vec<DVec3>,
     pub(crate) attributes: Attributes,
-    /// The dead elements by domain. Corners have no marks: a corner is dead if its edge is dead.
+    /// The dead elements of each domain. Corners have no marks: a corner is dead if its edge is dead.
     pub(crate) dead: [Marks; 4],
     /// The values that edits have overwritten since [`Mesh::begin`]; `None` if no journal is open.
     pub(crate) journal: Option<Box<Journal>>,

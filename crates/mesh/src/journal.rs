@@ -353,7 +353,8 @@ impl Mesh {
         self.journal = Some(journal);
     }
 
-    /// Undoes the entries from index `start` on, in reverse order. Returns the change that redoes them.
+    /// Undoes the entries from index `start` on, in reverse order. Returns the change that redoes the undone
+    /// edits.
     fn undo_entries(&mut self, change: &mut Change, start: usize) -> Change {
         let mut inverse = Change::default();
         for entry in change.entries.drain(start..).rev() {

@@ -29,8 +29,8 @@
 //!    halves of an edge always exist; on the boundary `face(h)` is `None`.
 //! 5. A face has at least three corners, and its half-edges are one loop through its
 //!    [`face_half_edge`](Mesh::face_half_edge).
-//! 6. The [`vertex_half_edge`](Mesh::vertex_half_edge) of a vertex is an outgoing half-edge of that vertex.
-//!    On the boundary it is the one without a face. Only an isolated vertex has none.
+//! 6. The [`vertex_half_edge`](Mesh::vertex_half_edge) of a vertex is an outgoing half-edge of that vertex. On
+//!    the boundary, it is the outgoing half-edge without a face. Only an isolated vertex has no half-edge.
 //! 7. The faces at a vertex form one connected fan with at most one gap: walking around the vertex reaches
 //!    all of its outgoing half-edges.
 //! 8. Positions are finite.

@@ -187,8 +187,8 @@ impl Mesh {
         columns.iter_mut().for_each(edit);
     }
 
-    /// Removes the columns whose rule is [`Rule::Drop`](crate::Rule::Drop), and bounds the size of the
-    /// journal. Every edit calls this before its first change.
+    /// Removes the columns whose rule is [`Rule::Drop`](crate::Rule::Drop), and bounds the size of the journal.
+    /// Every edit calls this function before its first change.
     #[inline]
     pub(crate) fn drop_columns_by_rule(&mut self) {
         if self.journal.is_some() {

@@ -14,8 +14,8 @@ use crate::sqrt3::Sqrt3;
 use crate::topology::Topology;
 use crate::triangles::Triangles;
 
-/// Computes one level of a dense mesh. `level` is its number, counted from 0. The caller has checked the faces
-/// and the size of the next level.
+/// Computes one level of a dense mesh. `level` is the number of the level, counted from 0. The caller has
+/// checked the faces and the size of the next level.
 pub(crate) fn finer(
     mesh: &Mesh,
     rules: Rules,

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A scheme with its options. Together with the mesh they determine the next level.
+/// A scheme with its options. The rules and the mesh together determine the next level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rules {
     /// The scheme.

@@ -121,7 +121,7 @@ impl Size {
 }
 
 impl<N: Count> Size<N> {
-    /// Returns the size after one level of a scheme. `level` is its number, counted from 0.
+    /// Returns the size after one level of a scheme. `level` is the number of the level, counted from 0.
     #[must_use]
     pub fn after(self, scheme: Scheme, level: u32) -> Self {
         let Self {

@@ -48,7 +48,7 @@ impl Frame {
 
 /// Rotates points around the axis, by an angle that grows with the height: (x, y, z) moves to (x cos θ - y sin
 /// θ, x sin θ + y cos θ, z), where θ grows linearly from 0 at `from` to the angle at `to`. The twist keeps all
-/// volumes. Its inverse is the twist by the opposite angle.
+/// volumes. The inverse of a twist is the twist by the opposite angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Twist {
     /// The coordinates.

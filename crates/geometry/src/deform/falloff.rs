@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 /// Returns a weight for each point: 1 for selected points, (1 - (d / radius)²)² for a point at a distance d
 /// from the nearest selected point, and 0 if d is `radius` or more. The weight and its derivative are
-/// continuous at both ends.
+/// continuous at the distances 0 and `radius`.
 pub fn falloff(points: &[DVec3], is_selected: &[bool], radius: f64) -> Vec<f64> {
     let selected = points.iter().zip(is_selected).filter(|p| *p.1);
     let mut selected: Vec<DVec3> = selected.map(|p| *p.0).collect();

@@ -277,7 +277,7 @@ fn vertex_distances_are_those_of_each_vertex() {
     assert_eq!(vertex_distances(&cube, &Mesh::default()), None);
 }
 
-/// Returns a star of one face. Its corners lie alternately on two circles.
+/// Returns a star of one face, whose corners lie alternately on two circles.
 fn star(n: u32) -> Mesh {
     let corner = |i: u32| {
         let radius = 1.0 + 0.5 * f64::from(i % 2);

@@ -51,8 +51,8 @@ pub enum MergeError {
 /// Merges vertices that are at most `distance` apart, and all vertices that are connected by steps of at most
 /// `distance`.
 ///
-/// The result does not depend on the order of vertices or on the number of threads. A distance of 0 merges
-/// equal positions only.
+/// The result does not depend on the order of vertices or on the number of threads. A distance of 0 merges only
+/// vertices with equal positions.
 ///
 /// [`merge_clusters`] describes what happens to vertices, edges, faces and attributes. If no two vertices
 /// merge, the mesh is unchanged.

@@ -82,7 +82,7 @@ impl Collapser<'_> {
 struct Patch {
     /// The triangles before the collapse, each with the bound of its distance to the original surface.
     old: Vec<([DVec3; 3], f64)>,
-    /// The triangles after the collapse. The first corner of each is the new vertex.
+    /// The triangles after the collapse. The first corner of each triangle is the new vertex.
     new: Vec<[DVec3; 3]>,
     /// For a boundary edge, the position of the removed end, and of the two vertices beside it on the new
     /// boundary.

@@ -12,7 +12,7 @@ use crate::{Laplacian, bounds};
 /// shrunk to less than a thousandth of its size, and the equations are still well conditioned.
 const LONGEST: f64 = 1e3;
 /// The shortest length of a boundary edge in the equations, relative to the mean length. Shorter edges count as
-/// this long.
+/// edges of this length.
 const SHORTEST: f64 = 1e-5;
 
 /// Solves (M + time L) x' = M x for the new positions x', where L is the Laplacian and M has the vertex areas.

@@ -217,7 +217,7 @@ pub fn smooth(
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Role {
     Pinned,
-    /// On a boundary that is smoothed as a curve.
+    /// The vertex is on a boundary that is smoothed as a curve.
     Rim,
     Free,
 }

@@ -27,8 +27,8 @@ impl Mesh {
     /// compared with the corners of the faces beside `e` at the same end, for each attribute. If two compared
     /// corners have the same value, the corner of the other face gets the new value of the corner beside `e`. A
     /// corner without such a match keeps its value. When two edges become one, the larger number is kept, so
-    /// that creases stay, and a tag is set if either edge had it. For other types, the remaining edge keeps its
-    /// value.
+    /// that creases stay, and a tag is set if either edge had it. For attributes of other types, the remaining
+    /// edge keeps its value.
     ///
     /// A collapse is refused if it would change the topology of the surface or make two elements coincide. The
     /// test is the link condition of Dey, Edelsbrunner, Guha and Nekhayev ("Topology preserving edge

@@ -158,7 +158,7 @@ mod tests {
         for shape in [shapes::grid(3, 3), shapes::cube(), shapes::octahedron()] {
             let mut mesh = shape.clone();
             let mut n_left = shape.n_faces();
-            // A face that is refused can be deleted later, after its neighbors.
+            // If the deletion of a face is refused, the face can be deleted later, after its neighbors.
             while n_left > 0 {
                 let before = n_left;
                 for f in shape.faces() {

@@ -54,7 +54,7 @@ impl Mesh {
         if f == g {
             return Err(EditError::SameFace(e));
         }
-        // f is the remaining face, and ab the half of e on f.
+        // f is the remaining face, and ab is the half of e on f.
         let ([ab, ba], [f, g]) = if f < g {
             (sides, [f, g])
         } else {

@@ -30,7 +30,7 @@ pub struct Limit {
     pub positions: Vec<DVec3>,
     /// Two vectors that span the tangent plane at each vertex, not normalized. The cross product of the two
     /// vectors points outward. At an inner crease, the vectors span the tangent plane of one side of the
-    /// crease. At an isolated vertex, they are zero.
+    /// crease. At an isolated vertex, the vectors are zero.
     pub tangents: Vec<[DVec3; 2]>,
     /// The unit normal of each corner, by half-edge, and zero for half-edges without a face. The value is
     /// `None` if each vertex has only one tangent plane, because then one normal for each vertex is enough.

@@ -19,7 +19,7 @@ pub(super) enum Cut {
     Two,
     /// A triangle becomes four.
     Four,
-    /// A polygon becomes this many quads around its center.
+    /// A polygon becomes this number of quads around its center.
     Quads(u32),
 }
 

@@ -156,7 +156,7 @@ mod tests {
     #[test]
     fn quadratic_functions_around_a_vertex_are_reproduced_exactly() {
         // The new vertex is halfway to the one-ring, at r = 1/2 and t = 0. There, r cos t is 1/2 and r² cos 2t
-        // is 1/4. The second function needs at least five neighbors.
+        // is 1/4. The mask reproduces r² cos 2t only with at least five neighbors.
         for n in 5..20 {
             let ring = |k: f64| -> f64 {
                 let at = |j: usize| libm::cos(k * TAU * j as f64 / n as f64);

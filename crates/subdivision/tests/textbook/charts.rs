@@ -32,7 +32,7 @@ enum State {
 /// Corner values.
 #[derive(Clone, Debug)]
 pub(crate) struct Charts {
-    /// The values. Each belongs to one vertex.
+    /// The values. Each value belongs to one vertex.
     values: Vec<DVec2>,
     /// The index of the value of each corner of each face.
     corners: Vec<Vec<usize>>,
@@ -85,7 +85,7 @@ impl Charts {
         face[(i + by) % face.len()]
     }
 
-    /// Returns the value at the corner before.
+    /// Returns the value at the previous corner.
     fn before(&self, (f, i): (usize, usize)) -> usize {
         let face = &self.corners[f];
         face[behind(i, face.len())]

@@ -67,8 +67,8 @@ fn double_pyramid(n: usize) -> Polygons {
     Polygons::new(positions, faces.collect())
 }
 
-/// Returns a disk of triangles with an inner vertex of valence n. If `wide`, its neighbors are inner vertices
-/// too.
+/// Returns a disk of triangles with an inner vertex of valence n. If `wide`, the neighbors of this vertex are
+/// inner vertices too.
 fn disk(n: usize, wide: bool) -> Polygons {
     let mut positions = vec![DVec3::ZERO];
     positions.extend((0..n).map(|i| on_circle(i, n, 1.5, 0.0)));

@@ -13,11 +13,11 @@ use crate::sharpness::Sharpness;
 /// The place of a corner of a new face in its old face.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Place {
-    /// At this corner.
+    /// At this corner of the old face.
     Corner(usize),
-    /// On the side that starts at this corner.
+    /// On the side of the old face that starts at this corner.
     Side(usize),
-    /// In the center.
+    /// In the center of the old face.
     Center,
 }
 

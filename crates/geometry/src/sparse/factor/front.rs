@@ -14,7 +14,7 @@ const PARALLEL_WORK: usize = 1 << 20;
 
 /// The matrix that the elimination of a supernode subtracts from the front of its parent.
 pub(super) struct Update {
-    /// The rows, in ascending order. The columns are the same.
+    /// The rows, in ascending order. The columns have the same numbers as the rows.
     rows: Vec<u32>,
     /// The lower triangle, column by column.
     values: Vec<f64>,
@@ -117,8 +117,8 @@ fn packed_start(n: usize, column: usize) -> usize {
     column * n - column * column.saturating_sub(1) / 2
 }
 
-/// Factors the columns of a panel with `m` rows: replaces them by columns of L, and stores the pivots. Fails with a
-/// column and its pivot.
+/// Factors the columns of a panel with `m` rows: replaces them by columns of L, and stores the pivots. If a
+/// pivot is not positive and finite, fails with its column and the pivot.
 fn factor_panel(panel: &mut [f64], m: usize, pivots: &mut [f64]) -> Result<(), (usize, f64)> {
     let k = pivots.len();
     for block in (0..k).step_by(BLOCK) {

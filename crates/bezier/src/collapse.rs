@@ -87,7 +87,7 @@ impl Sides {
             .count();
         let corners = corners as u64;
 
-        // A cell with one collapsed side becomes a triangle; a cell with more has no area.
+        // A cell with one collapsed side becomes a triangle; a cell with more collapsed sides has no area.
         let (n_lost, triangles) = match (n, collapsed) {
             (1, 0 | 1) => (0, collapsed),
             (1, _) => (1, 0),

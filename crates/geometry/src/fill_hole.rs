@@ -189,8 +189,8 @@ impl<'m> Hole<'m> {
         let mut is_cut = vec![false; n];
         while ears.len() < n - 3 {
             let Reverse((_, ear, p, q)) = queue.pop()?;
-            // An entry is out of date if a neighbor of its corner was cut off. Such an entry is skipped,
-            // because the queue has a newer one.
+            // An entry is out of date if a neighbor of its corner was cut off. An entry that is out of date is
+            // skipped, because the queue has a newer entry.
             let is_outdated = is_cut[ear] || before[ear] != p || next[ear] != q;
             if is_outdated || self.is_joined(p, q) {
                 continue;

@@ -299,8 +299,8 @@ fn insert_skipped_corners(n: usize, triangles: &mut Vec<Triangle>) {
         let Some(&c) = triangles[t].iter().find(|&&c| c != a && c != b) else {
             continue;
         };
-        // The triangle is split into several triangles with corner c. The first one has the side from c to a,
-        // and replaces the old triangle in the list. The last one has the side from b to c.
+        // The triangle is split into several triangles with corner c. The first of these triangles has the side
+        // from c to a, and replaces the old triangle in the list. The last has the side from b to c.
         let mut from = a;
         let mut part = t;
         while from != b {
@@ -334,7 +334,7 @@ fn is_triangulation(n: usize, triangles: &[Triangle]) -> bool {
         .flat_map(|&[a, b, c]| [[a, b], [b, c]])
         .collect();
     let mut descending: Vec<[u32; 2]> = triangles.iter().map(|&[a, _, c]| [a, c]).collect();
-    // The sides of the polygon ascend from 0 to n - 1, and the last one descends from n - 1 to 0.
+    // The sides of the polygon ascend from 0 to n - 1, and the last side descends from n - 1 to 0.
     let whole = [0, n - 1];
     let Some(place) = descending.iter().position(|&side| side == whole) else {
         return false;

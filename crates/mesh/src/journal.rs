@@ -21,7 +21,7 @@ use glam::DVec3;
 use crate::attribute::{Attributes, Column, pop_value};
 use crate::{Connectivity, Domain, Id, Mesh, Values, VertexId};
 
-/// A record of one or more edits of a mesh, from which they can be undone. See [`Mesh::commit`].
+/// A record of one or more edits of a mesh, with which the edits can be undone. See [`Mesh::commit`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Change {
     entries: Vec<Entry>,
@@ -337,7 +337,8 @@ impl Mesh {
     }
 
     /// Replaces the entries by one copy of the mesh as it was at `begin`, if they have become larger than the
-    /// mesh. Called between edits. Does nothing while inner levels are open: they last for one edit only.
+    /// mesh. Called between edits. Does nothing while inner levels are open, because an inner level lasts for
+    /// one edit only.
     pub(crate) fn bound_journal(&mut self) {
         let Some(journal) = &self.journal else { return };
         let [level] = journal.levels[..] else { return };

@@ -221,8 +221,8 @@ impl<'a> Field<'a> {
 
     /// Collects the pieces around a vertex.
     fn pieces(&self, v: VertexId, start: HalfEdgeId) -> VertexPieces {
-        // The corners are in counter-clockwise order. At a boundary vertex, they run from one boundary edge to
-        // the other.
+        // The corners are in counter-clockwise order. At a boundary vertex, the corners run from one boundary
+        // edge to the other.
         let corners = self.mesh.vertex_half_edges(v);
         let mut ring: Vec<HalfEdgeId> = corners.filter(|&h| self.mesh.face(h).is_some()).collect();
         ring.reverse();

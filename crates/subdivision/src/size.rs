@@ -149,8 +149,8 @@ impl<N: Count> Size<N> {
                 corners.times(4),
             ],
             Scheme::Sqrt3 => {
-                // On odd levels, faces at the boundary get two vertices on the boundary edge instead of one in
-                // the center.
+                // On odd levels, faces at the boundary get two vertices on the boundary edge instead of a
+                // vertex in the center.
                 let cut = boundary.times(u64::from(level % 2));
                 [
                     vertices.plus(faces).plus(cut),

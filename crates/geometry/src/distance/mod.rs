@@ -302,8 +302,8 @@ impl Block {
         for i in 0..n {
             ask()?;
             for j in 0..n - i {
-                // Place (i, j) has a smaller triangle with the orientation of the large triangle. It also has
-                // an inverted one, except at the end of a row.
+                // Place (i, j) has a smaller triangle with the orientation of the large triangle. Except at the
+                // end of a row, the place also has an inverted small triangle.
                 let n_parts = if i + j + 2 <= n { 2 } else { 1 };
                 for shift in [third, 2.0 * third].into_iter().take(n_parts) {
                     let (u, v) = (f64::from(i) + shift, f64::from(j) + shift);

@@ -35,8 +35,8 @@ impl Collapser<'_> {
                 let next = self.mesh.next(h);
                 let is_beside = [self.mesh.origin(next), self.mesh.target(next)].contains(&other);
                 let triangle = self.triangle(h);
-                // A triangle beside the edge has both ends as corners. It is listed only once, and the collapse
-                // removes it.
+                // A triangle beside the edge has both ends as corners. Such a triangle is listed only once,
+                // because the collapse removes the triangle.
                 if !is_beside || v == a {
                     old.push((triangle, self.errors[f.index()]));
                 }
@@ -152,7 +152,7 @@ fn n_turns(triangles: &[[DVec3; 3]]) -> usize {
 
 /// Returns the largest difference of the heights of two triangles in the region that they share, if there is one.
 fn cell_gap(old: &[DVec3; 3], new: &[DVec3; 3]) -> Option<f64> {
-    // Clips the old triangle by the side lines of the new one. Each cut adds at most one corner.
+    // Clips the old triangle by the side lines of the new triangle. Each cut adds at most one corner.
     let (mut cell, mut n) = ([DVec3::ZERO; 6], 3);
     cell[..3].copy_from_slice(old);
     for i in 0..3 {

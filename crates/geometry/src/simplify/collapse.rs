@@ -11,7 +11,7 @@ use super::quadric::{Quadric, Spread};
 use super::queue::Queue;
 use super::{Blocked, Options};
 
-/// When costs are compared, the weight of the squared distance to the area of the original surface that a
+/// The weight, when costs are compared, of the squared distance to the area of the original surface that a
 /// vertex represents. The squared distance to the planes of that area has the weight 1. Without this weight,
 /// triangles become thin where the surface is flat or curved in one direction. On a torus of 1,000,000
 /// triangles reduced to a tenth, one percent of the triangles has an angle below 9° with the weight 1e-6, and

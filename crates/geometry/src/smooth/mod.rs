@@ -332,7 +332,7 @@ impl<'a> Smoother<'a> {
             volume(mesh)
         };
         let (mut distance, mut best) = (0.0, volume(mesh));
-        // This is the secant method, with the derivative as the first slope.
+        // The loop is the secant method, with the derivative as the first slope.
         let (mut at, mut error, mut slope) = (0.0, target - best, slope);
         for _ in 0..STEPS {
             if error.abs() <= 1e-14 * target.abs() || slope == 0.0 || !slope.is_finite() {

@@ -61,7 +61,7 @@ impl Mesh {
         // The loops run in opposite directions.
         short[1..].reverse();
         let (n, m) = (long.len(), short.len());
-        // Rung i is a new edge. It runs from the origin of half-edge i of the long loop to the target of
+        // Rung i is a new edge that runs from the origin of half-edge i of the long loop to the target of
         // half-edge `short_index(i)` of the short loop. The index is rounded up, so that the first face is a
         // quad.
         let short_index = |i: usize| (i * m).div_ceil(n);

@@ -229,7 +229,7 @@ impl Mesh {
             valence += 1;
             h = self.next(h.twin());
         }
-        // Each triangle beside the edge merges one pair of edges that lead to its apex. There are more such
+        // Each triangle beside the edge merges one pair of edges that lead to its apex. An apex has more such
         // pairs only if there are parallel edges, or a hole with three edges whose third corner is the apex.
         for (i, x) in apexes.into_iter().enumerate() {
             let merged = apexes.iter().filter(|&&apex| apex == x).count();

@@ -25,9 +25,9 @@ impl Mesh {
     ///
     /// If the cuts divide the faces around a vertex into several parts, the part with the lowest face id keeps
     /// the vertex; each other part gets a copy of the vertex. The copies are in order of the lowest face ids of
-    /// the parts. New vertices are numbered in the order of the old ones, new edges in the order of `edges`.
-    /// Faces keep their ids. The copies of vertices and edges have the values of the originals, and corners
-    /// keep their values. Positions do not change: both sides of a cut coincide.
+    /// the parts. New vertices are numbered in the order of the old vertices, and new edges in the order of
+    /// `edges`. Faces keep their ids. The copies of vertices and edges have the values of the originals, and
+    /// corners keep their values. Positions do not change: both sides of a cut coincide.
     /// [`stitch_edges`](Self::stitch_edges) is the inverse.
     ///
     /// An edge is refused if neither of its ends would be split: the cut would be a hole with two edges (a

@@ -93,7 +93,7 @@ impl Mesh {
     }
 
     /// Returns a common vertex of the two faces beside the edge of `h`, other than the ends of that edge.
-    /// Searches around the corners of the smaller face, so that merging many small faces into a large one is
+    /// Searches around the corners of the smaller face, so that merging many small faces into a large face is
     /// fast.
     fn other_common_corner(&self, h: HalfEdgeId) -> Option<VertexId> {
         let (mut x, mut y) = (self.next(h), self.next(h.twin()));

@@ -86,7 +86,7 @@ impl Mesh {
             return Err(EditError::Seam(e));
         }
 
-        // f becomes d -> c ... a -> d, g becomes c -> d ... b -> c.
+        // After the flip, face f has the half-edges d -> c and a -> d, and face g has c -> d and b -> c.
         self.drop_columns_by_rule();
         self.copy_values(ab, ad);
         self.copy_values(ba, bc);

@@ -81,7 +81,7 @@ impl Mesh {
         let m = self.push_vertex((1.0 - t) * self.position(a) + t * self.position(b));
         self.mix_values(a, b, t, m);
 
-        // The new edge m-b. Its halves lie on the faces of e.
+        // The new edge m-b, whose halves lie on the faces of e.
         let new = self.push_edge(m, b);
         self.copy_values(e, new);
         let [mb, bm] = new.half_edges();

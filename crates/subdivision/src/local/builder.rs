@@ -31,9 +31,8 @@ impl<'a> ConnectivityBuilder<'a> {
                 last = pieces.second(h);
                 let m = pieces.on_edge(h.edge());
                 new.origin[last.index()] = m;
-                // m is the new vertex on the edge. Its stored half-edge is the second part of the first
-                // half-edge of the edge or, if the second half-edge has no face, the second part of the second
-                // half-edge.
+                // The new vertex m on the edge stores the second part of one half of the edge: of the second
+                // half if that half has no face, and otherwise of the first half.
                 if h.index().is_multiple_of(2) || mesh.face(h).is_none() {
                     new.vertex_half_edge[m.index()] = last;
                 }

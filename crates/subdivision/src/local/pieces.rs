@@ -31,7 +31,7 @@ pub(super) struct Pieces<'a> {
     pub(super) mesh: &'a Mesh,
     smoothed: SmoothedElements,
     pub(super) cuts: Vec<Cut>,
-    /// The new edges that lie on old ones.
+    /// The new edges that lie on old edges.
     on_edges: PartTable<EdgeId>,
     /// The new vertices that lie on old edges.
     pub(super) middles: PartTable<EdgeId>,

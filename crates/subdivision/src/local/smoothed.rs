@@ -71,8 +71,8 @@ impl AnyMasks for LocalMasks<'_> {
     }
 
     fn values(&self, n: usize, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, Cancelled> {
-        // Computes all values at once if there are centers. Otherwise each vertex of a large face would sum all
-        // corners of that face again.
+        // Computes all values at once if there are centers. If the values were computed one by one, each vertex
+        // of a large face would sum all corners of that face again.
         let full_level = if self.pieces.centers.len() == 0 {
             Vec::new()
         } else {

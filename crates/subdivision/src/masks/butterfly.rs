@@ -24,9 +24,9 @@
 //! from Dyn, Levin and Gregory, "A 4-point interpolatory subdivision scheme for curve design", 1987. These
 //! papers leave three cases open:
 //!
-//! - If the vertex with weight -1/16 is missing because it would lie beyond a boundary edge, the reflection of
-//!   the corner opposite that edge replaces it, so that flat regular parts stay on their grid up to the
-//!   boundary.
+//! - If a vertex with weight -1/16 would lie beyond a boundary edge, this vertex is missing. The reflection of
+//!   the corner opposite that edge replaces the missing vertex, so that flat regular parts stay on their grid
+//!   up to the boundary.
 //! - Boundary vertices are never extraordinary.
 //! - For n = 2, the neighbors have the weights 3/8 and -1/8. These are the weights for n = 4 without the two
 //!   zeros.
@@ -155,8 +155,8 @@ mod tests {
 
     #[test]
     fn quadratic_functions_around_a_vertex_are_reproduced_exactly() {
-        // The new vertex is halfway to the one-ring, at r = 1/2 and t = 0. There, r cos t is 1/2 and r² cos 2t
-        // is 1/4. The mask reproduces r² cos 2t only with at least five neighbors.
+        // The new vertex is halfway to the one-ring, at r = 1/2 and t = 0. At this vertex, r cos t is 1/2 and
+        // r² cos 2t is 1/4. The mask reproduces r² cos 2t only with at least five neighbors.
         for n in 5..20 {
             let ring = |k: f64| -> f64 {
                 let at = |j: usize| libm::cos(k * TAU * j as f64 / n as f64);

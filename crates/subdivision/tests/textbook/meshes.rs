@@ -137,7 +137,7 @@ fn sheet(
     Polygons::new(positions.collect(), faces)
 }
 
-/// Cuts each quad along a random diagonal, or along the first one if `random` is `None`.
+/// Cuts each quad along a random diagonal, or along the first diagonal if `random` is `None`.
 fn cut_quads(mesh: &Polygons, mut random: Option<&mut Random>) -> Polygons {
     let mut faces = Vec::new();
     for face in &mesh.faces {
@@ -340,7 +340,7 @@ impl Pattern {
         };
         let mut mesh = mesh.clone();
         let adjacency = Adjacency::new(mesh.positions.len(), &mesh.faces);
-        // Adds noise to fractional values. Otherwise a sum could be 1 up to rounding.
+        // Adds noise to fractional values. Without noise, a sum could be 1 up to rounding.
         let sharpness = |random: &mut Random| {
             let s: f64 = random.one_of(choice);
             if s.fract() == 0.0 {

@@ -20,7 +20,7 @@ fn rims(mesh: &Mesh) -> Vec<HalfEdgeId> {
         .collect()
 }
 
-/// Returns the boundary half-edge that leaves `v`, and the one that ends at `w`.
+/// Returns the boundary half-edge that leaves `v`, and the boundary half-edge that ends at `w`.
 fn boundary_half_edges_at(mesh: &Mesh, v: usize, w: usize) -> (HalfEdgeId, HalfEdgeId) {
     let [h, after] = [v, w].map(|v| mesh.vertex_half_edge(VertexId::new(v)).unwrap());
     (h, mesh.prev(after))

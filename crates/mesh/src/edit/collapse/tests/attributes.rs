@@ -171,7 +171,7 @@ fn a_collapse_can_be_undone_and_redone() {
 #[test]
 fn the_link_condition_also_works_for_ends_with_many_edges() {
     // Two fans of 40 triangles around 0 and 1, joined by two triangles at the edge 0-1. The rims of the fans
-    // form one loop. They meet at c and d, the third corners of the two triangles.
+    // form one loop. The rims meet at c and d, the third corners of the two triangles.
     let n = 40;
     let rim: Vec<u32> = (2..2 + 2 * n).collect();
     let fan = |(i, &v): (u32, &u32)| {
@@ -190,8 +190,8 @@ fn the_link_condition_also_works_for_ends_with_many_edges() {
     assert_eq!(open.defects(), []);
     assert_eq!(open.valence(v), 2 * n as usize);
 
-    // Merge a vertex of one rim with a vertex of the other rim, and fill both halves of the loop. Then the
-    // merged vertex is a neighbor of both 0 and 1.
+    // Merge a vertex of one rim with a vertex of the other rim, and fill both halves of the loop. After this
+    // merge, the merged vertex is a neighbor of both 0 and 1.
     let (x, y) = (rim[5], rim[n as usize + 5]);
     for v in polygons.iter_mut().flatten() {
         *v = if *v == y { x } else { *v };

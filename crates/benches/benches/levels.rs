@@ -1,4 +1,5 @@
-//! How many faces per second does subdivision produce, and how does that compare with the memory bandwidth?
+//! How many faces per second does subdivision produce, and how does the speed compare with the memory
+//! bandwidth?
 //!
 //! The cage is the coarse mesh that is subdivided. The time starts with the cage in memory and ends with the
 //! refined mesh, with full connectivity, in memory. `tests/oracle` measures `OpenSubdiv` on the same cages. The

@@ -59,8 +59,8 @@ impl Mesh {
         }
     }
 
-    /// Iterates over the outgoing half-edges of `v`, clockwise. If `v` is on the boundary, the first
-    /// half-edge has no face, and the twin of the last one has no face.
+    /// Iterates over the outgoing half-edges of `v`, clockwise. If `v` is on the boundary, the first half-edge
+    /// has no face, and the twin of the last half-edge has no face.
     #[inline]
     pub fn vertex_half_edges(&self, v: VertexId) -> Orbit<'_> {
         self.orbit(self.vertex_half_edge(v), true)

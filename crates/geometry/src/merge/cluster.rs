@@ -234,7 +234,7 @@ impl Search<'_> {
         }
     }
 
-    /// Joins `q` with all points of a box. The caller must know that they belong to the cluster of `q`.
+    /// Joins `q` with all points of a box. The caller must know that these points belong to the cluster of `q`.
     fn join_all(&self, tree: &Tree, q: Point) {
         for p in tree.points {
             self.sets.join(p.index, q.index);

@@ -402,8 +402,8 @@ fn barycentric(p: DVec3, [a, b, c]: [DVec3; 3]) -> [f64; 3] {
     [u, v, 1.0 - u - v]
 }
 
-/// Returns the point where `quadric` is lowest. If this point is unknown or far from the edge between `ends`, returns
-/// the lowest of the ends and their middle.
+/// Returns the point where `quadric` is lowest. If there is no single lowest point, or if it is far from the
+/// edge between `ends`, returns the lowest of three points: the two ends and their middle.
 fn lowest_near(quadric: &Quadric, ends: [DVec3; 2]) -> DVec3 {
     let [a, b] = ends;
     let middle = 0.5 * (a + b);

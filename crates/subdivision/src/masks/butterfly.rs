@@ -79,8 +79,8 @@ impl ButterflyMasks<'_> {
         (n != 6 && !self.0.is_boundary_vertex(v)).then_some(n)
     }
 
-    /// Adds the half of the regular mask that belongs to `h`: its origin, and the vertices on the side of its
-    /// triangle.
+    /// The regular mask has one half for each half-edge of the edge. Adds the half that belongs to `h`: the
+    /// origin of `h`, and the vertices on the side of its triangle.
     #[inline]
     fn regular_half(&self, h: HalfEdgeId, add: &mut impl FnMut(usize, f64)) {
         let mesh = self.0;

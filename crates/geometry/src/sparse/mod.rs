@@ -85,7 +85,9 @@ pub enum SolveError {
         pivot: f64,
     },
     /// The solution does not satisfy the equations.
-    #[error("the solution is not accurate: the residual is {0:e} of the size of the terms, more than 1e-9")]
+    #[error(
+        "the solution is not accurate: the residual is {0:e} of the size of the terms, more than 1e-9"
+    )]
     Residual(f64),
     /// The factorization would not fit into memory.
     #[error(

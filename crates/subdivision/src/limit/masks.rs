@@ -118,12 +118,12 @@ impl Star {
     }
 
     /// Returns a tangent along the crease, and a tangent across it into the k faces of the sector. With θ =
-    /// π/k, the second tangent is the left eigenvector with the weight sin(iθ) at inner spoke i and m
-    /// (sin(iθ) + sin((i+1)θ)) at the opposite corner between spokes i and i + 1. The factor m depends on the scheme and
-    /// on the angle θ. The weights at the ends of the crease and at the center follow from the other weights.
-    /// (The literature gives the eigenvector for k ≤ 3 and for other crease rules.) If the sector has six or
-    /// more triangles, the surface has no tangent plane there; the returned plane contains the tangent of the
-    /// crease.
+    /// π/k, the second tangent is the left eigenvector with the weight sin(iθ) at inner spoke i and with the
+    /// weight m (sin(iθ) + sin((i+1)θ)) at the opposite corner between spokes i and i + 1. The factor m depends
+    /// on the scheme and on θ. The weights at the ends of the crease and at the center follow from the other
+    /// weights. (The literature gives the eigenvector for k ≤ 3 and for other crease rules.) If the sector has
+    /// six or more triangles, the surface has no tangent plane there; the returned plane contains the tangent
+    /// of the crease.
     fn crease_tangents(&self, sector: Sector) -> [DVec3; 2] {
         let k = sector.n_faces;
         let [first, last] = [0, k].map(|i| self.spoke(sector, i));

@@ -12,7 +12,7 @@ use crate::{Image, PictureError};
 pub struct Timing {
     /// The duration of each image in milliseconds. In a GIF file it is rounded up to hundredths of a second.
     pub delay: u16,
-    /// The number of times that the animation plays; 0 means that it repeats forever.
+    /// The number of times that the animation plays. 0 means that the animation repeats forever.
     pub plays: u16,
 }
 
@@ -70,7 +70,7 @@ pub fn to_gif(
     let mut encoder = gif::Encoder::new(&mut bytes, width, height, &colors)?;
     encoder.set_repeat(match timing.plays {
         0 => gif::Repeat::Infinite,
-        // GIF counts the repetitions after the first play.
+        // A GIF file stores the number of repetitions after the first play.
         plays => gif::Repeat::Finite(plays - 1),
     })?;
     if let Some(comment) = comment {
@@ -86,7 +86,8 @@ pub fn to_gif(
             width,
             height,
             delay: timing.delay.div_ceil(10),
-            // The previous image would stay visible through transparent pixels, so it is cleared.
+            // If the images have transparent pixels, each image is cleared before the next one is shown. Otherwise it
+            // would stay visible through these pixels.
             dispose: if palette.transparent().is_some() {
                 gif::DisposalMethod::Background
             } else {
@@ -134,7 +135,7 @@ mod tests {
         plays: 0,
     };
 
-    /// Makes images with a smooth gradient of more than 256 colors, or with few colors.
+    /// Makes images with a smooth gradient of more than 256 colors, or, if `is_smooth` is false, with few colors.
     fn frames(n: u8, is_smooth: bool, alpha: impl Fn(u8, u8) -> u8) -> Vec<Image> {
         let color = |k: u8, x: u8, y: u8| {
             if is_smooth {
@@ -214,7 +215,7 @@ mod tests {
     #[test]
     fn a_gif_file_with_many_colors_has_similar_colors() {
         let mut frames = frames(3, true, |_, _| 255);
-        // The color of the background must stay exact.
+        // Quantization must not change the color of the background.
         for frame in &mut frames {
             frame.pixels[..900].fill([251, 253, 254, 255]);
         }

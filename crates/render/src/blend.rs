@@ -1,16 +1,18 @@
 //! Alpha compositing in integers, so that the result is the same on every processor.
 
-/// Returns a color composited over `under`. Both have straight alpha: their channels are not multiplied by alpha.
+/// Returns a color composited over `under`. Both colors have straight alpha: their channels are not multiplied by
+/// alpha.
 pub(crate) fn over([r, g, b, a]: [u8; 4], under: [u8; 4]) -> [u8; 4] {
     blended([r, g, b].map(|c| u32::from(c) * u32::from(a)), a, under)
 }
 
-/// Returns a color with premultiplied alpha, whose channels are from 0 to 255 * 255, composited over a color with
-/// straight alpha: a = s + d (1 - s), c = (S s + D d (1 - s)) / a (Porter and Duff, "Compositing digital images",
-/// 1984).
+/// Returns the color `over` composited over the color `under`. `over` has premultiplied alpha and channels from 0 to
+/// 255 * 255; `under` has straight alpha. Let s and d be the alphas, and S and D the colors, of `over` and `under`. The
+/// result has the alpha a = s + d (1 - s) and the color (S s + D d (1 - s)) / a (Porter and Duff, "Compositing digital
+/// images", 1984).
 pub(crate) fn blended(over: [u32; 3], alpha: u8, under: [u8; 4]) -> [u8; 4] {
     let s = u32::from(alpha);
-    // Alphas are in units of 1/255, and their products in units of 1/(255 * 255).
+    // Alphas are in units of 1/255. Products of two alphas are in units of 1/(255 * 255).
     let rest = u32::from(under[3]) * (255 - s);
     let sum = s * 255 + rest;
     if sum == 0 {
@@ -37,7 +39,7 @@ mod tests {
         assert_eq!(over([1, 2, 3, 255], below), [1, 2, 3, 255]);
         assert_eq!(over([200, 100, 50, 128], [0; 4]), [200, 100, 50, 128]);
         assert_eq!(over([9, 9, 9, 0], [9, 9, 9, 0]), [0; 4]);
-        // Half-transparent black over white, and over half-transparent black: alpha is 1 - 1/2 * 1/2.
+        // Half-transparent black over white gives gray. Over half-transparent black, alpha is 1 - 1/2 * 1/2.
         assert_eq!(over([0, 0, 0, 128], [255; 4]), [127, 127, 127, 255]);
         assert_eq!(over([0, 0, 0, 128], [0, 0, 0, 128])[3], 192);
     }

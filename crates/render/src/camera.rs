@@ -30,7 +30,7 @@ pub enum Camera {
         #[serde(default = "margin")]
         #[schemars(range(min = 0.0, max = 0.45))]
         margin: f64,
-        /// Whether the scale is the same from every direction, as a turntable needs it.
+        /// Whether the scale is the same from every direction, as needed for a turntable.
         #[serde(default)]
         steady: bool,
     },
@@ -63,8 +63,8 @@ impl Default for Camera {
 }
 
 impl Camera {
-    /// Returns the camera after it moves to the right, around the point that it looks at, about the axis that points
-    /// upwards. [`Self::Fit`] also becomes [steady](Self::Fit::steady).
+    /// Returns the camera turned to the right by an angle, about the upward axis through the point that the camera
+    /// looks at. [`Self::Fit`] also becomes [steady](Self::Fit::steady).
     #[must_use]
     pub fn turned(mut self, degrees: f64) -> Self {
         match &mut self {
@@ -208,9 +208,10 @@ const DEFAULT_ANGLE: f64 = 25.0;
 const ORTHOGRAPHIC_ANGLE: f64 = 30.0;
 
 impl Up {
-    /// Replaces `Auto` by the axis that points upwards in a scene with these points.
+    /// Replaces `Auto` by the upward axis of a scene with these points.
     fn resolved(self, points: &impl Fn(&mut dyn FnMut(DVec3))) -> Self {
-        /// The largest distance of the lowest point from the plane, as a fraction of the size of the scene.
+        /// The largest distance of the lowest point from the plane at which the scene stands on the plane, as a
+        /// fraction of the size of the scene.
         const TOLERANCE: f64 = 1e-3;
         if self != Self::Auto {
             return self;
@@ -238,7 +239,7 @@ impl Up {
 }
 
 impl Side {
-    /// Returns azimuth and elevation in degrees.
+    /// Returns the azimuth and the elevation, in degrees.
     fn angles(self) -> [f64; 2] {
         match self {
             Self::Front => [0.0, 0.0],
@@ -247,7 +248,7 @@ impl Side {
             Self::Right => [90.0, 0.0],
             Self::Top => [0.0, 90.0],
             Self::Bottom => [0.0, -90.0],
-            // The arc tangent of 1 / √2.
+            // The elevation is the arc tangent of 1 / √2.
             Self::Isometric => [45.0, 35.264_389_682_754_654],
             Self::ThreeQuarter => [30.0, 22.0],
             Self::Angles { azimuth, elevation } => [azimuth, elevation],
@@ -270,14 +271,15 @@ impl Side {
 /// Pixel coordinates start at the upper left corner of the picture and grow to the right and downwards.
 #[derive(Clone, Copy, Debug)]
 pub struct View {
-    /// Directions to the right, upwards, and towards the camera: orthogonal unit vectors.
+    /// The directions to the right, upwards, and towards the camera. They are orthogonal unit vectors.
     axes: [DVec3; 3],
     /// With perspective, the position of the camera; otherwise a point that is shown in the middle of the picture.
     eye: DVec3,
-    /// Pixels per scene unit; with perspective, at distance 1.
+    /// The number of pixels per scene unit. With perspective, this is the number at distance 1.
     scale: f64,
     is_perspective: bool,
-    /// Points nearer than this distance are not visible. Minus infinity without perspective.
+    /// The distance of the near plane: points that are nearer to the camera are not visible. Minus infinity without
+    /// perspective.
     pub(crate) near: f64,
     /// The middle of the picture, in pixels.
     middle: DVec2,
@@ -288,7 +290,8 @@ pub struct View {
 pub struct ScreenPoint {
     /// Pixels from the left and from the top of the picture.
     pub at: DVec2,
-    /// Grows with distance, and is linear over the picture for points of a plane.
+    /// The depth. It grows with the distance from the camera. For points of a plane, it is a linear function of the
+    /// position in the picture.
     pub depth: f64,
 }
 
@@ -342,7 +345,7 @@ impl View {
             return Err(PictureError::Camera(message.to_owned()));
         }
         let [_, upwards, front] = up.axes();
-        // Seen from straight above, the front is at the bottom of the picture.
+        // If the camera looks straight down, the front of the scene is at the bottom of the picture.
         let mut right = upwards.cross(towards);
         if right.length() < 1e-9 {
             right = (front * -towards.dot(upwards).signum()).cross(towards);
@@ -368,15 +371,16 @@ impl View {
         (v.z >= self.near).then(|| self.project(v))
     }
 
-    /// Converts a point to camera coordinates: to the right, upwards, and the distance from the camera.
+    /// Converts a point to camera coordinates. The first axis points to the right, the second points upwards, and the
+    /// third coordinate is the distance from the camera.
     pub(crate) fn camera_space(&self, p: DVec3) -> DVec3 {
         let [x, y, z] = self.axes;
         let p = p - self.eye;
         DVec3::new(p.dot(x), p.dot(y), -p.dot(z))
     }
 
-    /// Returns a number that is not negative if the point `v`, in [camera coordinates](Self::camera_space), is inside of a
-    /// clipping plane. The number is linear in `v`.
+    /// Returns a number that is at least 0 if the point `v`, in [camera coordinates](Self::camera_space), is inside of
+    /// a clipping plane. The number is linear in `v`.
     ///
     /// Plane 0 is the near plane. The other four planes are `far` pixels to the left, to the right, above and below the
     /// upper left corner of the picture.
@@ -405,8 +409,8 @@ impl View {
         }
     }
 
-    /// Returns origin and direction of the ray through a point of the picture, in scene units. The direction has length
-    /// 1 along the axis of the camera.
+    /// Returns the origin and the direction of the ray through a point of the picture, in scene units. The component of
+    /// the direction along the axis of the camera has length 1.
     pub(crate) fn ray(&self, at: DVec2) -> (DVec3, DVec3) {
         let [x, y, z] = self.axes;
         let d = (at - self.middle) / self.scale;
@@ -418,8 +422,8 @@ impl View {
         }
     }
 
-    /// Returns the [depth](ScreenPoint::depth), at a point of the picture, of the plane through `p` with normal `n`.
-    /// `None` if the plane is seen edge-on.
+    /// Returns the [depth](ScreenPoint::depth) of a plane at a point of the picture. The plane passes through `p` and
+    /// has the normal `n`. Returns `None` if the plane is seen edge-on.
     pub(crate) fn plane_depth(&self, p: DVec3, n: DVec3, at: DVec2) -> Option<f64> {
         let (origin, direction) = self.ray(at);
         let along = n.dot(direction);

@@ -118,9 +118,9 @@ pub fn to_linear(value: u8) -> f32 {
     TABLE[usize::from(value)]
 }
 
-/// Returns the sRGB value of linear light, which is clamped to 0 to 1 (IEC 61966-2-1, 1999).
+/// Returns the sRGB value of linear light (IEC 61966-2-1, 1999). The light is clamped to the range from 0 to 1.
 pub fn to_srgb(light: f32) -> u8 {
-    /// Steps of the table. Where the curve is steepest, 20 steps share one sRGB value.
+    /// The number of steps of the table. Where the curve is steepest, about 20 steps have the same sRGB value.
     const STEPS: usize = 1 << 16;
     static TABLE: LazyLock<Vec<u8>> = LazyLock::new(|| {
         let value = |i: usize| match i as f64 / STEPS as f64 {
@@ -154,7 +154,7 @@ pub(crate) fn whole(value: f64) -> usize {
     value as usize
 }
 
-/// Truncates like [`whole`], but to 32 bits, which is faster.
+/// Truncates a number like [`whole`], but to 32 bits, which is faster.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -164,7 +164,7 @@ pub(crate) fn whole_u32(value: f64) -> u32 {
     value as u32
 }
 
-/// Rounds to the nearest `f32`.
+/// Rounds a number to the nearest `f32`.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "the purpose of this function"

@@ -69,7 +69,7 @@ const CLASSES: [[u8; 3]; 8] = [
 ];
 
 impl ColorMap {
-    /// Returns the sRGB color of `t`, which is clamped to 0 to 1.
+    /// Returns the sRGB color of `t`, which is clamped to the range from 0 to 1.
     pub fn srgb(self, t: f64) -> [u8; 3] {
         let stops: &[[u8; 3]] = match self {
             Self::Viridis => &VIRIDIS,
@@ -89,12 +89,12 @@ impl ColorMap {
 
     /// Returns the sRGB color of a whole number in [`Classes`](Self::Classes). The colors repeat after eight.
     pub fn class(self, class: f64) -> [u8; 3] {
-        // Without the small offset, rounding could select the color of the previous class.
+        // The small offset avoids that rounding selects the color of the previous class.
         self.srgb(class.floor().rem_euclid(8.0) / 7.0 + 1e-9)
     }
 
-    /// Returns the linear red, green and blue of a number. `range` gives the numbers at the two ends of the map. NaN
-    /// is gray. Unless the second end is greater than the first, all numbers have the middle color.
+    /// Returns the linear red, green and blue of a number. `range` gives the numbers at the two ends of the map. NaN is
+    /// gray. If the second end is not greater than the first, all numbers have the middle color.
     /// [`Classes`](Self::Classes) ignores `range` and rounds the number down.
     pub fn linear(self, value: f64, [low, high]: [f64; 2]) -> [f32; 3] {
         if value.is_nan() {

@@ -1,4 +1,4 @@
-//! Compares images: a message for two PNG files, or an image that shows the pixels that differ.
+//! Compares images. The result is a message, or an image that shows the pixels that differ.
 
 use std::io::Cursor;
 
@@ -13,8 +13,8 @@ const DIFFERENT: [u8; 4] = [0xd6, 0x20, 0x28, 255];
 /// The contrast of the expected image is divided by this.
 const FAINT: u32 = 4;
 
-/// Shows in red the pixels that differ by more than `tolerance` of 255 in a channel, over a faint gray copy of
-/// `expected`. Returns `None` if the sizes of the images differ.
+/// Returns a faint gray copy of `expected` with the different pixels in red. A pixel is different if a channel differs
+/// by more than `tolerance`, where channels are from 0 to 255. Returns `None` if the sizes of the images differ.
 pub fn difference(expected: &Image, found: &Image, tolerance: u8) -> Option<Image> {
     let is_near =
         |a: &[u8; 4], b: &[u8; 4]| a.iter().zip(b).all(|(a, b)| a.abs_diff(*b) <= tolerance);
@@ -32,7 +32,7 @@ pub fn difference(expected: &Image, found: &Image, tolerance: u8) -> Option<Imag
 }
 
 /// Compares two PNG files, which can be animations. Returns a message that describes the difference, or `None` if no
-/// channel differs by more than `tolerance` of 255.
+/// channel differs by more than `tolerance`, where channels are from 0 to 255.
 ///
 /// # Errors
 ///
@@ -159,7 +159,7 @@ fn unreadable(file: usize, why: &dyn std::fmt::Display) -> PictureError {
     PictureError::Unreadable { file, why }
 }
 
-/// Returns a light gray, which is lighter for light colors and for transparent colors.
+/// Returns a light gray for a color. The lighter or more transparent the color, the lighter is the gray.
 fn faint([r, g, b, alpha]: [u8; 4]) -> [u8; 4] {
     let [r, g, b, alpha] = [r, g, b, alpha].map(u32::from);
     let dark = alpha * (255 - (r + g + b) / 3) / 255;
@@ -204,7 +204,7 @@ mod tests {
         );
     }
 
-    /// Encodes a PNG file of 3 x 2 pixels; an animation if there are several images.
+    /// Encodes a PNG file of 3 x 2 pixels. If there are several images, the file is an animation.
     fn file(images: &[[u8; 24]], color: png::ColorType) -> Vec<u8> {
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, 3, 2);

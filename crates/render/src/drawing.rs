@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 
 use crate::texture::Texture;
 
-/// Values for all of a [`Part`], or for each of its faces, points or corners.
+/// Values of a [`Part`]: one value for the whole part, or one for each face, point or corner.
 #[derive(Clone, Debug)]
 pub enum Channel<'a> {
     /// One value for the whole part.
@@ -37,8 +37,8 @@ pub struct Part<'a> {
     pub normals: Channel<'a>,
     /// Linear red, green and blue of the front, from 0 to 1. Multiplied with the color of the material.
     pub colors: Channel<'a>,
-    /// Highlight colors of faces. They are blended over all other colors, on both sides, by their alpha. Empty, or one
-    /// for each face.
+    /// The highlight color of each face; empty if there are no highlights. Highlight colors are blended by their alpha
+    /// over all other colors, on both sides of the face.
     pub highlights: Vec<[f32; 4]>,
     /// The materials.
     pub materials: Vec<Surface>,
@@ -46,7 +46,7 @@ pub struct Part<'a> {
     pub material_of_face: Vec<u32>,
     /// Sets of texture coordinates of corners, with v upwards, for the textures of the materials.
     pub uvs: Vec<Cow<'a, [DVec2]>>,
-    /// The color of the back of faces. If `None`, the back has the color of the front.
+    /// The color of the back of faces. If `None`, the back of a face has the color of the front.
     pub back: Option<[f32; 3]>,
 }
 
@@ -96,12 +96,13 @@ pub struct Line {
     pub width: f32,
     /// Linear red, green, blue and alpha.
     pub color: [f32; 4],
-    /// The faces beside the line, which never hide it. Faces are numbered through all parts; [`NO_FACE`] means none.
+    /// The faces beside the line. They never hide the line. The numbers of faces continue from part to part;
+    /// [`NO_FACE`] means no face.
     pub faces: [u32; 2],
     /// The opacity of the line where a surface hides it, from 0 to 1. A hidden point is drawn as a ring.
     pub hidden: f32,
-    /// The distance to similar lines, such as other edges of a mesh, in scene units. The line is drawn thinner where
-    /// these lines would cover the surface. Infinite for a single line.
+    /// The distance to similar lines, such as other edges of a mesh, in scene units. Where such lines would cover the
+    /// surface, they are drawn thinner. Infinite for a single line.
     pub spacing: f64,
 }
 
@@ -120,11 +121,11 @@ pub struct Label {
 /// All input of the rasterizer.
 #[derive(Clone, Debug, Default)]
 pub struct Drawing<'a> {
-    /// Parts of triangles. Triangles and faces are numbered through all parts, in this order.
+    /// The parts. The numbers of triangles and faces continue from part to part, in this order.
     pub parts: Vec<Part<'a>>,
     /// Lines and points. Later ones are drawn on top.
     pub lines: Vec<Line>,
-    /// Labels. The rasterizer does not draw them: it only returns their positions and whether they are hidden.
+    /// Labels. The rasterizer does not draw labels: it only returns their positions and whether they are hidden.
     pub labels: Vec<Label>,
 }
 

@@ -1,6 +1,6 @@
 //! The errors of this crate.
 
-/// Why a picture cannot be made or read.
+/// The reason why a picture cannot be made or read.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
     /// A side of an image is 0 or longer than [`LARGEST_SIDE`](crate::LARGEST_SIDE) pixels.
@@ -20,9 +20,9 @@ pub enum PictureError {
          image smaller or raise the budget"
     )]
     Budget {
-        /// The bytes that the picture needs.
+        /// The memory that the picture needs, in bytes.
         needed: u64,
-        /// The bytes that it can use.
+        /// The memory budget of the picture, in bytes.
         budget: u64,
     },
     /// A parameter of the camera is out of range, or its direction is undefined.

@@ -57,7 +57,7 @@ impl Image {
         }
     }
 
-    /// Decodes a PNG file; of an animation, the first image.
+    /// Decodes a PNG file. If the file is an animation, decodes its first image.
     ///
     /// # Errors
     ///
@@ -96,7 +96,7 @@ impl Image {
             .set_max_height(usize::MAX);
         let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
         decoder.decode_headers().map_err(failed)?;
-        // The format limits a side to 65535 pixels. An image without pixels is refused.
+        // The JPEG format limits a side to 65535 pixels. An image without pixels is refused.
         let info = decoder.info();
         let [width, height] = info.map_or([0; 2], |i| [i.width, i.height].map(u32::from));
         checked_size(width, height)?;
@@ -109,7 +109,8 @@ impl Image {
         })
     }
 
-    /// Composites `image` over this one, with its top left corner at `corner`, the column and row. `image` must fit.
+    /// Composites `image` over this image. `corner` is the column and the row of the top left corner of `image`, which
+    /// must be entirely inside of this image.
     pub fn place(&mut self, image: &Self, corner: [u64; 2]) {
         let [x, y] = corner.map(|c| usize::try_from(c).unwrap_or(usize::MAX));
         let rows = self.pixels.chunks_exact_mut(self.width as usize).skip(y);
@@ -159,8 +160,8 @@ impl Image {
     }
 }
 
-/// Returns a PNG encoder with these texts for images of the same size, and the number of channels: 3 if all pixels are
-/// opaque, else 4.
+/// Returns a PNG encoder with these texts for images of the same size, and the number of channels. There are 3 channels
+/// if all pixels are opaque, and 4 otherwise.
 pub(crate) fn encoder<'b>(
     bytes: &'b mut Vec<u8>,
     images: &[Image],
@@ -326,7 +327,7 @@ mod tests {
         for end in 0..complete.len() - 12 {
             assert!(Image::from_png(&complete[..end]).is_err(), "{end}");
         }
-        // The header declares a side that is too long, and the data is incomplete.
+        // The header of this file declares a side that is too long, and the data is incomplete.
         let mut huge = Vec::new();
         let encoder = png::Encoder::new(&mut huge, LARGEST_SIDE + 1, 1);
         let mut writer = encoder.write_header().unwrap();

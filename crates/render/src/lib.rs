@@ -137,7 +137,7 @@ mod tests {
         let draw =
             |size, budget| draw(&cube, &Style::default(), &Overlays::default(), size, budget);
         let side = LARGEST_SIDE;
-        // The pixels take 1 GiB, the budget is half of that.
+        // The pixels need 1 GiB, and the budget is half of that.
         let refused = draw([side, side], 1 << 29);
         assert!(matches!(refused, Err(PictureError::Budget { needed, .. }) if needed > 1 << 30));
         assert!(draw([100, 100], 1 << 29).is_ok());

@@ -6,8 +6,9 @@ use crate::Image;
 
 /// A palette of at most 256 colors for several images.
 ///
-/// If the images have at most 256 colors, the palette has exactly these. Otherwise the colors are quantized (Dekker,
-/// "Kohonen neural networks for optimal colour quantization", 1994), and only the most frequent color is exact.
+/// If the images have at most 256 colors, the palette has exactly these colors. Otherwise, the colors are quantized
+/// (Dekker, "Kohonen neural networks for optimal colour quantization", 1994), and only the most frequent color is
+/// exact.
 #[derive(Clone, Debug)]
 pub struct Palette {
     colors: Vec<[u8; 3]>,
@@ -52,7 +53,7 @@ impl Palette {
         self.transparent
     }
 
-    /// Returns the index of the nearest color; the first one if several are equally near.
+    /// Returns the index of the nearest color. If several colors are equally near, returns the first of them.
     pub fn index(&mut self, [r, g, b, a]: [u8; 4]) -> u8 {
         if let Some(transparent) = self.transparent
             && a < OPAQUE_ALPHA
@@ -69,7 +70,7 @@ impl Palette {
     }
 }
 
-/// Returns the index of the nearest color; the first one if several are equally near.
+/// Returns the index of the nearest color. If several colors are equally near, returns the first of them.
 fn nearest(colors: &[[u8; 3]], color: [u8; 3]) -> usize {
     let distance_squared = |candidate: &[u8; 3]| -> u32 {
         let squares = candidate
@@ -84,12 +85,12 @@ fn nearest(colors: &[[u8; 3]], color: [u8; 3]) -> usize {
         .unwrap_or(0)
 }
 
-/// Returns all opaque colors of the images, sorted; `None` if there are more than `limit`.
+/// Returns all opaque colors of the images, sorted. Returns `None` if there are more than `limit` colors.
 fn distinct_colors(frames: &[Image], limit: usize) -> Option<Vec<[u8; 3]>> {
     let mut colors = BTreeSet::new();
     let mut last = None;
     for &[r, g, b, a] in frames.iter().flat_map(|f| &f.pixels) {
-        // Neighboring pixels often have the same color.
+        // Neighboring pixels often have the same color, so a color that equals the last one is skipped.
         if a < OPAQUE_ALPHA || last == Some([r, g, b]) {
             continue;
         }
@@ -104,7 +105,7 @@ fn distinct_colors(frames: &[Image], limit: usize) -> Option<Vec<[u8; 3]>> {
 /// Quantizes the colors of the images. The most frequent color, usually the background, stays exact.
 fn quantized_colors(frames: &[Image], limit: usize) -> Vec<[u8; 3]> {
     let pixels: usize = frames.iter().map(|f| f.pixels.len()).sum();
-    // With an even step, the samples of an image with an even width could lie in few columns.
+    // The step is odd. With an even step, the samples of an image with an even width could be in only a few columns.
     let step = (pixels / SAMPLES) | 1;
     let opaque = frames
         .iter()
@@ -141,7 +142,7 @@ mod tests {
             let index = palette.index([r, g, b, a]);
             assert_eq!(palette.colors()[usize::from(index)], [r, g, b]);
         }
-        // A transparent pixel takes one entry.
+        // The transparent pixels need one entry of the palette.
         image.pixels[0][3] = 0;
         let mut palette = Palette::of(&[image]);
         assert_eq!(palette.colors().len(), 256);

@@ -13,7 +13,8 @@ use crate::{Color, PictureError};
 pub enum Shading {
     /// Each face has one shade.
     Flat,
-    /// Smooth across edges that are not sharp. Uses the normals of corners or vertices if the mesh has them.
+    /// Shades change smoothly across edges that are not sharp. If the mesh has normals at corners or vertices, they are
+    /// used.
     #[default]
     Smooth,
     /// Like `Smooth`, with highlights.
@@ -67,8 +68,8 @@ impl Default for Lines {
 pub struct Style {
     /// The lighting of surfaces.
     pub shading: Shading,
-    /// The angle between the normals of two faces, in degrees, from which the edge between them is shaded as sharp.
-    /// Ignored if the mesh has normals.
+    /// The minimum angle between the normals of two faces, in degrees, at which the edge between the faces is shaded as
+    /// sharp. Ignored if the mesh has normals.
     #[schemars(range(min = 0.0, max = 180.0))]
     pub sharp: f64,
     /// The strength of ambient occlusion, which darkens hollows, from 0 (none) to 1.
@@ -80,8 +81,8 @@ pub struct Style {
     pub color: Option<Color>,
     /// The color of the back of faces, which is visible where a mesh is open or inside out.
     pub back: Option<Color>,
-    /// Draws the edges of meshes, and grids on Bezier patches. Lines are thinner where they are only a few pixels apart, so that they do not cover
-    /// the surface.
+    /// Draws the edges of meshes, and grids on Bezier patches. Lines that are only a few pixels apart are thinner, so
+    /// that they do not cover the surface.
     pub wireframe: Option<Lines>,
     /// Draws the boundary edges of meshes.
     pub boundary: Option<Lines>,

@@ -12,7 +12,8 @@ use crate::color::{byte, mix, narrow, to_linear, to_srgb, whole};
 /// An image that is mapped to a surface.
 #[derive(Clone, Debug)]
 pub struct Texture {
-    /// The mipmap: the image, and copies of half the width and height of the level before.
+    /// The levels of the mipmap. The first level is the image. Each further level has half the width and half the
+    /// height of the previous level.
     levels: Vec<Level>,
     sampler: Sampler,
     transform: TextureTransform,
@@ -37,8 +38,8 @@ const TOLERANCE: f32 = 1e-6;
 const MIN_WEIGHT: f32 = 1.0 / 1024.0;
 
 impl Alpha {
-    /// Returns the fraction of a pixel that the surface covers, from the alpha of the pixel. Level 0 is the image
-    /// itself; the alpha of its smaller copies is already the coverage.
+    /// Returns the fraction of a pixel that the surface covers. `alpha` is the alpha of the pixel. Level 0 is the image
+    /// itself. In smaller levels, the alpha is already the covered fraction.
     fn coverage(self, level: usize, alpha: f32) -> f32 {
         match self {
             Self::Ignored => 1.0,
@@ -57,9 +58,9 @@ struct Level {
 
 /// The part of a texture that one pixel of the picture shows.
 struct Footprint {
-    /// The position in the image, where 0 to 1 is its width and height.
+    /// The position in the image. The image reaches from 0 to 1 in both axes.
     position: DVec2,
-    /// The first of the two levels between which values are interpolated.
+    /// The first of the two mipmap levels between which values are interpolated.
     level: usize,
     /// The weight of the second level.
     t: f32,
@@ -68,7 +69,8 @@ struct Footprint {
 }
 
 impl Texture {
-    /// Creates a texture from the bytes of a PNG or JPEG file. If all pixels are opaque, `alpha` is ignored.
+    /// Creates a texture from the bytes of a PNG or JPEG file. If all pixels are opaque, the parameter `alpha` has no
+    /// effect.
     ///
     /// # Errors
     ///
@@ -108,7 +110,7 @@ impl Texture {
     }
 
     /// Returns linear red, green and blue at texture coordinates with v upwards. `steps` are the differences of the
-    /// texture coordinates to the next pixels of the picture, to the right and downwards.
+    /// texture coordinates between this pixel of the picture and the next pixels, to the right and downwards.
     pub(crate) fn at(&self, uv: DVec2, steps: [DVec2; 2]) -> [f32; 3] {
         let footprint = self.footprint(uv, steps);
         if self.is_opaque() {
@@ -126,10 +128,10 @@ impl Texture {
     }
 
     /// Returns the coverage of the surface, from 0 to 1, at texture coordinates with v upwards. `steps` are the
-    /// differences of the texture coordinates to the next samples.
+    /// differences of the texture coordinates between this sample and the next samples, to the right and downwards.
     ///
-    /// With [`Alpha::Cut`], alpha is compared with the cutoff before it is averaged over pixels. Therefore fine
-    /// structures such as leaves keep their density when they are seen from far away.
+    /// With [`Alpha::Cut`], the alpha of each pixel is compared with the cutoff first, and the results are averaged.
+    /// Therefore fine structures such as leaves keep their density when they are seen from far away.
     pub(crate) fn coverage(&self, uv: DVec2, steps: [DVec2; 2]) -> f32 {
         let footprint = self.footprint(uv, steps);
         let [coverage] = footprint.interpolate(|level| {
@@ -139,8 +141,8 @@ impl Texture {
         coverage
     }
 
-    /// Returns the position in the mipmap, between the two levels whose pixels are closest in size to those of the
-    /// picture. Williams, "Pyramidal Parametrics", 1983.
+    /// Returns the footprint of a pixel of the picture. It is between the two mipmap levels whose pixels are closest in
+    /// size to that pixel (Williams, "Pyramidal Parametrics", 1983).
     fn footprint(&self, uv: DVec2, steps: [DVec2; 2]) -> Footprint {
         let (sin, cos) = libm::sincos(self.transform.rotation);
         let [sx, sy] = self.transform.scale;
@@ -205,14 +207,15 @@ impl Footprint {
     }
 }
 
-/// Scales a byte to 0 to 1.
+/// Scales a byte to the range from 0 to 1.
 fn unit(byte: u8) -> f32 {
     f32::from(byte) / 255.0
 }
 
 impl Level {
-    /// Returns a level with half the width and height of this level. Each of its pixels is the weighted mean of four
-    /// pixels; `weight` returns the weight of a pixel for its alpha. `None` if this level is a single pixel.
+    /// Returns a level with half the width and half the height of this level. Each new pixel is the weighted mean of
+    /// four pixels of this level. `weight` converts the alpha of a pixel to its weight. Returns `None` if this level is
+    /// a single pixel.
     fn half(&self, weight: impl Fn(u8) -> f32) -> Option<Self> {
         if self.width * self.height == 1 {
             return None;
@@ -247,7 +250,7 @@ impl Level {
     }
 }
 
-/// Returns the index of the pixel for a whole number, which can be outside of the `n` pixels.
+/// Returns the index of the pixel for the whole number `x`, which can be outside of the range from 0 to `n` - 1.
 fn wrapped(x: f64, n: usize, wrap: Wrap) -> usize {
     let size = n as f64;
     let inside = match wrap {
@@ -317,14 +320,15 @@ mod tests {
 
     #[test]
     fn a_transform_scales_rotates_and_moves() {
-        // A quarter turn counter-clockwise about the upper left corner, as defined by KHR_texture_transform.
+        // The transform is a quarter turn counter-clockwise about the upper left corner, as defined by
+        // `KHR_texture_transform`.
         let transform = TextureTransform {
             offset: [0.0, 1.0],
             rotation: std::f64::consts::FRAC_PI_2,
             scale: [1.0, 1.0],
         };
         let turned = texture(Sampler::default(), transform);
-        // With v downwards, (0.25, 0.25) becomes (0.25, -0.25 + 1).
+        // If v points downwards, (0.25, 0.25) becomes (0.25, -0.25 + 1).
         assert_eq!(at(&turned, 0.25, 0.75), [0, 0, 255]);
     }
 

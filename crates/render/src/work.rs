@@ -18,12 +18,12 @@ pub(crate) struct Work<'a> {
     progress: &'a dyn Progress,
     stage: &'static str,
     total: u64,
-    /// The amount of work done; `None` after it is cancelled.
+    /// The amount of work done. `None` after the work is canceled.
     done: Mutex<Option<u64>>,
 }
 
 impl<'a> Work<'a> {
-    /// Creates work of `total` units; the caller chooses the unit.
+    /// Creates work of `total` units. The caller chooses the unit.
     pub(crate) fn new(progress: &'a dyn Progress, stage: &'static str, total: u64) -> Self {
         Self {
             progress,
@@ -46,8 +46,8 @@ impl<'a> Work<'a> {
     }
 }
 
-/// A progress listener made from a function, which takes the fraction of the work done, from 0 to 1, and returns
-/// false to cancel.
+/// A progress listener made from a function. The function receives the fraction of the work done, from 0 to 1, and
+/// returns false to cancel the work.
 #[cfg(test)]
 pub(crate) struct Listener<F>(pub(crate) F);
 
@@ -73,7 +73,7 @@ mod tests {
         let continued: Vec<bool> = (0..4).map(|_| work.add(3).is_ok()).collect();
         assert_eq!(continued, [true, true, false, false]);
         assert_eq!(*reported.lock().unwrap(), [0.3, 0.6, 0.9]);
-        // More work than the total, and a total of 0.
+        // The reported fraction is at most 1 even if more work than the total is done, or if the total is 0.
         let at_most_one = Listener(|fraction| fraction <= 1.0);
         assert!(Work::new(&at_most_one, "draw", 2).add(9).is_ok());
         assert!(Work::new(&at_most_one, "draw", 0).add(0).is_ok());

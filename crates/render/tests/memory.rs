@@ -1,6 +1,7 @@
 //! Tests that rendering never needs more memory than `bytes_needed` returns.
 //!
-//! There is only one test in this binary, because allocations of tests that run at the same time would be counted too.
+//! This binary has only one test, because the allocations of other tests that run at the same time would also be
+//! counted.
 
 use geometry::shapes;
 use mesh::DVec3;
@@ -70,7 +71,7 @@ fn rendering_takes_at_most_the_estimated_memory() {
     too_large_pictures_are_refused_before_anything_is_allocated(&one);
 }
 
-/// Renders a drawing, and compares its peak memory with the estimate.
+/// Renders a drawing, and compares the peak memory with the estimate.
 fn check(name: &str, drawing: &Drawing, style: &Style, size: [u32; 2]) {
     let look = style.look();
     let needed = bytes_needed(drawing, size, &look);
@@ -83,7 +84,7 @@ fn check(name: &str, drawing: &Drawing, style: &Style, size: [u32; 2]) {
     assert!(peak <= needed, "{name}: {peak} bytes, estimated {needed}");
 }
 
-/// Returns a drawing of long lines, each of which is in the lists of many tiles.
+/// Returns a drawing of long lines. Each line is in the lists of many tiles.
 fn long_lines() -> Drawing<'static> {
     let line = |i: i32| {
         let from = DVec3::new(f64::from(i % 200), f64::from(i / 200), 0.0);

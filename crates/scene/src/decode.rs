@@ -1,4 +1,4 @@
-//! Decoding a scene from its canonical form. The bytes are not trusted: lengths are checked before memory is
+//! Decodes a scene from its canonical form. The bytes can be corrupt, so lengths are checked before memory is
 //! allocated, and the arrays of a mesh are validated.
 
 use std::sync::Arc;
@@ -19,11 +19,11 @@ pub trait ArraySource {
     /// Returns the size of the next array in bytes; `None` if there is none.
     fn next_len(&self) -> Option<u64>;
 
-    /// Reads the next array into `bytes`, which must have its length.
+    /// Reads the next array into `bytes`, which must be as long as the array.
     ///
     /// # Errors
     ///
-    /// The reason for which the array cannot be read.
+    /// A message that says why the array cannot be read.
     fn read(&mut self, bytes: &mut [u8]) -> Result<(), String>;
 }
 
@@ -47,7 +47,7 @@ pub enum DecodeError {
     /// The bytes end before the scene is complete.
     #[error("the bytes end before the scene is complete")]
     Truncated,
-    /// There are more bytes or arrays after the end of the scene.
+    /// More bytes or arrays follow after the end of the scene.
     #[error("expected the end of the scene, found more data")]
     TrailingData,
     /// The bytes differ from the expected form.
@@ -191,12 +191,12 @@ impl<'a> Decoder<'a> {
             .map_err(|_| DecodeError::Expected("an array of a different length"))
     }
 
-    /// Reads a list with its length. `next` reads one element.
+    /// Reads the length of a list, then the list. `next` reads one element.
     pub(crate) fn list<T>(
         &mut self,
         mut next: impl FnMut(&mut Self) -> Result<T, DecodeError>,
     ) -> Result<Vec<T>, DecodeError> {
-        // No memory is reserved, because the length is not trusted.
+        // No memory is reserved in advance, because a corrupt length could be huge.
         let n = self.len()?;
         (0..n).try_fold(Vec::new(), |mut list, _| {
             list.push(next(self)?);
@@ -238,7 +238,7 @@ impl<'a> Decoder<'a> {
         if m.base_color[3] < 1.0 {
             m.alpha = AlphaMode::Blend;
         }
-        // Other properties follow after a marker.
+        // If the material has other properties, the next number is the marker `MORE`.
         if !self.rest.starts_with(&MORE.to_le_bytes()) {
             return Ok(m);
         }
@@ -355,7 +355,7 @@ impl<'a> Decoder<'a> {
     }
 }
 
-/// Returns the value at index `code` of a list of all values. `expected` describes the value in an error.
+/// Returns the value at index `code` of `all`. `expected` describes the value in an error.
 fn value_of_code<T: Copy>(all: &[T], code: u32, expected: &'static str) -> Result<T, DecodeError> {
     let value = all.get(code as usize).copied();
     value.ok_or(DecodeError::Expected(expected))

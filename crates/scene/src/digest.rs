@@ -1,15 +1,15 @@
 //! The canonical form of a scene as bytes, and its digest.
 //!
-//! The canonical form contains every array with its length, numbers as little-endian with all their bits,
-//! and texts with their lengths. Two scenes have the same canonical form exactly if they have the same
-//! objects with the same arrays, in the same order.
+//! The canonical form contains every array and every text with its length. Numbers are little-endian and have all their
+//! bits. Two scenes have the same canonical form if and only if they have the same objects with the same arrays, in the
+//! same order.
 //!
-//! The graph follows after the objects, if there is one. So a scene without a graph has the same form as before there
-//! were graphs.
+//! If the scene has a graph, the graph follows after the objects. A scene without a graph has the same form as in the
+//! first version, which had no graphs.
 //!
-//! A material is written as its name, base color, metalness, roughness and the path of its base color
-//! texture. If it has other properties, they follow after a marker ([`MORE`]), each with its name. So a
-//! material without other properties has the same form as in the first version of the canonical form.
+//! A material is written as its name, base color, metalness, roughness and the path of its base color texture. If the
+//! material has other properties, they follow after a marker ([`MORE`]), each with its name. A material without other
+//! properties has the same form as in the first version of the canonical form.
 
 use std::fmt;
 
@@ -54,7 +54,7 @@ impl Scene {
     pub fn digest(&self) -> Digest {
         let mut hasher = blake3::Hasher::new();
         self.encode(&mut |bytes| {
-            // Several threads are faster only for long arrays.
+            // Hashing with several threads is faster only for long arrays.
             if bytes.len() < 1 << 17 {
                 hasher.update(bytes);
             } else {
@@ -71,9 +71,8 @@ impl Scene {
         self.encode_to(&mut |bytes, _| sink(bytes));
     }
 
-    /// Returns the canonical form without the contents of long arrays. An array is long if it has at least
-    /// `min_long` bytes; each long array is passed to `array` in one piece, in order.
-    /// [`decode`](Self::decode) reads the form together with the arrays.
+    /// Returns the canonical form without the contents of long arrays, which have at least `min_long` bytes. Each long
+    /// array is passed to `array` in one piece, in order. [`decode`](Self::decode) needs both the form and the arrays.
     pub fn encode_with_separate_arrays(
         &self,
         min_long: usize,
@@ -105,19 +104,19 @@ impl Scene {
     }
 }
 
-/// The text before the graph of a scene. A scene without nodes has no graph in its canonical form.
+/// The text that precedes the graph in the canonical form. The form of a scene without nodes has no graph.
 pub(crate) const GRAPH: &str = "graph";
 
-/// The first text of the canonical form, with its version.
+/// The first text of the canonical form. It contains the version of the form.
 pub(crate) const FORM: &str = "meshwright scene 1";
-/// The marker before the other properties of a material. It is written in place of the length of a text. No
-/// text has this length, so the marker cannot be mistaken for a text.
+/// The marker before the other properties of a material. It is at a place where the length of a text could be. No text
+/// has this length, so the marker cannot be mistaken for a text.
 pub(crate) const MORE: u64 = u64::MAX;
 
 /// The name of a texture in the canonical form, and a function that returns its field of a material.
 type NamedTexture = (&'static str, fn(&mut Material) -> &mut Option<Texture>);
 
-/// The textures of a material that are written with their names.
+/// The textures that a material can have in addition to its base color texture, with their names.
 pub(crate) const TEXTURES: [NamedTexture; 5] = [
     ("base color texture", |m| &mut m.base_color_texture),
     ("metallic roughness texture", |m| {
@@ -128,7 +127,7 @@ pub(crate) const TEXTURES: [NamedTexture; 5] = [
     ("emissive texture", |m| &mut m.emissive_texture),
 ];
 
-/// The names of rules.
+/// The names of the rules in the canonical form.
 pub(crate) const RULES: [(&str, Rule); 4] = [
     ("interpolate", Rule::Interpolate),
     ("normal", Rule::Normal),
@@ -150,8 +149,8 @@ fn code<T: PartialEq>(all: &[T], value: &T) -> u32 {
         .unwrap_or(0)
 }
 
-/// Returns the named numbers of a material: all properties except textures and the numbers that are always
-/// written.
+/// Returns the named numbers of a material. These are all numeric properties except base color, metalness and
+/// roughness, which are always written.
 fn named_numbers(m: &Material) -> [(&'static str, Vec<f64>); 7] {
     let flag = |is: bool| vec![f64::from(u8::from(is))];
     let alpha = match m.alpha {
@@ -171,7 +170,7 @@ fn named_numbers(m: &Material) -> [(&'static str, Vec<f64>); 7] {
 }
 
 pub(crate) struct Encoder<'a> {
-    /// Receives bytes, and whether they are the content of an array.
+    /// A function that receives bytes, and a flag that is true if the bytes are the content of an array.
     sink: &'a mut dyn FnMut(&[u8], bool),
 }
 
@@ -233,7 +232,7 @@ impl Encoder<'_> {
         self.text(path.unwrap_or(""));
 
         let mut default = Material::new("");
-        // In the first version of the form, a transparent base color meant a transparent surface.
+        // In the first version of the form, a surface was transparent exactly if its base color was.
         if m.base_color[3] < 1.0 {
             default.alpha = AlphaMode::Blend;
         }
@@ -332,7 +331,7 @@ impl Encoder<'_> {
     }
 }
 
-/// Whether a texture is fully described by its path.
+/// Whether a texture has no properties other than its path.
 fn is_only_path(texture: &Texture) -> bool {
     texture
         .path()
@@ -368,8 +367,8 @@ mod tests {
 
     #[test]
     fn the_digest_of_a_known_scene_never_changes() {
-        // The digest in the first version of the canonical form. A change breaks every digest that users
-        // have recorded, and so requires a new version in `FORM`.
+        // The digest in the first version of the canonical form. If this digest changes, every digest that users have
+        // recorded is wrong, and `FORM` needs a new version.
         assert_eq!(
             scene(shapes::square()).digest().to_string(),
             "2387ae96ff730dac6ab311d51d5863e9"
@@ -401,7 +400,7 @@ mod tests {
 
     #[test]
     fn materials_without_other_properties_keep_their_digests() {
-        // Recorded when materials had only a color, two numbers and a path.
+        // The expected digest was recorded when materials had only a color, two numbers and a path.
         assert_eq!(digest_with(|_| {}), "ada3f121a9c1a3fae1913ce36d14aef1");
         let glass = digest_with(|m| {
             m.base_color = [0.5, 0.25, 1.0, 0.5];

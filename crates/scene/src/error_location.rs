@@ -1,4 +1,4 @@
-//! The places in a scene that errors refer to.
+//! Error locations: the places in a scene that errors refer to.
 
 use mesh::{DVec3, Element, Mesh};
 
@@ -14,10 +14,10 @@ pub struct ErrorLocation {
 }
 
 impl ErrorLocation {
-    /// The largest number of elements of an error for which locations are stored.
+    /// The maximum number of locations that are stored for one error.
     pub const MAX_ELEMENTS: usize = 10_000;
 
-    /// The name that is used for a place where an element is expected but missing.
+    /// The name of a place where an element is expected but missing.
     pub const EXPECTED: &'static str = "expected";
 
     /// Returns the place of an element of an object; `None` if the mesh does not have the element.

@@ -35,12 +35,12 @@ pub struct Graph {
     pub skins: Vec<Skin>,
     /// The animations of nodes.
     pub animations: Vec<Animation>,
-    /// The numbers of skins and animations, which can share them.
+    /// Arrays of numbers. Skins and animations refer to them by index, and can share an array.
     pub arrays: Vec<Vec<f32>>,
-    /// Other parts of the file, as JSON objects of glTF by their name: `asset` with its copyright and extras, `scene` with
-    /// its name and extras, and `root` with the extras of the document.
+    /// Other parts of a glTF file, as JSON objects by name: `asset` has the copyright and the extras of the asset,
+    /// `scene` has the name and the extras of the scene, and `root` has the extras of the document.
     pub document: BTreeMap<String, String>,
-    /// The labels of meshes, by the name of the object.
+    /// The labels of meshes. The key is the name of the object.
     labels: BTreeMap<String, MeshLabel>,
 }
 
@@ -61,22 +61,23 @@ pub struct Node {
     pub light: Option<usize>,
     /// The index of the skin in [`Graph::skins`] that deforms the object.
     pub skin: Option<usize>,
-    /// The weights of the morph targets of the object; if empty, those of the [label](MeshLabel::weights).
+    /// The weights of the morph targets of the object. If empty, the weights of the [label](MeshLabel::weights) are
+    /// used.
     pub weights: Vec<f64>,
     /// Data of other programs, as JSON.
     pub extras: Option<String>,
 }
 
-/// The parts of a mesh in a file that an object does not have.
+/// Properties of a mesh in a file for which an object has no fields.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshLabel {
     /// The name of the mesh, which can differ from the name of the object.
     pub name: Option<String>,
-    /// Data of other programs, as JSON. The names of morph targets are in its member `targetNames`.
+    /// Data of other programs, as JSON. The member `targetNames` has the names of the morph targets.
     pub extras: Option<String>,
-    /// The default weights of the morph targets. The length is the number of targets.
+    /// The default weights of the morph targets, one for each target.
     pub weights: Vec<f64>,
-    /// The number of sets of four joints for each vertex in the file; 0 if the mesh has no joints.
+    /// The number of sets of four joints that each vertex has in the file. 0 if the mesh has no joints.
     pub weight_sets: u32,
 }
 
@@ -134,12 +135,12 @@ impl Graph {
         self.labels.insert(object.into(), label);
     }
 
-    /// Returns for each node the map from its space to the scene.
+    /// Returns one map for each node, from the space of the node to the scene.
     pub fn to_scene(&self) -> Vec<DAffine3> {
         let mut maps: Vec<DAffine3> = Vec::with_capacity(self.nodes.len());
         for node in &self.nodes {
             let own = node.placement.to_affine();
-            // An exact product: the identity would turn -0 into 0.
+            // The map of a root is not multiplied by the identity, because that would turn -0 into 0.
             maps.push(match node.parent {
                 Some(parent) => maps[parent] * own,
                 None => own,
@@ -148,7 +149,7 @@ impl Graph {
         maps
     }
 
-    /// Returns the indices of the nodes that show each object, by the name of the object.
+    /// Returns for each object the indices of the nodes that show it. The key is the name of the object.
     pub fn nodes_of_objects(&self) -> BTreeMap<&str, Vec<usize>> {
         let mut nodes: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
         for (i, node) in self.nodes.iter().enumerate() {

@@ -34,7 +34,7 @@ pub use pose::Pose;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
     objects: Vec<Object>,
-    /// Shared until it is changed, so that copying a scene is cheap.
+    /// The graph is shared until it is changed, so that copying a scene is cheap.
     graph: Arc<Graph>,
 }
 
@@ -68,7 +68,7 @@ pub enum Geometry {
 pub struct DuplicateName(pub String);
 
 impl Geometry {
-    /// Returns the word for this kind of geometry.
+    /// Returns the word for this kind of geometry, as used in messages.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Mesh(_) => "mesh",
@@ -162,8 +162,8 @@ impl Scene {
         Ok(())
     }
 
-    /// Appends objects and the nodes that place them. Returns the number of parts of the document that are not kept, as
-    /// [`Graph::append`].
+    /// Appends objects and the nodes that place them. Like [`Graph::append`], returns the number of parts of the
+    /// document that are not kept.
     ///
     /// # Errors
     ///
@@ -188,16 +188,16 @@ impl Scene {
         Some(self.objects.remove(index))
     }
 
-    /// Removes an object from all nodes, so that its own space becomes the space of the scene. The nodes are removed,
-    /// unless they have children, a camera or a light.
+    /// Removes an object from all nodes, so that its own space becomes the space of the scene. The nodes that showed
+    /// the object are removed, unless they have children, a camera or a light.
     pub fn unplace(&mut self, name: &str) {
         if !self.graph.is_empty() {
             self.graph_mut().remove_object(name);
         }
     }
 
-    /// Renames an object, which keeps its position in the list, and its node or mesh if they have its name. Returns
-    /// whether the object exists.
+    /// Renames an object. If a node or the mesh of the object has the same name, it is renamed too. The object keeps
+    /// its position in the list. Returns whether the object exists.
     ///
     /// # Errors
     ///

@@ -65,7 +65,7 @@ impl Material {
         textures.into_iter().flatten()
     }
 
-    /// Creates a white, matt, opaque material.
+    /// Creates a white, matte, opaque material.
     pub fn new(name: impl Into<String>) -> Self {
         Self {
             name: name.into(),
@@ -105,7 +105,7 @@ pub enum AlphaMode {
 pub struct Texture {
     /// The image.
     pub image: Image,
-    /// The number of the texture coordinates: 0 for the attribute `uv`, n for `uv` followed by the number n.
+    /// The number of the set of texture coordinates: 0 for the attribute `uv`, 1 for `uv1`, 2 for `uv2`, and so on.
     pub uv_set: u32,
     /// How the image is sampled.
     pub sampler: Sampler,
@@ -114,7 +114,7 @@ pub struct Texture {
 }
 
 impl Texture {
-    /// Creates a texture with the first texture coordinates, the default sampler and no transform.
+    /// Creates a texture with the first set of texture coordinates, the default sampler and no transform.
     pub fn new(image: Image) -> Self {
         Self {
             image,
@@ -144,7 +144,7 @@ pub enum Image {
     /// The path of an image file that was not read, as written in the model file, with `/` as separator; or a URI
     /// with a scheme.
     File(String),
-    /// An image file that was found beside the model file. The bytes are shared, as in `Embedded`.
+    /// An image file that was found beside the model file. Like the bytes of `Embedded`, these bytes are shared.
     Loaded {
         /// The path, as in `File`.
         path: String,
@@ -160,7 +160,7 @@ pub enum Image {
     },
 }
 
-/// Writes the number of bytes instead of the bytes.
+/// Writes the number of bytes of the image file instead of the bytes themselves.
 impl fmt::Debug for Image {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -176,15 +176,17 @@ impl fmt::Debug for Image {
 pub struct Sampler {
     /// The wrap mode along u and along v.
     pub wrap: [Wrap; 2],
-    /// The filter for image pixels larger than screen pixels; `None` leaves the choice to the viewer.
+    /// The filter where pixels of the image are larger than pixels of the screen. `None` leaves the choice to the
+    /// viewer.
     pub magnify: Option<Filter>,
-    /// The filter for image pixels smaller than screen pixels; `None` leaves the choice to the viewer.
+    /// The filter where pixels of the image are smaller than pixels of the screen. `None` leaves the choice to the
+    /// viewer.
     pub minify: Option<Filter>,
-    /// The filter between mipmap levels; `None` without mipmaps. Only used if `minify` is set.
+    /// The filter between mipmap levels. `None` if mipmaps are not used. Ignored unless `minify` is set.
     pub mipmap: Option<Filter>,
 }
 
-/// The content of a texture outside of its image.
+/// The appearance of a texture outside of its image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Wrap {
     /// The image is repeated.
@@ -205,8 +207,8 @@ pub enum Filter {
     Linear,
 }
 
-/// The transform of texture coordinates before the lookup, as in `KHR_texture_transform`: first scaled, then
-/// rotated, then moved, with v pointing down.
+/// The transform of texture coordinates before the lookup, as in `KHR_texture_transform`. The coordinates are scaled,
+/// then rotated, then moved. The v axis points down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TextureTransform {
     /// The offset, which is added last.

@@ -16,18 +16,18 @@ use crate::{Geometry, Object, Pose, Scene};
 pub struct Instance<'s> {
     /// The object.
     pub object: &'s Object,
-    /// A name that is unique among all instances: the name of the object if it has one instance, and otherwise the
-    /// name of the node, if necessary with a number.
+    /// A name that is unique among all instances. If the object has one instance, this is the name of the object.
+    /// Otherwise it is the name of the node, followed by a number if necessary.
     pub name: String,
-    /// The map from the space of the object to the scene. For a skinned mesh, the map of its first joint.
+    /// The map from the space of the object to the scene. For a skinned mesh, this is the map of its first joint.
     pub to_scene: DAffine3,
     /// The deformation of the object.
     pub pose: Pose,
 }
 
 impl Instance<'_> {
-    /// Returns the object with points in scene space, under the name of the instance. Only meshes are placed. They are
-    /// deformed by the default weights of morph targets, and by the joints of a skin at their placements.
+    /// Returns the object with points in scene space and with the name of the instance. Only meshes are placed. Morph
+    /// targets deform the mesh by their default weights, and a skin deforms it by the placements of the joints.
     pub fn placed(&self) -> Object {
         let geometry = match &self.object.geometry {
             Geometry::Mesh(mesh) if self.pose.deforms() => {
@@ -47,8 +47,8 @@ impl Instance<'_> {
 }
 
 impl Scene {
-    /// Returns all instances: those of the first object in the order of its nodes, then those of the next object. An
-    /// object that no node shows has one instance.
+    /// Returns all instances, ordered by object. The instances of an object are in the order of its nodes. An object
+    /// that no node shows has one instance.
     pub fn instances(&self) -> Vec<Instance<'_>> {
         let graph = self.graph();
         let nodes = graph.nodes_of_objects();
@@ -86,7 +86,7 @@ impl Scene {
                 ));
                 continue;
             }
-            // The numbers continue, so that many instances are named in linear time.
+            // The number does not restart for each instance, so that many instances are named in linear time.
             let mut number = 1;
             for &i in nodes {
                 let node = graph.nodes()[i]
@@ -129,18 +129,18 @@ impl Scene {
 }
 
 /// Returns a mesh with all points, normals and deltas of morph targets transformed. All ids stay the same. If the map
-/// mirrors, faces are reversed as by [`Mesh::reverse`], but no attribute is dropped.
+/// is a reflection, faces are reversed as by [`Mesh::reverse`], but no attribute is dropped.
 ///
-/// Normals are multiplied by the cofactors of the map, which are its inverse transpose times its determinant
-/// (Turkowski, "Properties of Surface-Normal Transformations", 1990). The inverse transpose of a map that mirrors
-/// points to the wrong side by its determinant, and reversing the faces negates normals again.
+/// Normals are multiplied by the cofactor matrix of the map, which is its inverse transpose times its determinant
+/// (Turkowski, "Properties of Surface-Normal Transformations", 1990). The determinant of a reflection is negative and
+/// so negates the normals; reversing the faces negates them again.
 pub fn transformed(mesh: &Mesh, map: &DAffine3) -> Mesh {
     let is_mirror = map.matrix3.determinant() < 0.0;
     let map = LinearMap::of(map);
     mapped(mesh.clone(), is_mirror, |_| map)
 }
 
-/// A map with its cofactors.
+/// A linear map with its cofactor matrix.
 #[derive(Clone, Copy)]
 pub(crate) struct LinearMap {
     map: DAffine3,
@@ -192,7 +192,7 @@ pub(crate) fn mapped(
         let mut column = mesh.remove_column(*domain, name).expect("listed above");
         let is_delta = is_delta(*domain, name);
         if *rule == Rule::Drop && is_mirror {
-            // No element is removed, so every value still has its element.
+            // No element is removed, so the values stay valid and are copied.
             column.rule = Rule::Copy;
         }
         if (*rule == Rule::Normal || is_delta)
@@ -225,13 +225,13 @@ pub(crate) fn mapped(
     mesh
 }
 
-/// Transforms the directions of [`CORNER_TANGENT`], if the mesh has such tangents. A map that mirrors negates their
-/// signs.
+/// Transforms the directions of [`CORNER_TANGENT`], if the mesh has such tangents. A reflection negates their signs.
 pub fn transform_tangents(mesh: &mut Mesh, linear: &DMat3) {
     change_tangents(mesh, |_| *linear);
 }
 
-/// Transforms the direction of a tangent. A map that mirrors negates the sign. A direction without an image stays.
+/// Transforms the direction of a tangent. A reflection negates the sign of the tangent. A direction that the map sends
+/// to zero stays unchanged.
 pub fn transform_tangent(tangent: DVec4, linear: &DMat3) -> DVec4 {
     let image = *linear * tangent.truncate();
     let largest = image.abs().max_element();
@@ -246,7 +246,7 @@ pub fn transform_tangent(tangent: DVec4, linear: &DMat3) -> DVec4 {
     (image / largest).normalize().extend(sign * tangent.w)
 }
 
-/// As [`transform_tangents`], with the map of each vertex.
+/// Works like [`transform_tangents`], with a different map for each vertex.
 fn change_tangents(mesh: &mut Mesh, linear: impl Fn(usize) -> DMat3) {
     if mesh.get(CORNER_TANGENT).is_none() {
         return;

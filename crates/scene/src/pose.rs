@@ -12,14 +12,14 @@ use crate::{Graph, Node};
 /// How a node deforms its object.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pose {
-    /// For each joint of the skin, the map from the bound points to the scene; `None` without a skin.
+    /// For each joint of the skin, the map from the bound points to the scene. `None` if the node has no skin.
     pub joints: Option<Arc<[DAffine3]>>,
     /// The weights of the morph targets.
     pub weights: Vec<f64>,
 }
 
 impl Pose {
-    /// Returns the pose in which a node shows a mesh with these attributes. `to_scene` are the maps of
+    /// Returns the pose in which a node shows a mesh with these attributes. `to_scene` is the result of
     /// [`Graph::to_scene`].
     pub(crate) fn of(
         graph: &Graph,
@@ -47,7 +47,8 @@ impl Pose {
     }
 
     /// Returns for each of `n` vertices the map from its bound point to the scene: the weighted mean of the maps of its
-    /// joints (linear blend skinning). A vertex without weights follows the first joint. `None` without a skin.
+    /// joints (linear blend skinning). A vertex without weights follows the first joint. Returns `None` if there is no
+    /// skin.
     pub fn blended(&self, attributes: &Attributes, n: usize) -> Option<Vec<DAffine3>> {
         let maps = self.joints.as_deref()?;
         let columns = attributes.joints();
@@ -96,7 +97,7 @@ impl Pose {
     }
 }
 
-/// Returns a mesh in this pose, with points in scene space. `to_scene` places the mesh if it has no skin. All ids stay
+/// Returns a mesh in this pose, with points in scene space. If the mesh has no skin, `to_scene` places it. All ids stay
 /// the same.
 pub(crate) fn posed(mesh: &Mesh, pose: &Pose, to_scene: &DAffine3) -> Mesh {
     let mut morphed = mesh.clone();

@@ -27,11 +27,11 @@ const EXPECTED: Color = Color::rgb(0x1b, 0x8e, 0x3d);
 const HALO: Color = Color([255, 255, 255, 220]);
 /// The opacity of hidden marks.
 const HIDDEN: f64 = 0.4;
-/// If there are more locations than this, small locations have no dots in the overview.
+/// The maximum number of locations for which small locations have dots in the overview.
 const MAX_DOTTED: usize = 200;
 /// The maximum number of names in the close-up.
 const MAX_NAMES: usize = 24;
-/// If a scene has more faces than this, the overview does not draw their edges, because they would cover the surface.
+/// The maximum number of faces of a scene whose edges the overview draws. More edges would cover the surface.
 const MAX_FACES_WITH_EDGES: usize = 5_000;
 /// The tangent of half the default field of view, which is 25 degrees.
 const TANGENT: f64 = 0.221_694_662_642_939_43;
@@ -39,8 +39,8 @@ const TANGENT: f64 = 0.221_694_662_642_939_43;
 /// Draws a scene with the locations of errors in a strong color.
 ///
 /// The left view shows the whole scene; the right view is a close-up of the first location, with the names of elements.
-/// Without locations, there is only the left view. `caption` is written below the left view. Returns `None` if the
-/// scene is empty.
+/// If `locations` is empty, there is only the left view. `caption` is written below the left view. Returns `None` if
+/// the scene is empty.
 ///
 /// # Errors
 ///
@@ -69,7 +69,7 @@ pub fn draw_error_locations(
         let size = size
             .max(1.2 * surroundings.mean_edge_length)
             .max(0.01 * radius);
-        // The close-up shows at most as much as the overview.
+        // The close-up never shows more of the scene than the overview.
         let visible = (1.6 * size).min(radius);
         (
             middle,
@@ -159,11 +159,11 @@ struct Surroundings {
     normal: DVec3,
     /// The mean length of the edges of the faces that touch the first location.
     mean_edge_length: f64,
-    /// The faces that are locations of errors, by object.
+    /// The faces that are locations of errors, for each object.
     faces: Vec<(String, Vec<FaceId>)>,
 }
 
-/// Returns the locations in scene space, each at the first instance of its object.
+/// Returns the locations in scene space. Each location is placed at the first instance of its object.
 fn placed(scene: &Scene, locations: &[ErrorLocation]) -> Vec<ErrorLocation> {
     let mut placed = locations.to_vec();
     if scene.graph().is_empty() {
@@ -185,7 +185,7 @@ fn placed(scene: &Scene, locations: &[ErrorLocation]) -> Vec<ErrorLocation> {
 impl Surroundings {
     fn new(scene: &Scene, locations: &[ErrorLocation]) -> Self {
         let mut surroundings = Self::default();
-        // The locations that are faces. The key is the first point of the face.
+        // The locations that are faces. The key of this map is the first point of the face.
         let mut face_locations: HashMap<[u64; 3], Vec<&ErrorLocation>> = HashMap::new();
         for location in locations {
             if let [first, _, _, ..] = location.points[..] {
@@ -231,7 +231,7 @@ impl Surroundings {
     }
 }
 
-/// Whether a face is one of the locations, which are given by their first points.
+/// Whether a face is one of the error locations. `face_locations` has the locations by their first points.
 fn is_face_location(
     mesh: &Mesh,
     f: FaceId,
@@ -255,11 +255,11 @@ fn is_face_location(
 
 /// Returns the bits of a position, as a hash key.
 pub(crate) fn bits(p: DVec3) -> [u64; 3] {
-    // Adding zero turns -0 into 0, so that both have the same key.
+    // Adding zero turns -0 into 0, so that -0 and 0 have the same key.
     (p + DVec3::ZERO).to_array().map(f64::to_bits)
 }
 
-/// Returns the preferred direction towards the camera: along the normal of the surface, turned somewhat towards the
+/// Returns the preferred direction towards the camera. This direction is between the normal of the surface and the
 /// default view.
 fn preferred_direction(normal: DVec3, locations: &[ErrorLocation], center: DVec3) -> DVec3 {
     let default = DVec3::new(0.5, 0.4, 1.0).normalize();
@@ -276,7 +276,7 @@ fn preferred_direction(normal: DVec3, locations: &[ErrorLocation], center: DVec3
     DVec3::new(sin * horizontal, up, cos * horizontal)
 }
 
-/// Returns azimuth and elevation of a direction, in degrees.
+/// Returns the azimuth and the elevation of a direction, in degrees.
 fn angles(direction: DVec3) -> (f64, f64) {
     let azimuth = libm::atan2(direction.x, direction.z).to_degrees();
     let elevation = libm::asin(direction.y.clamp(-1.0, 1.0)).to_degrees();
@@ -334,8 +334,8 @@ fn marks(
     overlays
 }
 
-/// Returns the offset from a mark to its name, for a camera in this direction and at this distance: to the right,
-/// above, and towards the camera.
+/// Returns the offset from a mark to its name, for a camera in this direction and at this distance. The name is to the
+/// right of the mark, above it, and nearer to the camera.
 fn label_offset(direction: DVec3, distance: f64) -> DVec3 {
     let pixel = 2.0 * TANGENT * distance / f64::from(SIZE[1]);
     let right = DVec3::Y.cross(direction).normalize();
@@ -348,7 +348,7 @@ fn labels(locations: &[ErrorLocation], offset: DVec3) -> Vec<Label> {
     let named = locations
         .iter()
         .filter(|location| !location.name.is_empty());
-    // The name of a face is in its middle; other names are beside their dot or line.
+    // The name of a face is in the middle of the face. Names of vertices and edges are beside their dots and lines.
     let label = |location: &ErrorLocation| {
         let is_face = location.points.len() > 2;
         let offset = if is_face { DVec3::ZERO } else { offset };
@@ -360,7 +360,7 @@ fn labels(locations: &[ErrorLocation], offset: DVec3) -> Vec<Label> {
     named.take(MAX_NAMES).map(label).collect()
 }
 
-/// Returns the names of the first locations, and the number of the remaining ones.
+/// Returns the names of the first locations, and the number of the remaining locations.
 fn names(locations: &[ErrorLocation]) -> String {
     const MAX_LISTED: usize = 8;
     let names = locations.iter().map(|location| location.name.as_str());
@@ -372,7 +372,7 @@ fn names(locations: &[ErrorLocation]) -> String {
     text
 }
 
-/// Returns the center of the bounding box of points, and the distance of the farthest point from it.
+/// Returns the center of the bounding box of points, and the distance from the center to the farthest point.
 fn sphere(points: &[DVec3]) -> (DVec3, f64) {
     let Some(&first) = points.first() else {
         return (DVec3::ZERO, 0.0);

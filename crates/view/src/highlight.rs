@@ -10,10 +10,10 @@ const EDGE_WIDTH: f64 = 4.0;
 /// The diameter of highlighted vertices in a picture whose shorter side has 960 pixels.
 const VERTEX_DIAMETER: f64 = 13.0;
 
-/// In smaller pictures, the width of edges is proportional to this power of the shorter side. If the width were
-/// proportional to the shorter side, edges in small pictures would be too thin to see.
+/// The exponent for smaller pictures: the width of edges is proportional to the shorter side raised to this exponent.
+/// If the width were proportional to the shorter side itself, edges in small pictures would be too thin to see.
 const EDGE_POWER: f64 = 0.25;
-/// The power for the diameter of vertices, as `EDGE_POWER` for the width of edges.
+/// The power for the diameter of vertices. It is used like `EDGE_POWER` for the width of edges.
 const VERTEX_POWER: f64 = 0.4;
 
 /// The opacity of hidden edges.
@@ -22,7 +22,7 @@ const HIDDEN_EDGES: f64 = 0.3;
 const HIDDEN_VERTICES: f64 = 0.75;
 
 /// Scales a length in a picture whose shorter side has 960 pixels to a picture of this size. In smaller pictures, the
-/// length is proportional to this power of the shorter side.
+/// length is proportional to the shorter side raised to `power`.
 fn scaled(length: f64, power: f64, size: [u32; 2]) -> f64 {
     let scale = f64::from(size[0].min(size[1])) / 960.0;
     if scale < 1.0 {
@@ -32,8 +32,8 @@ fn scaled(length: f64, power: f64, size: [u32; 2]) -> f64 {
     }
 }
 
-/// Returns the maximum diameter of `n` dots in pixels. Dots of this diameter cover at most 15 % of a picture, unless
-/// the diameter is limited to its minimum of 2.5 pixels.
+/// Returns the maximum diameter of `n` dots in pixels. It is chosen so that the dots cover at most 15 % of a picture,
+/// but is at least 2.5 pixels.
 fn max_diameter(n: usize, [width, height]: [u32; 2]) -> f64 {
     #[expect(
         clippy::cast_precision_loss,
@@ -43,8 +43,8 @@ fn max_diameter(n: usize, [width, height]: [u32; 2]) -> f64 {
     area.sqrt().max(2.5)
 }
 
-/// Returns a highlight of elements of an object. `width` is the width of edges and the diameter of vertices in
-/// pixels; if `None`, the default for the picture size `size`.
+/// Returns a highlight of elements of an object. `width` is the width of edges and the diameter of vertices, in pixels.
+/// If `None`, the default for a picture of this `size` is used.
 pub fn highlight(
     object: &str,
     elements: Elements,
@@ -82,7 +82,7 @@ mod tests {
         let rounded = |x: f64| (x * 10.0).round() / 10.0;
         let edges = sizes.map(|size| rounded(scaled(EDGE_WIDTH, EDGE_POWER, size)));
         let vertices = sizes.map(|size| rounded(scaled(VERTEX_DIAMETER, VERTEX_POWER, size)));
-        // The documentation of `Picture` gives these numbers.
+        // The documentation of the operation `Picture` gives these numbers.
         assert_eq!(edges, [2.2, 2.8, 3.4, 4.0, 8.0]);
         assert_eq!(vertices, [5.2, 7.5, 9.9, 13.0, 26.0]);
         assert_eq!(max_diameter(1, sizes[0]).min(vertices[0]), vertices[0]);

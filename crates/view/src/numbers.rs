@@ -68,19 +68,19 @@ pub enum Quantity {
 
 /// The numbers of a scene.
 pub struct Numbers {
-    /// The numbers of each mesh.
+    /// The numbers of the elements of each mesh.
     pub colorings: Vec<Coloring>,
     pub(crate) scale: ColorScale,
 }
 
-/// The meaning of the colors of numbers.
+/// The mapping from numbers to colors.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct ColorScale {
     title: String,
     map: ColorMap,
-    /// The numbers of the first and the last color.
+    /// The numbers that the first and the last color stand for.
     pub(crate) range: [f64; 2],
-    /// With [`ColorMap::Classes`], the different numbers of the scene.
+    /// The different numbers of the scene, with [`ColorMap::Classes`] only.
     classes: Vec<f64>,
     /// Whether pictures have a legend.
     legend: bool,
@@ -171,8 +171,8 @@ pub fn existing_attributes(mut names: Vec<&str>) -> String {
 }
 
 impl Quantity {
-    /// Returns the domain, and one number for each element by index, which is NaN if the element has no number. `None`
-    /// if the mesh does not have this quantity.
+    /// Returns the domain of the quantity, and one number for each element of the domain, by index. The number is NaN
+    /// if the element has none. Returns `None` if the mesh does not have this quantity.
     fn values(&self, mesh: &Mesh, targets: &[Mesh]) -> Option<(Domain, Vec<f64>)> {
         let each = |domain, value: &dyn Fn(usize) -> Option<f64>| {
             let all = 0..mesh.domain_len(domain);
@@ -223,7 +223,7 @@ impl Quantity {
         }
     }
 
-    /// Returns the default numbers of the first and the last color, for these values.
+    /// Returns the default range for these values: the numbers that the first and the last color stand for.
     fn range(&self, mut values: Vec<f64>) -> [f64; 2] {
         values.retain(|x| x.is_finite());
         values.sort_unstable_by(f64::total_cmp);
@@ -234,7 +234,8 @@ impl Quantity {
             Self::MinAngle => [0.0, if high > 60.0 { 90.0 } else { 60.0 }],
             Self::DihedralAngle => [0.0, if high > 90.0 { 180.0 } else { 90.0 }],
             Self::DistanceTo(_) => [0.0, high],
-            // Symmetric about 0, without outliers: at a few sharp corners, curvatures are very large.
+            // The range is symmetric about 0 and excludes outliers, because curvatures are very large at a few sharp
+            // corners.
             Self::MeanCurvature | Self::GaussianCurvature => {
                 let n_outliers = values.len() / 50;
                 let (low, high) = (values[n_outliers], values[values.len() - 1 - n_outliers]);
@@ -292,7 +293,7 @@ fn attribute(mesh: &Mesh, name: &str, component: Option<u32>) -> Option<(Domain,
 }
 
 impl ColorScale {
-    /// Extends the range and the classes by those of another scene.
+    /// Extends the range and the classes to include those of another scene.
     pub(crate) fn join(&mut self, other: &Self) {
         let [low, high] = other.range;
         if low < self.range[0] {

@@ -39,7 +39,7 @@ pub struct Headings<'a> {
 pub struct SheetStyle {
     /// The number of images in a row, at least 1.
     pub columns: usize,
-    /// The gap between images and around all of them, in pixels.
+    /// The gap between images, and the margin around the sheet, in pixels.
     pub gap: u32,
     /// The color between images and behind transparent images.
     pub background: Color,
@@ -71,7 +71,7 @@ struct Layout {
     heading_width: u64,
     /// The width of every column.
     width: u64,
-    /// The height of each row, without captions.
+    /// The height of the images of each row, without captions.
     rows: Vec<u64>,
     /// The height of captions; 0 if no image has one.
     caption: u64,
@@ -143,18 +143,18 @@ pub fn sheet_size(
 
 /// Arranges images in rows from left to right, with captions below.
 ///
-/// All columns are as wide as the widest image. Images are centered in their cells. In a line of a caption that is too
-/// long, "…" replaces the middle.
+/// All columns are as wide as the widest image. Images are centered in their cells. If a line of a caption is too long,
+/// "…" replaces its middle.
 ///
 /// # Errors
 ///
 /// [`PictureError::Size`] like [`sheet_size`]; [`PictureError::Budget`] if the sheet needs more than `budget` bytes.
-/// Both are checked before memory is allocated.
+/// Both conditions are checked before memory is allocated.
 pub fn sheet(cells: &[Cell], style: &SheetStyle, budget: u64) -> Result<Image, PictureError> {
     sheet_with_headings(cells, Headings::default(), style, budget)
 }
 
-/// Arranges images like [`sheet`], with headings of rows and columns. In a heading that is too long, "…" replaces the
+/// Arranges images like [`sheet`], with headings of rows and columns. If a heading is too long, "…" replaces its
 /// middle.
 ///
 /// # Errors
@@ -176,7 +176,7 @@ pub fn sheet_with_headings(
     let gap = u64::from(style.gap);
     let font_size = f64::from(style.font_size);
     let mut labels = Vec::new();
-    // The middle of column `i`.
+    // The horizontal middle of column `i`.
     let middle = |i: usize| {
         let left = layout.heading_width + gap + i as u64 * (layout.width + gap);
         left as f64 + layout.width as f64 / 2.0
@@ -212,7 +212,7 @@ pub fn sheet_with_headings(
     Ok(sheet)
 }
 
-/// Returns a centered label of at most this width; `None` if it is empty.
+/// Returns a centered label of at most this width, or `None` if the label is empty.
 fn label(text: &str, style: &SheetStyle, position: DVec2, max_width: f64) -> Option<Label> {
     let size = f64::from(style.font_size);
     let text = shortened(text, Font::Plain, size, max_width);
@@ -220,7 +220,7 @@ fn label(text: &str, style: &SheetStyle, position: DVec2, max_width: f64) -> Opt
     (!text.runs[0].text.is_empty()).then_some(Label { position, text })
 }
 
-/// Returns a placeholder for a missing image of this size: a centered text with the reason.
+/// Returns a placeholder for a missing image of this size. The placeholder shows a centered text with the reason.
 ///
 /// # Errors
 ///
@@ -269,7 +269,8 @@ mod tests {
         image.pixels[(y * image.width + x) as usize]
     }
 
-    /// If the environment variable `MESHWRIGHT_UPDATE` is set, the test writes the golden file before it compares.
+    /// If the environment variable `MESHWRIGHT_UPDATE` is set, the test first writes the golden file, then compares the
+    /// sheet with it.
     #[test]
     fn a_sheet_is_the_same_on_every_machine() {
         let image = |width, height| plain(width, height, [60, 120, 180, 128]);
@@ -424,7 +425,7 @@ mod tests {
         let (dx, dy) = (with.width - without.width, with.height - without.height);
         assert_eq!(dy, 2 * style.font_size);
         assert!((20..70).contains(&dx), "{dx}");
-        // The images are only moved, and text is only above and to the left of them.
+        // The headings only move the images, and their text is above and to the left of the images.
         let is_text = |x, y| ![RED, WHITE].contains(&at(&with, x, y));
         for y in style.gap..without.height {
             for x in style.gap..without.width {

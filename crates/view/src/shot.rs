@@ -28,8 +28,8 @@ pub struct Shot<'a> {
     pub size: [u32; 2],
     /// The cameras. Their views are placed side by side.
     pub cameras: &'a [Camera],
-    /// The number of views in a row. If `None`, the number of scenes; for a single scene, the number of views but at
-    /// most 4.
+    /// The number of views in a row. If `None`, a row has one view of each scene. For a single scene, a row has all
+    /// views, but at most 4.
     pub columns: Option<u32>,
     /// Shading, lines and background.
     pub style: &'a Style,
@@ -83,9 +83,9 @@ impl<'s> Subject<'s> {
 /// pictures have the same view and scale, and the same numbers have the same colors.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Extent {
-    /// The points that determine the views of the cameras that are a [`Camera::Fit`].
+    /// The points that determine the view of each camera of the kind [`Camera::Fit`].
     points: Vec<DVec3>,
-    /// The meaning of the colors, if numbers are shown as colors.
+    /// The mapping from numbers to colors, if numbers are shown as colors.
     scale: Option<ColorScale>,
 }
 
@@ -99,7 +99,7 @@ impl Extent {
         }
     }
 
-    /// Returns the numbers of the first and the last color, if numbers are shown as colors.
+    /// Returns the numbers that the first and the last color stand for, if numbers are shown as colors.
     pub fn range(&self) -> Option<[f64; 2]> {
         self.scale.as_ref().map(|scale| scale.range)
     }
@@ -117,7 +117,8 @@ impl Shot<'_> {
         width * height * self.cameras.len() as u64 * u64::from(self.frames)
     }
 
-    /// Returns the extent of a scene, so that several scenes can be drawn alike without being in memory together.
+    /// Returns the extent of a scene. With the joined extents of several scenes, the scenes can be drawn alike although
+    /// only one of them is in memory at a time.
     ///
     /// # Errors
     ///
@@ -132,9 +133,10 @@ impl Shot<'_> {
         Ok(Extent { points, scale })
     }
 
-    /// Draws scenes side by side at the same scale, each with its caption. Returns one image, or the images of a turn.
+    /// Draws scenes side by side at the same scale, each with its caption. Returns one image, or the images of a turn
+    /// of the camera.
     ///
-    /// A [`Camera::Fit`] shows all of `within`; if that is `None`, all of the scenes.
+    /// A [`Camera::Fit`] shows the whole extent `within`. If `within` is `None`, the camera shows all scenes.
     ///
     /// # Errors
     ///
@@ -189,7 +191,8 @@ impl Shot<'_> {
             .collect()
     }
 
-    /// Draws the legends, all in the same corner: the one in which they cover the fewest pixels of the scenes.
+    /// Draws all legends in the same corner, which is the corner where the legends cover the fewest pixels of the
+    /// scenes.
     fn draw_legends(&self, all_views: &mut [Vec<(Image, &Subject)>]) {
         let scale = (f64::from(self.size[1]) / 720.0).clamp(0.5, 8.0);
         let background = self.style.background.srgb();
@@ -204,7 +207,7 @@ impl Shot<'_> {
                 .map(|(image, legend)| covered_pixels(image, legend, *corner, scale, background))
                 .sum()
         };
-        // The first of several equal minima.
+        // If several corners are equally good, the first of them is chosen.
         let corner = Corner::ALL.into_iter().min_by_key(covered);
         for (image, legend) in images {
             draw_legend(image, &legend, corner.unwrap_or_default(), scale);
@@ -260,8 +263,8 @@ impl Shot<'_> {
     }
 }
 
-/// Returns the font size of captions below views of this size, in pixels: 14 for views that are up to 480 pixels high, and
-/// proportional to the height of larger ones.
+/// Returns the font size of captions below views of this size, in pixels. The font size is 14 for views that are at
+/// most 480 pixels high, and proportional to the height for higher views.
 fn caption_size([_, height]: [u32; 2]) -> u32 {
     (height.saturating_mul(7) / 240).max(SheetStyle::default().font_size)
 }

@@ -12,13 +12,13 @@ use crate::error_locations::bits;
 /// The number of directions that are tried.
 const DIRECTIONS: u32 = 200;
 
-/// The sine of the maximum elevation of the camera, which is 75 degrees. From straight above, it is not clear which
-/// direction is up.
+/// The sine of the maximum elevation of the camera, which is 75 degrees. If the camera looks straight down, the upward
+/// direction of the picture is unclear.
 const MAX_ELEVATION: f64 = 0.965_925_826_289_068_3;
 
 /// A location in a scene that the camera looks at.
 pub(crate) struct Target<'a> {
-    /// The points of the location. Faces that touch one of them do not hide it.
+    /// The points of the location. Faces that touch one of the points do not count as hiding the location.
     pub(crate) points: &'a [DVec3],
     /// The middle of the points.
     pub(crate) middle: DVec3,
@@ -28,9 +28,9 @@ pub(crate) struct Target<'a> {
 
 /// Returns the direction from a target to the camera, which is a unit vector.
 ///
-/// The candidates are directions on the outer side of the surface. Of the candidates in which no face hides the middle
-/// of the target, returns the one nearest to `preferred`, a unit vector. If there is no such candidate, ignores faces
-/// at a distance of `near` or more. If there is still no candidate, returns `preferred`.
+/// The candidates are directions on the outer side of the surface. A candidate is clear if no face hides the middle of
+/// the target in this direction. Returns the clear candidate nearest to `preferred`, a unit vector. If no candidate is
+/// clear, faces at a distance of `near` or more are ignored. If still no candidate is clear, returns `preferred`.
 pub(crate) fn clear_direction(
     scene: &Scene,
     target: &Target,
@@ -57,7 +57,8 @@ pub(crate) fn clear_direction(
                 nearest
             },
         );
-        // The minimum does not depend on the order of the faces.
+        // The result is the same for any number of threads, because the minimum does not depend on the order of the
+        // faces.
         let of_mesh = of_mesh.reduce(|| vec![f64::INFINITY; directions.len()], minima);
         distances = minima(distances, of_mesh);
     }
@@ -72,12 +73,12 @@ pub(crate) fn clear_direction(
     best.unwrap_or(preferred)
 }
 
-/// Returns the minimum of each pair of numbers.
+/// Returns the minimum of each pair of numbers with the same index.
 fn minima(a: Vec<f64>, b: Vec<f64>) -> Vec<f64> {
     a.into_iter().zip(b).map(|(a, b)| a.min(b)).collect()
 }
 
-/// Whether a corner of a face is one of these points.
+/// Whether a corner of a face is at one of these points.
 fn touches(mesh: &Mesh, f: FaceId, points: &HashSet<[u64; 3]>) -> bool {
     let mut corners = mesh.face_vertices(f).map(|v| mesh.position(v));
     corners.any(|p| points.contains(&bits(p)))
@@ -122,7 +123,7 @@ fn triangle_distance([a, b, c]: [DVec3; 3], from: DVec3, direction: DVec3) -> f6
     let q = offset.cross(ab);
     let v = direction.dot(q) * inverse;
     let t = ac.dot(q) * inverse;
-    // False for NaN, which is the result for a triangle without area or seen edge-on.
+    // For a triangle without area or seen edge-on, these numbers are NaN, and the condition is false.
     if u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 {
         t
     } else {
@@ -164,7 +165,7 @@ mod tests {
     #[test]
     fn a_point_behind_a_cube_is_seen_from_the_side() {
         let scene = scene(shapes::cube());
-        // The cube is between the point and the camera.
+        // The cube is between the point and a camera on the positive z axis.
         let point = DVec3::new(0.0, 0.0, -1.5);
 
         let found = clear_direction(&scene, &target(point), DVec3::Z, 1.0);

@@ -1,4 +1,4 @@
-//! Bezier patches, curves, polylines, and strokes of overlays.
+//! Adds Bezier patches, curves, polylines, and strokes of overlays to a drawing.
 
 use std::collections::BTreeMap;
 
@@ -22,7 +22,8 @@ const SEGMENTS: u32 = 200;
 const SINGLE_POINT: f64 = 3.0;
 
 impl Builder<'_, '_> {
-    /// Adds Bezier patches, and the grids of their cells and their control nets if the style has them.
+    /// Adds Bezier patches. If the style has a wireframe or control nets, also adds the grids of the patches or their
+    /// control nets.
     pub(super) fn patches(&mut self, patches: &[Patch], color: Color) -> Result<(), PictureError> {
         let surface = bezier::tessellate(patches, CELLS, Faces::Quads)
             .map_err(|e| PictureError::Style(format!("the patches cannot be drawn: {e}")))?;
@@ -63,7 +64,7 @@ impl Builder<'_, '_> {
         Ok(())
     }
 
-    /// Adds the edges of a surface. Its faces are the next ones to be added.
+    /// Adds the edges of a tessellated surface. This must happen before the faces of the surface are added.
     fn grid(&mut self, surface: &Tessellation, lines: &Lines) {
         let mut edges: BTreeMap<[u32; 2], [u32; 2]> = BTreeMap::new();
         for (f, corners) in (self.n_faces..).zip(surface.faces()) {
@@ -84,7 +85,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Adds a curve, and its control polygon if the style has it.
+    /// Adds a curve. If the style has control polygons, also adds the control polygon of the curve.
     pub(super) fn curve(&mut self, curve: &Curve<DVec2>, color: Color) {
         let points: Vec<DVec3> = curve.sample(SEGMENTS).map(|p| p.extend(0.0)).collect();
         let color = self.line_color(color);
@@ -93,8 +94,8 @@ impl Builder<'_, '_> {
         self.control_polygon(&control);
     }
 
-    /// Adds polylines, with dots at their points if the style has them. The levels of de Casteljau's construction have
-    /// the same colors as in figures of the construction.
+    /// Adds polylines. If the style has points, also adds dots at the points of the polylines. The levels of de
+    /// Casteljau's construction have the same colors as in figures of the construction.
     pub(super) fn polylines(&mut self, lines: &[Vec<DVec3>], color: Color) {
         let default = self.line_color(color);
         let are_levels = self.style.color.is_none() && are_levels(lines);
@@ -152,7 +153,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Adds a control polygon and its points, if the style has it.
+    /// Adds a control polygon and its points, if the style has control polygons.
     fn control_polygon(&mut self, points: &[DVec3]) {
         let Some(lines) = self.style.control_nets else {
             return;
@@ -211,7 +212,7 @@ mod tests {
         let n = CELLS as usize;
         assert_eq!(drawing.lines.len(), 2 * n * (n + 1));
         assert_eq!(drawing.n_triangles(), 2 * n * n);
-        // Each line is a side of its faces.
+        // Each line must be a side of the faces beside it.
         for line in &drawing.lines {
             let part = &drawing.parts[0];
             for face in line.faces.into_iter().filter(|&f| f != NO_FACE) {
@@ -261,7 +262,7 @@ mod tests {
         let found = colors(&Style::default());
         assert_eq!(found.len(), 4);
         assert!((1..4).all(|i| !found[..i].contains(&found[i])));
-        // The color of the style replaces the colors of levels.
+        // If the style has a color, it replaces the colors of levels.
         let blue = Color::rgb(0, 0, 200);
         let style = Style {
             color: Some(blue),

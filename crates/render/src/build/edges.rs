@@ -1,4 +1,5 @@
-//! Lines, points and labels of meshes: wireframes, boundaries, creases, highlights, normals and ids.
+//! Adds the lines, points and labels of meshes to a drawing: wireframes, boundaries, creases, highlights, normals and
+//! ids.
 
 use ::mesh::{CREASE, Domain, EdgeId, Mesh, VERTEX_NORMAL, VertexId};
 use glam::DVec3;
@@ -71,7 +72,7 @@ impl Builder<'_, '_> {
                     }
                 }
                 Elements::Vertices(vertices) => {
-                    // The white border separates the dots from lines and from each other.
+                    // A white border separates the dots from lines and from other dots.
                     let white = [1.0, 1.0, 1.0, 0.9];
                     let border = highlight.size * (1.0 + BORDER);
                     for &v in vertices.iter().filter(|&&v| mesh.has_vertex(v)) {
@@ -119,7 +120,7 @@ impl Builder<'_, '_> {
         self.line([at; 2], diameter, color, [NO_FACE; 2], hidden);
     }
 
-    /// Adds isolated vertices, and the normals and dots of all vertices if the style has them.
+    /// Adds isolated vertices. If the style has normals or points, also adds the normals or the dots of all vertices.
     fn vertices(&mut self, mesh: &Mesh) {
         let dark = crate::Color::rgb(28, 34, 48).linear();
         let is_isolated = |v: &VertexId| mesh.vertex_half_edge(*v).is_none();
@@ -154,7 +155,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Adds labels with the ids of vertices or faces if the style has them.
+    /// Adds labels with the ids of vertices or faces, if the style has ids.
     fn ids(&mut self, object: &Object, mesh: &Mesh) -> Result<(), PictureError> {
         let Some(ids) = self.style.ids else {
             return Ok(());
@@ -186,7 +187,8 @@ impl Builder<'_, '_> {
     }
 }
 
-/// Estimates the distance between edges near `e`: the mean edge length of its adjacent faces. Infinite without faces.
+/// Estimates the distance between edges near `e` by the mean edge length of the faces beside `e`. Infinite if `e` has
+/// no faces.
 fn spacing(mesh: &Mesh, e: EdgeId) -> f64 {
     let (mut sum, mut n) = (0.0, 0);
     let faces = mesh.edge_faces(e).into_iter().flatten();

@@ -1,4 +1,4 @@
-//! Meshes: triangles, normals, colors and materials.
+//! Adds the triangles, normals, colors and materials of meshes to a drawing.
 
 use std::borrow::Cow;
 
@@ -43,8 +43,8 @@ impl<'s> Builder<'s, '_> {
         let needs_corners = !uvs.is_empty() || is_per_corner(&colors) || is_per_corner(&normals);
         let triangulation = triangulate(mesh, needs_corners);
         let n_faces = u32::try_from(mesh.domain_len(Domain::Face)).unwrap_or(u32::MAX);
-        // The back of a closed surface is not visible, except for thin slivers at its outline, which get the color of
-        // the front.
+        // The back of a closed surface is hidden, except for thin slivers at the outline of the surface. The slivers
+        // get the color of the front.
         let has_no_back = object.materials.iter().any(|m| m.double_sided)
             || coloring.is_some()
             || (mesh.is_closed() && geometry::volume(mesh) > 0.0);
@@ -120,7 +120,7 @@ impl<'s> Builder<'s, '_> {
         }
         let materials = object.materials.iter();
         let mut surfaces: Vec<Surface> = materials.map(|m| self.surface(m)).collect();
-        // The last surface is for faces without a material.
+        // The last entry of `surfaces` is for faces without a material.
         let none = u32::try_from(surfaces.len()).unwrap_or(u32::MAX);
         let [r, g, b] = if vertex_colors.is_some() {
             [1.0; 3]
@@ -177,7 +177,7 @@ fn points(mesh: &Mesh) -> Cow<'_, [DVec3]> {
     Cow::Owned((0..mesh.positions().len()).map(position).collect())
 }
 
-/// Returns the sets of texture coordinates, up to the last one that a surface needs. Empty if one is missing.
+/// Returns the sets of texture coordinates, up to the last set that a surface needs. Empty if a needed set is missing.
 fn uvs<'s>(mesh: &'s Mesh, surfaces: &[Surface]) -> Vec<Cow<'s, [DVec2]>> {
     let textured = surfaces.iter().filter(|s| s.texture.is_some());
     let Some(last) = textured.map(|s| s.uv_set).max() else {
@@ -192,7 +192,7 @@ fn uvs<'s>(mesh: &'s Mesh, surfaces: &[Surface]) -> Vec<Cow<'s, [DVec2]>> {
     sets.unwrap_or_default()
 }
 
-/// The triangles of a mesh: see the fields of [`Part`].
+/// The triangles of a mesh. The fields have the meaning of the fields of [`Part`].
 #[derive(Default)]
 struct Triangulation {
     triangles: Vec<[u32; 3]>,
@@ -203,7 +203,7 @@ struct Triangulation {
 /// Triangulates the faces of a mesh, which can be concave.
 fn triangulate(mesh: &Mesh, with_corners: bool) -> Triangulation {
     let n = mesh.domain_len(Domain::Face);
-    // True if each triangle is a face with the same index.
+    // If this is true, each triangle is a face with the same index.
     let is_simple = mesh.is_dense() && 3 * mesh.n_faces() == n_corners(mesh);
     let chunks: Vec<Triangulation> = (0..n.div_ceil(CHUNK))
         .into_par_iter()

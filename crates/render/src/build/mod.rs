@@ -21,7 +21,7 @@ use crate::style::Style;
 pub struct Overlays {
     /// Highlighted elements. Later highlights are drawn on top.
     pub highlights: Vec<Highlight>,
-    /// Numbers shown as colors, at most one coloring for each object.
+    /// Numbers that are shown as colors, with at most one coloring for each object.
     pub colorings: Vec<Coloring>,
     /// Lines and dots that belong to no element. They are drawn on top of all other lines and dots.
     pub strokes: Vec<Stroke>,
@@ -43,7 +43,8 @@ pub struct Stroke {
 }
 
 impl Overlays {
-    /// Checks that all named objects are meshes of the scene, and that colorings have one number for each element.
+    /// Checks that all objects that the overlays name are meshes of the scene, and that colorings have one number for
+    /// each element.
     fn check(&self, scene: &Scene) -> Result<(), PictureError> {
         let mesh = |name: &str| match scene.object(name).map(|o| &o.geometry) {
             Some(Geometry::Mesh(mesh)) => Ok(mesh),
@@ -97,14 +98,14 @@ pub enum Elements {
     Faces(Vec<FaceId>),
 }
 
-/// Numbers of the elements of a mesh, shown as colors.
+/// Numbers of the elements of a mesh that are shown as colors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coloring {
     /// The name of the object, which must be a mesh.
     pub object: String,
     /// The domain of the numbers. Numbers of edges are shown as colored lines.
     pub domain: ::mesh::Domain,
-    /// One number for each element, by index. NaN where an element has no number.
+    /// One number for each element, by index. NaN if the element has no number.
     pub values: Vec<f64>,
     /// The color map.
     pub map: ColorMap,
@@ -112,7 +113,7 @@ pub struct Coloring {
     pub range: [f64; 2],
 }
 
-/// The default colors of objects, in the order of the scene; they repeat.
+/// The default colors of objects, in the order of the scene. The colors repeat after the last one.
 pub const PALETTE: [Color; 6] = [
     Color::rgb(0xa9, 0xc1, 0xe2),
     Color::rgb(0xe8, 0xc3, 0x8a),
@@ -127,8 +128,8 @@ pub const PALETTE: [Color; 6] = [
 /// `images` returns the bytes of an image file for its path in a material. If it returns `None`, or the bytes are not a
 /// PNG or JPEG file, the surface is drawn without this texture, and a message gives the path and the reason.
 ///
-/// The drawing has these properties of materials: base color and alpha with their texture, roughness, emission, and
-/// whether they are lit.
+/// The drawing uses these properties of materials: base color and alpha with their texture, roughness, emission, and
+/// `unlit`.
 ///
 /// # Errors
 ///
@@ -176,14 +177,14 @@ struct Builder<'s, 'a> {
     images: &'a mut dyn FnMut(&str) -> Option<Vec<u8>>,
     missing: Vec<String>,
     drawing: Drawing<'s>,
-    /// The number of faces of the parts so far.
+    /// The number of faces of the parts that have been added.
     n_faces: u32,
     /// The radius of the sphere around the scene.
     radius: f64,
 }
 
-/// Returns center and radius of a sphere around the scene, in scene units. The radius is never 0, even for a single
-/// point. `None` if the scene has no points.
+/// Returns the center and the radius of a sphere around the scene, in scene units. The radius is never 0, even for a
+/// single point. Returns `None` if the scene has no points.
 pub fn extent(scene: &Scene) -> Option<(DVec3, f64)> {
     let mut corners: Vec<DVec3> = Vec::new();
     for object in scene.objects() {

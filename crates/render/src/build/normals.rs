@@ -1,4 +1,4 @@
-//! Computes normals for meshes without normals: area-weighted, and split at sharp edges.
+//! Computes normals for meshes without normals. The normals are weighted by area, and split at sharp edges.
 
 use ::mesh::{Domain, EdgeId, FaceId, HalfEdgeId, Mesh, SMOOTHING, VertexId};
 use glam::DVec3;
@@ -7,8 +7,8 @@ use crate::color::narrow;
 use crate::drawing::Channel;
 use crate::work::map_indices;
 
-/// Returns the area vectors of faces by index, divided by the square of `size`, so that they fit `f32`. Deleted faces
-/// have zero vectors.
+/// Returns the area vectors of faces by index. The vectors are divided by the square of `size`, so that their
+/// coordinates are in the range of `f32`. Deleted faces have zero vectors.
 pub(super) fn of_faces(mesh: &Mesh, size: f64) -> Vec<[f32; 3]> {
     let scale = 1.0 / (size * size);
     map_indices(mesh.domain_len(Domain::Face), |i| {
@@ -34,9 +34,9 @@ fn of_vertices(mesh: &Mesh, areas: &[[f32; 3]]) -> Vec<[f32; 3]> {
     })
 }
 
-/// Returns smooth normals that are split at sharp edges. If the mesh has smoothing groups, an edge is sharp if its
-/// two faces are in different groups or in none; otherwise if their normals differ by at least `sharp` degrees.
-/// `size` is the radius of the scene.
+/// Returns smooth normals that are split at sharp edges. If the mesh has smoothing groups, an edge is sharp if its two
+/// faces are in different groups or in none. Otherwise, an edge is sharp if the normals of its faces differ by at least
+/// `sharp` degrees. `size` is the radius of the scene.
 pub(super) fn smooth<'a>(mesh: &Mesh, size: f64, sharp: f64) -> Channel<'a> {
     let areas = of_faces(mesh, size);
     let is_sharp = sharp_edges(mesh, &areas, sharp);
@@ -75,8 +75,8 @@ fn sharp_edges(mesh: &Mesh, areas: &[[f32; 3]], sharp: f64) -> Vec<bool> {
     })
 }
 
-/// Returns the sum of the area vectors of the faces around the origin of `h` that no sharp edge separates from the face
-/// of `h`.
+/// Returns the sum of the area vectors of the faces around the origin of `h`. Faces that a sharp edge separates from
+/// the face of `h` are left out.
 fn of_corner(mesh: &Mesh, h: HalfEdgeId, areas: &[[f32; 3]], is_sharp: &[bool]) -> [f32; 3] {
     let Some(face) = mesh.face(h) else {
         return [0.0; 3];
@@ -96,7 +96,7 @@ fn of_corner(mesh: &Mesh, h: HalfEdgeId, areas: &[[f32; 3]], is_sharp: &[bool]) 
             None => break,
         }
     }
-    // Walks clockwise around the vertex, across the edge of each half-edge.
+    // Walks clockwise around the vertex, across the next edge of each face.
     g = h;
     while !is_sharp[g.edge().index()] {
         let Some(f) = mesh.face(g.twin()) else {

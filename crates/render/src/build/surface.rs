@@ -1,4 +1,4 @@
-//! Converts materials to surfaces: colors, textures and alpha.
+//! Converts the colors, textures and alpha of materials to surfaces of the rasterizer.
 
 use std::sync::Arc;
 
@@ -8,11 +8,11 @@ use crate::drawing::Surface;
 use crate::texture::{Alpha, Texture};
 
 impl Builder<'_, '_> {
-    /// Converts a material. If its texture cannot be read, the surface has no texture, and a message is added to
-    /// `missing`.
+    /// Converts a material to a surface. If the texture cannot be read, the surface has no texture, and a message is
+    /// added to `missing`.
     pub(super) fn surface(&mut self, material: &scene::Material) -> Surface {
         let [r, g, b, base] = material.base_color.map(narrow);
-        // The alpha of the material, and how the alpha of its texture is used: glTF 2.0, 3.9.4.
+        // The alpha of the material, and how the alpha of its texture is used (glTF 2.0 specification, 3.9.4).
         let (alpha, texture_alpha) = match material.alpha {
             scene::AlphaMode::Opaque => (1.0, Alpha::Ignored),
             scene::AlphaMode::Blend => (base, Alpha::Blended),
@@ -97,7 +97,7 @@ mod tests {
         let mut mesh: Mesh = shapes::square();
         let uvs = mesh.half_edges().map(|h| mesh.position(mesh.origin(h)));
         let uvs: Vec<DVec2> = uvs.map(DVec3::truncate).collect();
-        // If the material uses the second set of texture coordinates, those of the first set are all equal.
+        // If the material uses the second set of texture coordinates, all coordinates of the first set are equal.
         if material
             .base_color_texture
             .as_ref()
@@ -165,7 +165,7 @@ mod tests {
     #[test]
     fn a_checkerboard_of_opaque_and_transparent_squares_covers_half_of_the_picture() {
         for mode in MODES {
-            // Squares of 8 x 8 pixels with sharp edges.
+            // Each square of the checkerboard has 8 x 8 pixels and sharp edges.
             let pixels = draw(
                 material(checkerboard(8, [WHITE, CLEAR]), mode, Filter::Nearest),
                 64,
@@ -178,7 +178,8 @@ mod tests {
                     "{mode:?}, pixel {i}"
                 );
             }
-            // Squares with sharp or blurred edges. From n = 64 on, a square is as small as a pixel or smaller.
+            // Checkerboards of n times n squares, with sharp or blurred edges. From n = 64 on, a square is as small as
+            // a pixel or smaller.
             for n in [8, 50, 64, 100, 400, 1000] {
                 for filter in [Filter::Nearest, Filter::Linear] {
                     let found = coverage(&draw(
@@ -232,9 +233,9 @@ mod tests {
         assert_eq!(coverage_of(200, 0.5, unit(101)), 0.0);
         assert_eq!(coverage_of(255, 0.4, 0.5), 0.0);
         assert_eq!(coverage_of(255, 1.0, 1.1), 0.0);
-        // With a cutoff of 0, every alpha is opaque.
+        // With a cutoff of 0, the surface is opaque for every alpha.
         assert_eq!(coverage_of(200, 0.0, 0.0), 1.0);
-        // Without a texture, the alpha of the material is compared.
+        // Without a texture, the alpha of the material is compared with the cutoff.
         for (base, expected) in [(0.49, 0.0), (0.5, 1.0), (0.9, 1.0)] {
             let mut cut = Material::new("cut");
             cut.alpha = AlphaMode::Mask(0.5);
@@ -252,7 +253,7 @@ mod tests {
         );
         half.base_color[3] = 0.5;
         let pixels = draw(half, 32);
-        // A pixel has 4 or 8 of its 16 samples covered.
+        // In each pixel, 4 or 8 of the 16 samples are covered.
         for (i, pixel) in pixels.iter().enumerate() {
             let is_first = (i / 16 % 2 + i / 512) % 2 == 0;
             assert_eq!(pixel[3], if is_first { 64 } else { 128 }, "pixel {i}");

@@ -11,8 +11,8 @@ pub(super) struct Fit {
     tangent: Option<f64>,
     steady: bool,
     size: DVec2,
-    /// Half the width and height of the picture without its margins. With perspective, in scene units at distance 1;
-    /// else in units of half the height of the picture.
+    /// Half the width and half the height of the picture without its margins. With perspective, the unit is the scene
+    /// unit at distance 1; otherwise, the unit is half the height of the picture.
     half: DVec2,
 }
 
@@ -49,14 +49,14 @@ impl Fit {
 
     /// Returns the slopes of the right and the upper clipping plane; zero without perspective.
     ///
-    /// A point is inside of the right plane of a camera at c if x - cx <= tx (cz - z), which is
-    /// x + tx z <= cx + tx cz. The largest value of x + tx z over all points thus determines this plane. The other
-    /// planes are analogous.
+    /// Let the camera be at (cx, cy, cz) and the slope of the right plane be tx. A point (x, y, z) is inside of the
+    /// right plane if x - cx <= tx (cz - z), which is x + tx z <= cx + tx cz. The largest value of x + tx z over all
+    /// points thus determines this plane. The other planes are analogous.
     fn slant(&self) -> DVec2 {
         self.tangent.map_or(DVec2::ZERO, |_| self.half)
     }
 
-    /// Returns the few points that determine the camera: the outermost ones in all relevant directions.
+    /// Returns the few points that determine the camera, which are the outermost points in all relevant directions.
     pub(super) fn extreme_points(&self, points: &impl Fn(&mut dyn FnMut(DVec3))) -> Vec<DVec3> {
         let ([x, y, z], slant) = (self.axes, self.slant());
         let directions = [
@@ -103,7 +103,7 @@ impl Fit {
         let (half, slant) = (self.half, self.slant());
         let (mut borders, mut front) = ([f64::NEG_INFINITY; 4], f64::NEG_INFINITY);
         if self.steady {
-            // The maximum of x + t z over the sphere.
+            // The maximum of x + t z over the points (x, y, z) of the sphere.
             let border = |t: f64| radius * (1.0 + t * t).sqrt();
             let [a, b] = [border(slant.x), border(slant.y)];
             (borders, front) = ([a, a, b, b], radius);
@@ -146,9 +146,9 @@ impl Fit {
     }
 }
 
-/// Returns center and radius of a sphere that contains all points. Its center is the center of the bounding
-/// box. If there are no points, or if all points are nearly equal, the radius is 1, or 0.001 times the largest
-/// coordinate if that is larger.
+/// Returns the center and the radius of a sphere that contains all points. The center is that of the bounding box. If
+/// there are no points, or all points are nearly equal, the radius is the larger of 1 and 0.001 times the largest
+/// coordinate.
 pub(crate) fn sphere(points: &impl Fn(&mut dyn FnMut(DVec3))) -> (DVec3, f64) {
     let mut bounds: Option<[DVec3; 2]> = None;
     points(&mut |p| {

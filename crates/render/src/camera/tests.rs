@@ -42,7 +42,8 @@ fn a_fitted_camera_shows_all_points_inside_its_margins() {
                 let seen = view.screen_point(p).unwrap();
                 (min, max) = (min.min(seen.at), max.max(seen.at));
             });
-            // The points touch both margins in one direction, and cross neither margin in the other.
+            // In one direction, the points touch both margins. In the other direction, they stay inside of both
+            // margins.
             let margin = DVec2::new(20.0, 10.0);
             let (low, high) = (min - margin, DVec2::new(200.0, 100.0) - margin - max);
             assert!(low.min_element() > -1e-6 && high.min_element() > -1e-6);
@@ -198,7 +199,7 @@ fn the_extreme_points_of_all_parts_give_the_same_view_as_all_points() {
                 );
                 assert!(a.at.distance(b.at) < 1e-9, "{from:?} {projection:?}");
             }
-            // A steady camera shows all points, possibly at a smaller scale.
+            // A steady camera also shows all points, possibly at a smaller scale.
             let steady = fit(from, up, projection, 0.0, true);
             let extreme = steady.extreme_points(&|f| each(&all, f), size).unwrap();
             let view = View::new(&steady, &|f| each(&extreme, f), size).unwrap();
@@ -221,7 +222,7 @@ fn auto_is_the_axis_on_whose_plane_the_scene_stands() {
     };
     assert_eq!(axis([-1.0, -1.0, 0.0], [1.0, 1.0, 3.0]), Up::Z);
     assert_eq!(axis([-1.0, 0.0, -1.0], [1.0, 3.0, 1.0]), Up::Y);
-    // On both planes, on none, and flat.
+    // The scene stands on both planes, or on none of them, or is flat.
     assert_eq!(axis([0.0; 3], [1.0; 3]), Up::Y);
     assert_eq!(axis([-1.0; 3], [1.0; 3]), Up::Y);
     assert_eq!(axis([-1.0, -1.0, 0.0], [1.0, 1.0, 0.0]), Up::Y);

@@ -1,4 +1,4 @@
-//! A figure of the half-edges of a part of a mesh.
+//! Draws a figure of the half-edges of a part of a mesh.
 //!
 //! ```text
 //!   v3 ------------ v2
@@ -35,13 +35,14 @@ const RADIUS: f64 = 11.0;
 const GAP: f64 = 9.0;
 /// The distance between an arrow and its name, in pixels.
 const NAME_GAP: f64 = 12.0;
-/// Arrows begin and end at this fraction of their edge from its ends.
+/// The distance from each end of an edge to the end of its arrow, as a fraction of the length of the edge.
 const SHORTENING: f64 = 0.17;
 
-/// Draws the half-edges of faces, with the names of half-edges, vertices and faces, `width` pixels wide.
+/// Draws a figure of the half-edges of faces, `width` pixels wide, with the names of half-edges, vertices and faces.
 ///
-/// The faces are seen along their mean normal. Faces that face away, or are seen nearly from the side, are left out; also returns their number. At most
-/// [`MAX_FACES`] faces can be distinguished in a figure.
+/// The faces are seen along their mean normal. Faces that face away, or are seen nearly from the side, are left out.
+/// Returns the figure and the number of faces that are left out. A figure with more than [`MAX_FACES`] faces is
+/// unreadable.
 pub fn half_edges(mesh: &Mesh, faces: &[FaceId], width: f64) -> (Svg, usize) {
     let normal: DVec3 = faces.iter().map(|&f| mesh.area_vector(f)).sum();
     let normal = normal.normalize_or(DVec3::Z);
@@ -97,7 +98,8 @@ pub fn half_edges(mesh: &Mesh, faces: &[FaceId], width: f64) -> (Svg, usize) {
     (svg, faces.len() - visible.len())
 }
 
-/// Whether a face with this normal, of any length, is seen from a direction, at an angle at which names fit into it.
+/// Whether a face is seen from a direction, at an angle at which names fit into the face. The normal can have any
+/// length.
 fn is_visible(face_normal: DVec3, direction: DVec3) -> bool {
     const MIN_COSINE: f64 = 0.15;
     face_normal.dot(direction) >= MIN_COSINE * face_normal.length()
@@ -119,7 +121,7 @@ struct Frame {
 
 impl Frame {
     fn new(mesh: &Mesh, faces: &[FaceId], normal: DVec3, width: f64) -> Self {
-        // Faces that are seen from above or below have their back at the top of the figure.
+        // If the faces are seen from above or below, the back of the scene is at the top of the figure.
         let up = if normal.y.abs() > 0.9 {
             DVec3::NEG_Z
         } else {
@@ -157,19 +159,19 @@ impl Frame {
     }
 }
 
-/// Returns the middle of points; the origin if there are none.
+/// Returns the mean of points, or the origin if there are no points.
 fn middle(points: impl Iterator<Item = DVec2>) -> DVec2 {
     let (sum, n) = points.fold((DVec2::ZERO, 0.0), |(sum, n), p| (sum + p, n + 1.0));
     sum / f64::max(n, 1.0)
 }
 
-/// Returns how far the corner of a face is moved inwards, for a corner at this distance from the middle of the face.
+/// Returns how far a corner of a face is moved towards the middle of the face. `distance` is the distance between the
+/// corner and the middle.
 fn inset(distance: f64) -> f64 {
     (GAP * 1.8).min(0.3 * distance)
 }
 
-/// Draws half-edges that follow each other, with their names and the curves that connect them. `moved` moves a corner into
-/// the face.
+/// Draws a loop of half-edges, with their names and the curves that connect them. `moved` moves a corner into the face.
 fn write_loop(
     svg: &mut Svg,
     mesh: &Mesh,

@@ -12,7 +12,7 @@ use crate::Image;
 pub struct Label {
     /// The position in pixels from the top left corner.
     pub position: DVec2,
-    /// The text, with its [`Anchor`] at the position.
+    /// The text. Its [`Anchor`] is at the position.
     pub text: Text,
 }
 
@@ -26,8 +26,8 @@ impl Label {
     }
 }
 
-/// Draws labels over an image, later ones on top. The letters are vertically centered at the position. Parts outside of
-/// the image are cut off.
+/// Draws labels over an image. Later labels are drawn on top. The letters are vertically centered at the position.
+/// Parts outside of the image are cut off.
 pub fn draw_labels(image: &mut Image, labels: &[Label]) {
     let size = DVec2::new(f64::from(image.width), f64::from(image.height));
     for label in labels {
@@ -46,13 +46,14 @@ pub fn text_width(text: &Text) -> f64 {
     line(DVec2::ZERO, text).width.into()
 }
 
-/// The maximum number of characters of a text that is measured, which limits the time. No image is wide enough for
-/// longer texts.
+/// The maximum number of characters of a text that are measured. The limit bounds the time for long texts. No image is
+/// wide enough for more characters.
 const MAX_CHARACTERS: usize = 4096;
 
 /// Shortens a text so that it fits into `width` pixels.
 ///
-/// The middle is replaced by "…", so that both ends of a path stay visible. Empty if not even "…" fits.
+/// The middle of the text is replaced by "…", so that both ends of a path stay visible. The result is empty if the
+/// width is too small even for "…".
 pub fn shortened(text: &str, font: Font, size: f64, width: f64) -> String {
     let fits = |text: &str| text_width(&Text::new(font, text, size, [0, 0, 0, 255])) <= width;
     let characters: Vec<char> = text.chars().collect();

@@ -36,7 +36,7 @@ pub struct Legend {
 const TEXT: Color = [0x1f, 0x29, 0x37, 255];
 const LINE: Color = [0x6b, 0x72, 0x80, 255];
 
-/// Nearly opaque, so that the texts are readable over any picture.
+/// The background is nearly opaque, so that the texts are readable over any picture.
 const BACKGROUND: Color = [255, 255, 255, 235];
 
 /// The distance from the texts to the edge of the legend, in pixels at scale 1.
@@ -69,7 +69,7 @@ pub enum Corner {
 }
 
 impl Corner {
-    /// All corners, the preferred ones first.
+    /// All corners, in order of preference.
     pub const ALL: [Self; 4] = [
         Self::UpperRight,
         Self::UpperLeft,
@@ -80,8 +80,8 @@ impl Corner {
 
 /// Draws a legend into a corner of an image.
 ///
-/// At scale 1, a legend has about 100 x 200 pixels. A list shows at most 24 entries and the number of the remaining
-/// ones. Parts outside of the image are cut off.
+/// At scale 1, a legend has about 100 x 200 pixels. A list shows at most 24 entries, and the number of the remaining
+/// entries. Parts outside of the image are cut off.
 pub fn draw_legend(image: &mut Image, legend: &Legend, corner: Corner, scale: f64) {
     let image_size = DVec2::new(f64::from(image.width), f64::from(image.height)) / scale;
     let [at, size] = placed(legend, corner, image_size);
@@ -90,8 +90,8 @@ pub fn draw_legend(image: &mut Image, legend: &Legend, corner: Corner, scale: f6
     draw(image, &svg, scale);
 }
 
-/// Returns the number of pixels that a legend in a corner of an image would cover and that do not have the color of the
-/// background.
+/// Returns the number of pixels that a legend in a corner of an image would cover. Pixels of the background color are
+/// not counted.
 pub fn covered_pixels(
     image: &Image,
     legend: &Legend,
@@ -246,9 +246,9 @@ struct Tick {
 
 /// Returns about six round numbers from `low` to `high`.
 ///
-/// They are multiples of 1, 2 or 5 times a power of ten (Heckbert, "Nice numbers for graph labels", Graphics Gems,
-/// 1990). If `low` and `high` are nearly equal, there is one tick in the middle. If they are not finite or `low`
-/// exceeds `high`, there are none.
+/// The numbers are multiples of 1, 2 or 5 times a power of ten (Heckbert, "Nice numbers for graph labels", Graphics
+/// Gems, 1990). If `low` and `high` are nearly equal, there is one tick in the middle. If one of them is not finite, or
+/// `low` exceeds `high`, there are no ticks.
 fn ticks(low: f64, high: f64) -> Vec<Tick> {
     if !(low.is_finite() && high.is_finite() && low <= high) {
         return Vec::new();
@@ -259,7 +259,7 @@ fn ticks(low: f64, high: f64) -> Vec<Tick> {
     } else {
         high / steps - low / steps
     };
-    // If the ends are nearly equal, no other numbers between them can be distinguished.
+    // If the ends are nearly equal, the labels of several numbers between them would be the same.
     let largest = low.abs().max(high.abs());
     if rough <= largest * 1e-14 {
         return vec![Tick {
@@ -280,7 +280,8 @@ fn ticks(low: f64, high: f64) -> Vec<Tick> {
         (digit, exponent) = (1, exponent + 1);
     }
     let step = power(format!("{digit}e{exponent}"));
-    // A step is at least 1e-14 times the larger end, so that these numbers are exact integers.
+    // A step is at least 1e-14 times the larger end. Therefore the rounded quotients are small enough to be exact
+    // integers in `f64`.
     #[expect(clippy::cast_possible_truncation, reason = "at most 1e15")]
     let [first, last] = [
         (low / step - 1e-9).ceil() as i64,
@@ -288,7 +289,7 @@ fn ticks(low: f64, high: f64) -> Vec<Tick> {
     ];
     (first..=last)
         .map(|i| {
-            // The value is parsed from its digits, so that 3 steps of 0.1 are exactly 0.3.
+            // The value is parsed from its digits. Therefore 3 steps of 0.1 give exactly 0.3.
             let value = power(format!("{}e{exponent}", i * digit));
             Tick {
                 value,
@@ -299,7 +300,7 @@ fn ticks(low: f64, high: f64) -> Vec<Tick> {
         .collect()
 }
 
-/// Formats `digits` times 10 to the `exponent`, where `largest` is the largest absolute value of the axis.
+/// Formats the number `digits` times 10 to the power `exponent`. `largest` is the largest absolute value of the axis.
 fn tick_label(digits: i64, exponent: i32, largest: f64) -> String {
     let text = format!("{digits}e{exponent}");
     let Ok(value) = text.parse::<f64>() else {

@@ -1,8 +1,9 @@
-//! Converts lines of text to outlines, in the embedded fonts only.
+//! Converts lines of text to outlines. Only the embedded fonts are used.
 //!
 //! If a font does not have a character, the first embedded font with this character is used, except in formulas. If no
-//! font has it, the character is drawn as the missing glyph of its font. Letters are kerned, and accents are placed on
-//! their letters. Right-to-left text is not supported, as the fonts have no right-to-left letters.
+//! font has the character, the placeholder glyph of its font for missing characters is drawn. Letters are kerned, and
+//! accents are placed on their letters. Right-to-left text is not supported, because the fonts have no right-to-left
+//! letters.
 
 use std::sync::LazyLock;
 
@@ -16,8 +17,8 @@ use ttf_parser::{Face, GlyphId, OutlineBuilder};
 use super::svg::{Anchor, Font, Text, number, printable};
 use crate::color::narrow;
 
-/// The embedded fonts, in the order in which they are searched for a missing character. `fonts/README.md` gives their
-/// sources.
+/// The embedded fonts, in the order in which they are searched for a missing character. The file `fonts/README.md`
+/// gives the sources of the fonts.
 static FACES: LazyLock<[Typeface; 4]> = LazyLock::new(|| {
     [
         &include_bytes!("../../fonts/Inter-Regular.ttf")[..],
@@ -77,14 +78,14 @@ pub(super) fn line(position: DVec2, text: &Text) -> Line {
 
 /// A letter with its accents.
 struct Cluster {
-    /// The index of its run.
+    /// The index of the run that contains the letter.
     run: usize,
     face: &'static Typeface,
     /// The font size.
     size: f32,
-    /// The sum of the shifts of all runs so far, to the right and down.
+    /// The sum of the shifts of this run and all previous runs, to the right and down.
     shift: [f32; 2],
-    /// The distance to the next cluster, in font units.
+    /// The distance from this cluster to the next one, in font units.
     units: i32,
     /// The glyphs, and the offset of each from the origin, in font units.
     glyphs: Vec<(GlyphId, [i32; 2])>,
@@ -117,7 +118,7 @@ impl Cluster {
     }
 }
 
-/// Returns the letters of a text from left to right.
+/// Returns the letters of a text from left to right, each with its accents.
 fn clusters(text: &Text) -> Vec<Cluster> {
     let characters: Vec<(usize, char)> = text
         .runs
@@ -144,7 +145,7 @@ fn clusters(text: &Text) -> Vec<Cluster> {
             letter.glyphs.push((glyph, face.mark_offset(letter, glyph)));
             continue;
         }
-        // Accents between two letters do not prevent their kerning.
+        // Accents are skipped, because they do not affect the kerning of the letters before and after them.
         let next = characters[i + 1..]
             .iter()
             .map(|(_, c)| face.glyph(*c))
@@ -188,7 +189,8 @@ impl Typeface {
         Self { face, positions }
     }
 
-    /// Returns the embedded font to use for a character in text of this font, and the glyph; glyph 0 if no font has it.
+    /// Returns the embedded font that has the glyph of a character in text of this font, and the glyph. If no font has
+    /// the character, the glyph is 0.
     fn find(font: Font, c: char) -> (&'static Self, GlyphId) {
         let (first, fallbacks) = match font {
             Font::Plain => (0, &FACES[..]),
@@ -239,8 +241,8 @@ impl Typeface {
             .sum()
     }
 
-    /// Returns the offset of an accent on a letter that can have other accents. If the font defines a position on the
-    /// last of these accents, the accent is placed there; otherwise it is placed on the letter.
+    /// Returns the offset of an accent on a letter that can already have accents. If the font defines a position on the
+    /// last of these accents, the new accent is placed there. Otherwise, it is placed on the letter.
     fn mark_offset(&self, letter: &Cluster, mark: GlyphId) -> [i32; 2] {
         let (base, _) = letter.glyphs[0];
         let (last, [x, y]) = letter.glyphs[letter.glyphs.len() - 1];
@@ -268,7 +270,8 @@ impl Typeface {
     }
 }
 
-/// Returns the offset of a mark with this anchor from the base glyph with this index, if the font defines it.
+/// Returns the offset of a mark with this anchor from the base glyph with this index. Returns `None` if the font does
+/// not define the offset.
 fn anchor_offset(
     (class, anchor): (Class, gpos::Anchor),
     base_anchors: AnchorMatrix,
@@ -329,7 +332,7 @@ mod tests {
         };
         let (e, one, two) = ("e", "e\u{301}", "e\u{301}\u{302}");
         assert_eq!(width(Font::Plain, two), width(Font::Plain, e));
-        // The font also has the letter with its accent as one glyph.
+        // The font also has a single glyph for the letter with its accent.
         let [composed, combined] = ["\u{e9}", one].map(bounds);
         assert!(
             (composed.top() - combined.top()).abs() < 1.0,
@@ -344,7 +347,8 @@ mod tests {
 
     #[test]
     fn a_character_comes_from_the_first_font_that_has_it() {
-        // Only one of the formula fonts has this fraktur letter, and formulas use no other font.
+        // Only one of the two formula fonts has this fraktur letter. Formulas do not use a second font for missing
+        // characters.
         let fraktur = '\u{211c}';
         let (face, glyph) = Typeface::find(Font::Title, fraktur);
         assert!(std::ptr::eq(face, &raw const FACES[3]) && glyph != GlyphId(0));

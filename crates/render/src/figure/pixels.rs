@@ -1,4 +1,4 @@
-//! Renders documents to pixels, or draws them over images.
+//! Renders SVG documents to pixels, or draws them over images.
 //!
 //! `tiny-skia` draws the shapes and the outlines of letters directly, without parsing the text of the document.
 //! Documents use only features that `tiny-skia` draws without processor-dependent rounding. For example, all colors are
@@ -35,26 +35,26 @@ pub fn pixels(svg: &Svg, scale: f64, background: [u8; 4]) -> Result<Image, Pictu
 ///
 /// [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`](crate::LARGEST_SIDE) pixels.
 pub fn pixel_size(svg: &Svg, scale: f64) -> Result<(u32, u32), PictureError> {
-    // NaN and negative numbers become 0 and are refused.
+    // NaN and negative numbers become 0, and a side of 0 is refused.
     let [width, height] = [svg.width, svg.height].map(|x| whole_u32((x * scale).round()));
     checked_size(width, height)?;
     Ok((width, height))
 }
 
-/// Returns the maximum number of bytes that [`pixels`] needs: for each pixel, four bytes of the image, and four of
-/// the layer into which the document is drawn first.
+/// Returns the maximum number of bytes that [`pixels`] needs. Each pixel needs four bytes in the image, and four bytes
+/// in the layer into which the document is drawn first.
 pub fn bytes_needed(width: u32, height: u32) -> u64 {
     u64::from(width) * u64::from(height) * 8
 }
 
-/// Draws a document over an image, with both top left corners aligned. Parts outside of the image are cut off. Needs
-/// memory in proportion to the bounding box of the document inside of the image.
+/// Draws a document over an image, with both top left corners aligned. Parts outside of the image are cut off. The
+/// required memory is proportional to the part of the bounding box of the document that is inside of the image.
 pub fn draw(image: &mut Image, svg: &Svg, scale: f64) {
     let paths: Vec<PaintedPath> = svg.elements.iter().flat_map(PaintedPath::of).collect();
     let Some(area) = paths.iter().filter_map(PaintedPath::area).reduce(union) else {
         return;
     };
-    // The areas do not always include caps and dashes of strokes, so one pixel is added.
+    // The areas of paths do not always include the caps and dashes of strokes, so one pixel is added on each side.
     let span = |low: f32, high: f32, side: u32| {
         let low = (f64::from(low) * scale).floor() - 1.0;
         let high = (f64::from(high) * scale).ceil() + 1.0;
@@ -144,7 +144,7 @@ impl PaintedPath {
             paint
         };
         let bounds = self.path.bounds();
-        // A path along an axis has no area.
+        // A path along an axis has no inside to fill.
         if let Some(color) = self.fill
             && bounds.width() > 0.0
             && bounds.height() > 0.0
@@ -167,7 +167,7 @@ fn union(a: Rect, b: Rect) -> Rect {
     Rect::from_ltrb(left, top, right, bottom).unwrap_or(a)
 }
 
-/// Returns the color, and the stroke of a line of this width.
+/// Converts the color and the width of a line to a color and a stroke of `tiny-skia`.
 fn stroke((color, width): (Color, f64), cap: LineCap, dash: Option<StrokeDash>) -> (Color, Stroke) {
     let stroke = Stroke {
         width: narrow(width),

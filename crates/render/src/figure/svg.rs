@@ -1,7 +1,7 @@
 //! Writes SVG documents: shapes, texts and groups, in pixels from the top left corner.
 //!
-//! Documents use only features that all programs show alike and that give the same pixels on every processor: no
-//! gradients, no arcs, no filters and no style sheets. Coordinates have three decimals.
+//! Documents use only features that look the same in all programs and give the same pixels on every processor. They
+//! have no gradients, arcs, filters or style sheets. Coordinates have three decimals.
 
 use glam::DVec2;
 
@@ -68,7 +68,7 @@ pub enum Font {
 }
 
 impl Font {
-    /// Returns the SVG attributes of the font, with fallbacks for machines that do not have it.
+    /// Returns the SVG attributes of the font, with fallback fonts for machines that do not have it.
     fn attributes(self) -> &'static str {
         match self {
             Self::Plain => "font-family=\"Inter, Helvetica, Arial, sans-serif\"",
@@ -94,7 +94,8 @@ pub struct Run {
     pub size: f64,
     /// The distance above the baseline, as a fraction of the size of the text.
     pub raise: f64,
-    /// The gap after the previous run, as a fraction of the size of the text. Negative values overlap the previous run.
+    /// The gap after the previous run, as a fraction of the size of the text. If negative, the run overlaps the
+    /// previous run.
     pub skip: f64,
 }
 
@@ -122,7 +123,7 @@ impl Run {
 
     /// Creates a superscript of digits above a subscript of `n_subscript` digits, which is the previous run.
     pub fn superscript(text: impl Into<String>, n_subscript: usize) -> Self {
-        // The width of a digit is half the font size, here 0.7 / 2.
+        // The width of a digit is half the font size. Here the font size is 0.7 of the size of the text.
         Self {
             size: 0.7,
             raise: 0.42,
@@ -132,7 +133,7 @@ impl Run {
     }
 }
 
-/// The point of a text that is placed at the position of the text.
+/// The point of a text that is at the position of the text.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum Anchor {
     /// The start of the baseline.
@@ -154,7 +155,7 @@ pub struct Text {
     /// The color and the width, in pixels, of an outline behind the letters, which makes them readable on any
     /// background.
     pub halo: Option<(Color, f64)>,
-    /// The point of the text that is placed at the position.
+    /// The point of the text that is at its position.
     pub anchor: Anchor,
 }
 
@@ -194,7 +195,7 @@ impl Text {
 /// degree 2 and 3, and `Z` closes the subpath.
 pub type Command = (char, Vec<DVec2>);
 
-/// An element of a document. All numbers are already rounded to the written decimals.
+/// An element of a document. All numbers are already rounded to three decimals, as they are written.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Element {
     Shape(Shape, Paint),
@@ -245,7 +246,7 @@ impl Svg {
         self.shape(Shape::Circle { center, radius }, paint);
     }
 
-    /// Adds straight lines between consecutive points; nothing for less than two points.
+    /// Adds straight lines between consecutive points. Adds nothing if there are fewer than two points.
     pub fn polyline(&mut self, points: &[DVec2], paint: &Paint) {
         if points.len() >= 2 {
             self.shape(Shape::Polyline(all_rounded(points)), paint);
@@ -295,7 +296,8 @@ impl Svg {
                     line(depth, &format!("<{shape}{paint}/>"));
                 }
                 Element::Text(position, text) => {
-                    // Outline and letters are separate elements, because not all programs support `paint-order`.
+                    // The outline and the letters are separate elements, because not all programs support
+                    // `paint-order`.
                     if let Some((color, width)) = text.halo {
                         let stroke = format!(
                             "fill=\"none\"{} stroke-width=\"{}\" stroke-linejoin=\"round\"",
@@ -377,7 +379,7 @@ fn text_element(position: DVec2, text: &Text, attributes: &str) -> String {
         runs += &format!("<tspan {font}{layout}>{text}</tspan>");
     }
     let [x, y, size] = [position.x, position.y, number(text.size)];
-    // `xml:space` keeps spaces at the ends and between runs.
+    // The attribute `xml:space` preserves spaces at the ends of the text and between runs.
     format!(
         "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\"{anchor} {attributes} xml:space=\"preserve\">{runs}</text>"
     )
@@ -403,7 +405,7 @@ impl Paint {
     }
 }
 
-/// Returns ` name="#rrggbb"`, and the opacity unless the color is opaque.
+/// Returns the attribute ` name="#rrggbb"`. If the color is not opaque, also returns an attribute with the opacity.
 fn paint_attribute(name: &str, [r, g, b, a]: Color) -> String {
     let color = format!(" {name}=\"#{r:02x}{g:02x}{b:02x}\"");
     if a == u8::MAX {

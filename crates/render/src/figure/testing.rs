@@ -1,4 +1,4 @@
-//! Test data, also for other crates.
+//! Test data for this crate and for other crates.
 
 /// Texts that often cause errors in programs. Every one must be written and drawn correctly.
 pub const ODD_TEXTS: &[&str] = &[

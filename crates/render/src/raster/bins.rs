@@ -1,8 +1,8 @@
 //! Sorts triangles and lines into the tiles of the picture that they touch.
 //!
-//! Triangles and lines are divided into chunks. One task sorts a chunk into tiles, with a counting sort. A tile reads
-//! its lists chunk by chunk. The size of the lists is bounded: items that touch many tiles are kept in one list that
-//! all tiles read.
+//! Triangles and lines (items) are divided into chunks. One task sorts a chunk into lists, one list for each tile, with
+//! a counting sort. A tile reads its lists chunk by chunk. The size of the lists is bounded: items that touch many
+//! tiles are in one list that all tiles read.
 
 use std::ops::Range;
 
@@ -16,24 +16,23 @@ use crate::drawing::Drawing;
 use crate::work::Work;
 use crate::{PictureError, View};
 
-/// The maximum number of chunks, without the incomplete last chunk of each part. The number of chunks is limited
+/// The maximum number of chunks, not counting the incomplete last chunk of each part. The number of chunks is limited
 /// because each chunk stores a number for every tile.
 const MAX_CHUNKS: usize = 32;
-/// The minimum number of items in a chunk, unless the chunk ends with its part.
+/// The minimum number of items in a chunk. The last chunk of a part can have fewer items.
 const MIN_CHUNK: usize = 1 << 15;
-/// An item that touches more tiles than this is never in the lists of these tiles.
+/// The maximum number of tiles that an item touches if it is in the lists of single tiles.
 const MAX_LISTED_TILES: usize = 64;
-/// The lists of all tiles together have at most this number of entries for each item of a chunk, plus
-/// `EXTRA_ENTRIES`.
+/// The lists of a chunk have at most `EXTRA_ENTRIES` entries, plus this number of entries for each item of the chunk.
 const ENTRIES_PER_ITEM: usize = 8;
 /// See `ENTRIES_PER_ITEM`.
 const EXTRA_ENTRIES: usize = 4096;
-/// The bit of a list entry that refers to a clipped triangle.
+/// The bit that is set in a list entry that refers to a clipped triangle.
 const CLIPPED: u32 = 1 << 31;
 
 /// Items sorted by the tiles that they touch.
 pub(super) struct Bins {
-    /// For each tile, the index of its first item in `items`; then the end of the items of the last tile.
+    /// For each tile, the index of its first item in `items`. The last entry is the length of `items`.
     starts: Vec<u32>,
     items: Vec<u32>,
     /// The items that touch many tiles.
@@ -48,8 +47,8 @@ fn n_tiles([left, top, right, bottom]: TileRect) -> usize {
     (right - left) as usize * (bottom - top) as usize
 }
 
-/// Returns the limit for items in the lists of single tiles. An item that touches more tiles than this is kept in the
-/// list that all tiles read, so that the lists stay within their bounds.
+/// Returns the maximum number of tiles that an item touches if it is in the lists of single tiles. An item that touches
+/// more tiles is in the list that all tiles read, so that the size of the lists is bounded.
 fn max_listed_tiles(items: &[(u32, TileRect)]) -> usize {
     let mut entries = [0; MAX_LISTED_TILES + 1];
     for &(_, rect) in items {
@@ -67,7 +66,7 @@ fn max_listed_tiles(items: &[(u32, TileRect)]) -> usize {
     (0..=MAX_LISTED_TILES).take_while(fits).last().unwrap_or(0)
 }
 
-/// Divides a part of `n` items into chunks. `all` is the number of items of all parts together.
+/// Divides a part with `n` items into chunks. `all` is the number of items of all parts.
 fn chunks(n: usize, all: usize) -> impl Iterator<Item = Range<usize>> {
     let size = all.div_ceil(MAX_CHUNKS).max(MIN_CHUNK);
     (0..n)
@@ -75,8 +74,8 @@ fn chunks(n: usize, all: usize) -> impl Iterator<Item = Range<usize>> {
         .map(move |first| first..(first + size).min(n))
 }
 
-/// Returns the maximum number of bytes that the lists take, including the temporary memory of sorting. `groups`
-/// are the numbers of items of several groups. Each chunk has items of one group only.
+/// Returns the maximum number of bytes that the lists take, including the temporary memory of sorting. `groups` has the
+/// number of items of each group. A chunk has items of one group only.
 pub(super) fn bytes(groups: impl Iterator<Item = usize> + Clone, frame: &Frame) -> u64 {
     let all: usize = groups.clone().sum();
     let n_chunks: usize = groups.map(|n| chunks(n, all).count()).sum();
@@ -128,7 +127,8 @@ impl Bins {
         }
     }
 
-    /// Returns the items of a tile: first those that touch many tiles, then the others, each in their order.
+    /// Returns the items of a tile. Items that touch many tiles come first. Within both kinds, the items are in
+    /// ascending order.
     fn items_of(&self, tile: usize) -> impl Iterator<Item = u32> {
         let range = self.starts[tile] as usize..self.starts[tile + 1] as usize;
         self.large.iter().chain(&self.items[range]).copied()
@@ -147,10 +147,10 @@ struct Chunk {
     part: usize,
     /// The index of the first triangle in its part.
     first: usize,
-    /// The index of the first triangle through all parts.
+    /// The index of the first triangle, counted through all parts.
     first_of_all: u32,
     bins: Bins,
-    /// The pieces of triangles that were clipped, each with the index of its triangle in the chunk.
+    /// The pieces of clipped triangles. Each piece has the index of its triangle in the chunk.
     clipped: Vec<(u32, ProjectedTriangle)>,
 }
 
@@ -207,7 +207,8 @@ impl Triangles {
         Ok(Self { points, chunks })
     }
 
-    /// Calls `each` with the triangles that touch a tile: the index through all parts, and the projected triangle.
+    /// Calls `each` with every triangle that touches a tile. The arguments are the index of the triangle, counted
+    /// through all parts, and the projected triangle.
     pub(super) fn each_of_tile(
         &self,
         drawing: &Drawing,
@@ -235,7 +236,7 @@ fn tiles_of_triangle(projected: &ProjectedTriangle, frame: &Frame) -> Option<Til
     let range = |axis: usize, end: u32| {
         let [a, b, c] = projected.map(|corner| corner.at[axis]);
         let (min, max) = (a.min(b).min(c), a.max(b).max(c));
-        // A pixel has 16 rows and columns, and samples are in their middles.
+        // A pixel has 16 rows and 16 columns. Samples are in the middle of a row and a column.
         let step = GRID / 16;
         let first = (min + step / 2 - 1).div_euclid(step);
         let last = (max - step / 2).div_euclid(step);
@@ -314,7 +315,7 @@ mod tests {
     fn lists_are_bounded_and_complete() {
         let frame = Frame::new([640, 640]);
         for side in [1, 3, 8, 9, 20] {
-            // Squares of `side` times `side` tiles, distributed over the picture.
+            // The items are squares of `side` times `side` tiles, distributed over the picture.
             let items: Vec<(u32, TileRect)> = (0..5000)
                 .map(|i| {
                     let (left, top) = (i % (21 - side), i / 20 % (21 - side));

@@ -1,5 +1,6 @@
-//! Selects the samples of a pixel that a transparent triangle covers. Their number is proportional to alpha. Different
-//! surfaces cover different samples, so that several transparent surfaces can be visible in the same pixel.
+//! Selects the samples of a pixel that a transparent triangle covers. The number of these samples is proportional to
+//! alpha. Different surfaces cover different samples, so that several transparent surfaces can be visible in the same
+//! pixel.
 
 use glam::DVec2;
 
@@ -27,9 +28,9 @@ pub(super) struct Textured<'a> {
     uvs: [DVec2; 3],
     /// The alpha of the material.
     alpha: f32,
-    /// The rotation of the order in which samples are covered.
+    /// The first sample to be covered; see [`rank`].
     rotation: usize,
-    /// The last pixel, and the differences of the texture coordinates between its samples.
+    /// The last pixel, and the differences of the texture coordinates between samples of that pixel.
     last_pixel: Option<([u32; 2], [DVec2; 2])>,
 }
 
@@ -74,7 +75,7 @@ impl Textured<'_> {
         let steps = match self.last_pixel {
             Some((last, steps)) if last == pixel => steps,
             _ => {
-                // The mean distance of 16 samples per pixel is a quarter of a pixel.
+                // With 16 samples per pixel, the mean distance between samples is a quarter of a pixel.
                 let here = self.uv(middle);
                 let steps = [DVec2::X, DVec2::Y].map(|step| {
                     let there = self.uv(middle + 0.25 * step);
@@ -105,10 +106,10 @@ fn n_covered(coverage: f32) -> usize {
     whole(f64::from(coverage.clamp(0.0, 1.0) * SAMPLES as f32 + 0.5))
 }
 
-/// Returns the position of a sample in the order in which samples are covered. The order goes in steps of 7 samples, so
-/// that the first few are spread over the pixel.
+/// Returns the position of a sample in the order in which samples are covered. The order starts at the sample
+/// `rotation` and goes in steps of 7 samples, so that the first few samples are spread over the pixel.
 fn rank(sample: usize, rotation: usize) -> usize {
-    // 7 is its own inverse, modulo 16.
+    // Modulo 16, the inverse of 7 is 7 itself.
     (sample + SAMPLES - rotation % SAMPLES) * 7 % SAMPLES
 }
 

@@ -1,11 +1,12 @@
 //! Draws lines over triangles. Lines have a constant width and round ends, and are hidden where a triangle is in front
 //! of them.
 //!
-//! The depth test of a sample compares line and surface at the nearest point on the axis of the line. For this, the
-//! plane of the triangle that is visible at the sample is extended to that point. A thick line on a slanted surface is
-//! thus visible in its full width, although half of it is behind the surface.
+//! For each sample, the depths of line and surface are compared at the point of the axis of the line that is nearest to
+//! the sample. The depth of the surface at that point is the depth of the plane of the triangle that is visible at the
+//! sample. Thus a thick line on a slanted surface is visible in its full width, although half of the line is behind the
+//! surface.
 //!
-//! A hidden point is drawn as a ring, because a faint disc would look like a stain on the surface in front of it.
+//! A hidden point is drawn as a ring, because a faint disc would look like a stain on the surface.
 
 use glam::{DVec2, DVec3};
 
@@ -18,13 +19,13 @@ use crate::color::whole_u32;
 use crate::drawing::{Drawing, Line};
 use crate::work::map_indices;
 
-/// The width of the ring of a hidden point, as a fraction of its radius.
+/// The width of the ring of a hidden point, as a fraction of the radius of the point.
 const RING: f64 = 0.35;
-/// The minimum width of that ring, in pixels.
+/// The minimum width of the ring of a hidden point, in pixels.
 const MIN_RING: f64 = 1.2;
 
-/// The maximum width of a line, as a fraction of its spacing. The edges of equilateral triangles with side 1 cover 2 √3
-/// times their width, which is about half of the surface at this limit.
+/// The maximum width of a line, as a fraction of its spacing. At this maximum, the edges of equilateral triangles cover
+/// about half of the surface: edges of length 1 and width w cover the fraction 2 √3 w.
 const MAX_RELATIVE_WIDTH: f64 = 0.15;
 
 /// A line, projected to the picture.
@@ -39,7 +40,7 @@ pub(super) struct ProjectedLine {
     scaled: DVec2,
 }
 
-/// Projects all lines; `None` for those behind the camera.
+/// Projects all lines. The result is `None` for each line behind the camera.
 pub(super) fn project(drawing: &Drawing, view: &View) -> Vec<Option<ProjectedLine>> {
     map_indices(drawing.lines.len(), |i| {
         project_line(&drawing.lines[i], view)
@@ -153,12 +154,12 @@ pub(super) fn draw(tile: &mut Tile, number: u32, projected: &ProjectedLine, shad
     }
 }
 
-/// A cache of the planes of triangles: the triangle, its face, a point and a normal.
+/// A cache of the planes of triangles. Each entry has the triangle, its face, a point of the plane and the normal.
 pub(super) type Planes = Vec<Option<(u32, (u32, DVec3, DVec3))>>;
 
 impl ProjectedLine {
-    /// Whether the line at parameter `t` is in front of the triangle that is visible at a sample. The triangle is given
-    /// with its depth at the sample.
+    /// Whether the point of the line at parameter `t` is in front of the triangle that is visible at a sample. The
+    /// arguments include the depth of the triangle at the sample.
     fn is_visible(
         &self,
         line: &Line,
@@ -173,8 +174,8 @@ impl ProjectedLine {
         let [d0, d1] = self.depths;
         let depth = d0 + (d1 - d0) * t;
         let view = shader.view;
-        // A line on a curved surface is visible: next to the line, the surface is nearer to the camera than the line by
-        // less than this length.
+        // On a curved surface, the surface beside a line can be nearer to the camera than the line. The line stays
+        // visible if the difference is less than this length.
         let bias = view.pixel_size(depth) * (1.0 + self.radius);
         let limit = depth - view.depth_change(bias, depth);
         if f64::from(triangle_depth) >= limit {

@@ -65,8 +65,8 @@ impl Look {
 pub struct Rendered {
     /// The pixels.
     pub image: Image,
-    /// The positions of the labels of the drawing, in the same order. `None` for labels behind the camera or outside of
-    /// the picture.
+    /// The positions of the labels of the drawing, in the order of the labels. `None` for labels behind the camera or
+    /// outside of the picture.
     pub labels: Vec<Option<PlacedLabel>>,
 }
 
@@ -105,9 +105,9 @@ impl Frame {
 }
 
 /// Returns an estimate of the memory that [`render`] needs for a picture of this size, in bytes, in addition to the
-/// drawing. It is an upper bound unless many triangles must be clipped because they surround the camera.
+/// drawing. The estimate is an upper bound, unless many triangles are clipped because they surround the camera.
 pub fn bytes_needed(drawing: &Drawing, [width, height]: [u32; 2], look: &Look) -> u64 {
-    // Too large sizes are refused later; here they must not overflow.
+    // Sizes that are too large are refused later. Here, the computation must not overflow.
     let [width, height] = [width, height].map(|side| side.min(1 << 20));
     let frame = Frame::new([width, height]);
     let pixels = u64::from(width) * u64::from(height);
@@ -125,12 +125,12 @@ pub fn bytes_needed(drawing: &Drawing, [width, height]: [u32; 2], look: &Look) -
     let bytes_per_line = size_of::<Option<lines::ProjectedLine>>() as u64 + 8 * threads;
     let line_bins = bins::bytes(std::iter::once(drawing.lines.len()), &frame);
     let line_bytes = bytes_per_line * lines + line_bins;
-    // A thread that waits for other threads starts more rows of tiles in the meantime.
+    // While a thread waits for other threads, it starts more rows of tiles, so a thread can hold several rows.
     let rows = 4 * threads * (4 * u64::from(TILE * width) + (1 << 18));
     4 * pixels + points + triangle_bytes + line_bytes + maps + rows + (1 << 20)
 }
 
-// Estimated costs for progress reports, in nanoseconds.
+// The costs below are estimates for progress reports, in nanoseconds.
 
 /// The cost of projecting a triangle and sorting it into tiles.
 const BIN_TRIANGLE_COST: u64 = 60;
@@ -256,7 +256,7 @@ fn resolve(tile: &Tile, shader: &Shader, look: &Look) -> Vec<[u8; 4]> {
     pixels
 }
 
-/// Returns premultiplied linear light and alpha of a pixel.
+/// Returns the linear light of a pixel, premultiplied by alpha, and the alpha.
 fn shade_pixel(
     [x, y]: [u32; 2],
     triangles: &[u32; SAMPLES],
@@ -329,7 +329,7 @@ fn place(
     let number = (y / TILE * frame.columns + x / TILE) as usize;
     let tolerance = view.depth_change(2.0 * view.pixel_size(point.depth), point.depth);
     let limit = narrow(point.depth - tolerance);
-    // Draws only the pixel of the label.
+    // Triangles are drawn only at the pixel of the label.
     let mut tile = Tile::new();
     (tile.left, tile.top, tile.right, tile.bottom) = (x, y, x + 1, y + 1);
     triangles.each_of_tile(drawing, number, |id, projected| {

@@ -1,9 +1,9 @@
 //! Ambient occlusion: how much of the surroundings of a point on a surface is visible from that point.
 //!
 //! Depth maps are drawn from directions that are spread evenly over the sphere. Each map stores the nearest and the
-//! farthest depth, and thus serves two opposite directions. The openness of a point is the weighted mean of its
-//! visibility over all maps. The openness does not depend on the camera and has no noise. Transparent surfaces do not
-//! occlude.
+//! farthest depth, and so is used for two opposite directions. The openness of a point is the weighted mean of its
+//! visibility in all maps. The openness does not depend on the camera and has no noise. Transparent surfaces do not
+//! reduce the openness.
 
 use std::borrow::Cow;
 
@@ -41,7 +41,7 @@ pub(super) struct Occlusion {
 }
 
 struct Map {
-    /// The directions of columns, of rows, and of depth.
+    /// The directions in which columns, rows, and depth increase.
     axes: [Vec3; 3],
     /// For each texel, the largest depth in the direction of the map and the largest depth in the opposite direction.
     /// The latter is the negative of the smallest depth.
@@ -59,7 +59,7 @@ fn direction(i: usize) -> DVec3 {
 }
 
 impl Occlusion {
-    /// Draws the depth maps. `map_done` is called with the total number of maps when a map is complete.
+    /// Draws the depth maps. When a map is complete, `map_done` is called with the total number of maps.
     pub(super) fn new(
         drawing: &Drawing,
         size: [u32; 2],
@@ -72,7 +72,8 @@ impl Occlusion {
         };
         let (center, radius) = crate::camera::sphere(&all_points);
         let side = side(size) as usize;
-        // The sphere around the scene is `side - 2` texels wide, so that the texels at the border of a map stay empty.
+        // The bounding sphere of the scene is `side - 2` texels wide, so that the texels at the border of a map stay
+        // empty.
         let texel = 2.0 * radius / (side - 2) as f64;
         let parts = drawing.parts.iter();
         let to_draw: Vec<_> = parts
@@ -142,7 +143,8 @@ impl Occlusion {
             let (column, row) = (x as usize, y as usize);
             let (s, t) = (x - column as f32, y - row as f32);
             let index = row * self.side + column;
-            // Visibility falls linearly over 6 texels of depth, and is interpolated between four texels.
+            // Behind the stored depth, visibility decreases linearly over 6 texels of depth. It is interpolated between
+            // four texels.
             let (side, depth) = if cosine > 0.0 {
                 (0, depth)
             } else {
@@ -161,14 +163,14 @@ impl Occlusion {
     }
 }
 
-/// If all edges of a triangle are shorter than this number of texels, only its corners are drawn. All points of such a
-/// triangle are within half a texel of the nearest corner, so the corners cover all texels whose middles the triangle
-/// covers.
+/// If all edges of a triangle are shorter than this number of texels, only the corners of the triangle are drawn. All
+/// points of such a triangle are within half a texel of the nearest corner. Therefore the corners cover all texels
+/// whose middles the triangle covers.
 const SMALL_EDGE: f64 = 0.85;
 
 /// Returns the triangles of a part that are drawn into maps, and whether the points of the part are drawn too.
-/// Triangles whose edges are all shorter than `length` are left out; the points are drawn instead. If the part has
-/// transparent surfaces, returns all triangles of its opaque surfaces, and `false`.
+/// Triangles whose edges are all shorter than `length` are left out, and the points are drawn instead of them. If the
+/// part has transparent surfaces, returns all triangles of its opaque surfaces, and `false`.
 fn triangles_to_draw<'a>(part: &'a Part, length: f64) -> (Cow<'a, [[u32; 3]]>, bool) {
     let has_transparent = part.materials.iter().any(Surface::is_transparent);
     let is_drawn = |&i: &usize| {
@@ -242,7 +244,7 @@ fn draw_triangle(depths: &mut [[f32; 2]], side: usize, [a, b, c]: [MapPoint; 3])
         let y = (row * STEPS + STEPS / 2 - a.at[1]) as f32;
         for column in columns.clone() {
             let x = (column * STEPS + STEPS / 2 - a.at[0]) as f32;
-            // Twice the signed areas opposite to b and c.
+            // Twice the signed areas of the two triangles that the texel forms with the sides opposite to b and c.
             let (s, t) = (x * vy - y * vx, ux * y - uy * x);
             let rest = area - s - t;
             let is_inside = if area > 0.0 {

@@ -2,7 +2,7 @@
 //! picture.
 //!
 //! After the projection, computations with the edges of triangles are exact. Two triangles with a common edge have the
-//! same two grid points, so that each sample on the edge is in exactly one of them.
+//! same two grid points as ends of the edge. Therefore each sample on the edge is in exactly one of the two triangles.
 
 use glam::DVec3;
 
@@ -78,7 +78,7 @@ pub(super) fn project(view: &View, points: &[DVec3]) -> Vec<GridPoint> {
 /// Clips a triangle, and divides the resulting convex polygon into triangles.
 ///
 /// Sutherland and Hodgman, "Reentrant Polygon Clipping", 1974. The point where an edge is cut does not depend on the
-/// order of its ends, so that both triangles beside the edge get the same point.
+/// order of the ends of the edge. Therefore both triangles beside the edge get the same point.
 pub(super) fn clipped(view: &View, corners: [DVec3; 3]) -> Vec<ProjectedTriangle> {
     let mut polygon: Vec<DVec3> = corners.iter().map(|&p| view.camera_space(p)).collect();
     for plane in 0..5 {

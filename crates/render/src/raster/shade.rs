@@ -31,7 +31,7 @@ pub(super) struct Shader<'a> {
     pub(super) view: &'a View,
     look: &'a Look,
     occlusion: Option<Occlusion>,
-    /// The first triangle and the first face of each part.
+    /// The indices of the first triangle and the first face of each part.
     firsts: Vec<[u32; 2]>,
     /// Whether the drawing has a surface that is not opaque.
     pub(super) has_transparency: bool,
@@ -50,7 +50,7 @@ struct OpennessSample {
 /// Results that are reused for the next point.
 #[derive(Default)]
 pub(super) struct ShadingCache {
-    /// The triangle that was shaded last.
+    /// The triangle that was shaded last, and its data.
     triangle: Option<(u32, TriangleData)>,
     /// The last openness in the current pixel.
     openness: Option<OpennessSample>,
@@ -63,7 +63,7 @@ impl ShadingCache {
     }
 }
 
-/// The data of a triangle that does not depend on the point.
+/// The data of a triangle that is the same for all its points.
 #[derive(Clone, Copy)]
 pub(super) struct TriangleData {
     /// The index of the part.
@@ -115,8 +115,8 @@ struct SurfacePoint {
 }
 
 impl<'a> Shader<'a> {
-    /// Prepares shading, which includes the depth maps of ambient occlusion. `map_done` is called with the total number
-    /// of depth maps when a map is complete.
+    /// Prepares shading, including the depth maps of ambient occlusion. When a depth map is complete, `map_done` is
+    /// called with the total number of depth maps.
     pub(super) fn new(
         drawing: &'a Drawing<'a>,
         view: &'a View,
@@ -156,7 +156,8 @@ impl<'a> Shader<'a> {
         (part, (id - self.firsts[part][0]) as usize)
     }
 
-    /// Returns the face of a triangle, numbered through all parts, a point of the triangle, and a normal of any length.
+    /// Returns the face of a triangle, a point of the triangle, and a normal of any length. The number of the face is
+    /// counted through all parts.
     pub(super) fn plane(&self, id: u32) -> (u32, DVec3, DVec3) {
         let (part, triangle) = self.locate(id);
         let p = &self.drawing.parts[part];
@@ -223,12 +224,12 @@ impl<'a> Shader<'a> {
         }
     }
 
-    /// Returns the openness of a point, weighted by the strength of occlusion in the style.
+    /// Returns the openness of a point. The strength of occlusion in the style determines the weight of occlusion.
     fn openness(&self, point: &SurfacePoint, last: &mut Option<OpennessSample>) -> f32 {
         let Some(occlusion) = &self.occlusion else {
             return 1.0;
         };
-        // Points of a pixel that are on the same surface have nearly the same openness.
+        // Points of the same pixel and the same surface have nearly the same openness, which is therefore reused.
         let near = last.filter(|k| {
             let pixel = self
                 .view
@@ -249,7 +250,7 @@ impl<'a> Shader<'a> {
         1.0 - self.look.occlusion * (1.0 - openness)
     }
 
-    /// Returns the color without lighting, and the surface.
+    /// Returns the color of a point without lighting, and the surface.
     fn color(
         &self,
         part: &'a Part,
@@ -302,7 +303,7 @@ impl<'a> Shader<'a> {
         let key = narrow(n.dot(self.key).max(0.0));
         let fill = narrow(n.dot(self.fill).max(0.0));
         let sky = mix(GROUND, SKY, narrow(0.5 + 0.5 * n.y));
-        // The lights cast no shadows. Instead, ambient occlusion darkens the direct light too, but less than the light
+        // The lights cast no shadows. Instead, ambient occlusion also darkens direct light, but less than the light
         // from the sky.
         let direct = 0.4 + 0.6 * openness;
         let light: [f32; 3] = std::array::from_fn(|i| {
@@ -332,7 +333,7 @@ fn normal(part: &Part, triangle: usize, point: &SurfacePoint) -> DVec3 {
         return point.normal;
     }
     let n = if point.is_back { -normal } else { normal };
-    // An interpolated normal can point away from the camera although the triangle faces it.
+    // An interpolated normal can point away from the camera although the triangle faces the camera.
     let facing = n.dot(point.to_eye);
     if facing < 0.0 {
         (n - point.to_eye * facing).normalize_or(point.normal)
@@ -350,7 +351,7 @@ fn matcap(color: [f32; 3], n: DVec3, openness: f32) -> [f32; 3] {
     let border = border * border * border * 0.35;
     let high = narrow(n.dot(DVec3::new(-0.28, 0.42, 0.86).normalize()).max(0.0));
     let high = libm::powf(high, 30.0) * 0.16;
-    // Light that is reflected from hollows becomes warmer.
+    // Hollows get a warmer color, like light that is reflected several times.
     let tint = [1.0, 0.97, 0.94];
     std::array::from_fn(|i| {
         let shade = openness + (1.0 - openness) * color[i] * tint[i] * 0.5;
@@ -364,8 +365,8 @@ pub(super) fn surface_index(part: &Part, triangle: usize) -> usize {
     material.map_or(0, |&m| m as usize)
 }
 
-/// Returns the unit vector in the direction of the cross product, or zero. Scales the vectors so that the product
-/// neither overflows nor underflows.
+/// Returns the unit vector in the direction of the cross product, or zero. Scales the vectors first, so that the
+/// product neither overflows nor underflows.
 fn unit_cross(u: DVec3, v: DVec3) -> DVec3 {
     let scaled = |w: DVec3| {
         let size = w.abs().max_element();

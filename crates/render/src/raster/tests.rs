@@ -38,7 +38,7 @@ fn drawing(parts: Vec<Part<'static>>) -> Drawing<'static> {
     }
 }
 
-/// Returns settings for unchanged colors on a transparent background.
+/// Returns settings that leave the colors of surfaces unchanged, on a transparent background.
 fn plain() -> Look {
     Look {
         shading: Shading::Plain,
@@ -91,8 +91,8 @@ fn samples_are_in_different_rows_and_columns() {
 
 #[test]
 fn triangles_that_fill_a_square_cover_every_sample_once() {
-    // The grid is larger than the tile, and its points are moved. The different numbers of cells give triangles for the
-    // 32-bit and for the 64-bit arithmetic.
+    // The grid of triangles is larger than the tile, and the inner points of the grid are moved. Small cells test the
+    // 32-bit arithmetic, and large cells test the 64-bit arithmetic.
     for (seed, cells) in [(1, 40), (2, 7), (3, 2)] {
         let mut seed = seed;
         let tile_size = GRID * i32::try_from(TILE).unwrap();
@@ -100,7 +100,7 @@ fn triangles_that_fill_a_square_cover_every_sample_once() {
         let mut position = |i: i32| -> [i32; 2] {
             let (x, y) = (i % (cells + 1), i / (cells + 1));
             let is_inside = x > 0 && y > 0 && x < cells && y < cells;
-            // With multiples of 8, many points are exactly on samples.
+            // Offsets are multiples of 8, so that many points are exactly on samples.
             let offset = |r: i32| {
                 if is_inside {
                     (r % (step / 3)) / 8 * 8
@@ -148,7 +148,7 @@ fn triangles_that_fill_a_square_cover_every_sample_once() {
 #[test]
 fn a_square_with_sides_between_pixels_covers_exactly_these_pixels() {
     let size = [8, 8];
-    // From pixel 2 to pixel 6 in each axis.
+    // The square reaches from pixel 2 to pixel 6 in each axis.
     let corners = [[-2.0, -2.0], [2.0, -2.0], [2.0, 2.0], [-2.0, 2.0]];
     let points = corners.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec();
     let square = drawing(vec![part(points, vec![[0, 1, 2], [0, 2, 3]], WHITE)]);
@@ -182,14 +182,14 @@ fn sphere(radius: f64) -> Part<'static> {
 fn a_sphere_covers_the_area_of_its_outline() {
     let size = [200, 200];
     let ball = drawing(vec![sphere(1.0)]);
-    // Without perspective, the outline is a circle with a radius of 80 pixels.
+    // Without perspective, the outline of the sphere is a circle with a radius of 80 pixels.
     let orthographic = covered(&rendered(&ball, &front_view(2.5, size), size, &plain()));
     let expected = std::f64::consts::PI * 80.0 * 80.0;
     assert!(
         (orthographic / expected - 1.0).abs() < 2e-3,
         "{orthographic}, {expected}"
     );
-    // From the distance d, the outline is a circle with the half angle asin(1 / d).
+    // Seen from the distance d, the outline of the sphere is a circle with the half angle asin(1 / d).
     let camera = Camera::LookAt {
         from: [0.0, 0.0, 3.0],
         to: [0.0; 3],
@@ -270,8 +270,8 @@ fn rendering_reports_progress_and_can_be_cancelled_at_each_stage() {
         "{fractions:?}"
     );
     assert!(fractions[0] == 0.0 && fractions[fractions.len() - 1] > 0.99);
-    // Cancelled at the start, while triangles are sorted, while maps are drawn, and while tiles are drawn. After it has
-    // cancelled, the listener is not called again.
+    // The work is canceled at the start, while triangles are sorted, while maps are drawn, and while tiles are drawn. A
+    // listener that has canceled the work is not called again.
     for end in [0.0, 0.05, 0.3, 0.9] {
         let result = render_until(end);
         assert!(matches!(result, Err(PictureError::Cancelled)), "{end}");
@@ -350,7 +350,7 @@ fn a_plane_is_lit_by_the_cosine_of_its_angle() {
                 + f64::from(FILL_LIGHT[i]) * lambert(FILL);
             let expected = light * f64::from(color[i]);
             let found = f64::from(to_linear(picture.image.pixels[4][i]));
-            // A step of a byte is up to 0.9 % of full light.
+            // The light values of two consecutive bytes differ by up to 0.9 % of full light.
             assert!(
                 (found - expected).abs() < 0.005,
                 "{degrees}: {found}, {expected}"
@@ -362,8 +362,8 @@ fn a_plane_is_lit_by_the_cosine_of_its_angle() {
 #[test]
 fn a_line_covers_the_same_area_in_every_direction() {
     let size = [200, 200];
-    // 45 degrees is left out. At this angle all border pixels have the same coverage, and 16 samples measure a coverage
-    // only to a few percent.
+    // The angle of 45 degrees is left out. At this angle, all border pixels have the same coverage, and the error of 16
+    // samples is a few percent.
     for degrees in [0.0_f64, 17.0, 43.0, 80.0] {
         let (sin, cos) = libm::sincos(degrees.to_radians());
         let along = DVec3::new(cos, sin, 0.0) * 60.0;
@@ -378,7 +378,7 @@ fn a_line_covers_the_same_area_in_every_direction() {
         let mut lines = Drawing::default();
         lines.lines.push(line);
         let picture = rendered(&lines, &front_view(200.0, size), size, &plain());
-        // The line is a rectangle with two half discs.
+        // The line covers a rectangle and two half discs.
         let expected = 120.0 * 3.0 + std::f64::consts::PI * 1.5 * 1.5;
         let found = covered(&picture);
         assert!((found / expected - 1.0).abs() < 0.01, "{degrees}: {found}");
@@ -389,7 +389,7 @@ fn a_line_covers_the_same_area_in_every_direction() {
 fn lines_cover_no_more_than_half_of_a_dense_mesh() {
     let size = [128, 128];
     for (side, n) in [(1.0, 220), (3.0, 75), (6.0, 38), (20.0, 13)] {
-        // The edges of equilateral triangles that cover the whole picture.
+        // The lines are the edges of equilateral triangles that fill the picture.
         let position = |i: i32, j: i32| {
             let x = f64::from(i) + 0.5 * f64::from(j);
             DVec3::new(x, f64::from(j) * 0.75_f64.sqrt(), 0.0) * side
@@ -475,7 +475,7 @@ fn a_visible_point_is_a_disc_and_a_hidden_point_is_a_ring() {
             spacing: f64::INFINITY,
         });
         let picture = rendered(&drawing, &front_view(4.0, size), size, &plain());
-        // Pixels from the middle to the right.
+        // The result has pixels from the middle of the picture to the right.
         [0, 4, 8, 14].map(|x| to_linear(picture.image.pixels[20 * 41 + 20 + x][0]))
     };
     assert_eq!(lights(0.5), [0.0, 0.0, 0.0, 1.0]);
@@ -506,7 +506,7 @@ fn labels_behind_triangles_are_hidden_and_labels_outside_have_no_position() {
 
 #[test]
 fn triangles_are_clipped_behind_the_camera() {
-    // A floor that reaches from far in front of the camera to far behind it. The camera is just above the floor.
+    // The floor reaches from far in front of the camera to far behind the camera. The camera is just above the floor.
     let size = [64, 64];
     let corners = [[-1e6, -1e6], [1e6, -1e6], [1e6, 1e6], [-1e6, 1e6]];
     let points = corners.map(|[x, z]| DVec3::new(x, 0.0, z)).to_vec();
@@ -529,8 +529,8 @@ fn triangles_are_clipped_behind_the_camera() {
 
 #[test]
 fn the_openness_at_the_bottom_of_a_cup_is_that_of_its_opening() {
-    // An open cylinder of radius 1 with a bottom. From the middle of the bottom, an opening of radius r at the distance
-    // h fills r² / (r² + h²) of the cosine-weighted hemisphere.
+    // The scene is an open cylinder of radius 1 with a bottom. Seen from the middle of the bottom, an opening of radius
+    // r at the distance h fills the fraction r² / (r² + h²) of the cosine-weighted hemisphere.
     let n_sides = 64;
     for height in [0.5, 1.0, 2.0] {
         let mut points = vec![DVec3::ZERO];
@@ -617,8 +617,8 @@ fn degenerate_drawings_are_rendered() {
     let drawings = [
         Drawing::default(),
         dot,
-        // A triangle that is a point, a triangle that is a line, and a triangle that is seen edge-on. Then a very large
-        // triangle, a huge one, a very small one, and one far from the origin.
+        // The first three triangles have collapsed to a point or a line, or are seen edge-on. The others are very
+        // large, huge, very small, or far from the origin.
         drawing(vec![part(vec![DVec3::ZERO; 3], vec![[0, 1, 2]], WHITE)]),
         drawing(vec![part(
             vec![p(0., 0., 0.), p(1., 0., 0.), p(2., 0., 0.)],

@@ -1,9 +1,9 @@
-//! A tile of the picture: finds the visible triangle for each sample.
+//! Finds the visible triangle for each sample of a tile of the picture.
 //!
 //! A pixel has 16 samples, one in each of 16 rows and columns (n-rooks: Shirley, "Discrepancy as a Quality Measure for
-//! Sample Distributions", 1991). This arrangement was found by a search. If an edge cuts a pixel, the covered fraction
-//! of these samples differs less from the exact area than in all other tested arrangements, over edges of all
-//! directions.
+//! Sample Distributions", 1991). This arrangement was found by a search over edges of all directions that cut a pixel.
+//! Of all tested arrangements, it has the smallest difference between the fraction of covered samples and the exact
+//! covered area.
 
 use std::ops::{Add, BitOr, Mul, Sub};
 
@@ -37,17 +37,18 @@ pub(super) const OFFSETS: [[i32; 2]; SAMPLES] = {
 
 /// The samples of a tile.
 pub(super) struct Tile {
-    /// The pixels of the tile; right and bottom are exclusive.
+    /// The range of pixels of the tile. `right` and `bottom` are exclusive.
     pub(super) left: u32,
     pub(super) top: u32,
     pub(super) right: u32,
     pub(super) bottom: u32,
-    /// For each pixel, the depths of the visible triangles of its samples; infinite without a triangle.
+    /// For each pixel, the depths of the visible triangles of its samples. The depth is infinite if a sample has no
+    /// triangle.
     pub(super) depth: Vec<[f32; SAMPLES]>,
     /// For each pixel, the visible triangles of its samples.
     pub(super) triangles: Vec<[u32; SAMPLES]>,
-    /// For each pixel, the lines that cover its samples: 2 i + 2 for the visible line i, 2 i + 3 if it is hidden, 0 for
-    /// no line.
+    /// For each pixel, the lines that cover its samples. The entry is 2 i + 2 if line i is visible, 2 i + 3 if line i
+    /// is hidden, and 0 if there is no line.
     pub(super) lines: Vec<[u32; SAMPLES]>,
     /// Cached planes of triangles.
     pub(super) planes: Planes,
@@ -83,9 +84,9 @@ impl Tile {
         ((y - self.top) * TILE + (x - self.left)) as usize
     }
 
-    /// Draws a triangle. The triangle replaces the current triangle of each sample that it covers if it is nearer to
-    /// the camera there. At the same depth, the triangle with the lower index is visible. The triangle covers only
-    /// samples whose bit is set in `mask`.
+    /// Draws a triangle. At each sample that the triangle covers, it replaces the current triangle if it is nearer to
+    /// the camera. At the same depth, the triangle with the lower index is visible. Only samples whose bit is set in
+    /// `mask` can be covered.
     pub(super) fn draw(&mut self, id: u32, projected: &ProjectedTriangle, mask: u16) {
         let Some(setup) = Setup::new(projected, self) else {
             return;
@@ -94,7 +95,7 @@ impl Tile {
         if x0 > x1 || y0 > y1 {
             return;
         }
-        // 32-bit arithmetic is exact if all corners are less than 32 pixels from the first one, in each axis.
+        // 32-bit arithmetic is exact if, in each axis, all corners are less than 32 pixels from the first corner.
         let first = projected[0].at;
         let is_near = |c: &GridPoint| (0..2).all(|i| c.at[i].abs_diff(first[i]) < 1 << 13);
         if mask == u16::MAX && projected.iter().all(is_near) {
@@ -134,7 +135,8 @@ impl Tile {
     fn fill<T: Number>(&mut self, id: u32, setup: &Setup, mask: u16) {
         let [x0, y0, x1, y1] = setup.limits;
         let edges = setup.edges.map(Edge::of::<T>);
-        // The difference of each edge function between the middle of a pixel and its samples.
+        // For each edge function, the differences between its value at the middle of a pixel and its values at the
+        // samples.
         let mut offsets = edges.map(|[a, b, _]| {
             OFFSETS.map(|[x, y]| a * T::of(i64::from(x)) + b * T::of(i64::from(y)))
         });
@@ -207,8 +209,8 @@ impl Number for i32 {
     }
 }
 
-/// An edge function: a x + b y + c is not negative inside. Coordinates are relative to the first corner of the
-/// triangle.
+/// An edge function a x + b y + c, which is at least 0 inside of the triangle. The coordinates x and y are relative to
+/// the first corner of the triangle.
 #[derive(Clone, Copy)]
 struct Edge {
     a: i64,
@@ -268,9 +270,10 @@ impl Setup {
         };
         let [x0, x1] = axis(0, tile.left, tile.right)?;
         let [y0, y1] = axis(1, tile.top, tile.bottom)?;
-        // Twice the signed area of the triangle of an edge from s to t and the point (x, y): (t - s) x ((x, y) - s). As
-        // y points downwards, a positive area means clockwise. A sample exactly on an edge belongs to the triangle
-        // below or to the right of the edge.
+        // The edge function of the edge from s to t is the cross product of t - s and (x, y) - s. It is twice the
+        // signed area of the triangle that the edge forms with the point (x, y). The area is positive if the triangle
+        // is clockwise, because y points downwards. A sample exactly on an edge belongs to the triangle below or to the
+        // right of the edge.
         let edge = |s: [i64; 2], t: [i64; 2]| {
             let (a, b) = (s[1] - t[1], t[0] - s[0]);
             let c = -(a * s[0] + b * s[1]);

@@ -1,6 +1,6 @@
 //! Tests with many triangles, very large pictures, and very large and small coordinates.
 //!
-//! `cargo test -p meshwright-render --test pictures -- --ignored` runs the tests that need much time or memory.
+//! `cargo test -p meshwright-render --test pictures -- --ignored` runs the tests that need a lot of time or memory.
 
 use geometry::shapes;
 use mesh::{DVec3, Mesh};
@@ -156,7 +156,8 @@ fn scaling_a_scene_does_not_change_its_picture() {
                 let mean = difference(&draw_scaled(scale), &unscaled);
                 assert!(mean < 0.2, "{shading:?}, {scale:e}: {mean}");
             }
-            // Depth is an `f32`. Beyond its range, rendering must not fail, but the picture is not checked.
+            // Depths are `f32`. If they are out of the range of `f32`, rendering must not fail, but the picture is not
+            // checked.
             for scale in [1e-300, 1e-70, 1e70, 1e300] {
                 assert_eq!(draw_scaled(scale).pixels.len(), unscaled.pixels.len());
             }
@@ -220,7 +221,7 @@ fn degenerate_meshes_are_drawn_in_every_style() {
                         ..Style::default()
                     };
                     let image = draw(mesh, &camera, &style, size);
-                    // NaN would become black and transparent.
+                    // If a computation gave NaN, pixels would be black and transparent.
                     let is_opaque = |p: &[u8; 4]| p[3] == 255;
                     assert!(image.pixels.iter().all(is_opaque), "{name}, {shading:?}");
                 }

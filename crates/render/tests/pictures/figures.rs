@@ -2,7 +2,7 @@
 //! machine.
 //!
 //! If the environment variable `MESHWRIGHT_UPDATE` is set, the files in `tests/goldens` are written instead. Look at
-//! them before you commit them.
+//! the files before you commit them.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -75,7 +75,7 @@ fn a_legend_covers_its_corner_only() {
         scale: Scale::Discrete(vec![("a".to_owned(), BLACK)]),
     };
     let mut plain = Image::filled(300, 200, WHITE).unwrap();
-    // A model in the upper right corner.
+    // The image has a model in the upper right corner.
     for y in 0..60 {
         plain.pixels[y * 300 + 240..(y + 1) * 300].fill(BLACK);
     }

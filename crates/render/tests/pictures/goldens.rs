@@ -1,7 +1,7 @@
 //! Compares small pictures with golden files, pixel by pixel.
 //!
 //! If the environment variable `MESHWRIGHT_UPDATE` is set, the files in `tests/goldens` are written instead. Look at
-//! them before you commit them.
+//! the files before you commit them.
 
 use std::path::PathBuf;
 
@@ -317,7 +317,7 @@ fn textures_materials_and_vertex_colors() {
 
 #[test]
 fn a_concave_face_is_one_surface() {
-    // An L-shaped polygon: the rest of its bounding box stays white.
+    // The polygon has the shape of an L. The rest of its bounding box stays white.
     let points = [[0, 0], [3, 0], [3, 1], [1, 1], [1, 3], [0, 3]];
     let points = points.map(|[x, y]| DVec3::new(f64::from(x), f64::from(y), 0.0));
     let (mesh, _) = Mesh::from_polygons(points.to_vec(), &[[0, 1, 2, 3, 4, 5]]).unwrap();

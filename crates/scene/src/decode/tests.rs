@@ -6,7 +6,7 @@ use mesh::{FaceId, HalfEdgeId, Rule, VertexId};
 use proptest::prelude::*;
 use std::collections::VecDeque;
 
-/// The arrays that were separated, in order.
+/// The arrays that [`Scene::encode_with_separate_arrays`] separated, in order.
 struct SeparateArrays(VecDeque<Vec<u8>>);
 
 impl ArraySource for SeparateArrays {
@@ -153,7 +153,7 @@ fn a_length_that_exceeds_the_memory_is_refused() {
         Scene::decode(&bytes, usize::MAX, &mut NoArrays),
         Err(DecodeError::Truncated)
     );
-    // The same if the length of the first array of a mesh is too large.
+    // Decoding also fails if the length of the first array of a mesh is too large.
     let mut scene = Scene::new();
     scene.insert(Object::mesh("a", shapes::cube())).unwrap();
     let (mut rest, mut arrays) = encoded_with_separate_arrays(&scene, 1);
@@ -163,7 +163,7 @@ fn a_length_that_exceeds_the_memory_is_refused() {
     assert!(Scene::decode(&rest, 1, &mut arrays).is_err());
 }
 
-/// Changes the arrays of a grid and returns the defect that is reported.
+/// Changes the arrays of a grid and returns the defect that decoding reports.
 fn defect_after(change: impl FnOnce(&mut Connectivity, &mut Vec<DVec3>)) -> Option<Defect> {
     let mesh = shapes::grid(2, 2);
     let (mut c, mut positions) = (mesh.connectivity().clone(), mesh.positions().to_vec());
@@ -207,7 +207,7 @@ proptest! {
         };
         let mut c = mesh.connectivity().clone();
         for (array, index, id) in changes {
-            // Most ids belong to an existing element.
+            // Most of the random ids belong to an existing element.
             match array {
                 0 => { let n = c.next.len(); c.next[index % n] = HalfEdgeId::new(id % (n + 1)); }
                 1 => { let n = c.origin.len(); c.origin[index % n] = VertexId::new(id % (mesh.n_vertices() + 1)); }

@@ -3,8 +3,9 @@
 use super::{AnimatedProperty, Graph, MeshLabel, Node};
 
 impl Graph {
-    /// Removes an object from all nodes. A node that is left without an object, a camera, a light and children, and that is
-    /// not a joint, is removed too, with the channels that animate it. Other nodes keep their order.
+    /// Removes an object from all nodes. A node that showed the object is removed if it has no camera, no light and no
+    /// children, and is not a joint. The channels that animate a removed node are removed too. Other nodes keep their
+    /// order.
     pub(crate) fn remove_object(&mut self, object: &str) {
         self.labels.remove(object);
         let mut n_children = vec![0_usize; self.nodes.len()];
@@ -13,7 +14,7 @@ impl Graph {
         }
         let mut keep = vec![true; self.nodes.len()];
         let is_joint = self.joint_flags();
-        // Children come after their parents, so a parent is visited after all its children.
+        // Children come after their parents in the list, so this reverse loop visits a parent after all its children.
         for (i, node) in self.nodes.iter_mut().enumerate().rev() {
             if node.object.take_if(|name| name == object).is_none() {
                 continue;
@@ -27,12 +28,13 @@ impl Graph {
             }
         }
         self.keep_nodes(&keep);
-        // Without morph targets, nothing is left that a channel of weights changes.
+        // A node without an object has no morph targets, so channels that animate its weights are removed.
         let shows: Vec<bool> = self.nodes.iter().map(|n| n.object.is_some()).collect();
         self.retain_channels(|c| c.property != AnimatedProperty::Weights || shows[c.node]);
     }
 
-    /// Renames an object. A node or mesh with the old name gets the new name. If there is none, the mesh gets it.
+    /// Renames an object. If a node or the mesh has the old name, it gets the new name. If no node has the old name,
+    /// the mesh always gets the new name.
     pub(crate) fn rename_object(&mut self, from: &str, to: &str) {
         let mut is_named = false;
         for node in &mut self.nodes {
@@ -54,7 +56,7 @@ impl Graph {
         }
     }
 
-    /// Shows the object `to` wherever the object `from` is shown: adds a node next to each node of `from`, with its
+    /// Shows the object `to` wherever the object `from` is shown. Adds a node beside each node of `from`, with the same
     /// placement and extras. If `from` is shown once, the new node is named `to`.
     pub fn copy_object(&mut self, from: &str, to: &str) {
         let nodes = self.nodes_of(from);
@@ -95,7 +97,7 @@ impl Graph {
         }
         let label = self.labels.get(whole).filter(|label| label.is_deformed());
         if let Some(label) = label {
-            // The extras have the names of the morph targets.
+            // The label is copied because its extras have the names of the morph targets.
             let label = MeshLabel {
                 name: Some(part.to_owned()),
                 ..label.clone()
@@ -104,8 +106,9 @@ impl Graph {
         }
     }
 
-    /// Appends the nodes of another graph. Its objects must have other names. Of different parts of the document with the
-    /// same name, the first is kept. Returns the number of parts that are not kept.
+    /// Appends the nodes of another graph. The objects of the two graphs must have different names. If both graphs have
+    /// different parts of the document with the same name, the part of this graph is kept. Returns the number of parts
+    /// that are not kept.
     pub fn append(&mut self, other: Self) -> usize {
         let (n, cameras, lights) = (self.nodes.len(), self.cameras.len(), self.lights.len());
         let (skins, arrays) = (self.skins.len(), self.arrays.len());
@@ -142,8 +145,9 @@ impl Graph {
         left_out
     }
 
-    /// Returns the nodes that show an object that `is_wanted` accepts, the joints of their skins, and all their ancestors,
-    /// without cameras and lights, and the parts of the document. Keeps the animations of these nodes.
+    /// Returns the part of the graph that shows the objects that `is_wanted` accepts. It has the nodes of these
+    /// objects, the joints of their skins, the ancestors of all these nodes, and their animations. The parts of the
+    /// document are kept; cameras and lights are not.
     pub(crate) fn only(&self, is_wanted: impl Fn(&str) -> bool) -> Self {
         let mut graph = Self {
             nodes: self.nodes.clone(),
@@ -179,7 +183,8 @@ impl Graph {
         graph
     }
 
-    /// Removes the nodes for which `keep` is false. The parents of the other nodes and the joints of skins must be kept.
+    /// Removes the nodes for which `keep` is false. `keep` must be true for joints of skins, and for the parents of
+    /// kept nodes.
     fn keep_nodes(&mut self, keep: &[bool]) {
         let mut n = 0;
         let places = keep.iter().map(|&is_kept| {

@@ -1,6 +1,6 @@
 //! The canonical form of a graph.
 //!
-//! A scene whose graph is empty has the same form as before there were graphs.
+//! A scene whose graph is empty has the same form as in the first version, which had no graphs.
 
 use std::collections::BTreeMap;
 
@@ -52,7 +52,7 @@ impl Encoder<'_> {
         }
     }
 
-    /// Writes the index plus 1; 0 for no index.
+    /// Writes the index plus 1, or 0 if there is no index.
     pub(super) fn optional_index(&mut self, index: Option<usize>) {
         self.len(index.map_or(0, |i| i + 1));
     }

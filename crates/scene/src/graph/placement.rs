@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
 
-/// The placement of a node in the space of its parent, with the numbers of the file.
+/// The placement of a node in the space of its parent. The numbers are stored exactly as in the file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Placement {
     /// An affine matrix in column-major order. The last row is 0, 0, 0, 1.
@@ -32,11 +32,11 @@ impl Placement {
         scale: [1.0; 3],
     };
 
-    /// The largest difference between a map and its parts, relative to the length of the axes of the map.
+    /// The largest allowed difference between a map and its parts, relative to the length of the axes of the map.
     const TOLERANCE: f64 = 1e-12;
 
-    /// Returns the map from the space of the node to the space of its parent. Not finite if a number is not finite or
-    /// the rotation is zero.
+    /// Returns the map from the space of the node to the space of its parent. The map is not finite if a number is not
+    /// finite or the rotation is zero.
     pub fn to_affine(self) -> DAffine3 {
         match self {
             Self::Matrix(matrix) => DAffine3::from_mat4(DMat4::from_cols_array(&matrix)),
@@ -58,8 +58,8 @@ impl Placement {
         }
     }
 
-    /// Returns the parts of a map. `None` if a scale, a rotation and a translation cannot express it, because it has a
-    /// shear or is not finite.
+    /// Returns the scale, the rotation and the translation of a map. Returns `None` if the map has a shear or is not
+    /// finite.
     pub fn of(map: &DAffine3) -> Option<Self> {
         if map.matrix3 == DMat3::IDENTITY {
             return map.translation.is_finite().then_some(Self::Parts {

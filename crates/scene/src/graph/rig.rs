@@ -31,7 +31,7 @@ pub struct Animation {
     pub name: Option<String>,
     /// The values over time that channels refer to.
     pub samplers: Vec<AnimationSampler>,
-    /// What the samplers change.
+    /// The channels, which say what the samplers change.
     pub channels: Vec<Channel>,
     /// Data of other programs, as JSON.
     pub extras: Option<String>,
@@ -56,7 +56,7 @@ pub enum Interpolation {
     /// Linear interpolation, along the shortest arc for rotations.
     #[default]
     Linear,
-    /// The value of the previous keyframe.
+    /// Every value is that of the previous keyframe.
     Step,
     /// Cubic splines. Each keyframe has an incoming tangent, a value and an outgoing tangent.
     CubicSpline,
@@ -136,7 +136,7 @@ impl Graph {
         self.animations.iter().map(|a| a.channels.len()).sum()
     }
 
-    /// Returns whether an animation changes the placement of each node.
+    /// Returns one flag for each node: whether an animation changes its placement.
     pub fn animated_flags(&self) -> Vec<bool> {
         let mut flags = vec![false; self.nodes.len()];
         for channel in self.animations.iter().flat_map(|a| &a.channels) {
@@ -145,8 +145,8 @@ impl Graph {
         flags
     }
 
-    /// Inserts a node between a node and its parent. The new node has the index of the node, whose index grows by 1 like
-    /// those of all later nodes. It places nothing differently, and no animation changes it.
+    /// Inserts a new parent between a node and its parent. The new parent gets the index `node`, and the indices of the
+    /// node and of all later nodes grow by 1. The new parent has the identity placement, and no animation changes it.
     ///
     /// # Panics
     ///
@@ -185,8 +185,8 @@ impl Graph {
         }
     }
 
-    /// Returns for each joint of a skin the map from the bound points of the mesh to the scene. `to_scene` are the maps of
-    /// [`Graph::to_scene`].
+    /// Returns one map for each joint of a skin, from the bound points of the mesh to the scene. `to_scene` is the
+    /// result of [`Graph::to_scene`].
     ///
     /// # Panics
     ///
@@ -206,7 +206,7 @@ impl Graph {
         joints.map(map).collect()
     }
 
-    /// Returns whether each node is a joint or the root of the joints of a skin.
+    /// Returns one flag for each node: whether it is a joint, or the root of the joints of a skin.
     pub fn joint_flags(&self) -> Vec<bool> {
         let mut flags = vec![false; self.nodes.len()];
         for skin in &self.skins {
@@ -217,8 +217,9 @@ impl Graph {
         flags
     }
 
-    /// Follows a removal of nodes: `places` has the new index of each node. The joints of skins must be kept. Removes
-    /// channels without a node, and animations without a channel.
+    /// Updates skins and animations after nodes were removed. `places` has the new index of each node, or `None` if the
+    /// node was removed. Joints of skins must not be removed. Removes the channels of removed nodes, and animations
+    /// without a channel.
     pub(super) fn renumber_rig(&mut self, places: &[Option<usize>]) {
         for skin in &mut self.skins {
             for node in skin.joints.iter_mut().chain(&mut skin.skeleton) {
@@ -247,7 +248,7 @@ impl Graph {
         removed
     }
 
-    /// Keeps only the skins for which `keep` is true. Nodes lose the other skins.
+    /// Keeps only the skins for which `keep` is true. Nodes with another skin have no skin afterwards.
     pub fn retain_skins(&mut self, keep: &[bool]) {
         let mut n = 0;
         let places: Vec<Option<usize>> = (keep.iter())

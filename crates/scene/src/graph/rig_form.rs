@@ -1,12 +1,12 @@
-//! The canonical form of skins, morph weights and animations. It follows after the other parts of a graph, if there are
-//! any, so that a graph without them has the same form as before there were any.
+//! The canonical form of skins, morph weights and animations. It follows after the other parts of a graph. A graph
+//! without skins, morph weights and animations has the same form as in earlier versions, which had none of them.
 
 use super::rig::{AnimatedProperty, Animation, AnimationSampler, Channel, Interpolation, Skin};
 use super::{Graph, MeshLabel};
 use crate::decode::{DecodeError, Decoder};
 use crate::digest::Encoder;
 
-/// The text before this part.
+/// The text that precedes the skins, morph weights and animations in the canonical form.
 pub(crate) const RIG: &str = "rig";
 
 impl Graph {

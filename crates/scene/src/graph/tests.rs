@@ -13,8 +13,8 @@ fn moved(translation: [f64; 3], scale: [f64; 3]) -> Placement {
     }
 }
 
-/// A car: the node `car` has the children `body`, `left` and `right`. The last two show the wheel, and `left` has a
-/// child with a camera.
+/// A car: the node `car` has the children `body`, `left` and `right`. The nodes `left` and `right` show the wheel, and
+/// `left` has a child with a camera.
 fn car() -> Scene {
     let mut scene = Scene::new();
     for name in ["body", "wheel"] {
@@ -72,7 +72,7 @@ fn nodes(scene: &Scene) -> Vec<(&str, Option<&str>, Option<usize>)> {
         .collect()
 }
 
-/// The canonical form has every part of the scene, and decoding restores it.
+/// Checks that the canonical form has every part of the scene, and that decoding restores the scene.
 #[track_caller]
 fn assert_consistent(scene: &Scene) {
     let mut bytes = Vec::new();
@@ -111,7 +111,7 @@ fn instances_are_placed_by_all_their_ancestors() {
 fn a_deleted_object_leaves_the_nodes_that_are_still_needed() {
     let mut scene = car();
     scene.remove("wheel").unwrap();
-    // The node on the left has a child.
+    // The node `left` is kept because it has a child.
     let expected = [
         ("car", None, None),
         ("body", Some("body"), Some(0)),

@@ -5,8 +5,8 @@ use glam::DVec2;
 
 use super::Panel;
 
-/// The map from the plane of a curve to the pixels of a figure. It has the same scale in both axes, and y points
-/// upwards in the plane of the curve.
+/// The map from the plane of a curve to the pixels of a figure. The scale is the same in both axes. In the plane of the
+/// curve, y points upwards.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
     /// The center of the bounding box of all points.
@@ -60,7 +60,7 @@ impl Frame {
         self.height
     }
 
-    /// Returns the frame in the middle of an area of the figure, given by two opposite corners.
+    /// Returns the frame moved to the middle of an area of the figure. The area is given by two opposite corners.
     pub(super) fn placed(&self, [corner, end]: [DVec2; 2]) -> Self {
         Self {
             position: (corner + end) / 2.0,
@@ -77,7 +77,8 @@ impl Frame {
         self.position + DVec2::new(q.x, -q.y)
     }
 
-    /// Maps a curve to the figure, by its control points: the map is affine, and Bezier curves are affinely invariant.
+    /// Maps a curve to the figure by mapping its control points. This is exact because the map is affine, and Bezier
+    /// curves are affinely invariant.
     pub(super) fn curve(&self, curve: &Curve<DVec2>) -> Curve<DVec2> {
         let points = curve.points().iter().map(|&p| self.map(p)).collect();
         Curve::new(points).expect("the number of points is the same, and mapped points are finite")

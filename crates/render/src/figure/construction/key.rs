@@ -8,7 +8,7 @@ use crate::figure::svg::{Font, Paint, Svg, Text};
 
 /// An entry of the legend.
 pub(super) struct Entry {
-    /// The symbol: a line with this paint; `None` for a dot.
+    /// The paint of the symbol, which is a line. `None` if the symbol is a dot.
     symbol: Option<Paint>,
     text: Text,
     /// The distance of the symbol from the left of the figure, in pixels.
@@ -26,7 +26,7 @@ const LINE: f64 = 24.0;
 
 /// Returns the entries in lines, with each line centered in `width` pixels.
 pub(super) fn entries(panels: &[Panel], width: f64) -> Vec<Vec<Entry>> {
-    // Each line with its width.
+    // The lines of entries, and the width of each line.
     let mut lines: Vec<(Vec<Entry>, f64)> = Vec::new();
     for (symbol, text) in symbols(panels) {
         let entry_width = SYMBOL + text_width(&text);
@@ -48,7 +48,7 @@ pub(super) fn entries(panels: &[Panel], width: f64) -> Vec<Vec<Entry>> {
     lines.into_iter().map(|(line, _)| line).collect()
 }
 
-/// Returns the symbols that the panels contain, with their explanations.
+/// Returns the symbols that the panels contain, with the explanation of each symbol.
 fn symbols(panels: &[Panel]) -> Vec<(Option<Paint>, Text)> {
     let plain = |text: &str| Text::new(Font::Plain, text, 13.0, TEXT);
     let line = |color, width| Some(Paint::stroke(color, width));
@@ -62,7 +62,7 @@ fn symbols(panels: &[Panel]) -> Vec<(Option<Paint>, Text)> {
     }
     let constructed = || panels.iter().filter(|p| p.t.is_some());
     let levels = constructed().map(|p| p.curve.degree()).max().unwrap_or(0);
-    // With more levels, several levels have the same color.
+    // If several levels have the same color, the legend does not list the levels.
     if levels <= LEVELS.len() + 1 {
         for r in 1..levels {
             entries.push((line(level_color(r), 1.8), plain(&format!("level {r}"))));

@@ -9,7 +9,7 @@ pub(crate) struct LabelPlacement {
     pub(crate) segments: Vec<[DVec2; 2]>,
     /// The points of the figure, and their radii.
     pub(crate) discs: Vec<(DVec2, f64)>,
-    /// The labels that are already placed: the middle and half of the size.
+    /// The labels that are already placed. Each entry is the middle of a label, and half of its size.
     pub(crate) boxes: Vec<[DVec2; 2]>,
     /// Two opposite corners of the visible area.
     pub(crate) area: [DVec2; 2],
@@ -22,10 +22,10 @@ const DIRECTIONS: u32 = 24;
 const DISTANCES: [f64; 3] = [3.0, 8.0, 15.0];
 
 impl LabelPlacement {
-    /// Places a label of this size beside `point`, which has this radius, and returns the middle of the label.
+    /// Places a label of this size beside `point`, a dot with this radius, and returns the middle of the label.
     ///
-    /// Chooses the position that hides least, preferably in the direction `outward`. The label becomes an obstacle for
-    /// later ones.
+    /// Chooses the position where the label hides the least of the figure, preferably in the direction `outward`. The
+    /// label becomes an obstacle for later labels.
     pub(crate) fn place(
         &mut self,
         point: DVec2,
@@ -41,7 +41,7 @@ impl LabelPlacement {
                 let angle = f64::from(i) / f64::from(DIRECTIONS) * std::f64::consts::TAU;
                 let (sin, cos) = libm::sincos(angle);
                 let direction = DVec2::new(cos, sin);
-                // The distance from the middle of the label to its edge.
+                // The distance from the middle of the label to its border, in this direction.
                 let inner = (half / direction.abs()).min_element();
                 let middle = point + direction * (radius + distance + inner);
                 let cost =
@@ -55,8 +55,8 @@ impl LabelPlacement {
         best.1
     }
 
-    /// Returns the cost of a label at a position: the hidden length of lines in pixels, and higher costs for points,
-    /// other labels, and parts outside of the visible area.
+    /// Returns the cost of a label at a position. It is the length of the lines that the label hides, in pixels. Hidden
+    /// points, hidden labels, and a position that is partly outside of the visible area cost more.
     fn cost(&self, middle: DVec2, half: DVec2) -> f64 {
         let padded = half + DVec2::splat(2.0);
         let segments = self.segments.iter();
@@ -78,8 +78,8 @@ impl LabelPlacement {
     }
 }
 
-/// Returns the length of a segment inside of the box around `middle` (Liang and Barsky, "A new concept and method for
-/// line clipping", 1984).
+/// Returns the length of the part of a segment that is inside of the box around `middle` (Liang and Barsky, "A new
+/// concept and method for line clipping", 1984).
 fn length_inside([a, b]: [DVec2; 2], middle: DVec2, half: DVec2) -> f64 {
     let (start, edge) = (a - middle, b - a);
     let (mut from, mut to) = (0.0_f64, 1.0_f64);

@@ -10,8 +10,9 @@
 //! b0                              b3
 //! ```
 //!
-//! Every level divides the legs of the previous level in the ratio t : 1 - t (de Casteljau, "Outillages méthodes
-//! calcul", 1959). The points have the names `b_i^r` of Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, §4.2.
+//! The points of each level divide the legs of the previous level in the ratio t : 1 - t (de Casteljau, "Outillages
+//! méthodes calcul", 1959). The points have the names `b_i^r` of Farin, "Curves and Surfaces for CAGD", 5th edition,
+//! 2002, §4.2.
 
 mod frame;
 mod key;
@@ -39,8 +40,8 @@ pub const MAX_CONSTRUCTED: usize = 64;
 /// The maximum number of panels of a figure.
 pub const MAX_PANELS: usize = 256;
 
-/// The maximum number of points of all panels of a figure. The levels of a curve of n control points have
-/// n (n + 1) / 2 points.
+/// The maximum number of points of all panels of a figure. The levels of a curve with n control points have n (n + 1) /
+/// 2 points.
 pub const MAX_POINTS: usize = 1 << 16;
 
 /// The maximum width of a figure, in pixels.
@@ -55,9 +56,9 @@ pub struct Panel<'a> {
     pub before: Option<&'a Curve<DVec2>>,
     /// The parameter of the point, from 0 to 1. If `None`, only the curve and its control polygon are drawn.
     pub t: Option<f64>,
-    /// The number of levels that are drawn after the control polygon. If `None`, all levels and the point.
+    /// The number of levels that are drawn after the control polygon. If `None`, all levels and the point are drawn.
     pub levels: Option<usize>,
-    /// The title above the panel. The parameter follows the title.
+    /// The title above the panel. The value of `t` is written after the title.
     pub title: Option<&'a str>,
 }
 
@@ -92,8 +93,8 @@ const FAINT: Color = [0xa3, 0xaa, 0xb5, 255];
 const TEXT: Color = [0x1f, 0x29, 0x37, 255];
 const WHITE: Color = [255; 4];
 
-/// The colors of the levels between the control polygon and the point. Color-blind people can distinguish them (after
-/// Okabe and Ito, "Color universal design", 2008). From the sixth level on, the colors repeat.
+/// The colors of the levels between the control polygon and the point. Color-blind people can distinguish these colors
+/// (Okabe and Ito, "Color universal design", 2008). From the sixth level on, the colors repeat.
 const LEVELS: [Color; 5] = [
     [0x00, 0x72, 0xb2, 255],
     [0x00, 0x9e, 0x73, 255],
@@ -107,7 +108,7 @@ fn level_color(r: usize) -> Color {
     LEVELS[(r - 1) % LEVELS.len()]
 }
 
-/// Returns the color of level `r` of `n` levels. Level 0 is the control polygon, and level n - 1 the point.
+/// Returns the color of level `r` of `n` levels. Level 0 is the control polygon, and level n - 1 is the point.
 pub(crate) fn color_of_level(r: usize, n: usize) -> Color {
     match r {
         0 => POLYGON,
@@ -206,7 +207,7 @@ pub fn construction(panels: &[Panel], layout: &Layout) -> Result<Svg, PictureErr
     Ok(svg)
 }
 
-/// Panels side by side.
+/// A row of panels.
 struct Row<'p, 'c> {
     panels: &'p [Panel<'c>],
     frames: Vec<Frame>,

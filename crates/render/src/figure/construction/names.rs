@@ -12,15 +12,15 @@ use crate::figure::svg::{Color, Font, Run, Svg, Text};
 /// The font size of names, in pixels at zoom 1.
 pub(super) const FONT_SIZE: f64 = 19.0;
 
-/// The maximum number of control points of a curve that all have names. If a curve has more control points, only the
-/// first and the last have names.
+/// The maximum number of control points of a curve for which every control point has a name. If a curve has more
+/// control points, only the first and the last have names.
 const MAX_NAMED: usize = 12;
 
 /// The maximum degree of a curve for which the points of the levels have names. In small panels, these points never
 /// have names.
 const MAX_DEGREE: usize = 3;
 
-/// Writes names, and records which points have a name.
+/// Writes names, and records which points have names.
 struct NameWriter<'s> {
     svg: &'s mut Svg,
     placement: LabelPlacement,
@@ -29,7 +29,8 @@ struct NameWriter<'s> {
     named: Vec<DVec2>,
 }
 
-/// Writes the names of the control points, of the point c(t), and of the points of the levels if they are few.
+/// Writes the names of the control points and of the point c(t). If the levels have few points, also writes the names
+/// of these points.
 pub(super) fn draw(
     svg: &mut Svg,
     curve: &Curve<DVec2>,
@@ -60,7 +61,7 @@ pub(super) fn draw(
     if let Some([p]) = levels.last().map(Vec::as_slice)
         && n > 0
     {
-        // c(t) has a name even if it is at a control point.
+        // The point c(t) has a name even if it is at the position of a control point.
         names.named.clear();
         names.write(*p, point_name(), POINT, 1.0, *p - middle);
         names.named.extend(points);

@@ -33,7 +33,7 @@ pub(super) fn draw(
     if let Some(before) = &before {
         draw_before(svg, before, &curve, zoom);
     }
-    // A construction of many points has thinner lines.
+    // If a construction has many points, its lines are thinner.
     let fine = zoom.sqrt() * if points.len() > 16 { 0.5 } else { 1.0 };
     let mut levels = panel.t.map(|t| curve.levels(t)).unwrap_or_default();
     if let Some(n_levels) = panel.levels {

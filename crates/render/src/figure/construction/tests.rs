@@ -1,4 +1,4 @@
-//! Tests of figures.
+//! Tests of figures of de Casteljau's construction.
 
 use super::*;
 use crate::figure::{pixel_size, pixels};
@@ -33,8 +33,8 @@ fn circles(xml: &str) -> Vec<DVec2> {
         .collect()
 }
 
-/// Computes a point of a curve as the sum of the control points times Bernstein polynomials, without de Casteljau's
-/// algorithm.
+/// Computes a point of a curve without de Casteljau's algorithm, as the sum of the control points times the Bernstein
+/// polynomials.
 fn bernstein(points: &[DVec2], t: f64) -> DVec2 {
     let n = points.len() - 1;
     let power = |x: f64, k: usize| (0..k).fold(1.0, |product, _| product * x);
@@ -71,7 +71,7 @@ fn every_point_of_every_level_is_drawn_at_its_position() {
             let drawn = circles(&xml);
             let levels = curve.levels(t);
             assert_eq!(drawn.len(), levels.iter().map(Vec::len).sum::<usize>());
-            // The map is computed from two control points that differ in both coordinates.
+            // The expected map is computed from two control points that differ in both coordinates.
             let points = curve.points();
             let other = (1..points.len())
                 .find(|&i| (points[i] - points[0]).min_element() != 0.0)
@@ -230,7 +230,7 @@ fn points_have_names_if_the_layout_has_labels() {
             .finish(None);
         xml.matches("<text").count()
     };
-    // The title has one text element. Each of 4 control points, 3 + 2 points of levels and c(t) has a name, which has
-    // two text elements because of its halo.
+    // The title has one text element. 10 points have a name: 4 control points, 3 + 2 points of levels, and c(t). Each
+    // name has two text elements because of its halo.
     assert_eq!((texts(false), texts(true)), (1, 1 + 2 * 10));
 }

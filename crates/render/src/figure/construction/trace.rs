@@ -5,7 +5,7 @@ use glam::DVec2;
 
 use crate::figure::svg::Command;
 
-/// The maximum distance of the tested points of a path from the curve, in pixels.
+/// The maximum distance from the curve to the points of a path that are tested, in pixels.
 const TOLERANCE: f64 = 0.02;
 
 /// The maximum number of times that the parameter interval is halved.
@@ -13,15 +13,16 @@ const MAX_HALVINGS: u32 = 10;
 
 /// Returns the path of a curve whose control points are in pixels.
 ///
-/// Up to degree 3, the path is the curve itself. Else it consists of cubic pieces that have the points and tangents of
-/// the curve at their ends. The piece from t to t + h has the inner control points c(t) + c'(t) h / 3 and
-/// c(t + h) - c'(t + h) h / 3 (Hermite interpolation; Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, §7.5).
-/// An interval is halved until its piece is near the curve at a quarter, the half and three quarters.
+/// For a curve c of degree 3 or less, the path is the curve itself. Otherwise, the path consists of cubic pieces. At
+/// its ends, a piece has the same points and tangents as the curve. The piece from the parameter t to t + h has the
+/// inner control points c(t) + c'(t) h / 3 and c(t + h) - c'(t + h) h / 3 (Hermite interpolation; Farin, "Curves and
+/// Surfaces for CAGD", 5th edition, 2002, §7.5). A parameter interval is halved until its piece is near the curve at
+/// one quarter, one half and three quarters of the interval.
 pub(super) fn trace(curve: &Curve<DVec2>) -> Vec<Command> {
     let points = curve.points();
     let mut path = vec![('M', points[..1].to_vec())];
     match points {
-        // With round caps, a line of length 0 is drawn as a dot.
+        // A line of length 0 with round caps is drawn as a dot.
         [_] => path.push(('L', points.to_vec())),
         [_, rest @ ..] if rest.len() <= 3 => {
             path.push((['L', 'Q', 'C'][rest.len() - 1], rest.to_vec()));
@@ -34,13 +35,13 @@ pub(super) fn trace(curve: &Curve<DVec2>) -> Vec<Command> {
 /// Returns the cubic pieces of a curve, each without its first control point.
 fn pieces(curve: &Curve<DVec2>) -> Vec<[DVec2; 3]> {
     let mut pieces = Vec::new();
-    // A stack of the remaining intervals. Each entry is the start of the interval and the number of halvings.
+    // A stack of the remaining intervals. Each entry has the start of an interval and its number of halvings.
     let mut remaining = vec![(0.0, 0)];
     while let Some((t, halvings)) = remaining.pop() {
         let h = 1.0 / f64::from(1_u32 << halvings);
         let piece = hermite(curve, t, h);
-        // An interval is halved at least twice. Many curves are symmetric, so that without this rule the three tested
-        // points could match by chance.
+        // An interval is halved at least twice. Without this rule, the three tested points of a symmetric curve could
+        // be near the curve by chance.
         if halvings >= 2 && (halvings == MAX_HALVINGS || is_near(curve, &piece, t, h)) {
             let [_, b, c, d] = piece;
             pieces.push([b, c, d]);
@@ -90,7 +91,7 @@ mod tests {
                 end = d;
             }
             assert_eq!(end, *curve.points().last().unwrap());
-            // The distance is measured to a fine polyline on the curve.
+            // The distance from the curve is measured as the distance from a fine polyline on the curve.
             let fine: Vec<DVec2> = curve.sample(20_000).collect();
             let distance = |p: DVec2, a: DVec2, b: DVec2| {
                 let edge = b - a;

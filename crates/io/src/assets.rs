@@ -1,4 +1,4 @@
-//! The files that a file refers to. They must be inside its folder.
+//! Access to the files that a model file refers to. These files must be inside the folder of the model file.
 
 use std::collections::BTreeSet;
 use std::io;
@@ -11,7 +11,7 @@ use store::{Store, StoreError, folder_of};
 ///
 /// # Errors
 ///
-/// The reason why the path is refused, worded to follow the path in a message.
+/// The reason why the path is refused. In a message, the reason follows the path.
 pub(crate) fn inside(name: &str) -> Result<PathBuf, &'static str> {
     if name.is_empty() {
         return Err("is empty");
@@ -28,7 +28,7 @@ pub(crate) fn inside(name: &str) -> Result<PathBuf, &'static str> {
                     return Err("leads out of the folder of the file");
                 }
             }
-            // A drive (`C:`), a scheme (`file:`) or a stream of a file on Windows.
+            // The colon belongs to a drive (`C:`), a scheme (`file:`), or a named stream of a file on Windows.
             _ if part.contains(':') => return Err("names a drive or a scheme"),
             _ if part.contains(char::is_control) => return Err("has control characters"),
             _ => parts.push(part),
@@ -45,7 +45,7 @@ pub(crate) fn inside(name: &str) -> Result<PathBuf, &'static str> {
 ///
 /// # Errors
 ///
-/// The reason why the URI is refused, worded to follow the URI in a message.
+/// The reason why the URI is refused. In a message, the reason follows the URI.
 pub(crate) fn inside_uri(uri: &str) -> Result<PathBuf, &'static str> {
     if uri.contains('\\') {
         return Err("has a backslash");
@@ -106,17 +106,18 @@ pub(crate) fn percent_encoded(name: &str) -> String {
 pub struct FileDependency {
     /// The path of the file.
     pub path: PathBuf,
-    /// True if the program read the file or tried to (it may be missing); false if it only checked whether the file
-    /// exists.
+    /// True if the program read the file or tried to read it, false if the program only checked whether the file
+    /// exists. A file that the program tried to read may be missing.
     pub is_read: bool,
 }
 
-/// Access to the files that the requested file refers to. Records which of them were accessed.
+/// Gives access to the files that the requested file refers to, and records which files were accessed.
 pub(crate) struct Assets<'a> {
     store: &'a dyn Store,
     /// The requested file.
     pub(crate) path: &'a Path,
-    /// Folders in which images are searched before the folder of the file, relative to it.
+    /// Folders in which images are searched first, before the folder of the requested file. They are relative to that
+    /// folder.
     pub(crate) image_folders: Vec<PathBuf>,
     seen: BTreeSet<FileDependency>,
 }

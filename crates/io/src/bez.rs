@@ -7,8 +7,8 @@
 //! ...
 //! ```
 //!
-//! A `.bzc` file contains the number of control points, followed by `x y` of each. Numbers are separated by any
-//! number of blanks and line ends. There are no comments.
+//! A `.bzc` file contains the number of control points, followed by the coordinates `x y` of each point. Numbers are
+//! separated by any number of blanks and line ends. There are no comments.
 
 use bezier::{Curve, Patch};
 use glam::{DVec2, DVec3};
@@ -78,7 +78,7 @@ fn curve(bytes: &[u8]) -> Result<Curve<DVec2>, Fault> {
     Curve::new(points).map_err(|e| place.error(e.to_string()))
 }
 
-/// Writes the patches of `scene`, and lists what the file does not store.
+/// Writes the patches of `scene`, and lists the content that the file does not store.
 ///
 /// # Errors
 ///
@@ -104,7 +104,7 @@ pub(crate) fn write_bez(scene: &Scene) -> Result<SingleFile, Unwritable> {
     Ok((write_patches(&all), losses))
 }
 
-/// Writes the curve of `scene`, and lists what the file does not store.
+/// Writes the curve of `scene`, and lists the content that the file does not store.
 ///
 /// # Errors
 ///

@@ -8,8 +8,8 @@ use mesh::{Attributes, Domain, Elements, VertexId};
 use crate::note::{NoteKind, Notes};
 use crate::{CleanupPolicy, Policies, Polygons, parallel};
 
-/// A face is degenerate if its area is less than this multiple of the square of its longest side. This bound is
-/// the rounding error of an area of zero.
+/// A face is degenerate if its area is at most this multiple of the square of its longest side. The bound allows for
+/// rounding errors: the computed area of a face without area is rarely exactly zero.
 const DEGENERATE_RATIO: f64 = 1e-14;
 
 /// The number of groups of faces. Faces are grouped by hash, and each face is compared only with faces of its
@@ -19,8 +19,8 @@ const N_GROUPS: usize = 16;
 /// For each polygon, its index in the file; `None` if every polygon has the same index as in the file.
 pub(crate) type SourcePolygons = Option<Vec<u32>>;
 
-/// Removes corners that repeat the corner before them, and the faces and vertices that the policies drop. Returns
-/// which polygons are left.
+/// Removes corners that repeat the previous corner, and removes the faces and vertices that the policies drop. Returns
+/// the indices in the file of the remaining polygons.
 pub(crate) fn clean(
     polygons: &mut Polygons,
     policies: Policies,
@@ -66,7 +66,7 @@ pub(crate) fn clean(
     kept
 }
 
-/// Adds a note that these elements are changed, with their positions.
+/// Adds a note that these elements are changed. The note has the positions of the elements.
 fn note(
     polygons: &Polygons,
     code: &'static str,
@@ -85,8 +85,8 @@ fn corners(polygons: &Polygons, f: usize) -> &[u32] {
     &polygons.corners[polygons.offsets[f] as usize..polygons.offsets[f + 1] as usize]
 }
 
-/// Returns the polygons with corners that repeat the vertex of the corner before them, if at least three corners
-/// are left without these. For the polygons that it returns, fills `is_kept` with a flag for each corner.
+/// Returns the polygons in which corners repeat the vertex of the previous corner, and at least three other corners
+/// remain. In `is_kept`, clears the flag of each repeated corner of these polygons.
 fn repeated_corners(polygons: &Polygons, is_kept: &mut Vec<bool>) -> Vec<usize> {
     let kept_in = |corners: &[u32]| {
         let before = corners.iter().cycle().skip(corners.len().max(1) - 1);
@@ -106,7 +106,8 @@ fn repeated_corners(polygons: &Polygons, is_kept: &mut Vec<bool>) -> Vec<usize> 
         let corners = corners(polygons, f);
         let first = polygons.offsets[f] as usize;
         for (i, &v) in corners.iter().enumerate() {
-            // The first corner of a run is kept. A run can continue past the last corner.
+            // Of several consecutive corners with the same vertex, the first is kept. The first and the last corner of
+            // a polygon are also consecutive.
             is_kept[first + i] = v != corners[(i + corners.len() - 1) % corners.len()];
         }
     }
@@ -139,16 +140,16 @@ fn is_degenerate(points: &[DVec3]) -> bool {
     let longest = sides
         .map(|(a, b)| a.distance_squared(*b))
         .fold(0.0, f64::max);
-    // If numbers overflow to NaN, this comparison is false, so that the face is kept.
+    // If a number overflows and the result is NaN, this comparison is false, and the face is kept.
     double.length() <= 2.0 * DEGENERATE_RATIO * longest
 }
 
 // ---- Duplicates --------------------------------------------------------------------------------
 
-/// The polygons with the vertices of an earlier polygon in the same or the opposite circular order.
+/// Returns the polygons that have the same vertices as an earlier polygon, in the same or the opposite circular order.
 fn duplicates(polygons: &Polygons) -> Vec<usize> {
     let hashes = parallel::collect(polygons.n_faces(), |f| sum_of_hashes(corners(polygons, f)));
-    // Each task sorts the faces of one group of hashes.
+    // Each task sorts the faces of one group.
     let shares = parallel::map(N_GROUPS, |share| {
         let own = hashes
             .iter()
@@ -176,9 +177,10 @@ fn duplicates(polygons: &Polygons) -> Vec<usize> {
     duplicates
 }
 
-/// A hash that does not depend on the order of the corners: the sum of the hashes of their vertices.
+/// Returns the sum of the hashes of the vertices of the corners. The sum does not depend on the order of the corners.
 fn sum_of_hashes(corners: &[u32]) -> u64 {
-    // The finalizer of SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", 2014).
+    // The hash function is the finalizer of SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number
+    // generators", 2014).
     let hashes = corners.iter().map(|&v| {
         let x = (u64::from(v) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -188,7 +190,7 @@ fn sum_of_hashes(corners: &[u32]) -> u64 {
     hashes.fold(corners.len() as u64, u64::wrapping_add)
 }
 
-/// The vertices of the corners, beginning with the lowest vertex and continuing towards its lower neighbor.
+/// Returns the vertices of the corners, starting at the lowest vertex, in the direction of its lower neighbor.
 fn canonical(corners: &[u32]) -> Vec<u32> {
     let Some(start) = (0..corners.len()).min_by_key(|&i| corners[i]) else {
         return Vec::new();
@@ -205,8 +207,8 @@ fn id(n: usize) -> u32 {
 
 // ---- Removing -------------------------------------------------------------------------------
 
-/// Removes the polygons that are dropped, and the corners of the remaining polygons that are not kept. An empty
-/// list of flags keeps everything.
+/// Removes the polygons for which `is_dropped` is true, and the corners for which `is_corner_kept` is false. If a list
+/// of flags is empty, all its polygons or corners are kept.
 pub(crate) fn keep(
     polygons: &mut Polygons,
     is_dropped: &[bool],

@@ -6,14 +6,14 @@ use std::sync::atomic::Ordering::Relaxed;
 use crate::parallel;
 use mesh::{FaceId, HalfEdgeId, Mesh, VertexId};
 
-/// The largest number of distinct values at a vertex that a corner is compared with.
+/// The maximum number of distinct values at a vertex with which a corner is compared.
 const MAX_COMPARED: usize = 64;
 
-/// Numbers the distinct values on the corners of each vertex of a mesh. The numbers run over the whole mesh, in
-/// the order of the faces and their corners.
+/// Numbers the distinct values on the corners of each vertex of a mesh. The numbers are in the order of the faces and
+/// their corners, over the whole mesh.
 #[derive(Debug)]
 pub(crate) struct CornerNumbers {
-    /// For each half-edge of a face, the first half-edge that leaves the same vertex with the same value.
+    /// For each half-edge of a face, the first half-edge that starts at the same vertex and has the same value.
     same: Vec<AtomicU32>,
     /// For each half-edge that is the first with its value, the number of the value, from 0.
     numbers: Vec<AtomicU32>,
@@ -27,8 +27,8 @@ impl CornerNumbers {
     /// vertex with a million corners stays linear. If a vertex has more distinct values, a value can get a second
     /// number.
     pub(crate) fn new(mesh: &Mesh, equal: impl Fn(HalfEdgeId, HalfEdgeId) -> bool + Sync) -> Self {
-        // Each entry is written by a single task: in `same` by the task of the vertex that the half-edge leaves,
-        // in `numbers` by the task of the number.
+        // Only one task writes each entry. An entry of `same` is written by the task of the origin of the half-edge, an
+        // entry of `numbers` by the task of the number.
         let unset = || -> Vec<AtomicU32> { mesh::zeroed(mesh.n_half_edges()) };
         let (same, numbers) = (unset(), unset());
         let number_of = |i: usize| u32::try_from(i).unwrap_or(u32::MAX);

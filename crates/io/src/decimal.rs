@@ -1,5 +1,5 @@
-//! Decimal numbers as text: reading correctly rounded numbers, and writing the shortest text that reads back as the
-//! same number.
+//! Reads and writes decimal numbers as text. Numbers are read with correct rounding. A number is written as the
+//! shortest text that gives the same number when it is read.
 
 /// Parses the finite number at the beginning of `text`, correctly rounded. Returns the number and the length of
 /// its text in bytes.
@@ -9,7 +9,7 @@ pub(crate) fn leading_number(text: &[u8]) -> Option<(f64, usize)> {
         [b'+' | b'-', rest @ ..] => rest,
         _ => text,
     };
-    // Excludes words such as `nan` and `inf`.
+    // This check excludes words such as `nan` and `inf`.
     matches!(unsigned, [b'0'..=b'9' | b'.', ..]).then_some(())?;
     let (x, length) = fast_float2::parse_partial::<f64, _>(text).ok()?;
     x.is_finite().then_some((x, length))
@@ -21,13 +21,14 @@ pub(crate) fn leading_number(text: &[u8]) -> Option<(f64, usize)> {
 #[inline]
 pub(crate) fn up_to_eight_digits(text: &[u8], at: usize) -> (u64, usize) {
     let word = eight_bytes(text, at) ^ 0x3030_3030_3030_3030;
-    // The high bit of each byte that is not a digit. Only the lowest of these bits is exact.
+    // The high bit is set in each byte that is not a digit. Higher bytes can be wrong, so only the lowest set bit is
+    // used.
     let non_digits = (word.wrapping_add(0x7676_7676_7676_7676) | word) & 0x8080_8080_8080_8080;
     let count = non_digits.trailing_zeros() / 8;
     if count == 0 {
         return (0, 0);
     }
-    // Shifts the digits to the end of the word, after leading zeros.
+    // Shifts the digits to the end of the word, so that zeros precede them.
     let digits = word << (64 - 8 * count);
     let pairs = digits.wrapping_mul(10).wrapping_add(digits >> 8);
     let low = (pairs & 0x0000_00ff_0000_00ff).wrapping_mul(0x000f_4240_0000_0064);
@@ -35,7 +36,7 @@ pub(crate) fn up_to_eight_digits(text: &[u8], at: usize) -> (u64, usize) {
     (low.wrapping_add(high) >> 32, count as usize)
 }
 
-/// The bytes from `at` on as a word, the first byte lowest. Bytes beyond the end are 0.
+/// Returns the bytes from `at` on as a word, with the first byte as the lowest. Bytes beyond the end of the text are 0.
 #[inline]
 fn eight_bytes(text: &[u8], at: usize) -> u64 {
     if let Some(&[a, b, c, d, e, f, g, h]) = text.get(at..at + 8) {
@@ -48,7 +49,7 @@ fn eight_bytes(text: &[u8], at: usize) -> u64 {
     u64::from_le_bytes(bytes)
 }
 
-/// Appends the shortest decimal number that reads back as `x`, which must be finite. Very large and very small
+/// Appends the shortest decimal number that gives `x` when it is read. `x` must be finite. Very large and very small
 /// numbers get an exponent (`1e300`, `2.5e-9`).
 pub(crate) fn push_number(out: &mut Vec<u8>, x: f64) {
     let mut buffer = zmij::Buffer::new();
@@ -95,9 +96,9 @@ fn push_bytes(out: &mut Vec<u8>, word: u64, n: usize) {
 pub(crate) fn push_whole(out: &mut Vec<u8>, value: usize) {
     match u64::try_from(value) {
         Ok(value) if value < 100_000_000 => {
-            // Computes all eight digits at once: splits the value into two halves, the halves into pairs of
-            // digits, and the pairs into digits. The first digit is then in the lowest byte. The multiplications
-            // replace divisions by 100 and 10.
+            // Computes all eight digits at once. The value is split into two halves, each half into pairs of digits,
+            // and each pair into digits. At the end, the first digit is in the lowest byte. Multiplications replace the
+            // divisions by 100 and 10.
             let halves = (value / 10_000) | (value % 10_000) << 32;
             let hundreds = ((halves * 10_486) >> 20) & 0x0000_007f_0000_007f;
             let pairs = hundreds | (halves - 100 * hundreds) << 16;

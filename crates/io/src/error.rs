@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use scene::Object;
 use store::StoreError;
 
-/// Why a file could not be read. Nothing was loaded.
+/// The reason why a file could not be read. Nothing was loaded.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadError {
@@ -56,7 +56,7 @@ pub enum ReadError {
         /// What is wrong with the polygons.
         source: mesh::BuildError,
     },
-    /// Something would be left out, which [`ReadOptions::strict`](crate::ReadOptions::strict) forbids.
+    /// Content would be left out, which [`ReadOptions::strict`](crate::ReadOptions::strict) forbids.
     #[error("{}: strict reading does not allow anything to be left out: {left_out}", path.display())]
     Strict {
         /// The file.
@@ -109,7 +109,7 @@ impl ReadError {
     }
 }
 
-/// Why a scene could not be written. No file was changed.
+/// The reason why a scene could not be written. No file was changed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum WriteError {
@@ -129,7 +129,7 @@ pub enum WriteError {
         /// The extensions of the formats that can be written.
         known: String,
     },
-    /// Something would be lost, which [`WriteOptions::strict`](crate::WriteOptions::strict) forbids.
+    /// Content would be lost, which [`WriteOptions::strict`](crate::WriteOptions::strict) forbids.
     #[error("{}: strict writing does not allow any loss: {losses}", path.display())]
     Strict {
         /// The file.
@@ -166,7 +166,7 @@ impl From<StoreError> for WriteError {
     }
 }
 
-/// Why a format cannot store a scene, before the name of the file is known.
+/// The reason why a format cannot store a scene. The name of the file is added later.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Unwritable {
     /// The object that the format cannot store; `None` for the scene as a whole.
@@ -185,7 +185,8 @@ impl Unwritable {
         Self { object, message }
     }
 
-    /// The error for an object of a kind that the format cannot store. `holds` says which kinds it can store.
+    /// Creates the error for an object of a kind that the format cannot store. `holds` says which kinds the format can
+    /// store.
     pub(crate) fn kind(holds: &str, object: &Object) -> Self {
         let kind = object.geometry.kind();
         Self::object(&object.name, format!("{holds}, found {kind}"))

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::error::ReadError;
 
-/// An error at one position of a file, before the name of the file is known.
+/// An error at one position of a file. The name of the file is added later.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Fault {
     pub(crate) at: Location,
@@ -88,13 +88,13 @@ impl TextPosition {
         }
     }
 
-    /// The error for a word other than the expected one.
+    /// Creates the error for a word at this position that differs from the expected word.
     pub(crate) fn expected(self, what: impl fmt::Display, found: &[u8]) -> Fault {
         self.error(format!("expected {what}, found {}", quoted(found)))
     }
 }
 
-/// Quotes a word of a file for a message: between backticks, and cut if it is long.
+/// Quotes a word of a file for a message. The word is between backticks, and is shortened if it is long.
 pub(crate) fn quoted(word: &[u8]) -> String {
     const LONGEST: usize = 40;
     if word.is_empty() {
@@ -105,7 +105,7 @@ pub(crate) fn quoted(word: &[u8]) -> String {
     format!("`{}{dots}`", text.escape_debug())
 }
 
-/// A number of things, for a message: "1 line", "2 lines".
+/// Returns a number with its noun, for a message: "1 line", "2 lines".
 pub(crate) fn counted(n: usize, noun: &str) -> String {
     format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
 }
@@ -120,7 +120,7 @@ pub(crate) fn name(bytes: &[u8]) -> String {
 
 #[cfg(test)]
 impl Fault {
-    /// The line and the column of an error in a text.
+    /// Returns the line and the column of an error in a text.
     pub(crate) fn place(&self) -> (usize, usize) {
         match self.at {
             Location::Text(TextPosition { line, column }) => (line, column),

@@ -10,7 +10,7 @@ use crate::gzip;
 pub enum Format {
     /// Wavefront OBJ: polygons as text, materials in an MTL file beside it.
     Obj,
-    /// glTF 2.0 as JSON text, binary data inside it or in a file beside it.
+    /// glTF 2.0 as JSON text. Binary data is inside the text or in a file beside it.
     Gltf,
     /// glTF 2.0 in one binary file.
     Glb,
@@ -82,7 +82,7 @@ impl Format {
         !matches!(self, Self::Dae)
     }
 
-    /// Whether files of this format can be compressed and quantized: glTF.
+    /// Whether files of this format can be compressed and quantized. True for the two glTF formats.
     pub const fn packs(self) -> bool {
         matches!(self, Self::Gltf | Self::Glb)
     }

@@ -1,4 +1,4 @@
-//! Compressed files: `model.obj.gz` is read and written like `model.obj`.
+//! Reads and writes compressed files: `model.obj.gz` is read and written like `model.obj`.
 //!
 //! The content is compressed by gzip (RFC 1952). All formats except the binary formats `.glb`, `.mws` and `.npz` can be
 //! compressed. The size of the decompressed content is limited, because a few bytes can stand for thousands.
@@ -20,7 +20,8 @@ pub(crate) fn is_compressed(path: &Path) -> bool {
         .is_some_and(|e| e.eq_ignore_ascii_case("gz"))
 }
 
-/// The path without `.gz`, from which the format, the name of the object and the names of further files follow.
+/// Returns the path without `.gz`. This path determines the format, the name of the object and the names of further
+/// files.
 pub(crate) fn plain(path: &Path) -> Cow<'_, Path> {
     if is_compressed(path) {
         Cow::Owned(path.with_extension(""))
@@ -29,7 +30,7 @@ pub(crate) fn plain(path: &Path) -> Cow<'_, Path> {
     }
 }
 
-/// Decompresses the content of a file if its name ends in `.gz`. `most` is the largest size of the result in bytes.
+/// Decompresses the content of a file if its name ends in `.gz`. `most` is the maximum size of the result in bytes.
 ///
 /// # Errors
 ///
@@ -43,7 +44,7 @@ pub(crate) fn unpacked(path: &Path, bytes: Vec<u8>, most: u64) -> Result<Vec<u8>
         message,
     };
     let mut out = Vec::new();
-    // The memory grows with the content, so that a wrong size in the file has no effect.
+    // The memory grows with the decompressed content, so a wrong size in the file has no effect.
     let mut decoder = MultiGzDecoder::new(&bytes[..]).take(most.saturating_add(1));
     let read = decoder.read_to_end(&mut out);
     read.map_err(|why| error(format!("the compressed content is damaged: {why}")))?;
@@ -77,8 +78,8 @@ pub(crate) fn head(store: &dyn Store, path: &Path, most: u64) -> Result<Vec<u8>,
     Ok(out)
 }
 
-/// Compresses what `write` writes, and returns the number of compressed bytes. Equal content gives equal bytes: the
-/// header has no time and no name.
+/// Compresses the bytes that `write` writes, and returns the number of compressed bytes. The header has no time and no
+/// name, so equal content gives equal bytes.
 ///
 /// # Errors
 ///

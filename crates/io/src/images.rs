@@ -1,4 +1,5 @@
-//! The images of materials: found beside the model when it is read, and embedded or copied when a scene is written.
+//! Handles the images of materials. When a model is read, images are searched for beside the model. When a scene is
+//! written, images are embedded or copied.
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -23,10 +24,11 @@ use crate::{Format, WriteOptions, gzip};
 pub enum Images {
     /// Store the images in the file or, for `.gltf`, in its `.bin` file. OBJ files cannot embed images.
     Embed,
-    /// Write the images to files next to the file, with the paths that they have in the model they come from. An
-    /// existing image with different content is not replaced: the copy gets a number.
+    /// Write the images to files next to the written file. Each image keeps the path that it has in the model from
+    /// which it was read. If a different image with this path exists, the copy gets a number.
     Copy,
-    /// Write only the paths, as in the model that the images come from. Embedded images stay embedded.
+    /// Write only the paths of the images, as in the model from which the images were read. Embedded images stay
+    /// embedded.
     Keep,
 }
 
@@ -34,8 +36,8 @@ pub enum Images {
 /// searching for files takes time.
 const MAX_IMAGES: usize = 4096;
 
-/// Loads the images to which the materials refer from files. Images that cannot be read stay paths, with a note.
-/// `most` is the largest total size in bytes.
+/// Loads the image files to which the materials refer. If an image cannot be read, it stays a path, and a note is
+/// added. `most` is the maximum total size in bytes.
 pub(crate) fn load(objects: &mut [Object], assets: &mut Assets, most: u64, notes: &mut Notes) {
     let mut known: BTreeMap<String, Option<Image>> = BTreeMap::new();
     let (mut room, mut n_further) = (most, 0);
@@ -65,8 +67,8 @@ pub(crate) fn load(objects: &mut [Object], assets: &mut Assets, most: u64, notes
     notes.left_out("image-missing", n_further, None, what);
 }
 
-/// Notes the images to which materials refer and which do not exist, as [`load`] does, without reading images. `paths`
-/// are the paths of images in files.
+/// Adds the same notes about missing images as [`load`], without reading images. `paths` are the paths of the image
+/// files to which materials refer.
 pub(crate) fn note_missing<'p>(
     paths: impl IntoIterator<Item = &'p str>,
     assets: &mut Assets,
@@ -93,7 +95,7 @@ fn note_left_out(path: &str, why: &str, notes: &mut Notes) {
 ///
 /// # Errors
 ///
-/// Why the file of an image cannot be used.
+/// The reason why the image file cannot be used.
 fn located(path: &str, assets: &mut Assets) -> Result<PathBuf, String> {
     let mut folders = assets.image_folders.clone();
     folders.push(PathBuf::new());
@@ -112,7 +114,7 @@ fn located(path: &str, assets: &mut Assets) -> Result<PathBuf, String> {
 ///
 /// # Errors
 ///
-/// Why the image is left out.
+/// The reason why the image is left out.
 fn find(path: &str, assets: &mut Assets, room: &mut u64) -> Result<Image, String> {
     let name = located(path, assets)?;
     let bytes = assets.read(&name, room.saturating_add(1));
@@ -122,7 +124,7 @@ fn find(path: &str, assets: &mut Assets, room: &mut u64) -> Result<Image, String
     if media_type(&name, &bytes).is_none() {
         return Err("it is not an image".to_owned());
     }
-    // A path relative to the model stays as it is written there.
+    // If the path is relative to the model, it stays as written in the model.
     let path = if inside(path).as_ref() == Ok(&name) {
         path.to_owned()
     } else {
@@ -138,7 +140,7 @@ fn slashed(path: &Path) -> String {
     parts.collect::<Vec<_>>().join("/")
 }
 
-/// Extensions of image files with their media types. The first extension of a type is used for new files.
+/// Extensions of image files with their media types. New files get the first extension of their type.
 const KINDS: [(&str, &str); 16] = [
     ("png", "image/png"),
     ("jpg", "image/jpeg"),
@@ -158,8 +160,8 @@ const KINDS: [(&str, &str); 16] = [
     ("svg", "image/svg+xml"),
 ];
 
-/// The media type that the first bytes of a PNG or JPEG file indicate, or else the extension. `None` if the file does
-/// not seem to be an image, so that other files beside a model are never embedded or copied.
+/// Returns the media type of an image file from its first bytes, or else from its extension. Returns `None` if the file
+/// does not seem to be an image, so that other files beside a model are never embedded or copied.
 fn media_type(path: &Path, bytes: &[u8]) -> Option<&'static str> {
     let extension = path.extension().unwrap_or_default();
     let of_bytes = sniffed(bytes);
@@ -171,7 +173,7 @@ fn media_type(path: &Path, bytes: &[u8]) -> Option<&'static str> {
     of_bytes.or_else(|| Some(of_name()?.1))
 }
 
-/// The media type that the first bytes of a PNG or JPEG file indicate.
+/// Returns the media type of a PNG or JPEG file from its first bytes.
 pub(crate) fn sniffed(bytes: &[u8]) -> Option<&'static str> {
     match bytes {
         [0x89, b'P', b'N', b'G', ..] => Some("image/png"),
@@ -180,14 +182,14 @@ pub(crate) fn sniffed(bytes: &[u8]) -> Option<&'static str> {
     }
 }
 
-/// A scene in which every image is a path or is embedded, and the image files that must be written with it.
+/// A scene in which every image is a path or is embedded, and the image files that must be written with this scene.
 pub(crate) struct Settled<'a> {
     pub(crate) scene: Cow<'a, Scene>,
     pub(crate) files: Vec<(PathBuf, Content<'static>)>,
 }
 
-/// Decides for each image of a scene whether it is embedded, copied or only named. The folders of copied images are
-/// created.
+/// Decides for each image of a scene whether it is embedded or copied, or only its path is written. Creates the folders
+/// of copied images.
 ///
 /// # Errors
 ///
@@ -265,7 +267,8 @@ struct Copies<'a> {
     store: &'a dyn Store,
     /// The file of the model.
     path: &'a Path,
-    /// The paths that are already used, relative to the folder of the model. `None` if it is not an image.
+    /// The paths that are already used, relative to the folder of the model. The value is `None` if the file is not an
+    /// image.
     taken: BTreeMap<PathBuf, Option<Arc<[u8]>>>,
     files: Vec<(PathBuf, Content<'static>)>,
     folders: BTreeSet<PathBuf>,
@@ -285,8 +288,8 @@ impl<'a> Copies<'a> {
         }
     }
 
-    /// Chooses the path of an image, relative to the folder of the model, with `/` as separator. `name` is used if no
-    /// other file has it.
+    /// Chooses the path of an image, relative to the folder of the model, with `/` as separator. The path is `name`,
+    /// unless another file has this path.
     fn copy(&mut self, name: Option<PathBuf>, bytes: &Arc<[u8]>) -> Result<String, WriteError> {
         let first = name.unwrap_or_else(|| "image".into());
         let mut name = first.clone();
@@ -324,10 +327,10 @@ impl<'a> Copies<'a> {
         Ok(true)
     }
 
-    /// Refuses a folder that a link leads out of the folder of the model.
+    /// Returns an error if a link in the path leads out of the folder of the model.
     fn check_links(&self, folder: &Path) -> Result<(), WriteError> {
         let Ok(root) = self.store.canonical(folder_of(self.path)) else {
-            // The folder does not exist, which is an error later.
+            // If the folder does not exist, writing the image fails later.
             return Ok(());
         };
         let existing = folder

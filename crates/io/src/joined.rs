@@ -15,13 +15,13 @@ use crate::writing::dense;
 pub(crate) struct Joined<'a> {
     /// The mesh without dead elements. The meshes of several objects are appended in order.
     pub(crate) mesh: Cow<'a, Mesh>,
-    /// The object name that losses report: the name of the first object.
+    /// The object name for losses, which is the name of the first object.
     pub(crate) name: String,
     pub(crate) losses: Vec<Loss>,
 }
 
-/// Joins the meshes of a scene's objects. If there are several objects and the format stores `tags`, faces get the
-/// tag `o:` followed by the name of their object. Materials are lost.
+/// Joins the meshes of all objects of a scene. If there are several objects and `tags` is set, each face gets a tag:
+/// `o:` followed by the name of its object. Materials are lost.
 ///
 /// # Errors
 ///

@@ -1,7 +1,7 @@
 //! Reading and writing OBJ, glTF, PLY, STL, OFF, COLLADA, Bezier and Meshwright scene files.
 //!
-//! [`read()`] reads the objects of a file, [`write()`] writes a scene to files, and [`peek()`] returns what a file
-//! holds (formats, kinds, counts) without building meshes. The extension of the file name chooses the [`Format`]:
+//! [`read()`] reads the objects of a file, [`write()`] writes a scene to files, and [`peek()`] returns the kinds and
+//! the counts of the objects of a file without building meshes. The extension of the file name chooses the [`Format`]:
 //!
 //! | extension | content | module |
 //! | --- | --- | --- |
@@ -17,14 +17,14 @@
 //! | `.npz` (write only) | the arrays of a mesh for `NumPy` | `npz` |
 //! | `.gz` after one of these, except `.glb`, `.mws` and `.npz` | the same, compressed by gzip | `gzip` |
 //!
-//! Nothing is dropped silently: whatever a reader leaves out or changes becomes a [`Note`] with a count, and
-//! whatever a format cannot store becomes a [`Loss`]. Errors name the position: line and column in a text, the byte
-//! offset in a binary file, the JSON pointer in a glTF file. Paths inside a file must stay inside the folder of the
-//! file. A file is written completely or not at all.
+//! Nothing is dropped silently. Content that a reader leaves out or changes is reported as a [`Note`] with a count.
+//! Content that a format cannot store is reported as a [`Loss`]. Errors have a position: the line and the column in a
+//! text, the byte offset in a binary file, or the JSON pointer in a glTF file. A path in a file must not lead out of
+//! the folder of the file. A file is written completely or not at all.
 //!
-//! The folder of a format has `read` (from bytes to polygons), `write` and `peek`, and its `mod.rs` lists what each
-//! construct of the format becomes. For example, faces of OBJ are read in `obj/statement.rs` and those of glTF in
-//! `gltf/primitives.rs`. All formats share these modules:
+//! Each format has a folder with the modules `read` (from bytes to polygons), `write` and `peek`. Its `mod.rs` lists
+//! how each construct of the format is converted. For example, faces of OBJ are read in `obj/statement.rs`, and faces
+//! of glTF in `gltf/primitives.rs`. All formats share these modules:
 //!
 //! | module | purpose |
 //! | --- | --- |
@@ -119,21 +119,22 @@ use writing::without_marks;
 /// How to read a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ReadOptions {
-    /// The name for objects that have no name in the file, and for the only object of an `.mws` file. If `None`, the
-    /// name of the file without its extension; objects of an `.mws` file then keep their names. In glTF and COLLADA
-    /// files, objects are named after their nodes, or else after their meshes.
+    /// The name for objects that have no name in the file, and for the only object of an `.mws` file. If `None`, such
+    /// objects get the name of the file without its extension, but the object of an `.mws` file keeps its name. In glTF
+    /// and COLLADA files, objects are named after their nodes, or else after their meshes.
     pub name: Option<String>,
-    /// How to handle polygons that do not form a clean mesh.
+    /// How polygons that do not form a clean mesh are handled.
     pub policies: Policies,
     /// How nodes place meshes. COLLADA files are always read with [`Placements::Bake`].
     pub placements: Placements,
     /// Whether reading fails if anything in the file would be left out.
     pub strict: bool,
-    /// Whether copies of vertices that are split are marked, so that `.obj`, `.ply` and `.off` files are written with
-    /// the vertices of the file that was read. For conversions without edits.
+    /// Whether the copies of split vertices are marked. If the mesh is written to an `.obj`, `.ply` or `.off` file, the
+    /// copies are then merged, and the file has the same vertices as the file that was read. This option is for
+    /// conversions without edits.
     pub keep_vertices: bool,
-    /// The memory budget in bytes for content whose size does not follow from the size of the file: its images,
-    /// together, and the decompressed content of a `.gz` file. Defaults to 4 GiB.
+    /// The memory budget in bytes for content whose size does not follow from the size of the file. Such content is the
+    /// total of all images, and the decompressed content of a `.gz` file. Defaults to 4 GiB.
     pub budget: Option<u64>,
 }
 
@@ -144,7 +145,7 @@ pub struct Loaded {
     pub objects: Vec<Object>,
     /// The nodes that place the objects. Empty if the file has no nodes.
     pub graph: Graph,
-    /// What was left out or changed by reading.
+    /// The content that reading left out or changed.
     pub notes: Vec<Note>,
     /// The files that the result depends on, without duplicates, sorted by path.
     pub files: Vec<FileDependency>,
@@ -157,16 +158,16 @@ pub struct WriteOptions {
     /// the header of STL, as `asset.extras.meshwright` in glTF, and in the header of `.mws`. The Bezier formats
     /// and tables (`.csv`, `.npz`) cannot store it.
     pub provenance: Option<String>,
-    /// What to do with the images of materials. If `None`, `.glb` files embed them, and images next to the model
-    /// that they come from are copied next to `.gltf` and `.obj` files. OBJ cannot embed images, so embedded ones
-    /// are written to files too.
+    /// How the images of materials are written. If `None`, `.glb` files embed the images. For `.gltf` and `.obj` files,
+    /// images next to the original model are copied next to the written file. OBJ files cannot embed images, so
+    /// embedded images are also written to files.
     pub images: Option<Images>,
     /// How to compress the geometry of glTF files. If `None`, it is not compressed. Other formats are refused.
     pub compression: Option<Compression>,
     /// How to quantize the geometry of glTF files. If `None`, numbers have 32 bits. Other formats are refused.
     pub quantization: Option<Quantization>,
-    /// For glTF, the number of sets of four joints that are written for each vertex of a skinned mesh. If `None`, as many
-    /// as in the file that the mesh was read from, and otherwise 1.
+    /// For glTF, the number of sets of four joints that are written for each vertex of a skinned mesh. If `None`, the
+    /// number in the file from which the mesh was read, or 1 if it was not read from a file.
     pub weight_sets: Option<u32>,
     /// The elements that a `.csv` file has rows for. If `None`, vertices. Other formats are refused.
     pub rows: Option<Rows>,
@@ -181,9 +182,9 @@ pub struct WriteReport {
     pub files: Vec<PathBuf>,
     /// The total size of the files in bytes.
     pub bytes: u64,
-    /// What the files do not store of the scene.
+    /// The content of the scene that the files do not store.
     pub losses: Vec<Loss>,
-    /// What compression and quantization did. `None` if neither was requested.
+    /// The effects of compression and quantization. `None` if neither was requested.
     pub packing: Option<PackingReport>,
 }
 
@@ -205,8 +206,8 @@ pub fn read(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Loa
     Ok(loaded)
 }
 
-/// Reads the objects of a file from its bytes. `path` chooses the format, is named in errors, and locates the files
-/// that this file refers to. [`Loaded::files`] then lists the referenced files only, without `path` itself.
+/// Reads the objects of a file from its bytes. `path` determines the format, appears in errors, and locates the files
+/// to which this file refers. Here, [`Loaded::files`] lists only the referenced files, without `path` itself.
 ///
 /// # Errors
 ///
@@ -250,12 +251,12 @@ pub fn read_bytes(
     })
 }
 
-/// Reads the polygons of a file as they are, without building meshes, for programs that need no connectivity.
-/// Curves, patches and polylines are left out. Nodes are applied as by [`Placements::Bake`].
+/// Reads the polygons of a file as they are, without building meshes, for programs that need no connectivity. Curves,
+/// patches and polylines are left out. Nodes are applied as with [`Placements::Bake`].
 ///
 /// # Errors
 ///
-/// As [`read()`], except errors that only building a mesh can find.
+/// The errors of [`read()`], except those that are found only when a mesh is built.
 pub fn read_polygons(
     store: &dyn Store,
     path: &Path,
@@ -283,7 +284,7 @@ pub fn read_polygons(
     Ok(polygons.collect())
 }
 
-/// The content of a file as a format's reader returns it.
+/// The content of a file as the reader of a format returns it.
 struct Parsed {
     objects: Vec<ParsedObject>,
     graph: Graph,
@@ -296,7 +297,7 @@ impl From<Vec<ParsedObject>> for Parsed {
     }
 }
 
-/// An object as a format's reader returns it.
+/// An object as the reader of a format returns it.
 struct ParsedObject {
     name: String,
     shape: Shape,
@@ -353,9 +354,9 @@ fn fail_if_left_out(path: &Path, notes: &[Note]) -> Result<(), ReadError> {
 /// Returns the objects that reading a file would give, with their counts. Uses the headers of the file if it has
 /// any.
 ///
-/// Also returns the content that reading would leave out, as far as it is known then.
+/// Also returns the content that reading would leave out, as far as it is known without reading.
 ///
-/// Bezier files are checked completely and glTF files up to the end of their JSON. OBJ files are not checked: their
+/// Bezier files are checked completely. In glTF files, only the JSON is checked. OBJ files are not checked: their
 /// statements are only counted.
 ///
 /// # Errors
@@ -474,7 +475,7 @@ fn write_placed(
         scene,
         files: mut all,
     } = images::settle(store, path, format, scene, options)?;
-    // The other formats merge the copies of split vertices by their positions, or store them.
+    // The other formats merge the copies of split vertices by position, or store all copies.
     let scene = &*if keeps_vertices(path) {
         scene
     } else {
@@ -487,7 +488,7 @@ fn write_placed(
         Format::Ply => ply::write(scene, options).map(one),
         Format::Stl => stl::write(scene, options).map(one),
         Format::Off => off::write(scene, options).map(one),
-        // Refused above.
+        // COLLADA files were refused above.
         Format::Dae => Ok(one(Default::default())),
         Format::Mws => Ok(one(mws::write(scene, options))),
         Format::Bez => bez::write_bez(scene).map(one),
@@ -532,7 +533,7 @@ fn fail_if_lost(path: &Path, options: &WriteOptions, losses: &[Loss]) -> Result<
     })
 }
 
-/// The bytes of files before they are saved, and what the files do not store.
+/// The bytes of files before they are saved, and the content that the files do not store.
 struct Written {
     /// The files in the order in which they are saved.
     files: Vec<(PathBuf, Vec<u8>)>,
@@ -540,7 +541,7 @@ struct Written {
     packing: Option<PackingReport>,
 }
 
-/// The bytes of one file, and what the file does not store.
+/// The bytes of one file, and the content that the file does not store.
 type SingleFile = (Vec<u8>, Vec<Loss>);
 
 fn known_format(path: &Path) -> Result<Format, ReadError> {
@@ -556,7 +557,7 @@ impl ReadOptions {
         self.budget.unwrap_or(1 << 32)
     }
 
-    /// The name of an object that has no name in the file.
+    /// Returns the name for objects that have no name in the file.
     fn name_in(&self, path: &Path) -> String {
         let given = self.name.clone();
         given.unwrap_or_else(|| match store::stem(path).to_string_lossy() {

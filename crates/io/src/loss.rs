@@ -1,22 +1,22 @@
-//! What a written file does not store of a scene.
+//! Losses: the content of a scene that a written file does not store.
 
 use std::collections::BTreeSet;
 use std::fmt;
 
 use mesh::{Column, Domain, Mesh, joint_name, morph_name};
 
-/// Something of a scene that a written file does not store.
+/// Content of a scene that a written file does not store.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Loss {
     /// The name of the object. Empty if the loss concerns the whole scene, such as its cameras.
     pub object: String,
-    /// The domain of the lost values; `None` if they belong to the object as a whole.
+    /// The domain of the lost values. `None` if the loss concerns the object as a whole.
     pub domain: Option<Domain>,
     /// The name of the attribute, or of another part of the object, such as `materials`.
     pub attribute: String,
     /// The number of lost values or elements.
     pub count: usize,
-    /// Why the file does not store them.
+    /// The reason why the file does not store the values or elements.
     pub reason: String,
 }
 
@@ -76,7 +76,7 @@ impl<'a> Losses<'a> {
             let column = mesh.attributes().column(Domain::Vertex, name);
             column.is_some_and(|column| !is_stored(Domain::Vertex, column))
         };
-        // These attributes are counted together.
+        // All attributes of joints are counted together, and so are those of morph targets.
         let joints = mesh.attributes().joints().into_iter();
         let joints: BTreeSet<String> = joints.map(|(joint, _)| joint_name(joint)).collect();
         let morphs = mesh.attributes().morphs().into_iter();

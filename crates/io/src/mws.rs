@@ -40,8 +40,8 @@ pub(crate) fn read(
     })
 }
 
-/// Returns the objects that reading would give, with their counts. Decodes the whole file, because all of it
-/// must be valid.
+/// Returns the objects that reading would give, with their counts. Decodes the whole file, because the file is refused
+/// if any part is invalid.
 pub(crate) fn peek(
     bytes: &[u8],
     name: Option<&str>,
@@ -176,7 +176,7 @@ mod tests {
         for i in 0..whole.len() {
             let mut changed = whole.clone();
             changed[i] ^= 1 << (i % 8);
-            // A changed file that can still be decoded gives valid meshes.
+            // If a changed file can still be decoded, its meshes are valid.
             if let Ok(scene) = scene_of(&changed, None, Placements::Keep) {
                 for mesh in scene.objects().iter().filter_map(|o| o.as_mesh()) {
                     assert_eq!(mesh.defects(), [], "byte {i}");

@@ -1,4 +1,4 @@
-//! What reading changed or left out. Nothing is dropped silently.
+//! Notes: the content that reading changed or left out. Nothing is dropped silently.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -7,26 +7,27 @@ use std::path::{Path, PathBuf};
 use glam::DVec3;
 use mesh::{Elements, VertexId};
 
-/// Something in a file that a reader changed or left out.
+/// Content of a file that a reader changed or left out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Note {
     /// A stable name of the kind of note, for programs, such as `faces-reversed`.
     pub code: &'static str,
-    /// Whether something is missing from the scene or only has a different form.
+    /// Whether the content is missing from the scene, or only has a different form.
     pub kind: NoteKind,
     /// The file that the note is about: the requested file or a file that it refers to.
     pub path: PathBuf,
     /// The first line that the note is about, from 1. Only in text files.
     pub line: Option<usize>,
-    /// The number of things that the note is about.
+    /// The number of elements, statements or other things that the note is about.
     pub count: usize,
-    /// The things and what became of them, in the plural, as words that follow the count: `statements 'vp' left out`.
-    /// If the count is 1, [`Display`](fmt::Display) writes the first noun in the singular.
+    /// The words that follow the count, in the plural, such as `statements 'vp' left out`. They name the things, and
+    /// say how the reader handled them. If the count is 1, [`Display`](fmt::Display) writes the first noun in the
+    /// singular.
     pub what: String,
     /// The affected elements of the file, if they are known.
     pub elements: Option<Elements>,
-    /// The positions of the first elements, at most [`MAX_PLACES`](Self::MAX_PLACES), in scene units: one point for
-    /// a vertex, both ends for an edge, the corners in order for a face.
+    /// The positions of the first elements, at most [`MAX_PLACES`](Self::MAX_PLACES), in scene units. A vertex has one
+    /// point, an edge has both ends, and a face has its corners in order.
     pub places: Vec<Vec<DVec3>>,
 }
 
@@ -35,7 +36,7 @@ impl Note {
     pub const MAX_PLACES: usize = 10_000;
 }
 
-/// The polygons of a file, to look up the positions of elements.
+/// The polygons of a file, from which the positions of elements are looked up.
 #[derive(Clone, Copy)]
 pub(crate) struct PolygonArrays<'a> {
     /// The position of each vertex.
@@ -69,12 +70,12 @@ impl PolygonArrays<'_> {
     }
 }
 
-/// What a [`Note`] reports.
+/// The kind of content that a [`Note`] reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum NoteKind {
-    /// The file holds something that the scene does not.
+    /// The file has content that the scene does not have.
     LeftOut,
-    /// The scene holds something in a different form than the file.
+    /// The scene has the content in a different form than the file.
     Changed,
 }
 
@@ -95,7 +96,7 @@ impl fmt::Display for Note {
     }
 }
 
-/// The plural nouns with which notes begin.
+/// The plural nouns at the beginning of notes.
 const NOUNS: [&str; 57] = [
     "animations",
     "attributes",
@@ -161,7 +162,7 @@ const NOUNS: [&str; 57] = [
 fn singular(what: &str) -> String {
     let mut words: Vec<String> = what.split(' ').map(str::to_owned).collect();
     let is_noun = |word: &String| NOUNS.contains(&word.as_str());
-    // At most two words stand before the noun, such as `third texture coordinates`.
+    // At most two words precede the noun, such as in `third texture coordinates`.
     let Some(first) = words.iter().take(3).position(is_noun) else {
         return what.to_owned();
     };
@@ -199,8 +200,8 @@ fn singular_noun(plural: &str) -> String {
     }
 }
 
-/// The largest number of notes in the list. Further notes are only counted, because every few bytes of a file can
-/// cause a note.
+/// The maximum number of notes in the list. Further notes are only counted, because a large file can cause millions of
+/// notes.
 const MAX_LISTED: usize = 1000;
 
 /// Collects the notes about one file while it is read.
@@ -221,7 +222,7 @@ impl Notes {
         }
     }
 
-    /// Adds a note unless `count` is 0.
+    /// Adds a note, unless `count` is 0.
     pub(crate) fn left_out(
         &mut self,
         code: &'static str,
@@ -232,7 +233,7 @@ impl Notes {
         self.add(code, NoteKind::LeftOut, count, line.into(), what.into());
     }
 
-    /// Adds a note unless `count` is 0.
+    /// Adds a note, unless `count` is 0.
     pub(crate) fn changed(
         &mut self,
         code: &'static str,
@@ -260,7 +261,7 @@ impl Notes {
         });
     }
 
-    /// Adds a note unless `count` is 0.
+    /// Adds a note, unless `count` is 0.
     pub(crate) fn add(
         &mut self,
         code: &'static str,
@@ -304,7 +305,7 @@ impl Notes {
         }
     }
 
-    /// Adds the notes about a file that this file refers to.
+    /// Adds the notes about another file to which this file refers.
     pub(crate) fn append(&mut self, other: Self) {
         for note in other.list {
             self.push(note);
@@ -331,12 +332,13 @@ impl Notes {
 #[derive(Default)]
 pub(crate) struct Names {
     taken: BTreeSet<String>,
-    /// The last number that was appended to each name.
+    /// For each name, the last number that was appended to it.
     last: BTreeMap<String, usize>,
 }
 
 impl Names {
-    /// Returns `name` or, if it is taken, `name.2`, `name.3` and so on, with a note.
+    /// Returns `name` if it is unused. Otherwise, returns the first unused name of `name.2`, `name.3` and so on, and
+    /// adds a note.
     pub(crate) fn unique(&mut self, name: &str, notes: &mut Notes) -> String {
         let mut new = name.to_owned();
         while !self.taken.insert(new.clone()) {

@@ -18,15 +18,16 @@ pub enum Compression {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Quantization {
-    /// The bits of each coordinate. The grid has the same step along all axes and covers the bounding box of the
-    /// object, whose longest side has 2^bits - 1 steps. Defaults to 16.
+    /// The bits of each coordinate of a position. Positions are rounded to a grid that covers the bounding box of the
+    /// object and has the same step along all axes. The longest side of the box has 2^bits - 1 steps. Defaults to 16.
     #[serde(default = "Bits::most")]
     pub position: Bits,
-    /// The bits of each of the two numbers of a normal or a tangent on an octahedron. Defaults to 8.
+    /// The bits of each of the two numbers that represent a normal or a tangent as a point of an octahedron. Defaults
+    /// to 8.
     #[serde(default = "Bits::least")]
     pub normal: Bits,
-    /// The bits of each texture coordinate. A set with coordinates outside of 0 to 1 is not quantized. Defaults to
-    /// 16.
+    /// The bits of each texture coordinate. If a set has coordinates outside of the range from 0 to 1, it is not
+    /// quantized. Defaults to 16.
     #[serde(default = "Bits::most")]
     pub uv: Bits,
     /// The bits of each component of a color. Defaults to 8.
@@ -94,22 +95,22 @@ impl TryFrom<u32> for Bits {
     }
 }
 
-/// What compression and quantization did to a file.
+/// The effects of compression and quantization on a file.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct PackingReport {
-    /// The size in bytes that the files would have without compression and quantization, without copied images and
-    /// before gzip.
+    /// The size in bytes that the files would have without compression and quantization. Copied images do not count,
+    /// and neither does compression by gzip.
     pub bytes_before: u64,
     /// The size in bytes of the same files as written.
     pub bytes_after: u64,
-    /// The largest distance between a position and its quantized position, in scene units. `None` if no positions
-    /// are quantized. If the placement of a node shears, this is an upper bound.
+    /// The largest distance between a position and its quantized position, in scene units. `None` if no positions are
+    /// quantized. If the placement of a node has a shear, this is an upper bound.
     pub position_error: Option<f64>,
     /// The largest angle between a normal or a tangent and its quantized direction, in degrees.
     pub normal_error: Option<f64>,
     /// The largest difference between a texture coordinate and its quantized coordinate.
     pub uv_error: Option<f64>,
-    /// The attributes that should be quantized and could not, as the object, the attribute and the reason.
+    /// The attributes that could not be quantized. Each entry has the object, the attribute and the reason.
     pub unquantized: Vec<(String, String, String)>,
 }
 

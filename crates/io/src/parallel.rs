@@ -1,7 +1,7 @@
 //! Runs work on all threads, in blocks of elements.
 //!
-//! All functions share one rayon loop. The compiler generates a copy of a generic loop for every closure, and these
-//! copies are expensive, so the shared loop calls its work through a pointer, once for each block.
+//! All functions share one loop of the crate `rayon`. The loop calls its work through a pointer, once for each block. A
+//! generic loop would be compiled again for every closure, which is expensive.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
@@ -10,7 +10,7 @@ use std::sync::{Mutex, PoisonError};
 use bytemuck::Zeroable;
 use rayon::prelude::*;
 
-/// The number of elements in a block: enough to make the cost of scheduling negligible.
+/// The number of elements in a block. Blocks are large enough to make the cost of scheduling negligible.
 pub(crate) const BLOCK: usize = 4096;
 
 /// Calls `work` with each number below `n`.
@@ -42,12 +42,12 @@ pub(crate) fn consume<P: Send, R: Send>(
     results.flatten().collect()
 }
 
-/// Returns the results of `make` for each number below `n`.
+/// Returns the result of `make` for each number below `n`.
 pub(crate) fn map<R: Send>(n: usize, make: impl Fn(usize) -> R + Sync) -> Vec<R> {
     consume(0..n, |_, i| make(i))
 }
 
-/// Returns the results of `make` for each block of the numbers below `n`.
+/// Divides the numbers below `n` into blocks, and returns the result of `make` for each block.
 pub(crate) fn blocks<R: Send>(n: usize, make: impl Fn(Range<usize>) -> R + Sync) -> Vec<R> {
     map(n.div_ceil(BLOCK), |block| {
         make(block * BLOCK..n.min((block + 1) * BLOCK))

@@ -1,11 +1,11 @@
-//! What a file holds, without building its objects. Used to estimate a run before it starts.
+//! Counts the content of a file without building its objects. The counts are used to estimate a run before it starts.
 
 use mesh::{COLOR, CORNER_NORMAL, Domain, MATERIAL, Mesh, UV, VERTEX_NORMAL};
 use scene::{Geometry, Graph, Material};
 
 use crate::{Format, Note};
 
-/// What a file holds.
+/// The content of a file: its objects with their counts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Peek {
     /// The format of the file.
@@ -16,9 +16,9 @@ pub struct Peek {
     pub skins: u64,
     /// The number of animations.
     pub animations: u64,
-    /// What reading would leave out, as far as it is known without building the objects: unused elements of a PLY file,
-    /// statements of an OBJ file that do not describe polygons, content that the JSON of a glTF file lists, missing
-    /// images and material libraries. Reading can leave out more.
+    /// The content that reading would leave out, as far as it is known without building the objects. Examples are
+    /// unused elements of a PLY file, statements of an OBJ file that do not describe polygons, and missing images and
+    /// material libraries. Reading can leave out more.
     pub left_out: Vec<Note>,
 }
 
@@ -45,7 +45,7 @@ pub struct PeekObject {
     pub name: String,
     /// The kind and the counts of its geometry.
     pub geometry: PeekGeometry,
-    /// How often nodes show the object; 1 in a file without nodes.
+    /// The number of nodes that show the object, or 1 in a file without nodes.
     pub instances: u64,
     /// The names of the materials of the object; `None` if they are only known after reading.
     pub materials: Option<Vec<String>>,
@@ -115,8 +115,9 @@ impl PeekGeometry {
 
 /// The counts and attributes of a mesh according to its file.
 ///
-/// Reading never gives more faces or corners than this. It can give more vertices, because non-manifold vertices
-/// and edges are split, and fewer vertices, because a glTF file has a vertex for each side of a seam.
+/// Reading never gives more faces or corners than these counts. Reading can give more vertices, because non-manifold
+/// vertices and edges are split. Reading can also give fewer vertices, because a glTF file has a vertex for each side
+/// of a seam.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[expect(
     clippy::struct_excessive_bools,
@@ -129,9 +130,9 @@ pub struct PeekMesh {
     pub faces: u64,
     /// The number of corners of all faces.
     pub corners: u64,
-    /// The smallest number of corners of a face; 0 without faces.
+    /// The smallest number of corners of a face, or 0 if there are no faces.
     pub min_degree: u64,
-    /// The largest number of corners of a face; 0 without faces.
+    /// The largest number of corners of a face, or 0 if there are no faces.
     pub max_degree: u64,
     /// Whether corners have texture coordinates.
     pub uvs: bool,

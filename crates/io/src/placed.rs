@@ -1,4 +1,4 @@
-//! Placing meshes for formats without nodes.
+//! Places the meshes of a scene for formats without nodes.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -14,8 +14,7 @@ pub(crate) struct Placed<'s> {
     pub(crate) losses: Vec<Loss>,
 }
 
-/// The largest size of the meshes after placing, in bytes. Larger scenes are refused, because many nodes can show the
-/// same mesh.
+/// The maximum size of all placed meshes, in bytes. The size is limited because many nodes can show the same mesh.
 const MAX_PLACED_BYTES: u64 = 1 << 36;
 
 /// Returns the scene for a format. If the format has no nodes, every instance becomes an object in scene space.

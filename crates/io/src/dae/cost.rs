@@ -4,14 +4,14 @@
 pub(super) const BUDGET_FACTOR: usize = 64;
 /// The smallest memory budget of a file, in bytes.
 pub(super) const MIN_BUDGET: usize = 1 << 24;
-/// The approximate sizes of an object without faces, a material, the binding of a material, a vertex, a corner, and
-/// an additional value of a corner.
+/// The approximate size of an object without faces. The sizes of a material, the binding of a material, a vertex, a
+/// corner, and an additional value of a corner follow.
 pub(super) const OBJECT: usize = 1000;
 pub(super) const MATERIAL: usize = 1000;
 pub(super) const BOUND: usize = 50;
 pub(super) const VERTEX: usize = 64;
 pub(super) const CORNER: usize = 48;
 pub(super) const VALUE: usize = 24;
-/// The cost of reading a number. A number that is read several times counts each time. The cost limits time
-/// rather than memory.
+/// The cost of reading a number. If a number is read several times, each time counts. This cost limits time rather than
+/// memory.
 pub(super) const NUMBER: usize = 20;

@@ -29,8 +29,7 @@ pub(super) fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, Fault> {
     })
 }
 
-/// Parses `text`. Document type declarations are refused, and therefore all entities except the five predefined
-/// ones.
+/// Parses `text`. Document type declarations are refused, so only the five predefined entities can be used.
 ///
 /// # Errors
 ///
@@ -60,9 +59,9 @@ pub(super) fn parsed(text: &str) -> Result<Xml<'_>, Fault> {
     })
 }
 
-/// Refuses text for which the XML parser would take too much time or memory. The parser allocates an entry for each
-/// `<` and `=`, compares the attributes of an element with each other, and lists all namespaces at each element
-/// that declares one.
+/// Refuses text for which the XML parser would take too much time or memory. The parser allocates an entry for each `<`
+/// and `=`, compares all attributes of an element with each other, and copies the list of all namespaces for each
+/// element that declares a namespace.
 fn check_size(text: &str) -> Result<(), Fault> {
     const MAX_ATTRIBUTES: usize = 200;
     const MAX_NAMESPACES: usize = 50;
@@ -117,10 +116,10 @@ fn place_at(text: &str, at: usize) -> TextPosition {
     }
 }
 
-/// The code of a note, and its words after the count.
+/// The code of a note, and the words of the note that follow the count.
 pub(super) type What = (&'static str, &'static str);
 
-/// The count and the first line of each note, by its kind, words and code.
+/// The count and the first line of each note. The key is the kind, the words and the code of the note.
 type Tally = BTreeMap<(NoteKind, &'static str, &'static str), (usize, usize)>;
 
 /// A file, with its elements by id.
@@ -131,7 +130,7 @@ pub(super) struct Document<'a> {
     pub(super) size: usize,
     /// The content that was left out or changed.
     tally: RefCell<Tally>,
-    /// The memory that the file can still use. Instances can repeat geometries, but only within this budget.
+    /// The remaining memory budget of the file in bytes. Instances can repeat geometries, but only within this budget.
     budget: Cell<usize>,
 }
 
@@ -175,7 +174,7 @@ impl<'a> Document<'a> {
 
     fn add(&self, kind: NoteKind, count: usize, node: Node, what: What) {
         if count > 0 {
-            // The line is determined only once, because that takes time.
+            // The line is determined only for the first node, because this takes time.
             let mut all = self.tally.borrow_mut();
             let (sum, _) = all
                 .entry((kind, what.1, what.0))
@@ -204,12 +203,12 @@ impl<'a> Document<'a> {
         Ok(())
     }
 
-    /// Finds the element of a `kind` that the attribute `key` of `node` refers to as `#id`; `None` if the attribute
-    /// refers to another file.
+    /// Finds the element of a `kind` to which the attribute `key` of `node` refers by `#id`. Returns `None` if the
+    /// attribute refers to another file.
     ///
     /// # Errors
     ///
-    /// If the attribute is missing, or if it refers to a missing element or to an element of a different kind.
+    /// If the attribute is missing, or refers to an element that is missing or of a different kind.
     pub(super) fn follow(
         &self,
         node: Node<'a>,
@@ -274,7 +273,8 @@ pub(super) fn child<'a>(node: Node<'a>, name: &'static str) -> Option<Node<'a>> 
     named(node, name).next()
 }
 
-/// Follows a path of child names down from `node`, and returns the last element.
+/// Follows a path of names from `node` to its child, then to the child of that child, and so on. Returns the last
+/// element.
 pub(super) fn below<'a>(node: Node<'a>, names: &[&'static str]) -> Option<Node<'a>> {
     names.iter().try_fold(node, |node, name| child(node, name))
 }
@@ -338,7 +338,7 @@ fn words(node: Node<'_>) -> impl Iterator<Item = &str> {
 ///
 /// # Errors
 ///
-/// The first word that is not a finite number.
+/// The position of the first word that is not a finite number.
 pub(super) fn numbers(node: Node) -> Result<Vec<f64>, Fault> {
     let parse = |word: &str| {
         let number = number(TextPosition::START, word.as_bytes());
@@ -351,7 +351,7 @@ pub(super) fn numbers(node: Node) -> Result<Vec<f64>, Fault> {
 ///
 /// # Errors
 ///
-/// The first word that is not a number, or the number of words if it is not `N`.
+/// If a word is not a number, or the number of words is not `N`.
 pub(super) fn exactly<const N: usize>(node: Node) -> Result<[f64; N], Fault> {
     numbers(node)?.try_into().map_err(|found: Vec<f64>| {
         error_at(node, format!("expected {N} numbers, found {}", found.len()))
@@ -362,7 +362,7 @@ pub(super) fn exactly<const N: usize>(node: Node) -> Result<[f64; N], Fault> {
 ///
 /// # Errors
 ///
-/// The first word that is not an index, or that is too large.
+/// If a word is not an index or is too large.
 pub(super) fn push_indices(node: Node, list: &mut Vec<u32>) -> Result<(), Fault> {
     for word in words(node) {
         let expected = |_| word_place(node, word).expected("an index", word.as_bytes());
@@ -371,7 +371,7 @@ pub(super) fn push_indices(node: Node, list: &mut Vec<u32>) -> Result<(), Fault>
     Ok(())
 }
 
-/// The position of a word of a text. If a part of the text is an entity, this is the position of the element.
+/// The position of a word of a text. If the text contains an entity, the result is the position of the element.
 fn word_place(node: Node, word: &str) -> TextPosition {
     let text = node.document().input_text();
     let offset = (word.as_ptr() as usize).checked_sub(text.as_ptr() as usize);
@@ -381,7 +381,7 @@ fn word_place(node: Node, word: &str) -> TextPosition {
     }
 }
 
-/// Creates an error at word `k` of the texts of `lists`.
+/// Creates an error at word number `k`, counted through the texts of all `lists`.
 pub(super) fn word_error(lists: &[Node], mut k: usize, message: String) -> Fault {
     for &list in lists {
         for word in words(list) {

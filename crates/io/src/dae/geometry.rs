@@ -58,7 +58,7 @@ enum Kind {
 
 struct Input<'a> {
     kind: Kind,
-    /// The place of this input's index among the indices of a corner.
+    /// The position of the index of this input among the indices of a corner.
     offset: usize,
     source: Node<'a>,
 }
@@ -67,14 +67,14 @@ struct Input<'a> {
 struct Inputs<'a> {
     /// The number of indices of a corner.
     stride: usize,
-    /// The place of the vertex index among the indices of a corner.
+    /// The position of the vertex index among the indices of a corner.
     vertex: usize,
     /// The element with the positions.
     vertices: Node<'a>,
     attributes: Vec<Input<'a>>,
 }
 
-/// Attributes of corners; each is empty or has as many values as there are corners.
+/// Attributes of corners. Each attribute is empty or has one value for each corner.
 #[derive(Default)]
 struct Columns {
     normals: Vec<DVec3>,
@@ -225,7 +225,7 @@ impl<'a, 'd> Geometries<'a, 'd> {
         for &input in &of_vertices {
             add(input, vertex)?;
         }
-        // Each list of polygons reads these inputs again.
+        // Each list of polygons reads the inputs of the vertices again, so the cost counts each time.
         self.document.take(list, cost::NUMBER * of_vertices.len())?;
         Ok(Inputs {
             stride,

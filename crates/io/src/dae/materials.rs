@@ -17,8 +17,8 @@ enum ChannelValue {
     Texture(String),
 }
 
-/// Reads the material of a `<material>` element. `known` caches the materials of elements that were read before, by
-/// the numbers of the elements.
+/// Reads the material of a `<material>` element. `known` is a cache of materials. The key is the number of the
+/// `<material>` element.
 ///
 /// # Errors
 ///
@@ -117,10 +117,10 @@ fn read_effect<'a>(document: &Document<'a>, effect: Node<'a>) -> Result<Material
     Ok(material)
 }
 
-/// The opacity of a shader, from 0 to 1; `None` if the shader does not declare one.
+/// Returns the opacity of a shader, from 0 to 1, or `None` if the shader does not declare an opacity.
 ///
-/// COLLADA 1.4.1, "Determining transparency": `A_ONE` uses the alpha of the transparent color, `RGB_ZERO` uses 1
-/// minus its luminance. Both are scaled by the transparency.
+/// COLLADA 1.4.1, "Determining transparency": `A_ONE` uses the alpha of the transparent color. `RGB_ZERO` uses 1 minus
+/// the luminance of the transparent color. Both numbers are multiplied by the transparency.
 fn opacity(scope: &Scope, shader: Node) -> Result<Option<f64>, Fault> {
     let transparent = child(shader, "transparent");
     let transparency = match child(shader, "transparency") {
@@ -206,7 +206,8 @@ impl<'a> Scope<'a, '_> {
         parameters.find(|parameter| parameter.attribute("sid") == Some(sid))
     }
 
-    /// The path of the image of the sampler `sid`. Some programs write the id of the image instead of a sampler.
+    /// Returns the path of the image of the sampler `sid`. In the files of some programs, `sid` is the id of the image
+    /// itself.
     fn texture_path(&self, sid: &str) -> Option<String> {
         let mut image = sid;
         if let Some(sampler) = self.parameter(sid).and_then(|p| child(p, "sampler2D")) {

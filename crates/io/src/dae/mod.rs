@@ -11,7 +11,7 @@
 //! | `node` with `instance_geometry` | an object with the name of the node, transformed by the node and its ancestors |
 //! | `instance_controller` | an object with the controlled geometry in its rest pose |
 //! | `instance_node` | another instance of the referenced node |
-//! | `matrix`, `translate`, `rotate`, `scale`, `lookat` | a part of the transform; a transform that mirrors reverses the faces |
+//! | `matrix`, `translate`, `rotate`, `scale`, `lookat` | a part of the transform; a reflection reverses the faces |
 //! | `triangles`, `polylist`, `polygons`, `tristrips`, `trifans` | faces; holes (`ph`) are left out |
 //! | input `POSITION` | vertices, in order and not merged |
 //! | input `NORMAL` | vertex attribute `normal` if the corners of each vertex agree, otherwise corner attribute |
@@ -130,7 +130,7 @@ struct Object<'a, 'd> {
     document: &'d Document<'a>,
     placed: &'d PlacedGeometry<'a>,
     surface: &'d Surface<'a>,
-    /// The materials of elements that were read before, by the numbers of the elements.
+    /// The materials that were read before. The key is the number of the `<material>` element.
     materials: &'d mut BTreeMap<u32, Material>,
 }
 
@@ -168,7 +168,7 @@ impl Object<'_, '_> {
         let mut place_of_symbol = Vec::new();
         for symbol in &self.surface.symbols {
             let next = i32::try_from(polygons.materials.len()).unwrap_or(i32::MAX);
-            // Some programs write the id of the material instead of a binding.
+            // Some programs write no binding and use the id of the material as its symbol.
             let same_id = self.document.ids.get(symbol);
             let same_id = same_id.filter(|node| document::is(**node, "material"));
             let node = self.placed.materials.get(symbol).or(same_id);

@@ -1,4 +1,4 @@
-//! The nodes of a scene: the geometries with their transforms, names and materials.
+//! Finds the geometries that the nodes of a scene show, with their transforms, names and materials.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -17,7 +17,7 @@ pub(super) struct PlacedGeometry<'a> {
     pub(super) instance: Option<Node<'a>>,
     pub(super) geometry: Node<'a>,
     pub(super) to_scene: DAffine3,
-    /// The name of the node; empty if it has none.
+    /// The name of the node; empty if the node has no name.
     node_name: &'a str,
     /// The `<material>` element of each symbol of the geometry.
     pub(super) materials: BTreeMap<&'a str, Node<'a>>,
@@ -36,8 +36,8 @@ fn name(node: Node<'_>) -> &str {
     given.or(node.attribute("id")).unwrap_or_default()
 }
 
-/// The geometries of the scene, parents before children, in the order of the file. In a file without a scene, the
-/// geometries of the libraries.
+/// Returns the geometries of the scene in the order of the file, those of a parent before those of its children. If the
+/// file has no scene, returns the geometries of the libraries.
 ///
 /// # Errors
 ///
@@ -86,7 +86,8 @@ pub(super) fn placed<'a>(
 /// long.
 struct Walk<'a, 'd> {
     document: &'d Document<'a>,
-    /// How many more elements can be visited. Instances can make a small file give many elements.
+    /// The number of elements that can still be visited. The number is limited because, with instances, a small file
+    /// can have many elements.
     steps: usize,
     /// The nodes from the root to the current node.
     ancestors: BTreeSet<u32>,
@@ -184,7 +185,7 @@ impl<'a, 'd> Walk<'a, 'd> {
                 );
                 continue;
             };
-            // Several copies of the name of an object are stored.
+            // The budget includes the name of the object, because several copies of the name are stored.
             let names = name(node).len() + name(geometry).len();
             self.document.take(instance, cost::OBJECT + 8 * names)?;
             let materials = self.bound_materials(instance)?;
@@ -199,7 +200,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         Ok(())
     }
 
-    /// The geometry that a skin or a morph controls, in its rest pose.
+    /// Returns the geometry that a skin or a morph controls, in its rest pose.
     fn geometry_of_controller(&self, instance: Node<'a>) -> Result<Option<Node<'a>>, Fault> {
         const MAX_DEPTH: usize = 16;
         let mut controller = self.document.follow(instance, "url", &["controller"])?;
@@ -245,8 +246,8 @@ impl<'a, 'd> Walk<'a, 'd> {
         Ok(materials)
     }
 
-    /// The transform of a node relative to its parent: the product of its transform elements, with the first
-    /// element in the file as the leftmost factor.
+    /// Returns the transform of a node relative to its parent. It is the product of the transform elements of the node,
+    /// in the order of the file from left to right.
     fn transform(&mut self, node: Node<'a>) -> Result<DAffine3, Fault> {
         if let Some(known) = self.transforms.get(&number_of(node)) {
             return Ok(*known);
@@ -285,7 +286,9 @@ fn matrix(node: Node) -> Result<DAffine3, Fault> {
     Ok(DAffine3::from_cols(x, y, z, w))
 }
 
-/// Rodrigues' formula: R = c I + s \[n\] + (1 - c) n n^T. The angle is in degrees. A zero axis gives the identity.
+/// Returns a rotation by Rodrigues' formula: R = c I + s \[n\] + (1 - c) n n^T. Here n is the unit axis, \[n\] the
+/// matrix of the cross product with n, and c and s are the cosine and the sine of the angle. The angle is in degrees. A
+/// zero axis gives the identity.
 fn rotation([x, y, z, degrees]: [f64; 4]) -> DMat3 {
     let axis = DVec3::new(x, y, z).normalize_or_zero();
     if axis == DVec3::ZERO {
@@ -296,7 +299,7 @@ fn rotation([x, y, z, degrees]: [f64; 4]) -> DMat3 {
     DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z))
 }
 
-/// The frame of a camera that looks along its -z axis.
+/// Returns the transform of a camera that looks along its -z axis.
 fn look_at(node: Node) -> Result<DAffine3, Fault> {
     let [a, b, c, d, e, f, g, h, i] = exactly(node)?;
     let eye = DVec3::new(a, b, c);

@@ -1,4 +1,5 @@
-//! How the indices of a list form polygons: triangles, polygons with corner counts, strips and fans.
+//! Reads how the indices of a list form polygons: as triangles, as polygons with given numbers of corners, as strips or
+//! as fans.
 
 use super::document::{
     Document, Node, child, elements, error_at, is, named, natural, push_indices, required,
@@ -40,7 +41,7 @@ pub(super) fn shape(list: Node, document: &Document) -> Result<Option<Shape>, Fa
     Ok(Some(shape))
 }
 
-/// The corners of the polygons of one list, before their values are looked up.
+/// The corners of the polygons of one list, as positions in the list of indices.
 #[derive(Default)]
 pub(super) struct Outline<'a> {
     /// The elements that contain the indices.
@@ -61,7 +62,7 @@ impl Shape {
     ) -> Result<Outline<'a>, Fault> {
         let mut outline = Outline::default();
         let mut holes = 0;
-        // The first corner of each element with indices, followed by the total number of corners.
+        // For each element with indices, the index of its first corner. The total number of corners follows.
         let mut starts = vec![0];
         for part in elements(list) {
             let indices = if is(part, "p") {
@@ -154,7 +155,7 @@ impl Shape {
 }
 
 impl Outline<'_> {
-    /// Adds a polygon. Returns 1 if it is left out because it has fewer than 3 corners, otherwise 0.
+    /// Adds a polygon. Returns 1 if the polygon is left out because it has fewer than 3 corners, otherwise 0.
     fn push(&mut self, corners: std::ops::Range<usize>) -> usize {
         if corners.len() < 3 {
             return 1;

@@ -1,4 +1,5 @@
-//! Lists of vectors. A source is an array of numbers with an accessor, which defines the numbers of each vector.
+//! Reads lists of vectors. A source is an array of numbers with an accessor. The accessor defines which numbers form a
+//! vector.
 //!
 //! ```text
 //! <source id="s">
@@ -34,9 +35,9 @@ impl Vectors {
     }
 }
 
-/// Reads the vectors of a source. Their components are ordered as in `names` if the accessor has all of these,
-/// otherwise as the accessor lists them. Also returns how many numbers were read, because several sources can share
-/// an array.
+/// Reads the vectors of a source. If the accessor has all `names`, the components of the vectors are in the order of
+/// `names`, otherwise in the order of the accessor. Also returns how many numbers were read, because several sources
+/// can share an array.
 ///
 /// # Errors
 ///
@@ -98,7 +99,7 @@ pub(super) fn vectors(
     Ok((Vectors { width, values }, n_numbers))
 }
 
-/// The offsets of the components of a vector, at most four.
+/// Returns the offsets of the components of a vector. There are at most four.
 fn components(accessor: Node, names: &[&str]) -> Result<Vec<usize>, Fault> {
     let params = named(accessor, "param").map(|param| param.attribute("name"));
     let params: Vec<&str> = params.map(Option::unwrap_or_default).collect();
@@ -110,7 +111,7 @@ fn components(accessor: Node, names: &[&str]) -> Result<Vec<usize>, Fault> {
             (0..stride.min(4)).collect()
         }
         Some(ordered) => {
-            // A fourth component, such as the alpha of a color, comes last.
+            // Components without one of the `names`, such as the alpha of a color, come last.
             let further =
                 (0..params.len()).filter(|i| !ordered.contains(i) && !params[*i].is_empty());
             ordered.iter().copied().chain(further).collect()

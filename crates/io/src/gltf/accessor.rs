@@ -1,4 +1,4 @@
-//! Accessors: typed arrays in the buffers, with strides, normalized integers and sparse values.
+//! Reads accessors: typed arrays in the buffers, with strides, normalized integers and sparse values.
 
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
@@ -14,8 +14,8 @@ use super::views::Reader;
 use crate::fault::Fault;
 use crate::parallel;
 
-/// An accessor without a buffer view consists of zeros. It can always have this number of elements, even in a
-/// tiny file.
+/// The number of elements that an accessor without a buffer view can always have, even in a tiny file. All elements of
+/// such an accessor are zero.
 const MIN_ZEROS: u64 = 1 << 16;
 impl Reader<'_> {
     /// The number of elements of an accessor.
@@ -31,7 +31,7 @@ impl Reader<'_> {
     ///
     /// # Errors
     ///
-    /// As [`count`](Self::count), or if the type is unknown.
+    /// If the accessor does not exist or the type is unknown.
     pub(super) fn kind(&self, index: usize, pointer: &str) -> Result<Type, Fault> {
         let accessor = self.accessor(index, pointer)?;
         Ok(kinds(accessor, &format!("/accessors/{index}"))?.0)
@@ -64,7 +64,7 @@ impl Reader<'_> {
         Err(Fault::json(format!("{here}/componentType"), message))
     }
 
-    /// Reads the numbers of an accessor of this type one after the other, rounded to 32 bits.
+    /// Reads the numbers of an accessor of this type into one list, rounded to 32 bits.
     ///
     /// # Errors
     ///
@@ -122,8 +122,9 @@ impl Reader<'_> {
         Ok(values.into_flattened())
     }
 
-    /// Reads the elements of an accessor. Each element is converted from N numbers. Components that the type of
-    /// the accessor does not have are set to `fill`. Normalized integers are scaled to 0 to 1, or to -1 to 1.
+    /// Reads the elements of an accessor. Each element is converted from N numbers. Components that the type of the
+    /// accessor does not have are set to `fill`. Normalized integers are scaled to the range from 0 to 1 if they are
+    /// unsigned, and from -1 to 1 if they are signed.
     ///
     /// # Errors
     ///
@@ -146,7 +147,7 @@ impl Reader<'_> {
         }
         let used = kind.multiplicity().min(N);
         let size = component.size();
-        // The loop only records that there is a non-finite value. The value is located afterwards.
+        // The loop only records whether there is a non-finite value. A second loop locates the value.
         let has_non_finite = AtomicBool::new(false);
         let general = |bytes: &[u8]| {
             let mut vector = [fill; N];
@@ -181,7 +182,7 @@ impl Reader<'_> {
         if has_non_finite.into_inner() {
             let finite = |bytes: &[u8]| i32::from(general(bytes).iter().all(|x| x.is_finite()));
             let finite = self.elements(index, multiplicity, component, 1, finite)?;
-            // Sparse values can replace all non-finite values. In that case no element is reported.
+            // If sparse values replace all non-finite values, there is no error.
             if let Some(i) = finite.iter().position(|&is| is == 0) {
                 let message = format!("element {i} is not a finite number");
                 return Err(Fault::json(here, message));
@@ -207,7 +208,7 @@ impl Reader<'_> {
             ComponentType::U8 | ComponentType::U16 => {
                 self.elements(index, 1, component, 0, |bytes| whole(bytes, component))
             }
-            // With a constant type, the compiler turns the loop into a copy.
+            // Because the type is constant, the compiler turns the loop into a copy.
             ComponentType::U32 => self.elements(index, 1, component, 0, |bytes| {
                 whole(bytes, ComponentType::U32)
             }),
@@ -218,7 +219,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Reads every element from the view, or as `zero` if there is no view. Then applies the sparse values.
+    /// Reads every element from the view. If there is no view, every element is `zero`. Then applies the sparse values.
     fn elements<T: Copy + Zeroable + Send + Sync>(
         &self,
         index: usize,

@@ -4,14 +4,14 @@ use std::cell::Cell;
 
 use crate::fault::Fault;
 
-/// The budget is this multiple of the size of the file, but at least [`MIN_BUDGET`].
+/// The budget is the size of the file times this factor, but at least [`MIN_BUDGET`].
 const BUDGET_FACTOR: u64 = 64;
 /// The smallest budget of a file, in bytes.
 const MIN_BUDGET: u64 = 1 << 24;
 
-/// A byte of a buffer with compressed views counts as this many other bytes. A triangle with its share of the
-/// vertices takes two bytes in a compressed view and at least twenty elsewhere, but the resulting mesh has the same
-/// size.
+/// The weight of a byte of a buffer with compressed views: the byte increases the budget like this number of other
+/// bytes. A triangle with its share of the vertices takes two bytes in a compressed view, and at least twenty bytes in
+/// an uncompressed view. The resulting meshes have the same size.
 const COMPRESSED: u64 = 4;
 
 /// The memory that can still be used, in bytes.
@@ -34,7 +34,7 @@ impl Budget {
         budget
     }
 
-    /// Increases the budget by the share of `size` additional bytes of input.
+    /// Increases the budget by the amount for `size` additional bytes of input.
     pub(super) fn grant(&self, size: u64) {
         let more = size.saturating_mul(BUDGET_FACTOR);
         for bytes in [&self.left, &self.inflation] {
@@ -42,8 +42,8 @@ impl Budget {
         }
     }
 
-    /// Increases the budget for buffers of `size` bytes that contain compressed views. The normal share of these
-    /// buffers was granted before.
+    /// Increases the budget for buffers of `size` bytes that contain compressed views. The amount for uncompressed data
+    /// of this size was added before.
     pub(super) fn grant_compressed(&self, size: u64) {
         let more = size.saturating_mul(BUDGET_FACTOR * (COMPRESSED - 1));
         self.left.set(self.left.get().saturating_add(more));
@@ -54,8 +54,7 @@ impl Budget {
         bytes <= self.left.get()
     }
 
-    /// Takes bytes from the budget. The budget is necessary because several parts of a file can refer to the
-    /// same bytes.
+    /// Takes bytes from the budget. The budget limits memory even if many parts of a file refer to the same bytes.
     ///
     /// # Errors
     ///
@@ -72,8 +71,8 @@ impl Budget {
         Ok(())
     }
 
-    /// Takes the decoded size of a compressed view from the budget, and returns it as a `usize`. A stream of
-    /// zeros is compressed to a thousandth of its size, but real files do not consist of zeros.
+    /// Takes the decoded size of a compressed view from the budget, and returns it as a `usize`. A stream of zeros can
+    /// be compressed to a thousandth of its size, but real files do not consist of zeros.
     ///
     /// # Errors
     ///

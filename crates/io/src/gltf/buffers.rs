@@ -1,4 +1,4 @@
-//! The bytes of a glTF document: the container of a GLB file, data URIs, and files next to the document.
+//! Reads the bytes of a glTF document from the container of a GLB file, data URIs, and files next to the document.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -43,8 +43,8 @@ pub(crate) fn document_of(store: &dyn Store, path: &Path) -> Result<Vec<u8>, Rea
     Ok(bytes.split_off(HEAD.min(bytes.len())))
 }
 
-/// Returns the JSON and the binary chunk of a GLB file. A file that does not begin like a GLB file is returned as
-/// JSON.
+/// Returns the JSON and the binary chunk of a GLB file. If a file does not begin like a GLB file, all of its bytes are
+/// returned as JSON.
 ///
 /// # Errors
 ///
@@ -94,9 +94,9 @@ pub(super) fn container(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
     }
 }
 
-/// Loads the bytes of all buffers. `binary` is the chunk of a GLB file, which is borrowed. A file next to the
-/// document increases the budget when it is read for the first time, and uses the budget when it is read again.
-/// Buffers marked in `fallbacks` are not read and stay empty.
+/// Loads the bytes of all buffers. `binary` is the binary chunk of a GLB file, which is borrowed. When a file next to
+/// the document is read for the first time, the budget increases. When the file is read again, the budget decreases.
+/// Buffers that are marked in `fallbacks` are not read and stay empty.
 ///
 /// # Errors
 ///
@@ -120,8 +120,8 @@ pub(super) fn load<'a>(
         let mut bytes = match &buffer.uri {
             None => {
                 let chunk = if i == 0 { binary.take() } else { None };
-                // A buffer without data is valid, because an extension can define its content. It is treated as
-                // empty.
+                // A buffer without data is valid, because an extension can define its content. Such a buffer is treated
+                // as empty.
                 Cow::Borrowed(chunk.unwrap_or_default())
             }
             Some(uri) => {

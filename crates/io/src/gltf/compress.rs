@@ -1,4 +1,4 @@
-//! Compresses the arrays of a document, `EXT_meshopt_compression`.
+//! Compresses the arrays of a document by the extension `EXT_meshopt_compression`.
 //!
 //! ```text
 //! buffer 0    the compressed arrays and everything else, such as images
@@ -21,7 +21,7 @@ pub(super) struct Array {
 }
 
 impl Array {
-    /// Elements of `stride` bytes before the filter.
+    /// Creates the encoding of elements that have `stride` bytes before the filter is applied.
     pub(super) fn attribute(stride: usize, filter: Filter) -> Self {
         Self {
             mode: "ATTRIBUTES",
@@ -30,7 +30,7 @@ impl Array {
         }
     }
 
-    /// Triangles with indices of `size` bytes, which is 2 or 4.
+    /// Creates the encoding of triangles with indices of `size` bytes, which is 2 or 4.
     pub(super) fn triangles(size: usize) -> Self {
         Self {
             mode: "TRIANGLES",

@@ -12,10 +12,11 @@ use super::rig_json::Deformers;
 use super::views::Reader;
 use crate::fault::Fault;
 
-/// Weights add up to 1 up to this tolerance for each weight, as in the Khronos validator.
+/// The tolerance, for each weight, of the check that weights add up to 1. The Khronos validator uses the same
+/// tolerance.
 pub(super) const WEIGHT_TOLERANCE: f64 = 2e-7;
 
-/// Counts what is repaired or left out while attributes are read, by a description.
+/// Counts the values that are repaired or left out while attributes are read. The key is a description for the note.
 #[derive(Default)]
 pub(super) struct Repairs {
     pub(super) changed: BTreeMap<String, usize>,
@@ -30,7 +31,7 @@ impl Repairs {
     }
 }
 
-/// Reads the weights of all joints that the primitive uses: a column for each joint, with `n` values.
+/// Reads the weights of all joints that the primitive uses, into one column of `n` values for each joint.
 ///
 /// # Errors
 ///
@@ -154,7 +155,7 @@ fn index(joint: f64) -> usize {
     joint as usize
 }
 
-/// Reads the deltas of the morph targets: a column for each target of the mesh, with `n` values.
+/// Reads the deltas of the morph targets, into one column of `n` values for each target of the mesh.
 ///
 /// # Errors
 ///

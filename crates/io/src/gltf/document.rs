@@ -36,7 +36,7 @@ const KNOWN_EXTENSIONS: [&str; 8] = [
 /// The extension for lights.
 pub(super) const LIGHTS: &str = "KHR_lights_punctual";
 
-/// A part that is kept as it is.
+/// A part of the document that is kept as it is.
 pub(super) type Json = Map<String, Value>;
 
 /// The parts of a glTF document that the reader needs.
@@ -44,12 +44,12 @@ pub(super) type Json = Map<String, Value>;
 pub(super) struct Document {
     pub(super) accessors: Vec<Accessor>,
     pub(super) buffers: Vec<Buffer>,
-    /// For each buffer, whether it is never read.
+    /// For each buffer, a flag that is true if the buffer is never read.
     pub(super) fallbacks: Vec<bool>,
     pub(super) views: Vec<View>,
     /// For each view, how it is compressed; `None` if it is not compressed.
     pub(super) compressed: Vec<Option<Compressed>>,
-    /// The primitives that are compressed as a whole and not decoded yet.
+    /// The primitives that are compressed by Draco and not decoded yet.
     pub(super) draco: Vec<draco::Compressed>,
     pub(super) materials: Vec<MaterialJson>,
     pub(super) meshes: Vec<Mesh>,
@@ -60,7 +60,8 @@ pub(super) struct Document {
     pub(super) animations: Vec<AnimationJson>,
     pub(super) cameras: Vec<Json>,
     pub(super) lights: Vec<Json>,
-    /// The other parts that are kept, by the names of [`Graph::document`](scene::Graph::document).
+    /// The other parts of the file that are kept, with the names that [`Graph::document`](scene::Graph::document) gives
+    /// them.
     pub(super) kept: BTreeMap<String, String>,
     /// The root nodes of the scene.
     pub(super) roots: Vec<usize>,
@@ -74,12 +75,12 @@ impl Document {
     ///
     /// # Errors
     ///
-    /// The first part that is invalid.
+    /// If a part is invalid. The error is about the first invalid part.
     pub(super) fn new(json: &Value, budget: &Budget, notes: &mut Notes) -> Result<Self, Fault> {
         check_version(json)?;
         check_extensions(json, notes)?;
         let views: Vec<View> = pieces(json, "bufferViews", budget)?;
-        // The memory for the additional data about each view.
+        // The reader stores additional data for each view, which needs memory too.
         let more = views.len() * size_of::<(Option<Compressed>, OnceCell<Vec<u8>>)>();
         budget.spend(more as u64, "/bufferViews")?;
         let compressed = meshopt::compressed(list(json, "bufferViews")?)?;
@@ -264,7 +265,7 @@ fn count_extras(json: &Value) -> usize {
     }
 }
 
-/// The weights of meshes with the 64 bits of the text.
+/// Returns the default weights of meshes with 64 bits, as in the text.
 fn mesh_weights(json: &Value, budget: &Budget) -> Result<Vec<Vec<f64>>, Fault> {
     #[derive(Default, serde::Deserialize)]
     #[serde(default)]
@@ -337,15 +338,15 @@ fn list<'a>(json: &'a Value, key: &str) -> Result<&'a [Value], Fault> {
     }
 }
 
-/// Deserializes the elements of a list. An element with default values takes far less space in the text than in
-/// memory.
+/// Deserializes the elements of a list. The budget limits their memory, because an element with default values takes
+/// far less space in the text than in memory.
 fn pieces<T: DeserializeOwned>(json: &Value, key: &str, budget: &Budget) -> Result<Vec<T>, Fault> {
     let piece = |(i, value): (usize, &Value)| {
         T::deserialize(value).map_err(|e| Fault::json(format!("/{key}/{i}"), e.to_string()))
     };
     let list = list(json, key)?;
     budget.spend((list.len() * size_of::<T>()) as u64, &format!("/{key}"))?;
-    // Allocates exactly the memory that was taken from the budget.
+    // The capacity is exactly the memory that was taken from the budget.
     let mut pieces = Vec::with_capacity(list.len());
     for numbered in list.iter().enumerate() {
         pieces.push(piece(numbered)?);

@@ -1,4 +1,4 @@
-//! Primitives that are compressed by Draco, `KHR_draco_mesh_compression`.
+//! Decodes primitives that are compressed by Draco, with the extension `KHR_draco_mesh_compression`.
 //!
 //! ```text
 //! primitive       attributes, indices: accessors without buffer views
@@ -6,8 +6,9 @@
 //!                 attributes: the numbers of the attributes in the stream
 //! ```
 //!
-//! Streams are decoded by the crate `draco-core` into additional buffers, with a buffer view for each accessor, so that
-//! the rest of the reader finds uncompressed data. If a file has uncompressed data too, this data is read instead.
+//! The crate `draco-core` decodes streams into additional buffers, with a buffer view for each accessor. The rest of
+//! the reader then finds uncompressed data. If a file also has uncompressed data, that data is read instead of the
+//! stream.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -30,10 +31,10 @@ use crate::fault::Fault;
 /// The name of the extension.
 pub(super) const DRACO: &str = "KHR_draco_mesh_compression";
 
-/// The approximate memory in bytes that decoding takes for each face and each vertex, besides the result.
+/// The approximate memory in bytes that decoding needs for each face and each vertex, in addition to the result.
 const WORK: u64 = 64;
 
-/// The largest size of all attributes of a vertex in bytes, which includes attributes that are not read.
+/// The maximum size in bytes of all attributes of a vertex together, including attributes that are not read.
 const LARGEST: u64 = 512;
 
 /// A compressed primitive.
@@ -69,7 +70,7 @@ impl Compressed {
 pub(super) fn compressed(meshes: &[Value], accessors: &[Value]) -> Result<Vec<Compressed>, Fault> {
     let has_data = |accessor: &Value| {
         let accessor = accessor.as_u64().and_then(|i| usize::try_from(i).ok());
-        // An accessor that does not exist is a different error.
+        // An accessor that does not exist is reported elsewhere.
         let accessor = accessor.and_then(|i| accessors.get(i));
         accessor.is_none_or(|a| a.get("bufferView").is_some() || a.get("sparse").is_some())
     };
@@ -128,7 +129,7 @@ pub(super) fn decode(
     Ok(())
 }
 
-/// The content of the accessors without data of a primitive.
+/// Decodes the content of those accessors of a primitive that have no data of their own.
 fn arrays(reader: &Reader, compressed: &Compressed) -> Result<Vec<(usize, Vec<u8>)>, Fault> {
     let at = compressed.pointer();
     let document = reader.document;
@@ -164,7 +165,8 @@ fn arrays(reader: &Reader, compressed: &Compressed) -> Result<Vec<(usize, Vec<u8
             wanted.push((accessor, name, *id, kind.multiplicity(), component));
         }
     }
-    // Everything that the decoder allocates is declared and paid before it starts.
+    // All memory that the decoder allocates follows from declared numbers, and is taken from the budget before the
+    // decoder starts.
     let size: usize = wanted
         .iter()
         .map(|(.., n, component)| n * component.size())

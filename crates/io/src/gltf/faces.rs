@@ -1,4 +1,4 @@
-//! The faces of an object by material, triangulated.
+//! Triangulates the faces of an object, and groups the triangles by material.
 
 use std::collections::BTreeMap;
 
@@ -18,7 +18,7 @@ pub(super) struct Faces {
     pub(super) corners: Option<Vec<u32>>,
 }
 
-/// Groups triangles by material. The key -1 holds the triangles without a material.
+/// Groups triangles by material. The key -1 has the triangles without a material.
 pub(super) fn faces_by_material(
     object: &Object,
     mesh: &Mesh,

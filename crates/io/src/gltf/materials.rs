@@ -71,7 +71,7 @@ impl<'a> Materials<'a> {
         to.normal_texture = texture(&from.normal_texture, "normalTexture")?;
         to.occlusion_texture = texture(&from.occlusion_texture, "occlusionTexture")?;
         to.emissive_texture = texture(&from.emissive_texture, "emissiveTexture")?;
-        // Scale and strength only apply to an existing texture.
+        // Scale and strength are read only if the texture exists.
         if let (Some(info), Some(_)) = (&from.normal_texture, &to.normal_texture) {
             to.normal_scale = rounded(info.scale.unwrap_or(1.0));
         }
@@ -232,7 +232,7 @@ fn to_sampler(from: &SamplerJson, here: &str) -> Result<Sampler, Fault> {
     })
 }
 
-/// The transform of a texture, and the set of texture coordinates if the extension overrides it.
+/// Returns the transform of a texture. Also returns the set of texture coordinates if the extension overrides it.
 fn transform(
     extensions: &Extensions,
     here: &str,
@@ -254,11 +254,11 @@ fn unit(x: f64) -> f64 {
     rounded(x).clamp(0.0, 1.0)
 }
 
-/// Rounds a number to 32 bits, clamps it to their range, and returns the shortest decimal number with this 32-bit
+/// Rounds a number to 32 bits, clamped to the 32-bit range. Returns the shortest decimal number that has this 32-bit
 /// value.
 #[expect(clippy::cast_possible_truncation, reason = "that is the purpose")]
 pub(super) fn rounded(x: f64) -> f64 {
     let x = (x as f32).clamp(f32::MIN, f32::MAX);
-    // For example, 0.8 is kept as 0.8.
+    // The conversion to text and back keeps, for example, 0.8 as 0.8.
     x.to_string().parse().unwrap_or(f64::from(x))
 }

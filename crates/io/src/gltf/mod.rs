@@ -36,12 +36,13 @@
 //! | other `extras` | left out, with a note |
 //! | other scenes | left out, with a note |
 //!
-//! With [`Placements::Bake`](crate::Placements::Bake), each node with a mesh becomes an object, the transforms are applied
-//! to positions and normals, and there is no graph. Skinned meshes get the pose of their joints. A transform that mirrors reverses the faces.
+//! With [`Placements::Bake`](crate::Placements::Bake), each node with a mesh becomes an object, the transforms are
+//! applied to positions and normals, and there is no graph. Skinned meshes get the pose of their joints. If a transform
+//! is a reflection, the faces are reversed.
 //!
-//! Accessors can be interleaved or sparse, can lack a view (all values are then zero), and can contain integers,
-//! normalized or not. Buffers are files inside the folder of the document, data URIs, or the second chunk of a
-//! GLB file.
+//! Accessors can be interleaved or sparse, and can contain integers, which can be normalized. If an accessor has no
+//! view, all its values are zero. Buffers are files inside the folder of the document, data URIs, or the second chunk
+//! of a GLB file.
 //!
 //! | extension | support |
 //! | --- | --- |
@@ -55,9 +56,9 @@
 //! | other required extensions | the file is refused |
 //! | other optional extensions | left out, with a note |
 //!
-//! The writer uses the same table in the other direction. glTF has a vertex for each side of a seam, so vertices
-//! are split where their corners differ, and the reader merges them again. There is one primitive for each
-//! material. Writing a scene and reading it again preserves the scene, except that
+//! The writer uses the same table in the other direction. glTF has a vertex for each side of a seam. So the writer
+//! splits vertices whose corners differ, and the reader merges them again. There is one primitive for each material.
+//! Writing a scene and reading it again preserves the scene, except that
 //!
 //! - numbers are rounded to 32 bits: if a position exceeds their range, the scene is refused; other values become 0,
 //! - polygons are triangulated,
@@ -73,10 +74,10 @@
 //! Lost content is reported as a [`Loss`](crate::Loss), and content that is left out or changed as a
 //! [`Note`](crate::Note).
 //!
-//! Content can be repeated, such as a mesh of several nodes that are applied, but the memory that a file can use is limited to 64
-//! times its size, or 16 MiB if that is more.
+//! A file can repeat content, such as a mesh that several nodes show, but the memory that a file can use is limited to
+//! 64 times its size, or 16 MiB if that is more.
 //!
-//! Each part of the JSON is deserialized separately into the types of `gltf_json`, so that an error has the JSON
+//! Each part of the JSON is deserialized separately into the types of `gltf_json`. Therefore an error has the JSON
 //! pointer of its part, and errors in parts that are not read do not matter.
 
 mod accessor;

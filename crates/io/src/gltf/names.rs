@@ -10,7 +10,7 @@
 
 use gltf_json::mesh::Semantic;
 
-/// The name in a mesh of an attribute of glTF; `None` if the attribute is not read.
+/// Returns the name that an attribute of glTF gets in a mesh, or `None` if the attribute is not read.
 pub(super) fn attribute_name(semantic: &Semantic) -> Option<String> {
     match semantic {
         Semantic::Normals => Some("normal".to_owned()),
@@ -23,7 +23,7 @@ pub(super) fn attribute_name(semantic: &Semantic) -> Option<String> {
     }
 }
 
-/// The name in a mesh of an attribute `_name` of glTF.
+/// Returns the name that an attribute `_name` of glTF gets in a mesh.
 fn custom_name(name: &str) -> String {
     if is_reserved(name) {
         format!("_{name}")
@@ -39,7 +39,7 @@ fn is_reserved(name: &str) -> bool {
     name.is_empty() || is_rig || known.split(' ').any(|one| one == name) || uv_set(name).is_some()
 }
 
-/// The set of texture coordinates with this name: 0 for `uv`, n for `uvn`.
+/// Returns the number of the set of texture coordinates with this name: 0 for `uv`, 1 for `uv1`, and so on.
 pub(super) fn uv_set(name: &str) -> Option<u32> {
     let digits = name.strip_prefix("uv")?;
     if digits.is_empty() {
@@ -49,7 +49,7 @@ pub(super) fn uv_set(name: &str) -> Option<u32> {
     (n > 0 && n.to_string() == digits).then_some(n)
 }
 
-/// The name in glTF of a custom attribute; `None` if the name is reserved.
+/// Returns the name that a custom attribute gets in glTF, or `None` if the name is reserved.
 pub(super) fn custom_semantic(name: &str) -> Option<Semantic> {
     (!is_reserved(name)).then(|| Semantic::Extras(name.to_owned()))
 }

@@ -32,7 +32,7 @@ impl NodeJson {
     ///
     /// # Errors
     ///
-    /// If the light is not given by an index. `here` is the location of the node.
+    /// If the JSON of the light is not an index. `here` is the location of the node.
     pub(super) fn light(&self, here: &str) -> Result<Option<usize>, Fault> {
         let Some(extension) = self.extensions.as_ref().and_then(|all| all.get(LIGHTS)) else {
             return Ok(None);

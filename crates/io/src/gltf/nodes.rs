@@ -1,4 +1,4 @@
-//! The nodes of a glTF scene: the meshes with their placements and names.
+//! Finds the meshes that the nodes of a glTF scene show, with their placements and names.
 
 use std::collections::BTreeMap;
 
@@ -20,7 +20,7 @@ pub(super) struct PlacedMesh {
     /// The name of the object.
     pub(super) name: String,
     pub(super) mesh: usize,
-    /// The transform of the points: the identity if nodes place the object.
+    /// The transform of the points. It is the identity if nodes place the object.
     pub(super) to_scene: DAffine3,
     /// The node of the file whose skin and morph weights are applied to the points.
     pub(super) posed_by: Option<usize>,
@@ -36,7 +36,7 @@ pub(super) struct PlacedNodes {
     pub(super) places: Vec<Option<usize>>,
     /// For each node of the file, the number of morph targets of its mesh.
     pub(super) targets: Vec<usize>,
-    /// For each node of the file, the map to the scene.
+    /// For each node of the file, the map from the space of the node to the scene.
     pub(super) to_scene: Vec<Option<DAffine3>>,
 }
 
@@ -105,11 +105,11 @@ fn note_left_out(document: &Document, notes: &mut Notes) {
     notes.left_out("skins", document.skins.len(), None, what);
 }
 
-/// The nodes of the scene, parents before children, in the order of the file.
+/// Returns the nodes of the scene in the order of the file, with parents before their children.
 fn scene_nodes(document: &Document) -> Result<Vec<SceneNode>, Fault> {
     let mut visited = vec![false; document.nodes.len()];
     let mut nodes: Vec<SceneNode> = Vec::new();
-    // An explicit stack, because a chain of nodes can be as long as the file.
+    // The stack is explicit, because a chain of nodes can be so long that recursion would overflow the call stack.
     let mut open: Vec<(usize, Option<usize>)> = Vec::new();
     open.extend(document.roots.iter().rev().map(|&root| (root, None)));
     while let Some((index, parent)) = open.pop() {
@@ -156,7 +156,7 @@ fn scene_nodes(document: &Document) -> Result<Vec<SceneNode>, Fault> {
     Ok(nodes)
 }
 
-/// An object for each node with a mesh, in the order of the nodes.
+/// Returns an object for each node with a mesh, in the order of the nodes.
 fn baked(
     document: &Document,
     nodes: &[SceneNode],
@@ -187,7 +187,8 @@ fn baked(
     Ok(placed)
 }
 
-/// An object for each mesh that nodes show, in the order of the meshes. A mesh of one node is named after the node.
+/// Returns an object for each mesh that nodes show, in the order of the meshes. If only one node shows a mesh, the
+/// object is named after the node.
 fn shared(
     document: &Document,
     nodes: &[SceneNode],
@@ -196,7 +197,7 @@ fn shared(
     names: &mut Names,
     notes: &mut Notes,
 ) -> Result<Vec<PlacedMesh>, Fault> {
-    // The first node of each mesh, and the number of its nodes.
+    // For each mesh, the first node that shows it, and the number of nodes that show it.
     let mut uses: BTreeMap<usize, (usize, u64)> = BTreeMap::new();
     for node in nodes {
         if let Some(mesh) = document.nodes[node.index].mesh {
@@ -222,8 +223,8 @@ fn shared(
     Ok(placed)
 }
 
-/// The graph of the scene, without the nodes that the writer adds by itself, and for each node of the file its index in
-/// the graph.
+/// Returns the graph of the scene, without the nodes that the writer adds by itself. Also returns the index in the
+/// graph of each node of the file.
 fn graph(
     document: &Document,
     nodes: &[SceneNode],
@@ -276,7 +277,7 @@ fn graph(
         budget.spend((size_of::<Node>() + length) as u64, &pointer)?;
         places[i] = graph.push(Node {
             name: json.name.clone(),
-            // A node with children is not plain, so the parent is in the graph.
+            // A node with children is never left out, so the parent is in the graph.
             parent: node.parent.map(|parent| places[parent]),
             placement: node.placement,
             object,
@@ -316,7 +317,7 @@ fn first_name<'a>(names: [&'a Option<String>; 2], otherwise: &'a str) -> &'a str
         .map_or(otherwise, |name| name)
 }
 
-/// Takes the minimal size of an object from the budget, including several copies of its name.
+/// Takes the minimum size of an object from the budget, including several copies of its name.
 fn spend(name: &str, node: usize, budget: &Budget) -> Result<(), Fault> {
     let bytes = Budget::OBJECT + 8 * name.len() as u64;
     budget.spend(bytes, &format!("/nodes/{node}"))

@@ -1,8 +1,8 @@
-//! The parts of the buffer, and the container of a GLB file.
+//! Writes the parts of the buffer and the container of a GLB file.
 
 use crate::error::Unwritable;
 
-/// Writes the bytes of a part.
+/// A function that writes the bytes of a part.
 pub(super) type Fill<'a> = Box<dyn Fn(&mut [u8]) + 'a>;
 
 /// A part of the buffer, with the function that writes it.

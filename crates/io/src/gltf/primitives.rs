@@ -1,4 +1,4 @@
-//! The primitives of a glTF mesh, joined into one list of triangles.
+//! Joins the primitives of a glTF mesh into one list of triangles.
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -21,11 +21,11 @@ use crate::fault::Fault;
 use crate::note::Notes;
 use crate::parallel;
 
-/// The cost in bytes of checking for an attribute that a primitive does not have. It limits time rather than
+/// The cost in bytes of looking for an attribute that a primitive does not have. This cost limits time rather than
 /// memory.
 const SMALL: u64 = 16;
 
-/// All primitives of a mesh. The vertices are those of glTF: one for each side of a seam.
+/// All primitives of a mesh. A vertex on a seam is stored once for each side of the seam, as in glTF.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Triangles {
     pub(super) positions: Vec<DVec3>,
@@ -230,7 +230,7 @@ impl Triangles {
             let what = "the weights of joints and the morph targets of all primitives need too much memory";
             return Err(Fault::json(here.to_owned(), what));
         }
-        // Attributes that only other primitives have get zeros.
+        // If only other primitives have an attribute, the attribute is zero at these vertices.
         for column in self.attributes.of(Domain::Corner) {
             if own.column(Domain::Corner, &column.name).is_none() {
                 let zeros = n * column.values.bytes_per_value();
@@ -282,7 +282,7 @@ fn read_column(
         (_, Type::Vec3) => {
             DVec3::wrap(reader.vectors(accessor, at, kinds, 0.0, DVec3::from_array)?)
         }
-        // Without alpha, colors are opaque.
+        // Colors without alpha are opaque.
         (_, Type::Vec4) => {
             DVec4::wrap(reader.vectors(accessor, at, kinds, 1.0, DVec4::from_array)?)
         }
@@ -297,7 +297,7 @@ fn read_column(
     Ok(Some(Column { name, rule, values }))
 }
 
-/// The corners of the triangles of a primitive, as vertices of the primitive.
+/// Returns the corners of the triangles of a primitive, as indices of vertices of the primitive.
 fn corners(
     reader: &Reader,
     primitive: &Primitive,
@@ -327,7 +327,7 @@ fn corners(
     };
     let corners = match mode {
         Mode::TriangleStrip => {
-            // Every second triangle is reversed, so that all have the same orientation.
+            // Every second triangle of a strip is reversed, so that all triangles have the same orientation.
             let triangle = |(i, w): (usize, &[u32])| match i % 2 {
                 0 => [w[0], w[1], w[2]],
                 _ => [w[0], w[2], w[1]],

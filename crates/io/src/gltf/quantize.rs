@@ -1,17 +1,17 @@
-//! Quantized attributes, `KHR_mesh_quantization`: integers instead of floats.
+//! Writes quantized attributes, which are integers instead of floats (`KHR_mesh_quantization`).
 //!
 //! ```text
 //! node of the scene        name, placement, children, extras, ...: as without quantization
 //!  `- node of the grid     mesh, translation, scale
 //! ```
 //!
-//! The positions of an object are multiples of the step of its grid. A node that maps the grid to the object holds the
-//! mesh. It is a child of each node that shows the object, so that the other nodes and their numbers do not change;
-//! an object that no node shows needs only the node of the grid. The scale is the same along all axes, so that normals
-//! keep their directions.
+//! The positions of an object are rounded to points of a grid. An additional node, the node of the grid, has the mesh
+//! and maps the grid to the space of the object. It is a child of each node that shows the object, so the other nodes
+//! do not change. If no node shows the object, only the node of the grid is written. The scale of the grid is the same
+//! along all axes, so normals keep their directions.
 //!
-//! Normals are rounded on an octahedron, as by the filter of compressed files, so that compressing a quantized file
-//! does not change its content.
+//! Normals are rounded on an octahedron, like the filter of compressed files does. Therefore compressing a quantized
+//! file does not change its content.
 #![expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -37,7 +37,7 @@ use crate::{parallel, weld};
 /// The name of the extension.
 pub(super) const QUANTIZATION: &str = "KHR_mesh_quantization";
 
-/// Quantizes attributes, and collects what this did.
+/// Quantizes attributes, and collects the data for the report.
 #[derive(Default)]
 pub(super) struct Quantizer<'a> {
     options: Option<Quantization>,
@@ -64,12 +64,12 @@ pub(super) struct Integers {
     pub(super) stride: usize,
     pub(super) component: ComponentType,
     pub(super) kind: Type,
-    /// The filter that was not yet applied to the bytes.
+    /// The filter that the reader must apply to the bytes.
     pub(super) filter: Filter,
 }
 
 impl<'a> Quantizer<'a> {
-    /// Creates a quantizer. If `is_compressed`, filters are left to the reader.
+    /// Creates a quantizer. If `is_compressed`, the reader applies the filters.
     pub(super) fn new(options: Option<Quantization>, is_compressed: bool) -> Self {
         Self {
             options,
@@ -89,7 +89,8 @@ impl<'a> Quantizer<'a> {
         let PreparedObject { mesh, split, .. } = prepared;
         let name = &prepared.object.name;
         if !prepared.deformation.is_none() {
-            // The node of a grid does not place a skinned mesh, and deltas are in the space of the positions.
+            // Meshes with joints or morph targets are not quantized: a node does not place a skinned mesh, and deltas
+            // of morph targets would need the same grid.
             let reason = "the object has joints or morph targets".to_owned();
             let what = (name.clone(), "positions".to_owned(), reason);
             self.report.unquantized.push(what);
@@ -237,8 +238,8 @@ impl<'a> Quantizer<'a> {
         }
     }
 
-    /// Moves the meshes of quantized objects into nodes for their grids. `nodes` begins with the nodes of the graph,
-    /// and the others each show one object.
+    /// Moves the meshes of quantized objects into nodes for their grids. `nodes` begins with the nodes of the graph.
+    /// Each of the other nodes shows one object.
     pub(super) fn place(&mut self, graph: &Graph, nodes: &mut Vec<Value>) {
         let identity = DAffine3::IDENTITY;
         let maps = graph.to_scene();
@@ -268,7 +269,8 @@ impl<'a> Quantizer<'a> {
             });
             let index = nodes.len();
             if let Value::Array(children) = &mut nodes[i]["children"] {
-                // First, so that readers find the objects in the same order as without quantization.
+                // The node of the grid is the first child, so that readers find the objects in the same order as
+                // without quantization.
                 children.insert(0, index.into());
             }
             nodes.push(child);
@@ -277,7 +279,7 @@ impl<'a> Quantizer<'a> {
 }
 
 impl Grid {
-    /// The grid over the bounding box of an object; `None` if 32-bit numbers cannot describe it.
+    /// Creates the grid over the bounding box of an object. Returns `None` if 32-bit numbers cannot describe the grid.
     fn over(prepared: &PreparedObject, bits: Bits) -> Option<Self> {
         let PreparedObject { mesh, split, .. } = prepared;
         let blocks = parallel::blocks(split.n, |block| {
@@ -332,7 +334,7 @@ impl Grid {
         steps.to_array().map(|x| x.round().clamp(0.0, most) as u16)
     }
 
-    /// The position that a reader computes.
+    /// Returns the position that a reader computes from the steps.
     fn position(&self, steps: [u16; 3]) -> DVec3 {
         let fraction = DVec3::from(steps.map(f64::from)) / f64::from(u16::MAX);
         DVec3::from(self.origin.map(f64::from)) + fraction * f64::from(self.scale)
@@ -383,7 +385,8 @@ fn fractions(prepared: &PreparedObject, stream: &Stream, bits: Bits) -> (Integer
     (integers, error)
 }
 
-/// Rounds a point of the unit sphere on the unfolded octahedron. The third number is the representation of 1.
+/// Rounds a point of the unit sphere on the unfolded octahedron. The third number of the result is the integer that
+/// represents 1.
 ///
 /// Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", 2014, section 3.3.
 fn octahedral(v: DVec3, bits: Bits) -> [i16; 3] {
@@ -402,8 +405,9 @@ fn octahedral(v: DVec3, bits: Bits) -> [i16; 3] {
     [x, y, 1.0].map(|x| (x * f64::from(one)).round() as i16)
 }
 
-/// The factor by which a map stretches lengths at most. Exact for rotations with a scale for each axis, otherwise an
-/// upper bound: the largest eigenvalue of a matrix is at most the largest sum of the sizes in a row.
+/// Returns an upper bound for the factor by which a map stretches lengths. The bound is exact for a rotation with a
+/// scale for each axis. It follows from the fact that the largest eigenvalue of a matrix is at most the largest sum of
+/// absolute values in a row.
 fn stretch(map: &DAffine3) -> f64 {
     let m = map.matrix3;
     let square = m.transpose() * m;

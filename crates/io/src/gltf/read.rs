@@ -51,7 +51,7 @@ pub(crate) fn read(
         budget.grant_compressed(size);
     }
     if !document.draco.is_empty() {
-        // A triangle takes about a byte.
+        // In a Draco stream, a triangle takes about one byte.
         budget.grant_compressed(2 * size);
     }
     draco::decode(&mut document, &mut loaded, &budget)?;
@@ -127,7 +127,7 @@ fn objects(
     Ok(Parsed { objects, graph })
 }
 
-/// The pose in which a mesh is read; `None` if nodes place and deform it.
+/// Returns the pose in which a mesh is read, or `None` if nodes place and deform the mesh.
 ///
 /// # Errors
 ///
@@ -154,7 +154,7 @@ fn pose(
         return Ok(Some(pose));
     };
     let joints = skin.joints.iter().map(|&joint| nodes.to_scene[joint]);
-    // With a joint outside of the scene, the skin has no effect.
+    // If a joint is outside of the scene, the skin has no effect.
     let Some(joints) = joints.collect::<Option<Vec<_>>>() else {
         return Ok(Some(pose));
     };
@@ -185,8 +185,8 @@ pub(super) fn parse(json: &[u8]) -> Result<Value, Fault> {
     })
 }
 
-/// Returns the materials that the triangles use, in the order of the document, and for each material of the
-/// document its index in this list.
+/// Returns the materials that the triangles use, in the order of the document. Also returns the index in this list of
+/// each material of the document.
 fn used_materials(
     materials: &mut Materials,
     triangles: &Triangles,
@@ -212,8 +212,8 @@ fn cost_of_material(material: &Material) -> usize {
     size_of::<Material>() + material.name.len() + paths.map(str::len).sum::<usize>()
 }
 
-/// Builds polygons from a mesh. Vertices along the seams of glTF are merged. The polygons are placed by `to_scene`, or
-/// by the pose if it has joints.
+/// Builds polygons from a mesh. Vertices along the seams of glTF are merged. If the pose has joints, it places the
+/// polygons. Otherwise, `to_scene` places them.
 fn polygons(
     triangles: Triangles,
     places: &BTreeMap<usize, i32>,
@@ -264,9 +264,9 @@ fn polygons(
     polygons
 }
 
-/// Merges vertices at exactly the same position and with the same vertex attributes, in order of first occurrence, and
-/// leaves out vertices without a triangle. Returns the positions, for each vertex the index of its position, and the
-/// number of vertices left out.
+/// Merges vertices that are at exactly the same position and have the same vertex attributes, and leaves out vertices
+/// without a triangle. Returns the positions in order of first occurrence, the index of the position of each vertex,
+/// and the number of vertices that are left out.
 fn weld(
     mut positions: Vec<DVec3>,
     attributes: &mut Attributes,

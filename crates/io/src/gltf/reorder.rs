@@ -1,9 +1,9 @@
-//! Orders triangles and vertices so that a compressed file is small: a triangle follows its neighbors, and vertices are
-//! numbered by their first use.
+//! Orders triangles and vertices so that a compressed file is small. Each triangle follows its neighbors, and vertices
+//! are numbered in the order of their first use.
 //!
-//! Source: Sander, Nehab, Barczak, "Fast Triangle Reordering for Vertex Locality and Reduced Overdraw", 2007. The
-//! triangles are taken as fans around one vertex after another. The next vertex is one of the last fan that is still
-//! recent and has few triangles left.
+//! Source: Sander, Nehab, Barczak, "Fast Triangle Reordering for Vertex Locality and Reduced Overdraw", 2007. The order
+//! consists of fans: all remaining triangles around one vertex, then all remaining triangles around the next vertex,
+//! and so on. The next vertex is a vertex of the last fan that is still recent and has few remaining triangles.
 
 use std::collections::BTreeMap;
 
@@ -12,7 +12,7 @@ use mesh::Mesh;
 use super::faces::{Faces, all_corners};
 use super::split::Split;
 
-/// The number of recent vertices and edges that the codec remembers is similar.
+/// The number of vertices that count as recent. The codec remembers about the same number of vertices and edges.
 const RECENT: usize = 16;
 
 /// Orders the triangles of each material, then the vertices.
@@ -44,7 +44,7 @@ fn triangles_in_fans(corners: &[u32], n_vertices: usize) -> Vec<u32> {
     let mut last_use = vec![0_usize; n_vertices];
     let mut time = RECENT + 1;
     let mut ordered = Vec::with_capacity(corners.len());
-    // The vertices used so far, the latest last, and the first vertex that has not been tried.
+    // The vertices used so far, with the latest one at the end. Below is the first vertex that has not been tried.
     let mut used: Vec<u32> = Vec::new();
     let mut untried = 0..n_vertices;
     let mut center = untried.next();
@@ -71,7 +71,8 @@ fn triangles_in_fans(corners: &[u32], n_vertices: usize) -> Vec<u32> {
             if left[c] == 0 {
                 continue;
             }
-            // The oldest vertex that is still recent after its fan, as each triangle of a fan adds about two vertices.
+            // Chooses the oldest vertex that is still recent after its fan. Each triangle of a fan adds about two
+            // vertices.
             let age = time - last_use[c];
             let priority = if age + 2 * left[c] as usize <= RECENT {
                 age
@@ -96,7 +97,7 @@ fn triangles_in_fans(corners: &[u32], n_vertices: usize) -> Vec<u32> {
 
 /// The triangles around each vertex.
 struct Around {
-    /// Where the triangles of each vertex start.
+    /// For each vertex, the index at which its list of triangles starts.
     starts: Vec<u32>,
     triangles: Vec<u32>,
 }
@@ -112,7 +113,7 @@ impl Around {
             sum += *start;
             *start = sum;
         }
-        // Filled from the back, which moves each start from the end of its list to the beginning.
+        // Each list is filled from its end, so that its start moves from the end of the list to the beginning.
         let mut triangles = vec![0; corners.len()];
         for (i, &corner) in corners.iter().enumerate().rev() {
             let start = &mut starts[corner as usize];
@@ -165,7 +166,7 @@ mod tests {
         let n = 100_u32;
         let mut corners = Vec::new();
         for i in 0..n * n {
-            // 7919 has no common factor with the number of squares.
+            // This visits every square once, because 7919 and the number of squares have no common factor.
             let square = i * 7919 % (n * n);
             let v = square / n * (n + 1) + square % n;
             corners.extend([v, v + 1, v + n + 2, v, v + n + 2, v + n + 1]);
@@ -180,7 +181,7 @@ mod tests {
                 cache.truncate(16);
             }
         }
-        // In a perfect order there is half a vertex for each triangle.
+        // In a perfect order, the number of misses is half the number of triangles.
         assert!(misses < 2 * n * n * 3 / 4, "{misses}");
     }
 }

@@ -16,7 +16,7 @@ use crate::note::Notes;
 ///
 /// # Errors
 ///
-/// The first index that does not exist.
+/// If an index refers to a missing part.
 pub(super) fn check(document: &Document) -> Result<(), Fault> {
     for (i, skin) in document.skins.iter().enumerate() {
         let here = format!("/skins/{i}");
@@ -77,10 +77,11 @@ pub(super) fn referenced(document: &Document) -> Vec<bool> {
     flags
 }
 
-/// Reads arrays of numbers, each accessor once.
+/// Reads arrays of numbers. Each accessor is read only once.
 pub(super) struct RigReader<'a, 'r> {
     pub(super) reader: &'a Reader<'r>,
-    /// For each accessor and the number of numbers in its elements, its index in the arrays.
+    /// The index of the array of each accessor. The key is the index of the accessor and the number of numbers in an
+    /// element.
     known: BTreeMap<(usize, usize), usize>,
     arrays: Vec<Vec<f32>>,
 }
@@ -94,11 +95,11 @@ impl<'a, 'r> RigReader<'a, 'r> {
         }
     }
 
-    /// Reads the skins and animations into the graph, with the graph's numbers of nodes.
+    /// Reads the skins and animations into the graph. Nodes get their indices in the graph.
     ///
     /// # Errors
     ///
-    /// The first accessor that is invalid.
+    /// If an accessor is invalid.
     pub(super) fn fill(
         mut self,
         nodes: &PlacedNodes,
@@ -171,7 +172,7 @@ impl<'a, 'r> RigReader<'a, 'r> {
         Ok(Some(array))
     }
 
-    /// The numbers of an array that was read before.
+    /// Returns the numbers of an array that was read before.
     pub(super) fn numbers(&self, array: usize) -> &[f32] {
         &self.arrays[array]
     }
@@ -238,7 +239,7 @@ impl<'a, 'r> RigReader<'a, 'r> {
         Ok(animation)
     }
 
-    /// Reads a sampler; `None` if its numbers do not fit each other.
+    /// Reads a sampler. Returns `None` if the times or the number of values are invalid.
     fn sampler(
         &mut self,
         json: &AnimationJson,

@@ -47,20 +47,20 @@ pub(super) struct TargetJson {
     pub(super) path: String,
 }
 
-/// What deforms a mesh, according to the JSON.
+/// The numbers of joints and morph targets that deform a mesh, according to the JSON.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Deformers {
     /// The number of sets of joints and weights.
     pub(super) weight_sets: u32,
     /// The number of morph targets.
     pub(super) targets: usize,
-    /// The number of joints that vertices can refer to: the smallest number of joints of the skins with which nodes
-    /// show the mesh. `None` if no node has a skin.
+    /// The number of joints to which vertices can refer. If nodes show the mesh with several skins, this is the
+    /// smallest number of joints of these skins. `None` if no node has a skin.
     pub(super) joints: Option<usize>,
 }
 
 impl Deformers {
-    /// The largest number of joints that can have weights.
+    /// Returns the maximum number of joints that can have weights.
     pub(super) fn n_joints(&self) -> usize {
         if self.weight_sets == 0 {
             return 0;
@@ -68,7 +68,7 @@ impl Deformers {
         self.joints.unwrap_or(0)
     }
 
-    /// The deformers of each mesh of a document.
+    /// Returns the deformers of each mesh of a document.
     pub(super) fn of_meshes(document: &Document) -> Vec<Self> {
         let meshes = document.meshes.iter();
         let mut all: Vec<Self> = meshes

@@ -9,12 +9,12 @@ use super::streams::Stream;
 use crate::loss::Losses;
 use crate::parallel::{self, BLOCK};
 
-/// A corner is compared with at most this number of corners around its vertex, the latest first. This keeps the
-/// time for a vertex with a million corners linear. If a vertex has more distinct corners, equal corners can
-/// become two vertices.
+/// The maximum number of corners around its vertex with which a corner is compared, the latest corners first. With this
+/// limit, the time for a vertex with a million corners stays linear. If a vertex has more distinct corners, equal
+/// corners can become two vertices.
 const MAX_COMPARED: usize = 64;
 
-/// The vertices of glTF, in the order of the vertices of the mesh unless they are reordered.
+/// The vertices of glTF. They have the order of the vertices of the mesh, unless they are reordered.
 pub(super) struct Split {
     /// The number of vertices.
     pub(super) n: usize,
@@ -23,9 +23,9 @@ pub(super) struct Split {
 }
 
 struct Seams {
-    /// For each vertex of glTF, a corner with its values.
+    /// For each vertex of glTF, a corner that has the values of this vertex.
     corners: Vec<u32>,
-    /// For each half-edge with a face, the vertex of its corner.
+    /// For each half-edge with a face, the vertex of glTF at its corner.
     vertex_of: Vec<u32>,
 }
 
@@ -50,7 +50,7 @@ impl Split {
         }
     }
 
-    /// Keeps these vertices only, in this order.
+    /// Keeps only the vertices in `order`, in this order.
     pub(super) fn select(&mut self, mesh: &Mesh, order: &[u32]) {
         let corners = parallel::collect(order.len(), |i| {
             number(self.corner(mesh, order[i] as usize).1.index())
@@ -77,7 +77,7 @@ impl Split {
     }
 }
 
-/// Adds losses for the values of the written vertices that differ from those of the mesh.
+/// Adds losses for the written values that differ from the values of the mesh.
 pub(super) fn note_changed(stream: &Stream, mesh: &Mesh, split: &Split, losses: &mut Losses) {
     let changed = parallel::count(split.n, |i| {
         let (v, h) = split.corner(mesh, i);
@@ -96,7 +96,7 @@ pub(super) fn split(mesh: &Mesh, streams: &[Stream]) -> Split {
     }
     let vertex_of: Vec<AtomicU32> = mesh::zeroed(mesh.n_half_edges());
     let m = seams.len();
-    // The vertices of each block are numbered from 0 first, and shifted later.
+    // In each block, the vertices are first numbered from 0. Later, the numbers are shifted.
     let blocks = parallel::blocks(n, |vertices| {
         let mut corners = Vec::with_capacity(BLOCK);
         let (mut values, mut own) = (Vec::new(), Vec::new());
@@ -138,7 +138,7 @@ pub(super) fn split(mesh: &Mesh, streams: &[Stream]) -> Split {
     }
 }
 
-/// Whether values have the same bits.
+/// Whether all values of `a` and `b` have the same bits.
 fn same(a: &[[f32; 4]], b: &[[f32; 4]]) -> bool {
     let mut pairs = a.as_flattened().iter().zip(b.as_flattened());
     pairs.all(|(a, b)| a.to_bits() == b.to_bits())

@@ -8,8 +8,8 @@ use mesh::{Column, Domain, FaceId, HalfEdgeId, Mesh, Values, VertexId, joint_of,
 use super::names::{custom_semantic, uv_set};
 use crate::loss::Losses;
 
-/// An attribute of a mesh in the form that glTF requires: 32 bits, unit normals, v downwards, and colors from 0 to
-/// 1.
+/// An attribute of a mesh in the form that glTF requires. Numbers have 32 bits, normals have length 1, the v coordinate
+/// points downwards, and colors are from 0 to 1.
 pub(super) struct Stream<'a> {
     pub(super) semantic: Semantic,
     pub(super) kind: Type,
@@ -27,7 +27,7 @@ enum Meaning {
     Custom,
 }
 
-/// The streams of a mesh. Adds losses for all other attributes.
+/// Returns the streams of a mesh. Adds losses for all other attributes.
 pub(super) fn streams<'a>(mesh: &'a Mesh, losses: &mut Losses) -> Vec<Stream<'a>> {
     let mut streams: Vec<Stream> = Vec::new();
     // glTF numbers texture coordinates from 0, without gaps.
@@ -105,7 +105,8 @@ fn stream(domain: Domain, column: &Column, n_uvs: u32) -> Option<Stream<'_>> {
 }
 
 impl Stream<'_> {
-    /// The value at a corner, with as many numbers as the kind has, and whether it equals the value of the mesh.
+    /// Returns the value at a corner, and whether it equals the value of the mesh. The value has as many numbers as the
+    /// kind of the stream.
     pub(super) fn at(&self, mesh: &Mesh, v: VertexId, h: HalfEdgeId) -> ([f32; 4], bool) {
         let i = match self.domain {
             Domain::Vertex => v.index(),
@@ -143,7 +144,7 @@ impl Stream<'_> {
         }
     }
 
-    /// How a value that glTF does not allow is changed.
+    /// Describes how values that glTF does not allow are changed, for a loss.
     pub(super) fn change(&self) -> &'static str {
         match self.meaning {
             Meaning::Normal => "without a direction, written as the normal of the face",
@@ -163,8 +164,8 @@ fn narrow(value: [f64; 4], good: bool) -> ([f32; 4], bool) {
     (narrow.map(|x| if x.is_finite() { x } else { 0.0 }), false)
 }
 
-/// Normalizes a vector, if it has a direction. A unit vector of 32 bits is returned unchanged: its length is not
-/// exactly 1, and dividing by it would change the vector slightly each time it is written.
+/// Normalizes a vector, if it has a direction. A unit vector of 32 bits is returned unchanged. The length of such a
+/// vector is not exactly 1, so normalizing it would change it slightly each time it is written.
 fn unit(v: DVec3) -> Option<DVec3> {
     const ROUNDING: f64 = 1e-6;
     if (v.length_squared() - 1.0).abs() < ROUNDING {

@@ -99,8 +99,8 @@ pub(super) struct ImageJson {
 
 type Filters = (Option<Filter>, Option<Filter>);
 
-/// The numbers of texture filters, with the filter between mipmap levels. Only the first two are valid for
-/// magnification.
+/// The number of each texture filter in glTF, with the filter between mipmap levels. Only the first two filters are
+/// valid for magnification.
 pub(super) const FILTERS: [(u32, Filters); 6] = [
     (9728, (Some(Filter::Nearest), None)),
     (9729, (Some(Filter::Linear), None)),
@@ -110,7 +110,7 @@ pub(super) const FILTERS: [(u32, Filters); 6] = [
     (9987, (Some(Filter::Linear), Some(Filter::Linear))),
 ];
 
-/// The numbers of wrap modes. The first is the default.
+/// The number of each wrap mode in glTF. The first mode is the default.
 pub(super) const WRAPS: [(u32, Wrap); 3] = [
     (10497, Wrap::Repeat),
     (33648, Wrap::Mirror),

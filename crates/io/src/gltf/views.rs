@@ -1,4 +1,4 @@
-//! Buffer views: parts of the buffers, uncompressed or compressed, and the elements in them.
+//! Reads buffer views, which are parts of the buffers and can be compressed, and the elements in them.
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -64,7 +64,8 @@ impl Reader<'_> {
         Ok(slot.get_or_init(|| decoded))
     }
 
-    /// The `length` bytes of a buffer from `start`. `at` is the location of the object that declares them.
+    /// Returns `length` bytes of a buffer, from byte `start` on. `at` is the location of the object that declares this
+    /// range.
     fn part(&self, buffer: usize, start: u64, length: u64, at: &str) -> Result<&[u8], Fault> {
         let bytes = get(self.buffers, buffer, format_args!("{at}/buffer"), "buffer")?;
         let range = || {
@@ -110,7 +111,7 @@ impl Reader<'_> {
             );
             return Err(Fault::json(format!("{here}/count"), message));
         }
-        // Both fit in a `usize`, because they do not exceed the length of the view.
+        // Both numbers fit in a `usize`, because they do not exceed the length of the view.
         let [count, offset] = [count, offset].map(|n| usize::try_from(n).unwrap_or(0));
         Ok(Rows {
             bytes: bytes.get(offset..).unwrap_or_default(),
@@ -121,7 +122,7 @@ impl Reader<'_> {
     }
 }
 
-/// Pieces of the same size at a constant stride. The last piece does not need a full stride.
+/// Rows of bytes, which have the same size and a constant stride. The last row does not need a full stride.
 #[derive(Clone, Copy)]
 pub(super) struct Rows<'a> {
     pub(super) bytes: &'a [u8],

@@ -1,7 +1,7 @@
 //! Writes a scene to a glTF document and its bytes.
 //!
-//! All sizes are determined first, so that the document is complete before any bytes of the buffer are written.
-//! The bytes are then written once, in parallel, directly to their positions.
+//! All sizes are determined first, so that the document is complete before any bytes of the buffer are written. Then
+//! the bytes are written in parallel, directly to their positions.
 
 use std::path::Path;
 
@@ -16,8 +16,8 @@ use crate::loss::{Loss, Losses};
 use crate::writing::dense;
 use crate::{PackingReport, WriteOptions, Written, gzip};
 
-/// Converts `scene` to the bytes of files, and lists what the files do not store. The files are in the order in
-/// which they must be renamed.
+/// Converts `scene` to the bytes of files, and lists the content that the files do not store. The result has the files
+/// in the order in which they must be renamed.
 ///
 /// # Errors
 ///

@@ -1,4 +1,4 @@
-//! Prepares what deforms a mesh for writing: sets of four joints with weights, and deltas of morph targets.
+//! Prepares the deformation of a mesh for writing: sets of four joints with weights, and deltas of morph targets.
 
 use std::cmp::Ordering;
 
@@ -10,12 +10,12 @@ use super::deform::WEIGHT_TOLERANCE;
 use crate::loss::Losses;
 use crate::parallel;
 
-/// What deforms an object, in the form that glTF requires.
+/// The joints, weights and morph targets of an object, in the form that glTF requires.
 #[derive(Default)]
 pub(super) struct Deformation<'a> {
-    /// The number of sets; 0 if the object is written without a skin.
+    /// The number of sets of four joints. 0 if the object is written without a skin.
     pub(super) sets: usize,
-    /// For each vertex of the mesh, four joints for each set, those with the largest weights first.
+    /// For each vertex of the mesh, four joints for each set. Joints with larger weights come first.
     joints: Vec<u16>,
     /// The weights of `joints`, which add up to 1 at each vertex.
     weights: Vec<f32>,
@@ -24,8 +24,8 @@ pub(super) struct Deformation<'a> {
 }
 
 impl<'a> Deformation<'a> {
-    /// Determines what to write, and adds losses for the rest. `sets` replaces the number of sets in the file that the
-    /// object comes from.
+    /// Determines the content to write, and adds losses for the other content. If `sets` is given, it replaces the
+    /// number of sets in the file from which the object was read.
     pub(super) fn new(
         object: &Object,
         mesh: &'a Mesh,
@@ -138,12 +138,13 @@ impl<'a> Deformation<'a> {
         }
     }
 
-    /// Whether the object has anything that deforms it.
+    /// Whether the object has neither joints nor morph targets.
     pub(super) fn is_none(&self) -> bool {
         self.sets == 0 && self.morphs.is_empty()
     }
 
-    /// Compares what is written for two vertices of the mesh. The reader only merges equal vertices.
+    /// Compares the data that is written for two vertices of the mesh. The reader merges vertices only if these data
+    /// are equal.
     pub(super) fn compare(&self, a: usize, b: usize) -> Ordering {
         let row = |v: usize| 4 * v * self.sets..4 * (v + 1) * self.sets;
         let by_joints = self.joints[row(a)].cmp(&self.joints[row(b)]);
@@ -177,7 +178,7 @@ impl Bound {
         let n = own.len();
         own.retain(|(_, weight)| *weight > 0.0 && weight.is_finite());
         self.invalid += usize::from(own.len() < n && is_used);
-        // A weight that is 0 in 32 bits has no effect.
+        // Weights that are 0 in 32 bits have no effect and are removed.
         own.retain(|(_, weight)| *weight as f32 > 0.0);
         own.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
         self.truncated += usize::from(own.len() > most && is_used);
@@ -204,7 +205,8 @@ impl Bound {
     }
 }
 
-/// The morph targets of an object: as many as its label has weights, or as the mesh has.
+/// Returns the morph targets of an object. Their number is the number of weights in the label of the object or, if that
+/// is greater, the number of targets of the mesh.
 fn morphs<'a>(
     object: &Object,
     mesh: &'a Mesh,
@@ -221,7 +223,8 @@ fn morphs<'a>(
         losses.add(None, "morph targets", in_file, reason);
         return Vec::new();
     };
-    // An attribute with a large number in its name does not make many targets.
+    // The number of targets is limited, so that a single attribute with a large number in its name does not lead to
+    // many targets.
     let n = last.max(in_file).min(columns.len().max(in_file));
     let mut morphs = vec![None; n];
     let mut unnumbered = 0;

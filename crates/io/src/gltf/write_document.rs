@@ -25,7 +25,7 @@ use crate::error::Unwritable;
 use crate::loss::Losses;
 use crate::{Compression, WriteOptions};
 
-/// Builds the document, and collects the functions that write the bytes it refers to.
+/// Builds the document, and collects the functions that write the bytes to which the document refers.
 #[derive(Default)]
 pub(super) struct Writer<'a> {
     pub(super) accessors: Vec<Value>,
@@ -34,9 +34,10 @@ pub(super) struct Writer<'a> {
     /// For each object that is written, the index of its mesh.
     pub(super) mesh_of: BTreeMap<&'a str, usize>,
     pub(super) nodes: NodeList,
-    /// For each object that is written, what deforms it.
+    /// For each object that is written, its joints, weights and morph targets.
     pub(super) deformed: BTreeMap<&'a str, Deformed>,
-    /// The accessors of arrays: by the array, the numbers in each element, and the total.
+    /// The accessors of arrays. The key is the array, the number of numbers in each element, and the total number of
+    /// elements.
     pub(super) number_accessors: BTreeMap<(usize, usize, usize), usize>,
     pub(super) pieces: Vec<Piece<'a>>,
     materials: MaterialWriter,
@@ -46,7 +47,7 @@ pub(super) struct Writer<'a> {
     compression: Option<Compression>,
 }
 
-/// What deforms an object in the file.
+/// The joints, weights and morph targets of an object, as written in the file.
 pub(super) struct Deformed {
     pub(super) has_joints: bool,
     pub(super) n_targets: usize,
@@ -90,7 +91,7 @@ impl<'a> Writer<'a> {
             skins,
             animations,
         } = self.nodes;
-        // A scene without nodes is left out.
+        // If there are no nodes, no scene is written.
         let has_nodes = !nodes.is_empty();
         let mut extensions = self.materials.extensions();
         extensions.extend(&required);
@@ -198,7 +199,7 @@ impl<'a> Writer<'a> {
                 "targets": targets,
             }));
         }
-        // The bytes of textures come after the data of the first object that uses them.
+        // The bytes of images follow the data of the first object that uses them.
         for (place, bytes) in std::mem::take(&mut self.materials.image_bytes) {
             let length = bytes.len();
             let view = self.view(length, None, move |out| out.copy_from_slice(&bytes));
@@ -330,8 +331,8 @@ impl<'a> Writer<'a> {
 
     fn indices(&mut self, prepared: &'a PreparedObject<'a>, faces: &'a Faces) -> usize {
         let PreparedObject { mesh, split, .. } = prepared;
-        // The largest index of each type is not used, because for graphics cards it means that a new primitive
-        // starts.
+        // The largest number of each type is not used as an index, because graphics cards interpret it as the start of
+        // a new primitive.
         let short = u16::try_from(split.n).is_ok();
         let component = if short {
             ComponentType::U16
@@ -346,7 +347,7 @@ impl<'a> Writer<'a> {
         self.accessor(view, count, component, Type::Scalar)
     }
 
-    /// Adds a view after all others, beginning at a multiple of 4 bytes.
+    /// Adds a view after all other views. It begins at a multiple of 4 bytes.
     pub(super) fn view(
         &mut self,
         length: usize,

@@ -23,7 +23,7 @@ pub(super) struct MaterialWriter {
     pub(super) samplers: Vec<SamplerJson>,
     known_images: Vec<Image>,
     pub(super) images: Vec<ImageJson>,
-    /// Images whose bytes do not have a view yet: the indices of the images, and the bytes.
+    /// The images whose bytes do not have a view yet. Each entry is the index of the image, and its bytes.
     pub(super) image_bytes: Vec<(usize, Arc<[u8]>)>,
     extensions: [bool; 3],
 }
@@ -102,7 +102,7 @@ impl MaterialWriter {
         let pbr = PbrJson {
             base_color_factor: (base_color != plain.base_color).then_some(base_color),
             base_color_texture: texture(&material.base_color_texture),
-            // Always written, because the default of glTF is 1.
+            // The factor is always written, because its default in glTF is 1.
             metallic_factor: Some(metallic),
             roughness_factor: Some(roughness),
             metallic_roughness_texture: texture(&material.metallic_roughness_texture),
@@ -177,7 +177,7 @@ impl MaterialWriter {
     }
 }
 
-/// Removes the textures for which `keep` returns false, and counts them.
+/// Removes the textures for which `keep` returns false. Returns their number.
 fn drop_textures(material: &mut Material, keep: impl Fn(&Texture) -> bool) -> usize {
     let textures = [
         &mut material.base_color_texture,
@@ -196,7 +196,7 @@ fn drop_textures(material: &mut Material, keep: impl Fn(&Texture) -> bool) -> us
     textures.map(drop).iter().sum()
 }
 
-/// Whether two images are equal. Shared bytes are not compared.
+/// Whether two images are equal. If the images share their bytes, the bytes are not compared.
 fn same(a: &Image, b: &Image) -> bool {
     match (a, b) {
         (Image::Embedded { mime: s, bytes: a }, Image::Embedded { mime: t, bytes: b }) => {
@@ -227,7 +227,7 @@ fn uri(path: &str) -> String {
     parts.join("/")
 }
 
-/// Clamps `x` to a range and rounds it to 32 bits. Counts in `changed` if `x` was outside of the range.
+/// Clamps `x` to a range and rounds it to 32 bits. If `x` is outside of the range, increases `changed` by 1.
 fn within(x: f64, low: f64, high: f64, changed: &mut usize) -> f64 {
     let inside = if x.is_nan() {
         high.min(1.0)

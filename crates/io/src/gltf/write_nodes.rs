@@ -20,7 +20,7 @@ pub(super) struct NodeList {
     pub(super) lights: Vec<Value>,
     pub(super) skins: Vec<Value>,
     pub(super) animations: Vec<Value>,
-    /// The members of other parts of the document, with the names of these parts.
+    /// The other parts of the document that are kept. Each entry is the name of a part, and its members.
     pub(super) kept: Vec<(String, Map<String, Value>)>,
 }
 
@@ -108,7 +108,7 @@ fn write_deformation(
     json["weights"] = json!(weights);
 }
 
-/// Adds the placement of a node to its JSON. Parts that change nothing are left out.
+/// Adds the placement of a node to its JSON. A translation, rotation or scale that changes nothing is left out.
 fn write_placement(node: &Node, json: &mut Value) -> Result<(), Unwritable> {
     let numbers = match &node.placement {
         Placement::Matrix(matrix) => {
@@ -135,7 +135,7 @@ fn write_placement(node: &Node, json: &mut Value) -> Result<(), Unwritable> {
             [&translation[..], rotation, scale].concat()
         }
     };
-    // A reader rounds the numbers to 32 bits.
+    // The numbers must be in the range of `f32`, because readers round them to 32 bits.
     if numbers.iter().all(|&x| x.abs() <= f64::from(f32::MAX)) {
         return Ok(());
     }
@@ -146,13 +146,13 @@ fn write_placement(node: &Node, json: &mut Value) -> Result<(), Unwritable> {
     Err(Unwritable::scene(message))
 }
 
-/// Parses a part of the graph.
+/// Parses a part of the graph as JSON.
 fn parsed(text: &str) -> Result<Value, Unwritable> {
     serde_json::from_str(text)
         .map_err(|why| Unwritable::scene(format!("expected JSON as a part of a node: {why}")))
 }
 
-/// Parses an optional part; null if it is missing.
+/// Parses an optional part. The result is null if the part is missing.
 pub(super) fn optional_json(text: Option<&str>) -> Result<Value, Unwritable> {
     text.map_or(Ok(Value::Null), parsed)
 }

@@ -46,11 +46,11 @@ impl<'a> Writer<'a> {
         }))
     }
 
-    /// Adds an animation, if it has valid channels. Returns their number.
+    /// Adds an animation, if it has valid channels. Returns the number of valid channels.
     fn animation(&mut self, graph: &'a Graph, animation: &Animation) -> Result<usize, Unwritable> {
         let mut channels = Vec::new();
         let mut samplers = Vec::new();
-        // For each sampler, its index in the file.
+        // For each sampler of the animation, its index in the file.
         let mut places = vec![None; animation.samplers.len()];
         for channel in &animation.channels {
             let Some(kind) = self.kind(graph, animation, channel) else {
@@ -92,7 +92,8 @@ impl<'a> Writer<'a> {
         Ok(n)
     }
 
-    /// The type of the values of a channel; `None` if they do not fit their keyframes or what they change.
+    /// Returns the type of the values of a channel. Returns `None` if the values do not match the keyframes or the
+    /// property that they change.
     fn kind(&self, graph: &Graph, animation: &Animation, channel: &Channel) -> Option<Type> {
         let (kind, n) = match channel.property {
             AnimatedProperty::Translation | AnimatedProperty::Scale => (Type::Vec3, 1),

@@ -1,4 +1,4 @@
-//! The corners of faces, lines and points. Indices count from 1. Negative indices count backwards from the last
+//! Parses the corners of faces, lines and points. Indices start at 1. Negative indices count backwards from the last
 //! element.
 
 use super::file::NONE;
@@ -8,7 +8,7 @@ use crate::text::{TextPosition, parsed, quoted};
 /// The numbers of positions, texture coordinates and normals.
 pub(super) type Counts = [usize; 3];
 
-/// The position, texture coordinate and normal of a corner. A position is always present.
+/// The indices of the position, texture coordinate and normal of a corner. The position is always present.
 pub(super) type Corner = [Option<Index>; 3];
 
 /// The element that an index refers to.
@@ -23,9 +23,10 @@ pub(super) enum Index {
 /// The range of valid indices.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Limits {
-    /// Unlimited: this is a part of a file, and the counts of the other parts are not known yet.
+    /// There is no limit, because this is a part of a file, and the counts of the other parts are not known yet.
     Part,
-    /// This is the whole file, but the elements defined after this line are not known yet.
+    /// The number of elements that the whole file can define at most. The elements after the current line are not known
+    /// yet.
     Start,
     /// The numbers of elements that the whole file defines.
     Whole(Counts),
@@ -39,13 +40,13 @@ const NOUNS: [Noun; 3] = [
     ("normal", "normals"),
 ];
 
-/// A number of elements, for a message: "1 vertex", "2 vertices".
+/// Returns a number of elements with its noun, for a message: "1 vertex", "2 vertices".
 fn counted(n: usize, (one, many): Noun) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
 }
 
-/// Parses `v`, `v/vt`, `v//vn` or `v/vt/vn`. `now` holds the numbers of elements defined before this position, from
-/// which negative indices count back.
+/// Parses `v`, `v/vt`, `v//vn` or `v/vt/vn`. `now` has the numbers of elements that are defined before this corner.
+/// Negative indices count backwards from these numbers.
 ///
 /// # Errors
 ///
@@ -70,8 +71,8 @@ pub(super) fn corner(
     Ok(corner)
 }
 
-/// Parses `field` of the corner `word`. `count` is the number of elements of its kind defined so far. `limit` is
-/// the largest number of these elements that can exist, or `None` in a part of a file.
+/// Parses `field`, one of the indices of the corner `word`. `count` is the number of elements of this kind that are
+/// defined so far. `limit` is the maximum number of elements of this kind in the file, or `None` in a part of a file.
 fn index(
     place: TextPosition,
     word: &[u8],

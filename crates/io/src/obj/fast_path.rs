@@ -1,7 +1,7 @@
 //! A fast path for the common forms of `v`, `vt`, `vn` and `f` lines.
 //!
-//! It gives the same result as [`super::statement`]. Any line in a less common form is left to
-//! [`super::statement`], which parses it from its beginning.
+//! The fast path gives the same result as [`super::statement`]. If a line has a less common form, [`super::statement`]
+//! parses the line again from its beginning.
 
 use super::corner::Index;
 use super::parser::Parser;
@@ -50,7 +50,8 @@ impl Parser<'_> {
         length
     }
 
-    /// Appends the corners of a face. Corners can be appended even if the line does not have the common form.
+    /// Appends the corners of a face. If the line turns out not to have the common form, corners may have been
+    /// appended, and the caller must remove them.
     #[inline]
     fn fast_corners(&mut self, line: &[u8]) -> Option<usize> {
         let now = self.part.counts();
@@ -82,7 +83,7 @@ impl Parser<'_> {
     }
 }
 
-/// Parses the numbers from `at` to the end of the line, at most N. Returns them with their count and the end of the
+/// Parses at most N numbers from `at` to the end of the line. Returns the numbers, their count, and the end of the
 /// line.
 #[inline]
 fn numbers<const N: usize>(line: &[u8], mut at: usize) -> Option<([f64; N], usize, usize)> {
@@ -104,7 +105,7 @@ fn numbers<const N: usize>(line: &[u8], mut at: usize) -> Option<([f64; N], usiz
     }
 }
 
-/// Parses an index of at most eight digits. Returns the index and its end.
+/// Parses an index of at most eight digits. Returns the index and the position after it.
 #[inline]
 fn index(line: &[u8], at: usize, count: usize) -> Option<(Index, usize)> {
     let negative = line.get(at) == Some(&b'-');
@@ -130,7 +131,7 @@ fn skip_blanks(line: &[u8], mut at: usize) -> usize {
     at
 }
 
-/// The length of the line end at `at`; `None` if there is no line end.
+/// Returns the length of the line end at `at`, or `None` if there is no line end.
 #[inline]
 fn line_end(line: &[u8], at: usize) -> Option<usize> {
     match line.get(at)? {

@@ -1,4 +1,4 @@
-//! The content of an OBJ file as flat arrays, in the order of the file. Nothing is merged or split.
+//! Stores the content of an OBJ file as flat arrays, in the order of the file. Nothing is merged or split.
 
 use std::collections::BTreeMap;
 
@@ -9,8 +9,8 @@ use crate::text::TextPosition;
 /// The index of a missing texture coordinate or normal.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// The material name that programs write to say that the following faces have no material. The format has no other
-/// way to unset a material.
+/// The material name by which programs say that the following faces have no material. The format has no other way to
+/// unset a material.
 pub(super) const NO_MATERIAL: &[u8] = b"(null)";
 
 /// The content of an OBJ file. Indices count from 0.
@@ -25,14 +25,14 @@ pub(super) struct ObjFile {
     pub(super) normals: Vec<DVec3>,
     /// Polygon i has the corners from `offsets[i]` to `offsets[i + 1]`.
     pub(super) offsets: Vec<u32>,
-    /// The positions, texture coordinates and normals of the corners. [`NONE`] if a corner has none; empty if no
-    /// corner has one.
+    /// The indices of the positions, texture coordinates and normals of the corners. An index is [`NONE`] if it is
+    /// missing; a list is empty if all its indices are missing.
     pub(super) corners: [Vec<u32>; 3],
     /// Polylines: line i visits the vertices `line_corners[line_offsets[i]..line_offsets[i + 1]]`.
     pub(super) line_offsets: Vec<u32>,
     pub(super) line_corners: Vec<u32>,
-    /// The groups, object, material and smoothing group of the faces. A run ends at the first face of the next run.
-    /// Either empty, or the first run begins with face 0.
+    /// The groups, object, material and smoothing group of the faces. A run ends at the first face of the next run. If
+    /// the list is not empty, the first run begins with face 0.
     pub(super) runs: Vec<Run>,
     /// The sets of groups that runs refer to, as indices into `group_names`. Set 0 is empty.
     pub(super) group_sets: Vec<Vec<u32>>,
@@ -41,7 +41,7 @@ pub(super) struct ObjFile {
     pub(super) material_names: Vec<String>,
     /// The text after each `mtllib`, with its position.
     pub(super) libraries: Vec<(TextPosition, String)>,
-    /// The number and the first line of each kind of content that was left out.
+    /// For each kind of content that was left out, its number of occurrences and its first line.
     pub(super) left_out: BTreeMap<LeftOut, (usize, usize)>,
 }
 
@@ -66,9 +66,9 @@ pub(super) enum LeftOut {
     Statement(String),
     /// Words that are not a statement of the format.
     Unknown(String),
-    /// Unknown words after the first [`MAX_LISTED_WORDS`](super::statement::MAX_LISTED_WORDS) distinct ones.
+    /// All unknown words other than the first [`MAX_LISTED_WORDS`](super::statement::MAX_LISTED_WORDS) distinct words.
     OtherUnknown,
-    /// Points (`p`), counted by vertex.
+    /// Points (`p`). Each vertex of a statement counts.
     Points,
     /// Faces with one or two corners.
     SmallFaces,

@@ -73,7 +73,7 @@ pub(super) fn join(mut parts: Vec<Part>) -> ObjFile {
 
 // ---- Arrays ------------------------------------------------------------------------------------
 
-/// The start of each piece in the joined array, followed by the end of the last piece.
+/// Returns the start of each piece in the joined array, followed by the end of the last piece.
 fn starts(lengths: impl Iterator<Item = usize>) -> Vec<usize> {
     let mut starts = vec![0];
     let mut end = 0;
@@ -84,7 +84,7 @@ fn starts(lengths: impl Iterator<Item = usize>) -> Vec<usize> {
     starts
 }
 
-/// Joins pieces into an array. `fill` writes each piece, which is freed afterwards.
+/// Joins pieces into an array. `fill` writes a piece into the array, and then the piece is freed.
 fn filled<T, P>(
     pieces: Vec<P>,
     starts: &[usize],
@@ -141,8 +141,8 @@ fn column<'a>(
     })
 }
 
-/// Joins the ends of faces or lines into offsets: the start of each face or line, followed by the end of the
-/// last one.
+/// Joins the ends of faces or lines into offsets. The offsets are the start of each face or line, followed by the end
+/// of the last one.
 fn ends<'a>(pieces: impl Iterator<Item = &'a mut Vec<u32>>, corners: &[usize]) -> Vec<u32> {
     let mut pieces: Vec<Vec<u32>> = pieces.map(std::mem::take).collect();
     // The first face or line begins at 0.
@@ -210,7 +210,7 @@ fn states(parts: &[Part], file: &mut ObjFile) {
     file.material_names = materials.list;
 }
 
-/// The indices in `all` of the names of a part; `None` for an empty name.
+/// Returns the index in `all` of each name of a part, or `None` for an empty name.
 fn places(of_part: &Names, all: &mut Names) -> Vec<Option<usize>> {
     let place = |name: &String| (!name.is_empty()).then(|| all.index_of(name.clone()));
     of_part.list.iter().map(place).collect()

@@ -1,4 +1,4 @@
-//! Writes material libraries, and lists what they cannot store.
+//! Writes material libraries, and lists the content that they cannot store.
 
 use scene::{AlphaMode, Material, Object, Sampler, Texture, TextureTransform};
 
@@ -9,7 +9,7 @@ use crate::decimal::push_number;
 use crate::loss::Losses;
 use crate::writing::push_comment;
 
-/// The text of a material library. The names of the materials must fit on a line.
+/// Returns the text of a material library. The names of the materials must have no line ends.
 pub(super) fn write_library(materials: &[Material], comment: Option<&str>) -> Vec<u8> {
     let mut out = Vec::new();
     push_comment(&mut out, "#", comment);
@@ -95,11 +95,11 @@ pub(super) fn push_name(out: &mut Vec<u8>, keyword: &str, name: &str) {
     out.extend_from_slice(format!("{keyword} {name}\n").as_bytes());
 }
 
-/// The materials of all objects. Their names are unique and fit on a line.
+/// The materials of all objects. The names of the materials are unique and have no line ends.
 #[derive(Default)]
 pub(super) struct Library {
     pub(super) materials: Vec<Material>,
-    /// For each object, the indices in `materials` of its materials.
+    /// For each object, the indices of its materials in `materials`.
     pub(super) indices: Vec<Vec<usize>>,
 }
 
@@ -112,8 +112,8 @@ impl Library {
         self.indices.push(places);
     }
 
-    /// Returns the index of a material. Objects share materials that are equal; different materials with the same
-    /// name are renamed.
+    /// Returns the index of a material. Objects share equal materials. If a different material has the same name, the
+    /// material is renamed.
     fn index_of(&mut self, material: &Material, losses: &mut Losses) -> usize {
         let mut base = fit_line(&material.name).into_owned();
         if base.is_empty() || base.as_bytes() == NO_MATERIAL {

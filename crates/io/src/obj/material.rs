@@ -1,4 +1,4 @@
-//! MTL, the material libraries of OBJ files. `tobj` parses the statements.
+//! Reads MTL files, the material libraries of OBJ files. The crate `tobj` parses the statements.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -13,16 +13,16 @@ use crate::fault::Fault;
 use crate::note::Notes;
 use crate::text::{check_encoding, name, quoted};
 
-/// The largest total size in bytes of the material libraries of a file. Only this many bytes are read.
+/// The maximum total size in bytes of the material libraries of a file. Further bytes are not read.
 const MAX_LIBRARY_BYTES: u64 = 1 << 28;
-/// The largest number of library names that are looked up, including repeated ones, because searching for files
-/// takes time. Further names are left out.
+/// The maximum number of library names that are looked up, including repeated names. The number is limited because
+/// searching for files takes time. Further names are left out.
 const MAX_NAMES: usize = 512;
 /// The largest length of a path in bytes.
 const MAX_PATH_BYTES: usize = 1024;
 
-/// Reads the materials of an OBJ file: those of its libraries in order, followed by default materials for the names
-/// that no library defines.
+/// Reads the materials of an OBJ file. The materials of its libraries come first, in order. Then follow default
+/// materials for the names that no library defines.
 ///
 /// # Errors
 ///
@@ -88,8 +88,8 @@ pub(super) fn read_libraries(
     Ok(materials)
 }
 
-/// The file names on an `mtllib` line. A name is in quotes, consists of several words that together are the name
-/// of a file, or is a single word. Returns at most `most` names, and the number of words that remain.
+/// Returns the file names on an `mtllib` line. A name is in quotes, or is a sequence of words that together are the
+/// name of an existing file, or is a single word. Returns at most `most` names, and the number of words that remain.
 fn library_names(words: &str, most: usize, assets: &mut Assets) -> (Vec<String>, usize) {
     let mut is_file = |name: &str| {
         let short = Some(name).filter(|name| name.len() <= MAX_PATH_BYTES);
@@ -101,7 +101,7 @@ fn library_names(words: &str, most: usize, assets: &mut Assets) -> (Vec<String>,
     while !rest.is_empty() && names.len() < most {
         let quoted = rest.strip_prefix('"').and_then(|rest| rest.split_once('"'));
         let (name, behind) = quoted.unwrap_or_else(|| {
-            // Takes the longest beginning that is the name of a file, or else a single word.
+            // The name is the longest beginning of the text that is the name of a file, or else the first word.
             let blanks = rest.rmatch_indices(char::is_whitespace).take(MAX_BLANKS);
             let ends = std::iter::once(rest.len()).chain(blanks.map(|(at, _)| at));
             let first = rest.find(char::is_whitespace).unwrap_or(rest.len());
@@ -116,12 +116,12 @@ fn library_names(words: &str, most: usize, assets: &mut Assets) -> (Vec<String>,
     (names, rest.split_whitespace().count())
 }
 
-/// The largest number of blanks in a line at which the name of a file can end.
+/// The maximum number of blanks in a line that are tried as the end of a file name.
 const MAX_BLANKS: usize = 16;
 
 /// Reads the materials of one library. Lines that cannot be read are left out, with a note.
 fn read_library(bytes: &[u8], notes: &mut Notes) -> Vec<Material> {
-    // Normalizes line ends and encoding, because tobj only accepts LF and UTF-8.
+    // Normalizes line ends and encoding, because `tobj` only accepts LF and UTF-8.
     let text = name(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes));
     let text = text.replace("\r\n", "\n").replace('\r', "\n");
     if let Err(error) = check_encoding(bytes) {
@@ -145,8 +145,8 @@ fn statements(text: &str) -> Result<Vec<tobj::Material>, LoadError> {
     tobj::load_mtl_buf(&mut text.as_bytes()).map(|(materials, _)| materials)
 }
 
-/// Parses each line separately and leaves out invalid ones, because tobj stops at the first invalid line without
-/// naming it.
+/// Parses each line separately and leaves out invalid lines, because `tobj` stops at the first invalid line and does
+/// not report which line it is.
 fn without_broken_lines(text: &str, notes: &mut Notes) -> String {
     let mut kept = String::with_capacity(text.len());
     for (i, line) in text.lines().enumerate() {
@@ -167,7 +167,7 @@ fn without_broken_lines(text: &str, notes: &mut Notes) -> String {
 fn check_line(line: &str) -> Result<(), String> {
     let mut words = line.split_whitespace();
     let is_color = matches!(words.next(), Some("Ka" | "Kd" | "Ks" | "Ke"));
-    // tobj 4.0.5 panics in this case.
+    // Without this check, `tobj` 4.0.5 panics.
     if is_color && words.count() < 3 {
         return Err("expected 3 numbers".to_owned());
     }
@@ -187,7 +187,7 @@ impl Ignored {
         picture
     }
 
-    /// The texture of a picture, without its multiplier.
+    /// Returns the texture of a picture without its multiplier.
     fn plain(&mut self, text: Option<String>) -> Option<Texture> {
         let picture = self.picture(text)?;
         self.0 += usize::from(picture.multiplier.is_some());
@@ -197,7 +197,7 @@ impl Ignored {
 
 fn converted(from: tobj::Material, ignored: &mut Ignored) -> Material {
     let mut unknown = from.unknown_param;
-    // tobj treats a comment without a blank after `#` as a parameter.
+    // If a comment has no blank after `#`, `tobj` treats it as a parameter.
     unknown.retain(|key, _| !key.starts_with('#'));
     let mut number = |key: &str| {
         let value = unknown.get(key)?.parse::<f64>().ok()?;
@@ -208,7 +208,7 @@ fn converted(from: tobj::Material, ignored: &mut Ignored) -> Material {
     let base_color_texture = ignored.plain(from.diffuse_texture);
     let emissive_texture = ignored.plain(unknown.remove("map_Ke"));
     let [rough, metal] = ["map_Pr", "map_Pm"].map(|key| ignored.plain(unknown.remove(key)));
-    // The material has one texture for both, as in glTF; MTL has two.
+    // In the scene, as in glTF, roughness and metalness have one common texture. In MTL, each has its own texture.
     let metallic_roughness_texture = if rough == metal {
         rough
     } else {
@@ -259,7 +259,7 @@ fn light(values: [f64; 3]) -> ([f64; 3], f64) {
     (values.map(|x| x / strength), strength)
 }
 
-/// A material with alpha below 1 is blended with what is behind it.
+/// If alpha is below 1, the material is blended with the background.
 pub(super) fn alpha_mode(alpha: f64) -> AlphaMode {
     if alpha < 1.0 {
         AlphaMode::Blend
@@ -268,7 +268,7 @@ pub(super) fn alpha_mode(alpha: f64) -> AlphaMode {
     }
 }
 
-/// Clamps `x` to 0 to 1; `otherwise` if it is not finite.
+/// Clamps `x` to the range from 0 to 1. Returns `otherwise` if `x` is not finite.
 fn unit(x: f64, otherwise: f64) -> f64 {
     if x.is_finite() {
         x.clamp(0.0, 1.0)

@@ -9,15 +9,15 @@ use crate::fault::Fault;
 use crate::parallel;
 use crate::text::{TextPosition, check_encoding, quoted};
 
-/// The approximate size of a part in bytes; parts end at line ends. The arrays of a part fit in the cache of a
-/// core.
+/// The approximate size of a part in bytes. The size is chosen so that the arrays of a part fit in the cache of a
+/// processor core. Parts end at line ends.
 pub(super) const PART: usize = 256 << 10;
 
 /// Parses the statements of an OBJ file.
 ///
 /// # Errors
 ///
-/// The first line that breaks the rules of the format, or else the first index that refers to a missing element.
+/// If a line breaks the rules of the format, or an index refers to a missing element.
 pub(super) fn parse(bytes: &[u8]) -> Result<ObjFile, Fault> {
     check_encoding(bytes)?;
     parse_in_parts(bytes, PART)
@@ -37,20 +37,20 @@ fn parse_in_parts(bytes: &[u8], size: usize) -> Result<ObjFile, Fault> {
     }
 }
 
-/// Parses a file as a whole. Used if parsing in parts fails, usually to report the exact error.
+/// Parses a file as a whole. This function is called if parsing in parts fails, usually to find the exact error.
 fn parse_whole(bytes: &[u8]) -> Result<Part, Fault> {
     let part = read_whole(bytes, Limits::Start)?;
     if fits(std::slice::from_ref(&part)) {
         return Ok(part);
     }
-    // A vertex can be defined after the faces that use it, so the first pass does not know all counts. If an
-    // index was too high, a second pass with the final counts finds its line.
+    // A vertex can be defined after the faces that use it, so the first pass does not know all counts. If an index is
+    // too high, a second pass with the final counts finds the line of the index.
     let counts: Counts = part.counts();
     drop(part);
     read_whole(bytes, Limits::Whole(counts))
 }
 
-/// The error for the first unknown statement. A file with such a statement and without vertices is not an OBJ file.
+/// Returns the error for the first unknown statement, if the file has no vertices. Such a file is not an OBJ file.
 fn first_unknown(file: &ObjFile) -> Option<Fault> {
     let unknown = |(what, &(_, line)): (&LeftOut, &(usize, usize))| match what {
         LeftOut::Unknown(word) => Some((line, word.clone())),
@@ -63,7 +63,8 @@ fn first_unknown(file: &ObjFile) -> Option<Fault> {
     Some(TextPosition::of_line(line).error(message))
 }
 
-/// Cuts a text into parts of about `size` bytes. Each part except the last ends with a line that is not continued.
+/// Cuts a text into parts of about `size` bytes. Each part except the last ends with a line that is not continued on
+/// the next line.
 pub(super) fn cut(bytes: &[u8], size: usize) -> Vec<&[u8]> {
     let mut parts = Vec::with_capacity(bytes.len() / size + 1);
     let mut start = 0;
@@ -76,7 +77,7 @@ pub(super) fn cut(bytes: &[u8], size: usize) -> Vec<&[u8]> {
     parts
 }
 
-/// The end of the first line that ends at or after `from` and is not continued.
+/// Returns the end of the first line that ends at or after `from` and is not continued on the next line.
 fn line_end_from(bytes: &[u8], from: usize) -> usize {
     let mut at = from;
     while at < bytes.len() {

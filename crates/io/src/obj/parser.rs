@@ -1,4 +1,4 @@
-//! The state of parsing: the text and the elements parsed so far.
+//! The state of parsing, which consists of the text and the elements parsed so far.
 
 use std::collections::BTreeMap;
 
@@ -27,12 +27,12 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Whether any corner so far has a position, a texture coordinate, or a normal.
+    /// Returns three flags: whether a corner so far has a position, a texture coordinate, or a normal.
     pub(super) fn columns(&self) -> [bool; 3] {
         self.part.corners.each_ref().map(|column| column.len() > 0)
     }
 
-    /// Adds a face with the last corners.
+    /// Adds a face with all corners since the last face.
     pub(super) fn end_face(&mut self) {
         let run = PartRun {
             first_face: self.part.face_ends.len(),

@@ -8,8 +8,8 @@ use super::corner::{Corner, Counts, Index};
 use super::file::{LeftOut, NONE};
 use crate::text::{TextPosition, name};
 
-/// The content of a part of an OBJ file. Lines count from 1, and faces, sets and names from 0. The counts begin
-/// with the part.
+/// The content of a part of an OBJ file. Lines are numbered from 1, and faces, sets and names from 0. All numbers start
+/// at the beginning of the part.
 #[derive(Debug, Default)]
 pub(super) struct Part {
     pub(super) positions: Vec<DVec3>,
@@ -21,30 +21,31 @@ pub(super) struct Part {
     pub(super) normals: Vec<DVec3>,
     /// For each face, the number of corners up to its end.
     pub(super) face_ends: Vec<u32>,
-    /// The positions, texture coordinates and normals of the corners. [`NONE`] if a corner has none; empty if no
-    /// corner has one.
+    /// The indices of the positions, texture coordinates and normals of the corners. An index is [`NONE`] if it is
+    /// missing; a list is empty if all its indices are missing.
     pub(super) corners: [Indices; 3],
     /// For each polyline, the number of corners up to its end.
     pub(super) line_ends: Vec<u32>,
     /// The vertices of the corners of polylines.
     pub(super) line_corners: Indices,
-    /// The state of consecutive faces. The first run begins with face 0 if there is a face.
+    /// The states of consecutive faces. If the part has faces, the first run begins with face 0.
     pub(super) runs: Vec<PartRun>,
     /// The state after the last statement.
     pub(super) last: PartRun,
     /// Sets of indices into `groups`.
     pub(super) group_sets: Vec<Vec<u32>>,
     pub(super) groups: Names,
-    /// An empty name ends the object before it.
+    /// The names of objects. An empty name means that the following faces have no object.
     pub(super) objects: Names,
-    /// An empty name ends the material before it.
+    /// The names of materials. An empty name means that the following faces have no material.
     pub(super) materials: Names,
     pub(super) libraries: Vec<(TextPosition, String)>,
-    /// The number and the first line of each kind of content that was left out.
+    /// For each kind of content that was left out, its number of occurrences and its first line.
     pub(super) left_out: BTreeMap<LeftOut, (usize, usize)>,
-    /// For each kind, the highest absolute index plus 1.
+    /// For positions, texture coordinates and normals, the highest absolute index plus 1.
     pub(super) highest: Counts,
-    /// For each kind, how many elements relative indices reach back before the beginning of the part.
+    /// For positions, texture coordinates and normals, the number of elements before the part to which relative indices
+    /// refer.
     pub(super) reach: Counts,
     /// The number of lines that end in this part.
     pub(super) n_lines: usize,
@@ -98,8 +99,8 @@ impl Part {
         }
     }
 
-    /// Removes the corners of faces from `n` on. Columns for which `had` is false become empty: they had no
-    /// values before.
+    /// Removes the corners of faces from corner `n` on. Columns for which `had` is false become empty, because they had
+    /// no values before these corners.
     pub(super) fn truncate_corners(&mut self, n: usize, had: [bool; 3]) {
         for (column, had) in self.corners.iter_mut().zip(had) {
             column.truncate(if had { n } else { 0 });
@@ -107,8 +108,8 @@ impl Part {
     }
 }
 
-/// The groups, object, material and smoothing group of consecutive faces; `None` if not set in this part of the
-/// file.
+/// The groups, object, material and smoothing group of consecutive faces. Each is `None` if this part of the file does
+/// not set it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct PartRun {
     pub(super) first_face: usize,
@@ -124,7 +125,7 @@ pub(super) struct PartRun {
 /// Indices, some of which are relative to the beginning of the part.
 #[derive(Debug, Default)]
 pub(super) struct Indices {
-    /// Absolute indices, and relative indices modulo 2^32.
+    /// Absolute indices, and relative indices. Negative relative indices are stored modulo 2^32.
     pub(super) values: Vec<u32>,
     /// The positions in `values` of relative indices.
     pub(super) relative: Vec<u32>,
@@ -147,8 +148,8 @@ impl Indices {
         }
     }
 
-    /// Appends a value to a column that stays empty until its first value. The first value is preceded by `n`
-    /// missing values.
+    /// Appends a value to a column that stays empty until its first value. When the first value is appended, `n`
+    /// missing values are inserted before it.
     #[inline]
     pub(super) fn push_optional(&mut self, n: usize, index: Option<Index>) {
         match index {
@@ -179,12 +180,12 @@ pub(super) struct Names {
 }
 
 impl Names {
-    /// The index of a name, which is added if it is new.
+    /// Returns the index of a name. Adds the name if it is new.
     pub(super) fn index_of_bytes(&mut self, bytes: &[u8]) -> usize {
         self.index_of(name(bytes))
     }
 
-    /// The index of a name, which is added if it is new.
+    /// Returns the index of a name. Adds the name if it is new.
     pub(super) fn index_of(&mut self, name: String) -> usize {
         let next = self.list.len();
         match self.places.entry(name) {

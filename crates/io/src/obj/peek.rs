@@ -1,4 +1,4 @@
-//! Counting the statements of an OBJ file without keeping them.
+//! Counts the statements of an OBJ file without storing them.
 
 use scene::{Material, Texture};
 
@@ -17,7 +17,7 @@ use crate::peek::{PeekGeometry, PeekMesh, PeekObject};
 use crate::text::{Cursor, TextPosition, name};
 
 /// Returns the counts and the materials of an OBJ file, and notes on statements, images and material libraries that are
-/// left out. Numbers and indices are not checked, so a broken file has counts too.
+/// left out. Numbers and indices are not checked, so a file with errors has counts too.
 ///
 /// # Errors
 ///
@@ -58,13 +58,13 @@ struct Counts {
     points: u64,
     /// Whether there are faces before the first `usemtl`.
     faces_first: bool,
-    /// Whether the last `usemtl` sets a material; `None` without `usemtl`.
+    /// Whether the last `usemtl` sets a material. `None` if there is no `usemtl`.
     material: Option<bool>,
     materials: Names,
     /// The text after each `mtllib`, with its position.
     libraries: Vec<(TextPosition, String)>,
-    /// The number and the first line of each kind of content that is left out, in the order of the lines. Unknown
-    /// statements are not counted.
+    /// For each kind of content that is left out, its number of occurrences and its first line, in the order of the
+    /// lines. Unknown statements are not counted.
     left_out: Vec<(LeftOut, (usize, usize))>,
     n_lines: usize,
 }
@@ -97,7 +97,7 @@ impl Counts {
             match keyword {
                 b"v" => {
                     mesh.vertices += 1;
-                    // Usually all vertices have colors or none does, so only the first is checked.
+                    // Usually, either all vertices have colors or none of them, so only the first vertex is checked.
                     mesh.colors |= mesh.vertices == 1 && arguments(&mut cursor) >= 6;
                 }
                 b"f" | b"fo" => {

@@ -1,4 +1,4 @@
-//! The textures of material libraries: `map_Kd -s 2 2 1 wood.png`.
+//! Parses the textures of material libraries, such as `map_Kd -s 2 2 1 wood.png`.
 
 use scene::Texture;
 
@@ -29,7 +29,7 @@ impl Picture {
             rest = behind;
             for i in 0..most_values(option) {
                 let (word, behind) = cut_word(rest);
-                // `-o`, `-s` and `-t` have one to three numbers.
+                // The options `-o`, `-s` and `-t` have one to three numbers.
                 if i > 0 && word.parse::<f64>().is_err() && most_values(option) == 3 {
                     break;
                 }
@@ -45,7 +45,7 @@ impl Picture {
     }
 }
 
-/// Splits off the option that a text begins with, and returns it with the rest of the text.
+/// Splits off the option at the beginning of a text. Returns the option and the rest of the text.
 fn cut_option(text: &str) -> Option<(&str, &str)> {
     let (word, rest) = cut_word(text);
     (most_values(word) > 0).then_some((word, rest))
@@ -62,7 +62,7 @@ fn most_values(option: &str) -> usize {
     }
 }
 
-/// Splits off the first word, and returns it with the rest of the text.
+/// Splits off the first word of a text. Returns the word and the rest of the text.
 fn cut_word(text: &str) -> (&str, &str) {
     let end = text.find(char::is_whitespace).unwrap_or(text.len());
     (&text[..end], text[end..].trim_start())

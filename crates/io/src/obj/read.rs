@@ -18,7 +18,7 @@ use crate::note::Notes;
 use crate::polygons::{OBJECT_TAG, most_tags};
 use crate::{Polygons, Shape, parallel};
 
-/// What is left out of a file with faces.
+/// The note about polylines in a file with faces.
 pub(super) const POLYLINES: &str = "polylines (`l`) left out: the object is a mesh";
 
 /// Reads an OBJ file from its bytes, and its material libraries.
@@ -125,7 +125,7 @@ fn polygons(mut file: ObjFile, materials: Vec<Material>, notes: &mut Notes) -> P
     polygons
 }
 
-/// The value at each index; zero for [`NONE`].
+/// Returns the value at each index, or zero for [`NONE`].
 fn values<T: Copy + Send + Sync + Zeroable>(values: &[T], indices: &[u32]) -> Vec<T> {
     parallel::collect(indices.len(), |i| match indices[i] {
         NONE => T::zeroed(),
@@ -137,7 +137,7 @@ fn missing(indices: &[u32]) -> usize {
     parallel::count(indices.len(), |i| indices[i] == NONE)
 }
 
-/// The number of elements, out of `n`, that no index refers to.
+/// Returns the number of elements to which no index refers. `n` is the number of all elements.
 fn unused(n: usize, indices: &[u32]) -> usize {
     let used = parallel::index_flags(n, indices);
     used.iter().filter(|used| !used.load(Relaxed)).count()
@@ -145,13 +145,13 @@ fn unused(n: usize, indices: &[u32]) -> usize {
 
 // ---- Values of faces ---------------------------------------------------------------------------
 
-/// The faces of run number `i`.
+/// Returns the faces of run number `i`.
 fn faces_of_run(file: &ObjFile, i: usize, n_faces: usize) -> Range<usize> {
     let next = file.runs.get(i + 1);
     file.runs[i].first_face..next.map_or(n_faces, |next| next.first_face)
 }
 
-/// The value of each face, from its run.
+/// Returns the value of each face, which is the value of its run.
 fn on_faces<T: Copy + Default>(
     polygons: &Polygons,
     file: &ObjFile,
@@ -186,11 +186,12 @@ fn set_tags(polygons: &mut Polygons, file: &ObjFile, notes: &mut Notes) {
     let what = "groups and objects left out: too many for a mesh of this size";
     notes.left_out("too-many-names", n - n_columns, None, what);
     let mut columns: Vec<Vec<bool>> = vec![vec![false; n_faces]; n_columns];
-    // Tags of objects come before tags of groups, because objects matter more if not all tags fit.
+    // Tags of objects come before tags of groups, so that objects are kept if there is no room for all tags.
     for (i, run) in file.runs.iter().enumerate() {
         let groups = file.group_sets[run.groups].iter();
         let of_groups = groups.map(|&g| objects + g as usize);
-        // The indices in a set are sorted, so the groups after the first one that is left out are left out too.
+        // The indices in a set are sorted. Therefore, if one group is left out, all later groups of the set are left
+        // out too.
         let of_groups = of_groups.take_while(|&column| column < n_columns);
         for column in run.object.into_iter().chain(of_groups) {
             if let Some(marks) = columns.get_mut(column) {
@@ -213,7 +214,7 @@ fn set_tags(polygons: &mut Polygons, file: &ObjFile, notes: &mut Notes) {
                 values: Values::Tag(known),
                 ..
             }) => {
-                // The group has the same name as the tag of an object.
+                // If a group has the same name as the tag of an object, the two are joined.
                 for (mark, known) in marks.iter_mut().zip(known) {
                     *mark |= known;
                 }

@@ -9,13 +9,13 @@ use super::part::{Part, to_u32};
 use crate::fault::Fault;
 use crate::text::{Cursor, TextPosition, is_not_finite, name, number, parsed};
 
-/// The beginning of comments with vertex colors.
+/// The text at the beginning of comments with vertex colors.
 const MRGB_COMMENT: &[u8] = b"#MRGB ";
 
 /// The largest number of distinct unknown words that are listed by name.
 pub(super) const MAX_LISTED_WORDS: usize = 8;
 
-/// Parses the statements of a part of a file. The ranges of indices are checked when parts are joined.
+/// Parses the statements of a part of a file. Whether indices are in range is checked later, when the parts are joined.
 ///
 /// # Errors
 ///
@@ -104,8 +104,9 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// Binary data can hold any number of distinct words. Only the first few words of the file are listed by name.
-    /// A part cannot know which words these are, so it fails and the whole file is parsed in order.
+    /// Binary data can have any number of distinct unknown words. Only the first few unknown words of the file are
+    /// listed by name. From a part alone, it is not known which words these are. Therefore parsing the part fails, and
+    /// the whole file is parsed in order.
     fn unknown(&self, place: TextPosition, word: String) -> Result<LeftOut, Fault> {
         let key = LeftOut::Unknown(word);
         let known = &self.part.left_out;
@@ -188,7 +189,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// Parses the numbers up to the end of the line, at most N. Returns them with their count.
+    /// Parses at most N numbers up to the end of the line. Returns the numbers and their count.
     fn numbers<const N: usize>(
         &mut self,
         keyword: &str,

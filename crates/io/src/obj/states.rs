@@ -18,8 +18,8 @@ pub(super) struct FaceState<'a> {
     pub(super) smoothing: i32,
 }
 
-/// The number of elements that the text defines so far, and the material and smoothing group at its end. No
-/// groups are set at its end.
+/// The state at the end of the text written so far: the number of defined elements, the material and the smoothing
+/// group. No groups are set at this point.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct TextState {
     pub(super) counts: Counts,
@@ -29,7 +29,7 @@ pub(super) struct TextState {
 
 /// The columns with the groups, objects, materials and smoothing groups of faces.
 pub(super) struct FaceStates<'a> {
-    /// Tags that represent objects: each face has exactly one of them.
+    /// The tags that represent objects. Each face has exactly one of these tags.
     objects: Vec<(&'a str, &'a [bool])>,
     groups: Vec<(&'a str, &'a [bool])>,
     materials: Option<&'a [i32]>,
@@ -61,8 +61,8 @@ impl<'a> FaceStates<'a> {
             let is_of = |(name, marks): &&(&str, &[bool])| is_object(name) && marks[f];
             groups.iter().filter(is_of).count() == 1
         };
-        // `o` is only written if every face belongs to exactly one object. Otherwise object tags are written as
-        // groups.
+        // The statement `o` is written only if every face belongs to exactly one object. Otherwise, object tags are
+        // written as groups.
         let objects = if !several && parallel::all(mesh.n_faces(), one_object_each) {
             groups.extract_if(.., |(name, _)| is_object(name)).collect()
         } else {
@@ -122,7 +122,7 @@ impl<'a> FaceStates<'a> {
     }
 }
 
-/// Makes a name fit on the rest of a line, without line ends and surrounding blanks.
+/// Returns a name without line ends and surrounding blanks, so that the name can be written at the end of a line.
 pub(super) fn fit_line(name: &str) -> Cow<'_, str> {
     let trimmed = name.trim_matches(|c: char| c.is_whitespace());
     if trimmed.contains(char::is_control) || trimmed.ends_with('\\') {

@@ -18,7 +18,8 @@ use crate::save::{Block, Content, save};
 use crate::writing::{dense, push_comment};
 use crate::{WriteOptions, WriteReport, fail_if_lost, gzip};
 
-/// Writes `scene` to an OBJ file, preceded by `images` and, if there are materials, the material library.
+/// Writes `scene` to an OBJ file. Before the OBJ file, writes `images` and, if there are materials, the material
+/// library.
 ///
 /// # Errors
 ///

@@ -13,10 +13,10 @@
 //! | `n v0 v1 .. i` | face attribute `color_index`, -1 for faces without one if other faces have one; color maps are not supported |
 //! | comments, the number of edges | not kept |
 //!
-//! The letters can be combined, as in `STCNOFF`. A line then has position, normal, color and texture coordinates,
-//! in this order. The keyword can be missing. If all color components of a file are integers and one of them is
-//! greater than 1, they are divided by 255; otherwise they are used as they are. Files with four or any number of
-//! coordinates (`4OFF`, `nOFF`) and binary files are refused.
+//! The letters can be combined, as in `STCNOFF`. A line then has position, normal, color and texture coordinates, in
+//! this order. The keyword can be missing. If all color components of a file are integers, and at least one is greater
+//! than 1, all components are divided by 255. Otherwise, they are used as they are. Binary files are refused, and so
+//! are files with a different number of coordinates (`4OFF`, `nOFF`).
 //!
 //! The writer uses the same table in the other direction. Texture coordinates are only written if they agree around
 //! each vertex.

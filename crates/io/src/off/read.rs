@@ -190,7 +190,7 @@ fn numbers<const N: usize>(words: Words) -> Result<[f64; N], Fault> {
     Ok(numbers)
 }
 
-/// The colors of a file. They are scaled after all of them are read.
+/// The colors of a file. After all colors are read, they are scaled.
 #[derive(Default)]
 struct Colors {
     /// The color and, if given, the alpha of each element; `None` for a face without a color.
@@ -233,7 +233,7 @@ fn faces(
     notes: &mut Notes,
 ) -> Result<(), Fault> {
     check_room(cursor, header.n_faces, 1, "faces")?;
-    // `colors` is empty until the first face that has a color, `indices` until the first that has a color index.
+    // `colors` is empty until the first face with a color. `indices` is empty until the first face with a color index.
     let (mut colors, mut indices) = (Colors::default(), Vec::new());
     let (mut small, mut first_small) = (0, None);
     let mut words = Vec::new();
@@ -314,7 +314,8 @@ fn faces(
     Ok(())
 }
 
-/// Notes the faces with fewer than 3 corners, of which the first is in line `first`, and the lines after the last face.
+/// Adds notes about the faces with fewer than 3 corners and the lines after the last face. `first` is the line of the
+/// first such face.
 fn note_left_out(small: usize, first: Option<usize>, cursor: &mut Cursor, notes: &mut Notes) {
     let what = "faces with fewer than 3 corners left out";
     notes.left_out("faces-too-small", small, first, what);
@@ -329,8 +330,8 @@ fn note_left_out(small: usize, first: Option<usize>, cursor: &mut Cursor, notes:
 
 // ---- Counts ------------------------------------------------------------------------------------
 
-/// Returns the counts of an OFF file, and notes on faces and lines that are left out. Numbers and vertex indices are not
-/// checked.
+/// Returns the counts of an OFF file, and adds notes on faces and lines that are left out. Numbers and vertex indices
+/// are not checked.
 ///
 /// # Errors
 ///

@@ -17,7 +17,7 @@ use crate::writing::{
 };
 use crate::{SingleFile, WriteOptions};
 
-/// Writes `scene`, and lists what the file does not store.
+/// Writes `scene`, and lists the content that the file does not store.
 ///
 /// # Errors
 ///
@@ -30,7 +30,7 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile,
     Ok((out, joined.losses))
 }
 
-/// The content to write, with 0 in place of non-finite numbers.
+/// The content to write. Non-finite numbers are replaced by 0.
 struct Content<'a> {
     mesh: &'a Mesh,
     /// The normals, colors and texture coordinates of the vertices, if they exist.
@@ -144,8 +144,8 @@ fn push_numbers(out: &mut Vec<u8>, numbers: &[f64]) {
     }
 }
 
-/// Whether all colors are exact multiples of 1/255 and at least one is bright enough that a reader does not mistake
-/// the bytes for components from 0 to 1.
+/// Whether all components are exact multiples of 1/255, and at least one of them is greater than 1/255. With such
+/// colors, a reader does not mistake the bytes for components from 0 to 1.
 fn are_bytes(values: &Values) -> bool {
     let Values::Vec4(colors) = values else {
         return false;
@@ -164,7 +164,7 @@ fn push_color(out: &mut Vec<u8>, color: DVec4, as_bytes: bool) {
         let start = out.len();
         push_number(out, x);
         let is_whole = |byte: &u8| byte.is_ascii_digit() || *byte == b'-';
-        // The decimal point marks the color as components from 0 to 1 instead of bytes.
+        // A decimal point says that the components are from 0 to 1 and not bytes.
         if out[start..].iter().all(is_whole) {
             out.extend_from_slice(b".0");
         }

@@ -1,5 +1,5 @@
-//! Comments that describe the attribute of a mesh from which properties were written. They are necessary if the
-//! names and types of the properties do not determine the attribute.
+//! Reads and writes comments that describe attributes of a mesh. A comment is necessary if the names and types of the
+//! properties in the file do not determine the attribute.
 //!
 //! For example, `comment meshwright vertex vec3 normal tangent_x "tangent"` declares that three properties of
 //! `vertex`, beginning with `tangent_x`, are the components of the attribute `tangent`, whose values are unit

@@ -1,7 +1,7 @@
-//! The values of a PLY file, binary or text, as tables.
+//! Returns the values of a PLY file, which can be binary or text, as tables.
 //!
-//! The rows of a text are converted to binary rows first, with 64 bits for every floating-point value. The other
-//! modules then only handle binary rows.
+//! The rows of a text are first converted to binary rows, with 64 bits for every floating-point value. Thus the other
+//! modules only handle binary rows.
 
 use std::borrow::Cow;
 
@@ -20,7 +20,7 @@ pub(super) struct Body<'a> {
     /// The elements with their types in [`bytes`](Self::bytes).
     elements: Vec<Element>,
     bytes: Cow<'a, [u8]>,
-    /// Where the values begin in `bytes`.
+    /// The position in `bytes` at which the values begin.
     start: usize,
 }
 
@@ -59,7 +59,7 @@ impl<'a> Body<'a> {
         Ok(body)
     }
 
-    /// The tables of all elements, in the order of the header. In a text, the tables of unwanted elements are
+    /// Returns the tables of all elements, in the order of the header. In a text, the tables of skipped elements are
     /// empty.
     ///
     /// # Errors
@@ -129,7 +129,7 @@ impl<'a> Body<'a> {
     }
 }
 
-/// The type in which a value of a text is stored.
+/// Returns the type in which a value of this type in a text is stored.
 fn stored(kind: Type) -> Type {
     if kind.is_float() { Type::Float64 } else { kind }
 }

@@ -1,5 +1,5 @@
-//! Decodes whole columns of values on all threads. Types are dispatched once for each chunk of a column instead of
-//! once for each value.
+//! Decodes whole columns of values on all threads. The type is checked once for each chunk of a column instead of once
+//! for each value.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -64,10 +64,10 @@ impl Kind {
 /// Where the numbers of a column are stored.
 #[derive(Clone, Copy)]
 pub(super) enum Source<'a> {
-    /// In scalar properties, beginning with this one.
+    /// In consecutive scalar properties. The number is the index of the first property.
     Scalars(usize),
-    /// In a list property, for corner attributes. The offsets are the first corner of each face, followed by the
-    /// total number of corners.
+    /// In a list property, for corner attributes. The number is the index of the property. The offsets are the first
+    /// corner of each face, followed by the total number of corners.
     List(usize, &'a [u32]),
 }
 

@@ -1,4 +1,4 @@
-//! Attributes: each byte of an element is stored in few bits, as the difference from the same byte of the
+//! Decodes attributes. Each byte of an element is stored in few bits, as the difference from the same byte of the
 //! previous element.
 //!
 //! ```text
@@ -31,9 +31,9 @@ const MORE_BITS: Bits = [1, 2, 4, 8];
 /// How the differences of a channel are encoded.
 #[derive(Clone, Copy)]
 enum Channel {
-    /// Separately for each of four bytes.
+    /// As separate differences of four bytes.
     Bytes,
-    /// Separately for each of two 16-bit numbers.
+    /// As separate differences of two 16-bit numbers.
     Shorts,
     /// As the bits that differ, rotated left by this number.
     Bits(u32),
@@ -51,7 +51,8 @@ pub(super) fn shortest(count: u64, stride: u64) -> u64 {
     let controls = (stride / 4) as u64;
     let mut tail = (stride + stride / 4).max(24);
     if count == 0 {
-        // The tail of version 0 can be shorter, but every block is longer.
+        // The tail of version 0 can be shorter, but its blocks are longer. So the tail of version 0 matters only if
+        // there are no blocks.
         tail = tail.min(stride.max(32));
     }
     let around = 1 + tail as u64;
@@ -146,7 +147,8 @@ fn few_bits(input: &mut Input, bits: usize, group: &mut [u8; GROUP]) -> Result<(
     let (in_byte, all) = (8 / bits, (1 << bits) - 1);
     for (i, slot) in group.iter_mut().enumerate() {
         let place = match bits {
-            // Single bits are stored from the lowest, groups of 2 and 4 bits from the highest.
+            // Differences of 1 bit are stored from the lowest bit on, differences of 2 or 4 bits from the highest bits
+            // on.
             1 => i % in_byte,
             _ => bits * (in_byte - 1 - i % in_byte),
         };
@@ -169,8 +171,9 @@ fn channel(mode: u8) -> Result<Channel, String> {
 }
 
 impl Channel {
-    /// Adds up the differences of channel `c`, and writes its four bytes of each element of a block. Before the
-    /// call, `before` is the previous element; afterwards, it is the last element of the block.
+    /// Adds up the differences of channel `c`, and writes the four bytes of this channel in each element of a block.
+    /// Before the call, `before` is the element before the block. After the call, `before` is the last element of the
+    /// block.
     fn sum(
         self,
         before: &mut [u8; 4],

@@ -3,11 +3,11 @@
 use super::attributes::{BLOCK, GROUP, elements_in_block};
 use crate::parallel;
 
-/// The size of the tail, if an element is not longer.
+/// The minimum size of the tail. If an element is longer, the tail is as long as the element.
 const TAIL: usize = 32;
 
-/// Encodes elements of `stride` bytes. The stride is a multiple of 4 from 4 to 256, and the length of `elements` is a
-/// multiple of it. The stream is the same for any number of threads.
+/// Encodes elements of `stride` bytes. The stride is a multiple of 4 from 4 to 256. The length of `elements` is a
+/// multiple of the stride. The stream is the same for any number of threads.
 pub(in super::super) fn encode(elements: &[u8], stride: usize) -> Vec<u8> {
     let in_block = elements_in_block(stride);
     let blocks = elements.len().div_ceil(in_block * stride);
@@ -15,7 +15,7 @@ pub(in super::super) fn encode(elements: &[u8], stride: usize) -> Vec<u8> {
     let encoded = parallel::map(blocks, |block| {
         let start = block * in_block * stride;
         let end = elements.len().min(start + in_block * stride);
-        // The first element of the stream is its own predecessor.
+        // The first element of the stream counts as its own predecessor.
         let before = start.checked_sub(stride);
         let before = before.map_or(first, |at| &elements[at..start]);
         encode_block(&elements[start..end], before)
@@ -47,14 +47,15 @@ fn encode_block(elements: &[u8], before: &[u8]) -> Vec<u8> {
     out
 }
 
-/// Encodes the differences of one byte, whose number is a multiple of [`GROUP`].
+/// Encodes the differences of one byte of consecutive elements. The number of differences is a multiple of [`GROUP`].
 fn encode_groups(differences: &[u8], out: &mut Vec<u8>) {
     let groups = differences.as_chunks::<GROUP>().0;
     let kinds = out.len();
     out.resize(kinds + groups.len().div_ceil(4), 0);
     for (g, group) in groups.iter().enumerate() {
         let large = |most: u8| group.iter().filter(|&&d| d >= most).count();
-        // The sizes for 0, 2, 4 and 8 bits. The smallest one wins, or else the one with fewer bits.
+        // The sizes of the group with 0, 2, 4 and 8 bits for each difference. The smallest size is chosen. If sizes are
+        // equal, the one with fewer bits is chosen.
         let sizes = [
             if large(1) == 0 { 0 } else { usize::MAX },
             4 + large(3),
@@ -72,7 +73,7 @@ fn encode_groups(differences: &[u8], out: &mut Vec<u8>) {
     }
 }
 
-/// Encodes differences of 2 or 4 bits. Differences that do not fit follow in full.
+/// Encodes differences of 2 or 4 bits. Differences that do not fit follow as full bytes.
 fn encode_few_bits(group: &[u8; GROUP], bits: usize, out: &mut Vec<u8>) {
     let most = (1 << bits) - 1;
     for together in group.chunks(8 / bits) {

@@ -2,17 +2,18 @@
 
 use super::triangles::Recent;
 
-/// The pairs of 4-bit values that a code can refer to, at the end of each stream. Any pairs are allowed; these are
-/// frequent ones (`kCodeAuxEncodingTable` of meshoptimizer).
+/// The table at the end of each stream, with the pairs of 4-bit values to which a code can refer. A stream can have any
+/// pairs. These pairs are frequent (`kCodeAuxEncodingTable` of meshoptimizer).
 const PAIRS: [u8; 16] = [
     0x00, 0x76, 0x87, 0x56, 0x67, 0x78, 0xa9, 0x86, 0x65, 0x89, 0x68, 0x98, 0x01, 0x69, 0, 0,
 ];
 
-/// The number of pairs that a code can refer to.
+/// The number of pairs to which a code can refer.
 const N_PAIRS: usize = 14;
 
-/// Encodes triangles, whose indices have N bytes. The order of the triangles is kept, but the corners of a triangle can be rotated, such as
-/// (a, b, c) to (b, c, a): the codec stores a triangle beside an earlier one from their common edge on.
+/// Encodes triangles whose indices have N bytes. The order of the triangles is kept. The corners of a triangle can be
+/// rotated, for example from (a, b, c) to (b, c, a), because a triangle beside an earlier triangle is stored starting
+/// at their common edge.
 pub(in super::super) fn encode<const N: usize>(
     bytes: &[u8],
     index: impl Fn([u8; N]) -> u32,
@@ -40,9 +41,9 @@ pub(in super::super) fn encode<const N: usize>(
     out
 }
 
-/// The state of the decoder after the triangles so far.
+/// The state that the decoder has after the triangles encoded so far.
 struct State {
-    /// The bytes after the codes.
+    /// The bytes that follow the codes in the stream.
     numbers: Vec<u8>,
     /// The next vertex that has not been used.
     next: u32,
@@ -53,7 +54,7 @@ struct State {
 }
 
 impl State {
-    /// Encodes a triangle that shares one of the last 15 edges, if it does, and returns its code.
+    /// Encodes a triangle and returns its code, if the triangle shares one of the last 15 edges.
     fn beside(&mut self, [a, b, c]: [u32; 3]) -> Option<u8> {
         let rotations = [[a, b, c], [b, c, a], [c, a, b]];
         let found = (0..15).find_map(|back| {
@@ -86,7 +87,7 @@ impl State {
         Some(edge << 4 | third)
     }
 
-    /// Encodes any triangle, and returns its code.
+    /// Encodes a triangle without using a shared edge, and returns its code.
     fn apart(&mut self, [a, b, c]: [u32; 3]) -> u8 {
         let rotations = [[a, b, c], [b, c, a], [c, a, b]];
         let new_first = rotations.iter().find(|[a, ..]| *a == self.next);
@@ -129,7 +130,7 @@ impl State {
         code
     }
 
-    /// The 4-bit value for a vertex.
+    /// Returns the 4-bit value for a vertex.
     fn half(&mut self, vertex: u32) -> u8 {
         match self.recent(vertex) {
             Some(back) if back < 14 => back + 1,
@@ -144,7 +145,7 @@ impl State {
         is_next
     }
 
-    /// The place of a vertex among the last 16, if it is there.
+    /// Returns the position of a vertex among the last 16 vertices, or `None` if it is not one of them.
     fn recent(&self, vertex: u32) -> Option<u8> {
         (0..16).find(|&back| self.vertices.get(back) == Some(vertex))
     }

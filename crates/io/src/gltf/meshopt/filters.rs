@@ -1,4 +1,4 @@
-//! Filters, which convert decoded attributes in place.
+//! Applies filters, which convert decoded attributes in place.
 #![expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -12,7 +12,7 @@ use crate::parallel;
 /// The number of bytes that a task processes.
 const BLOCK: usize = 1 << 15;
 
-/// The encoding of the elements before the filter is applied.
+/// The filter of a compressed view. The variants say how the elements are encoded before the filter is applied.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "UPPERCASE")]
 pub(in super::super) enum Filter {
@@ -23,7 +23,7 @@ pub(in super::super) enum Filter {
     Octahedral,
     /// Unit quaternions without their largest component.
     Quaternion,
-    /// Floats as a mantissa of 24 bits and an exponent of 8.
+    /// Floats as a mantissa of 24 bits and an exponent of 8 bits.
     Exponential,
     /// Colors as luminance and two differences.
     Color,
@@ -96,9 +96,9 @@ fn to_bytes(values: [u16; 4]) -> [u8; 8] {
     [a, b, c, d, e, f, g, h]
 }
 
-/// The unit vector at (x, y) of the unfolded octahedron, times `largest` and rounded.
+/// Returns the unit vector at (x, y) of the unfolded octahedron, multiplied by `largest` and rounded.
 ///
-/// The third number is the representation of 1. Cigolle et al., "A Survey of Efficient Representations for
+/// The third argument is the integer that represents 1. Cigolle et al., "A Survey of Efficient Representations for
 /// Independent Unit Vectors", 2014, section 3.3.
 fn octahedral([x, y, one]: [f32; 3], largest: f32) -> [f32; 3] {
     let (x, y) = (x / one, y / one);
@@ -110,9 +110,10 @@ fn octahedral([x, y, one]: [f32; 3], largest: f32) -> [f32; 3] {
     [x, y, z].map(|x| (x / length * largest).round())
 }
 
-/// The unit quaternion whose largest component is left out, times 32767 and rounded.
+/// Returns the unit quaternion whose largest component was left out, multiplied by 32767 and rounded.
 ///
-/// The last number is the representation of 1. Its lowest two bits are the index of the largest component.
+/// The last argument is the integer that represents 1. Its lowest two bits are replaced by the index of the largest
+/// component.
 fn quaternion([x, y, z, last]: [i16; 4]) -> [f32; 4] {
     let one = f32::from(last | 3);
     let [x, y, z] = [x, y, z].map(|x| f32::from(x) / one * std::f32::consts::FRAC_1_SQRT_2);
@@ -122,11 +123,11 @@ fn quaternion([x, y, z, last]: [i16; 4]) -> [f32; 4] {
     quaternion
 }
 
-/// The mantissa in the lower 24 bits times 2 to the power of the exponent in the upper 8; infinite if the result is
-/// too large.
+/// Returns m 2^e, where m is the mantissa in the lower 24 bits, and e is the exponent in the upper 8 bits. Infinite if
+/// the result is too large.
 fn exponential(bits: i32) -> f32 {
     let (exponent, mantissa) = (bits >> 24, bits << 8 >> 8);
-    // In 64 bits the result is exact for any exponent.
+    // With 64 bits, the result is exact for every exponent.
     libm::ldexp(f64::from(mantissa), exponent) as f32
 }
 
@@ -137,7 +138,7 @@ fn color(y: i32, co: i32, cg: i32, a: i32, largest: f32) -> [f32; 4] {
     let all = (1 << bits) - 1;
     let alpha = a & (all >> 1);
     let alpha = (alpha << 1) | (alpha & 1);
-    // If `a` is 0, the number of bits is unknown.
+    // If `a` is 0, the number of bits is unknown, and the divisor is 1.
     let scale = largest / (all.max(1) as f32);
     [y + co - cg, y + cg, y - co - cg, alpha].map(|x| (x as f32 * scale).round())
 }

@@ -1,4 +1,4 @@
-//! Indices in any order, each stored as a difference from one of two previous indices.
+//! Decodes indices in any order. Each index is stored as the difference from one of two previous indices.
 //!
 //! ```text
 //! 0xd1 | a number for each index | 4 bytes

@@ -1,4 +1,4 @@
-//! Compressed buffer views: `EXT_meshopt_compression` and `KHR_meshopt_compression`.
+//! Reads compressed buffer views, with the extensions `EXT_meshopt_compression` and `KHR_meshopt_compression`.
 //!
 //! ```text
 //! buffer view     count * byteStride decoded bytes, as if they were in its buffer
@@ -7,9 +7,9 @@
 //!                 filter: NONE, OCTAHEDRAL, QUATERNION, EXPONENTIAL or COLOR
 //! ```
 //!
-//! Both extensions are read the same way. The second one adds version 1 of the attribute codec and the color
-//! filter. The codecs follow appendix A of Kapoulkine et al., "`KHR_meshopt_compression`", Khronos Group, 2025, the
-//! filters appendix B.
+//! Both extensions are read the same way. The second extension adds version 1 of the attribute codec and the color
+//! filter. Source: Kapoulkine et al., "`KHR_meshopt_compression`", Khronos Group, 2025, appendix A for the codecs and
+//! appendix B for the filters.
 
 mod attributes;
 mod encode_attributes;
@@ -94,8 +94,9 @@ pub(super) fn pointer(view: usize, extension: &str) -> String {
     format!("/bufferViews/{view}/extensions/{extension}")
 }
 
-/// Returns for each buffer whether the reader never reads it. The reader does not read a buffer that is declared
-/// as a fallback, or that is only used by the uncompressed ranges of compressed views.
+/// Returns a flag for each buffer, which is true if the reader never reads the buffer. The reader does not read a
+/// buffer that is declared as a fallback. It also does not read a buffer that only the uncompressed ranges of
+/// compressed views refer to.
 pub(super) fn fallbacks(
     buffers: &[Value],
     views: &[View],
@@ -129,7 +130,7 @@ pub(super) fn fallbacks(
 }
 
 impl Compressed {
-    /// The number of bytes to which the stream is decoded.
+    /// Returns the number of bytes that decoding the stream gives.
     ///
     /// # Errors
     ///
@@ -217,7 +218,7 @@ impl Compressed {
     }
 }
 
-/// Slots for 16-bit indices. Higher bits are dropped.
+/// Returns slots, which are functions that store an index, for 16-bit indices. Higher bits are dropped.
 fn shorts(bytes: &mut [u8]) -> impl Iterator<Item = impl FnOnce(u32)> {
     let slots = bytes.as_chunks_mut::<2>().0.iter_mut();
     slots.map(|slot| {
@@ -228,7 +229,7 @@ fn shorts(bytes: &mut [u8]) -> impl Iterator<Item = impl FnOnce(u32)> {
     })
 }
 
-/// Slots for 32-bit indices.
+/// Returns slots, which are functions that store an index, for 32-bit indices.
 fn longs(bytes: &mut [u8]) -> impl Iterator<Item = impl FnOnce(u32)> {
     let slots = bytes.as_chunks_mut::<4>().0.iter_mut();
     slots.map(|slot| move |i: u32| *slot = i.to_le_bytes())

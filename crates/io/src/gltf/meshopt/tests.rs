@@ -1,4 +1,4 @@
-//! Streams that meshoptimizer wrote, and invalid streams.
+//! Tests with streams that meshoptimizer wrote, and with invalid streams.
 
 use proptest::prelude::*;
 use serde_json::json;
@@ -44,7 +44,7 @@ fn view(length: u64) -> View {
     View::deserialize(json!({ "buffer": 0, "byteLength": length })).unwrap()
 }
 
-/// Decodes a stream like the reader, which refuses streams that are too short before decoding them.
+/// Decodes a stream like the reader: streams that are too short are refused before decoding.
 fn decode(compressed: &Compressed, stream: &[u8]) -> Result<Vec<u8>, String> {
     let length = compressed.count.saturating_mul(compressed.byte_stride);
     let compressed = Compressed {
@@ -180,7 +180,8 @@ fn triangles_cannot_refer_to_edges_before_the_first() {
 
 #[test]
 fn the_example_of_the_specification_is_decoded() {
-    // Differences of one byte in four bits each, two of which are stored as full bytes.
+    // The stream has differences of one byte. Each difference has four bits, except for two that are stored as full
+    // bytes.
     let mut stream = vec![0xa0, 2];
     stream.extend([0x17, 0x5f, 0xf0, 0xbc, 0x77, 0xa9, 0x21, 0, 0x34, 0xb5]);
     stream.extend([0; 3 + 32]);
@@ -199,8 +200,8 @@ fn the_example_of_the_specification_is_decoded() {
     );
 }
 
-/// Rotates the corners of each triangle so that the smallest index comes first, and the smallest of the others
-/// if it occurs twice.
+/// Rotates the corners of each triangle so that the smallest index comes first. If the smallest index occurs twice, the
+/// smallest rotation is chosen.
 fn rotated(triangles: &[u32]) -> Vec<[u32; 3]> {
     let triangles = triangles.as_chunks().0.iter();
     let least =
@@ -251,7 +252,8 @@ fn arrays_of_meshoptimizer_are_encoded_and_decoded_again() {
         };
         let back = decode(&compressed, &encoded).unwrap();
         if compressed.mode == Mode::Triangles {
-            // Version 0 of the attributes has no equal in size, but triangles have one version.
+            // The sizes of attribute streams are not compared, because their versions differ. Triangles have only one
+            // version.
             assert!(encoded.len() <= stream.len(), "{name}");
             continue;
         }
@@ -272,7 +274,7 @@ fn triangles_of_a_strip_need_little_more_than_a_byte_each() {
         })
         .collect();
     assert!(check_triangles(&strip) < 10_030);
-    // The second strip starts again at 0.
+    // The vertices of the second strip start at 0 again.
     assert!(check_triangles(&[&strip[..], &strip].concat()) < 20_060);
 }
 
@@ -324,7 +326,7 @@ proptest! {
     ) {
         let mut indices: Vec<u32> = triangles.as_flattened().iter().map(|i| i % range).collect();
         if walk {
-            // Indices near each other, with many new vertices.
+            // The indices are near each other, and there are many new vertices.
             for (i, index) in (0..).zip(&mut indices) {
                 *index = (i / 4 + *index % 7).saturating_sub(3);
             }
@@ -367,7 +369,7 @@ proptest! {
 
     #[test]
     fn the_lower_bound_of_the_stream_size_is_exact(stride in 1_u64..65, count in 1_u64..5000) {
-        // Streams of zeros are the shortest. If a stream is one byte shorter, decoding fails.
+        // The shortest streams are those of zeros. If such a stream is made one byte shorter, decoding fails.
         let stride = 4 * stride;
         let least = usize::try_from(attributes::shortest(count, stride)).unwrap();
         let stride = usize::try_from(stride).unwrap();

@@ -1,5 +1,5 @@
-//! Triangles: most triangles share an edge with one of the last triangles and add a new vertex or a recently used
-//! one.
+//! Decodes triangles. Most triangles share an edge with one of the last triangles, and their third vertex is new or was
+//! used recently.
 //!
 //! ```text
 //! 0xe1 | a code for each triangle | numbers | table of 16 bytes, each a pair of 4-bit values
@@ -16,7 +16,7 @@ pub(super) fn shortest(count: u64) -> u64 {
     (count / 3).saturating_add(1 + u64::from(TABLE))
 }
 
-/// Decodes `n` triangles, each into three slots.
+/// Decodes `n` triangles, and stores the three indices of each triangle in three slots.
 ///
 /// # Errors
 ///
@@ -55,7 +55,7 @@ pub(super) fn decode(
     state.input.end()
 }
 
-/// Why a code cannot be decoded.
+/// The reason why a code cannot be decoded.
 enum TriangleError {
     /// The code refers to an edge or a vertex before the first triangle.
     Code,

@@ -298,7 +298,7 @@ fn the_result_does_not_depend_on_the_number_of_threads() {
     }
 }
 
-/// Lines of all kinds, most of them valid.
+/// A pattern for lines of all kinds. Most of these lines are valid.
 const LINES: &str = "(v( -?[0-9]{1,2}(\\.[0-9]{1,20})?){3}( [01]){0,4}|vt( [0-9]\\.[0-9]{1,3}){1,3}|\
     vn( -?[0-9]){3}|f( {1,2}-?[1-9]{1,2}){2,5}|f( [1-4]/[1-3]){3,4}|f( -?[1-3]//-?[1-3]){3}|\
     f( [1-3]/-?[1-2]/[1-3]){3}|l( -?[1-3]){1,3}|p 1 -1|g( [a-d]){0,3}|o [ab]{0,2}|usemtl [a-c]?|\

@@ -1,29 +1,29 @@
-//! How a reader handles polygons that do not form a clean mesh.
+//! Policies, which decide how a reader handles polygons that do not form a clean mesh.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How to handle polygons that do not form a clean mesh.
 ///
-/// Two cases are not configurable. A corner that repeats the corner before it is removed (`f 1 2 2 3` is a
-/// triangle), and a face that still visits a vertex twice is left out, because a mesh cannot represent it. Every
-/// change is reported as a [`Note`](crate::Note) with the affected elements.
+/// Two cases are not configurable. A corner that repeats the previous corner is removed: `f 1 2 2 3` is a triangle. A
+/// face that still visits a vertex twice is left out, because a mesh cannot represent such a face. Every change is
+/// reported as a [`Note`](crate::Note) with the affected elements.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Policies {
-    /// Edges with more than two faces, and vertices that join faces which share no edge.
+    /// Edges with more than two faces, and vertices at which faces meet that are not connected by edges.
     pub non_manifold: NonManifold,
-    /// Neighboring faces with opposite orientation, which run in the same direction along their common edge.
+    /// Neighboring faces with opposite orientation: both faces run in the same direction along their common edge.
     pub orientation: Orientation,
-    /// Faces with the same vertices as an earlier face in the same circular order, in either direction.
+    /// Faces with the same vertices as an earlier face, in the same or the opposite circular order.
     pub duplicates: CleanupPolicy,
-    /// Faces without area: less than 1e-14 times the square of their longest side. This bound is the rounding
-    /// error of an area of zero.
+    /// Faces without area. The area counts as zero if it is at most 1e-14 times the square of the longest side, which
+    /// allows for rounding errors.
     pub degenerate: CleanupPolicy,
     /// Vertices without a face.
     pub isolated: CleanupPolicy,
 }
 
-/// What to do where faces do not form a manifold.
+/// How places are handled where faces do not form a manifold.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum NonManifold {
@@ -34,11 +34,11 @@ pub enum NonManifold {
     Refuse,
 }
 
-/// What to do where neighboring faces have opposite orientations.
+/// How neighboring faces with opposite orientations are handled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Orientation {
-    /// Reverse faces so that neighbors agree, where that is possible, and list the reversed faces.
+    /// If possible, reverse faces so that neighbors have the same orientation, and list the reversed faces.
     #[default]
     Orient,
     /// Keep the orientation of every face. An edge between faces of opposite orientation counts as non-manifold.
@@ -57,7 +57,7 @@ pub enum Placements {
     Bake,
 }
 
-/// What to do with elements that are probably not needed.
+/// How elements are handled that are probably not needed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum CleanupPolicy {

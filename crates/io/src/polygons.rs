@@ -1,4 +1,4 @@
-//! Polygons with attributes as a file stores them, and building a mesh from them.
+//! Stores polygons with attributes in the form of a file, and builds a mesh from them.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
@@ -21,22 +21,22 @@ use crate::{NonManifold, Orientation, Policies, ReadOptions, parallel};
 pub struct Polygons {
     /// The position of each vertex.
     pub positions: Vec<DVec3>,
-    /// Polygon f has the corners from `offsets[f]` to `offsets[f + 1]`, exclusive. Has one more entry than there
+    /// Polygon f has the corners from `offsets[f]` to `offsets[f + 1]`, exclusive. There is one more offset than there
     /// are polygons.
     pub offsets: Vec<u32>,
     /// The index of the vertex of each corner, counter-clockwise around each polygon.
     pub corners: Vec<u32>,
     /// Attributes of vertices, of corners (in the order of `corners`) and of faces.
     pub attributes: Attributes,
-    /// The materials that the face attribute `material` refers to.
+    /// The materials. The face attribute `material` has indices into this list.
     pub materials: Vec<Material>,
 }
 
 /// The prefix of tags that mark the faces of an object.
 pub(crate) const OBJECT_TAG: &str = "o:";
 
-/// The largest number of groups, objects or solids of a file that become tags, for a mesh with `n_faces` faces. A
-/// tag takes a byte for each face.
+/// Returns the maximum number of groups, objects or solids of a file that become tags of a mesh with `n_faces` faces.
+/// The number is limited because a tag needs one byte for each face.
 pub(crate) fn most_tags(n_faces: usize) -> usize {
     const MOST: usize = 4096;
     const MOST_BYTES: usize = 1 << 28;
@@ -70,7 +70,7 @@ impl Polygons {
         }
     }
 
-    /// The offsets of `n` polygons of the same degree. The total must fit in 32 bits.
+    /// Returns the offsets of `n` polygons of the same degree. The number of corners must fit in 32 bits.
     pub(crate) fn even_offsets(n: usize, degree: usize) -> Vec<u32> {
         parallel::collect(n + 1, |f| u32::try_from(f * degree).unwrap_or(u32::MAX))
     }
@@ -100,8 +100,8 @@ impl Polygons {
         self.insert(I::DOMAIN, attribute.name, attribute.rule, values);
     }
 
-    /// Applies the transform of a node: transforms positions and normals, and reverses the faces if the transform
-    /// mirrors. Returns the number of normals that are left out because the transform is singular.
+    /// Applies the transform of a node to positions and normals. If the transform is a reflection, reverses the faces.
+    /// Returns the number of normals that are left out because the transform is singular.
     pub(crate) fn apply_transform(&mut self, to_scene: &DAffine3) -> usize {
         if *to_scene == DAffine3::IDENTITY {
             return 0;
@@ -129,7 +129,7 @@ impl Polygons {
     fn reverse_faces(&mut self) {
         let mut order: Vec<u32> = (0..).take(self.corners.len()).collect();
         for ends in self.offsets.windows(2) {
-            // The first corner stays first.
+            // The first corner of a polygon stays the first.
             order[ends[0] as usize + 1..ends[1] as usize].reverse();
         }
         let corners = &self.corners;
@@ -137,8 +137,8 @@ impl Polygons {
         gather(&mut self.attributes, Domain::Corner, &order);
     }
 
-    /// Applies the weights of morph targets, then the joints or else `to_scene`. Returns the number of normals that are
-    /// left out. Removes the weights of joints, which have no meaning without a skin.
+    /// Applies the weights of morph targets, and then the joints. Without joints, applies `to_scene` instead. Returns
+    /// the number of normals that are left out. Removes the weights of joints, which have no meaning without a skin.
     pub(crate) fn apply_pose(&mut self, pose: &Pose, to_scene: &DAffine3) -> usize {
         let n = self.positions.len();
         pose.morph(&self.attributes, &mut self.positions);
@@ -208,8 +208,8 @@ impl Polygons {
     }
 
     /// Builds a mesh of these polygons, and returns it with the materials. A corner attribute becomes a vertex
-    /// attribute if the corners of each vertex have the same value and no vertex attribute has its name. Texture
-    /// coordinates (names that begin with `uv`) stay on the corners.
+    /// attribute if the corners of each vertex have the same value, and no vertex attribute has the same name. Texture
+    /// coordinates stay on the corners; these are the attributes whose names begin with `uv`.
     ///
     /// # Errors
     ///
@@ -233,7 +233,7 @@ impl Polygons {
         for (domain, mut column) in self.attributes {
             column.values = sources.gather(domain, column.values);
             let mut domain = domain;
-            // Vertex attributes come first and take precedence.
+            // If a vertex attribute has the same name, the corner attribute stays on the corners.
             let vertices = built.mesh.attributes();
             if domain == Domain::Corner
                 && !column.name.starts_with("uv")
@@ -250,7 +250,7 @@ impl Polygons {
         Ok((built.mesh, self.materials))
     }
 
-    /// Builds a mesh of the polygons; see [`mesh::build()`]. `kept` lists the indices of the polygons in the file.
+    /// Builds a mesh of the polygons; see [`mesh::build()`]. `kept` has the index in the file of each polygon.
     ///
     /// # Errors
     ///
@@ -280,7 +280,7 @@ impl Polygons {
                 source,
             }
         })?;
-        // Copies of split vertices come after the original vertices.
+        // In the mesh, copies of split vertices come after the original vertices.
         let given = PolygonArrays {
             positions: built.mesh.positions(),
             offsets,
@@ -323,14 +323,15 @@ fn mark_copies(built: &mut BuildOutput, n_positions: usize) {
     built.mesh.insert_column(Domain::Vertex, column);
 }
 
-/// For each element of the mesh, the element of the input that it takes its attribute values from.
+/// For each element of the mesh, the element of the input from which it gets its attribute values.
 struct Sources {
     n_positions: usize,
     /// The original vertex of each copy. Copies come after the original vertices.
     copies: Vec<usize>,
-    /// For each half-edge, the index of its corner plus 1; 0 without a face. Each entry is written once.
+    /// For each half-edge, the index of its corner plus 1, or 0 if the half-edge has no face. Each entry is written
+    /// once.
     corners: Vec<AtomicU32>,
-    /// For each face its polygon; `None` if faces and polygons have the same indices.
+    /// For each face, the index of its polygon. `None` if faces and polygons have the same indices.
     faces: Option<Vec<u32>>,
 }
 
@@ -382,8 +383,8 @@ impl Sources {
     }
 }
 
-/// The values of vertices, if the corners of each vertex have the `same` value; otherwise `None`. Zero for vertices
-/// without a corner.
+/// Returns the values of vertices, if `same` is true for the corners of each vertex; otherwise `None`. Vertices without
+/// a corner get zero.
 pub(crate) fn vertex_values(
     mesh: &Mesh,
     values: &Values,

@@ -1,5 +1,4 @@
-//! Reading the provenance that a file stores: the counterpart of
-//! [`WriteOptions::provenance`](crate::WriteOptions::provenance).
+//! Reads the provenance of a file, which [`WriteOptions::provenance`](crate::WriteOptions::provenance) stores.
 
 use std::path::Path;
 
@@ -13,10 +12,10 @@ const HEAD: u64 = 1 << 20;
 /// The number of bytes of a compressed glTF file that are read.
 const MAX_DOCUMENT: u64 = 1 << 30;
 
-/// Reads the provenance that a file stores; `None` if the file stores none or its format cannot store it. MTL
-/// files, and the PNG and SVG pictures that the program writes, are recognized too.
+/// Reads the provenance of a file. Returns `None` if the file has no provenance, or its format cannot store it. Also
+/// reads the provenance of MTL files, and of the PNG and SVG pictures that the program writes.
 ///
-/// In STL, provenance is cut to about 60 bytes.
+/// An STL file stores only about the first 60 bytes of the provenance.
 ///
 /// # Errors
 ///
@@ -32,7 +31,7 @@ pub fn provenance(store: &dyn Store, path: &Path) -> Result<Option<String>, Read
         Some(Format::Gltf | Format::Glb) => of_document(&gltf::document_of(store, path)?),
         Some(Format::Stl) => {
             let head = head(80)?;
-            // The name of the program comes before the provenance.
+            // In the header of an STL file, the name of the program precedes the provenance.
             let text = String::from_utf8_lossy(&head);
             let rest = text
                 .strip_prefix("meshwright ")
@@ -53,18 +52,19 @@ pub fn provenance(store: &dyn Store, path: &Path) -> Result<Option<String>, Read
     })
 }
 
-/// `asset.extras.meshwright` of a glTF document.
+/// Returns the text `asset.extras.meshwright` of a glTF document.
 fn of_document(json: &[u8]) -> Option<String> {
     let document: Value = serde_json::from_slice(json).ok()?;
     let text = document.pointer("/asset/extras/meshwright")?;
     text.as_str().map(str::to_owned)
 }
 
-/// The uncompressed international text of a PNG file with the keyword "Software".
+/// Returns the text with the keyword "Software" of a PNG file, if the text is stored as uncompressed international
+/// text.
 ///
-/// A chunk consists of its length, four letters, the data, and a checksum. The data of `iTXt` are the keyword,
-/// whether and how the text is compressed, the language, the translated keyword, and the text, with zero bytes
-/// between (W3C, "Portable Network Graphics (PNG) Specification", 3rd edition, 2025, §11.3.3.4).
+/// A chunk consists of its length, four letters, the data, and a checksum. The data of an `iTXt` chunk are the keyword,
+/// two bytes about compression, the language, the translated keyword, and the text, separated by zero bytes (W3C,
+/// "Portable Network Graphics (PNG) Specification", 3rd edition, 2025, §11.3.3.4).
 fn of_png(bytes: &[u8]) -> Option<String> {
     let mut rest = bytes.strip_prefix(b"\x89PNG\r\n\x1a\n")?;
     loop {
@@ -87,7 +87,7 @@ fn of_png(bytes: &[u8]) -> Option<String> {
 
 /// The metadata of an SVG file, if it is plain text.
 fn of_svg(bytes: &[u8]) -> Option<String> {
-    // The searched part of the file can end within a character.
+    // The part of the file that is searched can end in the middle of a character.
     let text = String::from_utf8_lossy(bytes);
     let (_, behind) = text.split_once("<metadata>")?;
     let (text, _) = behind.split_once("</metadata>")?;

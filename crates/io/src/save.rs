@@ -16,16 +16,16 @@ pub(crate) enum Content<'a> {
     Bytes(Vec<u8>),
     /// The bytes of an image.
     Shared(Arc<[u8]>),
-    /// The bytes that the blocks append, in order. Blocks are produced while the file is written, several at a
-    /// time, so that a large text is never in memory as a whole.
+    /// The bytes that the blocks append, in order. Several blocks at a time are produced while the file is written, so
+    /// that a large text is never in memory as a whole.
     Blocks(Vec<Block<'a>>),
 }
 
-/// Appends a block of a few hundred kilobytes to a file.
+/// A function that appends a block of a few hundred kilobytes to a file.
 pub(crate) type Block<'a> = Box<dyn Fn(&mut Vec<u8>) + Send + Sync + 'a>;
 
-/// Writes all files to temporary files first, and moves them to their paths in the given order when all are
-/// complete. The last file is compressed if its name ends in `.gz`. Returns the paths and the total size in bytes.
+/// First writes all files to temporary files. When all are complete, moves them to their paths in the given order. The
+/// last file is compressed if its name ends in `.gz`. Returns the paths and the total size in bytes.
 ///
 /// # Errors
 ///
@@ -78,14 +78,14 @@ impl Content<'_> {
     }
 }
 
-/// Writes the bytes that the blocks append, and returns their number. While one thread writes a group of blocks,
+/// Writes the bytes that the blocks append, and returns the number of bytes. While one thread writes a group of blocks,
 /// the other threads produce the next group.
 fn write_blocks(out: &mut (dyn Write + Send), blocks: &[Block]) -> io::Result<u64> {
     let in_group = 4 * rayon::current_num_threads();
     let mut ready: Vec<Vec<u8>> = Vec::new();
     let mut spare: Vec<Vec<u8>> = Vec::new();
     let mut n_bytes = 0;
-    // The last round only writes.
+    // In the last round, no blocks are produced, and the last group is written.
     for group in blocks.chunks(in_group).chain([&[][..]]) {
         spare.resize_with(group.len(), Vec::new);
         let (written, ()) = rayon::join(

@@ -41,7 +41,8 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Creates a cursor for a part of a text that is not at its beginning, where a byte order mark is not skipped.
+    /// Creates a cursor for a part of a text that is not at the beginning of the text. A byte order mark is not
+    /// skipped.
     pub(crate) fn inside(bytes: &'a [u8]) -> Self {
         Self {
             bytes,
@@ -68,8 +69,8 @@ impl<'a> Cursor<'a> {
         self.bytes.len() - self.at
     }
 
-    /// Whether the remaining bytes can hold `n` times `words_each` words. Each word takes at least one byte and a
-    /// separator; the last line can lack a line end.
+    /// Whether the remaining bytes are enough for `n` times `words_each` words. Each word needs at least one byte and a
+    /// separator, but the last word needs no separator.
     pub(crate) fn has_room(&self, n: usize, words_each: usize) -> bool {
         let least = n.checked_mul(2 * words_each);
         least.is_some_and(|least| least <= self.remaining() + 1)
@@ -105,8 +106,8 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Reads the next word, which ends before a blank, a line end or a backslash that continues the line. Empty at
-    /// the end.
+    /// Reads the next word. A word ends before a blank, a line end or a backslash that continues the line. The word is
+    /// empty at the end of the text.
     pub(crate) fn word(&mut self) -> &'a [u8] {
         let start = self.at;
         while let Some(byte) = self.peek() {
@@ -118,7 +119,7 @@ impl<'a> Cursor<'a> {
         &self.bytes[start..self.at]
     }
 
-    /// Reads the next word of the line; `None` at the end of the line and before a comment.
+    /// Reads the next word of the line. Returns `None` at the end of the line and before a comment.
     pub(crate) fn argument(&mut self) -> Option<(TextPosition, &'a [u8])> {
         self.skip_blanks();
         let place = self.place();
@@ -128,7 +129,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Reads the next word of the line; empty at the end of the line and before a comment.
+    /// Reads the next word of the line. The word is empty at the end of the line and before a comment.
     pub(crate) fn argument_or_nothing(&mut self) -> (TextPosition, &'a [u8]) {
         self.argument().unwrap_or((self.place(), b""))
     }
@@ -147,7 +148,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Reads the next word of any line; empty at the end of the text.
+    /// Reads the next word, which can be on a later line. The word is empty at the end of the text.
     pub(crate) fn next_word(&mut self) -> (TextPosition, &'a [u8]) {
         self.skip_white();
         (self.place(), self.word())
@@ -164,7 +165,8 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Skips all remaining lines. Returns the number of lines with words and the number of the first of them.
+    /// Skips all remaining lines. Returns the number of lines with words, and the line number of the first of these
+    /// lines.
     pub(crate) fn count_rest(&mut self) -> (usize, usize) {
         self.skip_empty_lines();
         let first = self.place().line;
@@ -196,7 +198,7 @@ impl<'a> Cursor<'a> {
         rest
     }
 
-    /// Skips the rest of the line and its end. A backslash continues a line except in a comment.
+    /// Skips the rest of the line and its line end. A backslash continues a line, except in a comment.
     pub(crate) fn skip_line(&mut self) {
         let mut comment = false;
         while let Some(byte) = self.peek() {
@@ -262,7 +264,7 @@ pub(crate) fn number(place: TextPosition, word: &[u8]) -> Result<f64, Fault> {
     }
     let text = std::str::from_utf8(word).unwrap_or_default();
     let parsed = text.parse::<f64>().or_else(|error| {
-        // Fortran writes `d` before the exponent of double-precision numbers.
+        // Fortran programs write `d` before the exponent of double-precision numbers.
         let (mantissa, exponent) = text.split_once(['d', 'D']).ok_or(error)?;
         format!("{mantissa}e{exponent}").parse()
     });

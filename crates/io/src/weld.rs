@@ -1,8 +1,8 @@
 //! Merges vertices with exactly equal positions.
 //!
-//! Positions are distributed over buckets by a hash, and each bucket finds its equal positions in a small table
-//! that fits in the processor cache. Buckets are processed in parallel. The result does not depend on the hash: the
-//! first of several equal positions represents them all, and these first positions keep their order.
+//! Positions are distributed over buckets by a hash, and each bucket finds its equal positions in a small table that
+//! fits in the processor cache. Buckets are processed in parallel. Of several equal positions, the first is kept, and
+//! the kept positions stay in order. So the result does not depend on the hash.
 
 use std::cmp::Ordering;
 use std::hash::{BuildHasher, RandomState};
@@ -21,13 +21,14 @@ const CHUNK: usize = 1 << 15;
 const BUCKET: usize = 1 << 14;
 const MAX_BUCKETS: usize = 1 << 10;
 
-/// Counts the vertices with faces whose position, rounded to 32 bits, equals that of an earlier vertex. Formats
-/// that identify vertices by position merge these vertices.
+/// Counts the vertices with faces whose positions, rounded to 32 bits, equal the position of an earlier vertex. Readers
+/// of formats that identify vertices by position merge such vertices.
 pub(crate) fn n_merged(mesh: &Mesh) -> usize {
     n_merged_as(mesh, |position| position.as_vec3().as_dvec3())
 }
 
-/// Counts the vertices with faces whose position equals that of an earlier vertex when both are rounded by `round`.
+/// Counts the vertices with faces whose positions equal the position of an earlier vertex after both positions are
+/// rounded by `round`.
 pub(crate) fn n_merged_as(mesh: &Mesh, round: impl Fn(DVec3) -> DVec3 + Sync) -> usize {
     let used = vertices_with_faces(mesh);
     let places = parallel::collect(used.len(), |i| round(mesh.position(VertexId::new(used[i]))));
@@ -49,7 +50,7 @@ fn rounded_places(mesh: &Mesh, vertices: &[usize]) -> Vec<DVec3> {
     })
 }
 
-/// As [`n_merged`], for a format that only merges vertices that `compare` as equal.
+/// Like [`n_merged`], for a format in which vertices are merged only if `compare` returns that they are equal.
 pub(crate) fn n_merged_if_equal(
     mesh: &Mesh,
     compare: impl Fn(usize, usize) -> Ordering + Sync,
@@ -63,14 +64,14 @@ pub(crate) fn n_merged_if_equal(
     used.len() - firsts.len()
 }
 
-/// Returns the distinct positions in order of first occurrence, and for each given position its index in this
-/// list. 0 and -0 are equal. There must be fewer than 2^32 - 1 positions.
+/// Returns the distinct positions in order of first occurrence, and the index in this list of each given position. 0
+/// and -0 are equal. There must be fewer than 2^32 - 1 positions.
 ///
 /// If all positions are distinct, the list is returned unchanged.
 pub(crate) fn weld(positions: Vec<DVec3>) -> (Vec<DVec3>, Vec<u32>) {
     let mut vertex_of = firsts(&positions);
     let is_first = |i: usize, first: u32| i == first as usize;
-    // The number of distinct positions that occur first in each chunk.
+    // For each chunk, the number of positions that do not occur earlier in the list.
     let counts = parallel::consume(vertex_of.chunks(CHUNK), |chunk, firsts| {
         let own = (chunk * CHUNK..).zip(firsts);
         own.filter(|&(i, &first)| is_first(i, first)).count()
@@ -106,7 +107,7 @@ pub(crate) fn weld(positions: Vec<DVec3>) -> (Vec<DVec3>, Vec<u32>) {
     (unique, vertex_of)
 }
 
-/// As [`weld`], but only merges positions with equal vertex attributes, which are merged too.
+/// Like [`weld`], but merges positions only if their vertex attributes are equal. Also merges the attributes.
 pub(crate) fn weld_equal(
     positions: &[DVec3],
     attributes: &mut Attributes,
@@ -134,7 +135,7 @@ pub(crate) fn weld_equal(
 }
 
 /// Splits each class of elements into classes of equal elements. Returns the first element of each class, in ascending
-/// order, and for each element the index of its class in this list.
+/// order, and the index in this list of the class of each element.
 pub(crate) fn split_unequal(
     classes: &[u32],
     compare: impl Fn(usize, usize) -> Ordering + Sync,
@@ -213,7 +214,7 @@ fn firsts(positions: &[DVec3]) -> Vec<u32> {
 /// The bits of an entry that hold a part of the hash. The other bits hold an index.
 const HIGH: u64 = !0 << 32;
 
-/// A hash table of entries with open addressing, at most half full.
+/// A hash table with open addressing. At most half of its places are used.
 struct Table {
     slots: Vec<u64>,
     shift: u32,
@@ -252,12 +253,12 @@ impl Table {
     }
 }
 
-/// Adding 0 turns -0 into 0, so that both are equal.
+/// Adding 0 turns -0 into 0, so that -0 and 0 are equal.
 fn bits(p: DVec3) -> [u64; 3] {
     p.to_array().map(|x| (x + 0.0).to_bits())
 }
 
-/// Random keys of the hash, so that a file cannot be crafted to make all its positions collide.
+/// Random keys of the hash. With random keys, nobody can craft a file in which the hashes of all positions collide.
 struct Keys([u64; 3]);
 
 impl Keys {
@@ -277,7 +278,7 @@ impl Keys {
     }
 }
 
-/// The index in an entry.
+/// Returns the index in an entry.
 #[expect(clippy::cast_possible_truncation, reason = "only the low half is used")]
 fn low(entry: u64) -> u32 {
     entry as u32
@@ -301,7 +302,7 @@ mod tests {
 
     use super::*;
 
-    /// A simple implementation with the standard library, to compare with.
+    /// A simple implementation with the standard library, for comparison.
     fn slow(positions: &[DVec3]) -> (Vec<DVec3>, Vec<u32>) {
         let mut numbers = HashMap::new();
         let mut unique = Vec::new();

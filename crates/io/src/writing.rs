@@ -46,17 +46,17 @@ pub(crate) fn is_byte(x: f64) -> bool {
     (f64::from(to_byte(x)) / 255.0).to_bits() == x.to_bits()
 }
 
-/// Returns texture coordinates per vertex, if all corners of each vertex have the same bits; otherwise `None`. Zero
-/// for vertices without a corner.
+/// Returns the texture coordinates of each vertex, if all corners of the vertex have the same bits; otherwise `None`.
+/// Vertices without a corner get zero.
 pub(crate) fn uvs_of_vertices(mesh: &Mesh, uvs: &Values) -> Option<Values> {
     let bits = |h: usize| DVec2::of(uvs).map(|uvs| uvs[h].to_array().map(f64::to_bits));
     vertex_values(mesh, uvs, |a, b| bits(a) == bits(b))
 }
 
-/// The reason of a loss of numbers that text formats cannot represent.
+/// The reason of the loss if text formats cannot represent numbers.
 pub(crate) const NOT_FINITE: &str = "non-finite numbers, written as 0";
 
-/// Returns the values of a column with zero in place of non-finite values, and adds a loss for these.
+/// Returns the values of a column. Replaces non-finite values by zero, and adds a loss for them.
 pub(crate) fn finite<'a>(
     domain: Domain,
     column: &'a Column,
@@ -96,13 +96,16 @@ pub(crate) fn zero_non_finite(values: &mut Values) -> usize {
     broken
 }
 
-/// The name of the vertex attribute that marks the copies of split vertices: the index of a copy minus the index of its
-/// original; 0 for originals. [`ReadOptions::keep_vertices`](crate::ReadOptions::keep_vertices) asks for it.
+/// The name of the vertex attribute that marks the copies of split vertices. Its value is the index of the copy minus
+/// the index of the original, and 0 for originals. It exists if
+/// [`ReadOptions::keep_vertices`](crate::ReadOptions::keep_vertices) is set.
 pub(crate) const COPY_DISTANCE: &str = "distance to the original vertex";
 
-/// The vertices of a mesh as the file that it was read from has them: without the copies of split vertices.
+/// The vertices of a mesh without the copies of split vertices. These are the vertices of the file from which the mesh
+/// was read.
 pub(crate) struct FileVertices {
-    /// The vertices to write, and the number of each vertex among them; `None` if the mesh has no copies.
+    /// The vertices to write, and the number with which each vertex of the mesh is written. `None` if the mesh has no
+    /// copies.
     originals: Option<(Vec<u32>, Vec<u32>)>,
     n: usize,
 }
@@ -144,7 +147,7 @@ impl FileVertices {
         }
     }
 
-    /// The number that a vertex of the mesh is written with.
+    /// Returns the number with which a vertex of the mesh is written.
     pub(crate) fn number(&self, v: VertexId) -> usize {
         match &self.originals {
             Some((_, numbers)) => numbers[v.index()] as usize,
@@ -153,7 +156,7 @@ impl FileVertices {
     }
 }
 
-/// Whether an attribute only serves [`FileVertices`].
+/// Whether an attribute is the mark of copies for [`FileVertices`].
 pub(crate) fn is_mark(domain: Domain, column: &Column) -> bool {
     domain == Domain::Vertex && column.name == COPY_DISTANCE
 }

@@ -25,8 +25,7 @@ pub(super) enum Index {
 pub(super) enum Limits {
     /// There is no limit, because this is a part of a file, and the counts of the other parts are not known yet.
     Part,
-    /// The number of elements that the whole file can define at most. The elements after the current line are not known
-    /// yet.
+    /// This is the whole file, but the elements that later lines define are not known yet.
     Start,
     /// The numbers of elements that the whole file defines.
     Whole(Counts),

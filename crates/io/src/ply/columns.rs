@@ -71,8 +71,8 @@ pub(super) enum Source<'a> {
     List(usize, &'a [u32]),
 }
 
-/// Decodes the values of `kind` in a table. If a list does not have as many numbers as the corners of its face
-/// need, these corners get zero. Returns the values and the number of such faces.
+/// Decodes the values of `kind` in a table. If a list does not have the right number of values for the corners of its
+/// face, these corners get zero. Returns the values and the number of such faces.
 pub(super) fn values(table: &Table, source: Source, kind: Kind) -> (Values, usize) {
     #[expect(
         clippy::cast_possible_truncation,
@@ -103,7 +103,7 @@ fn column<const N: usize, V: Value>(
     }
 }
 
-/// Decodes one value for each row from `N` scalar properties.
+/// Decodes one value for each row. A value consists of the numbers of `N` scalar properties.
 pub(super) fn numbers<const N: usize, V: Value>(
     table: &Table,
     properties: [usize; N],
@@ -179,7 +179,7 @@ type Lists = (Vec<u32>, Vec<u32>);
 ///
 /// # Errors
 ///
-/// The row and the item of the first value that is not a vertex; `None` if there are too many values for 32 bits.
+/// The row and the item of the first value that is not a vertex, or `None` if there are too many values for 32 bits.
 pub(super) fn indices(
     table: &Table,
     property: usize,
@@ -228,7 +228,8 @@ pub(super) fn item_at(table: &Table, property: usize, row: usize, item: usize) -
     whole(kind, table.big, &table.bytes[at..])
 }
 
-/// The offsets of the lists of all rows, and the total number of items; `None` if there are too many for 32 bits.
+/// Returns the offsets of the lists of all rows, and the total number of items. Returns `None` if there are too many
+/// items for 32 bits.
 fn offsets(table: &Table, property: usize) -> Option<(Vec<u32>, usize)> {
     if let Some(n) = table.even_count(property) {
         let total = table.rows.checked_mul(n)?;

@@ -1,4 +1,5 @@
-//! The header of a PLY file: its elements with their numbers of rows and their properties.
+//! Parses the header of a PLY file, which lists the elements of the file. Each element has a number of rows and a list
+//! of properties.
 
 use std::fmt;
 
@@ -6,9 +7,10 @@ use super::types::Type;
 use crate::fault::Fault;
 use crate::text::{BYTE_ORDER_MARK, TextPosition, name, parsed, quoted};
 
-/// The largest number of properties, which is more than any program writes. It limits the passes over the data.
+/// The maximum number of properties of an element. It limits the number of passes over the data, and is more than
+/// programs write.
 pub(super) const MAX_PROPERTIES: usize = 4096;
-/// The largest number of elements, which is more than any program writes. It limits the searches by name.
+/// The maximum number of elements. It limits the time of searches by name, and is more than programs write.
 const MAX_ELEMENTS: usize = 1024;
 
 /// The encoding of the values of a file.
@@ -26,7 +28,7 @@ pub(super) struct Header {
     pub(super) elements: Vec<Element>,
     /// The comments, without the word `comment`.
     pub(super) comments: Vec<String>,
-    /// The length of the header in bytes. The values begin after it.
+    /// The length of the header in bytes. The values begin after the header.
     pub(super) length: usize,
     /// The number of lines of the header.
     pub(super) lines: usize,
@@ -74,7 +76,8 @@ impl fmt::Display for Property {
 }
 
 impl Element {
-    /// The index of the property with this name. It must be a list if `is_list` is true, and a scalar otherwise.
+    /// Returns the index of the property with this name. The property must be a list if `is_list` is true, and a scalar
+    /// otherwise.
     pub(super) fn find(&self, name: &str, is_list: bool) -> Option<usize> {
         let is_it = |p: &Property| p.count.is_some() == is_list && p.name == name;
         self.properties.iter().position(is_it)
@@ -146,8 +149,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Header, Fault> {
     Err(TextPosition::of_line(header.lines + 1).error(message))
 }
 
-/// The last byte of line ends in the header, determined from the first line. Data bytes after the header can look
-/// like line ends.
+/// Returns the last byte of the line ends in the header. Only the first line is examined, because data bytes after the
+/// header can look like line ends.
 fn line_end(bytes: &[u8]) -> u8 {
     let end = bytes.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
     match end.map(|at| (bytes[at], bytes.get(at + 1))) {
@@ -242,12 +245,12 @@ fn scalar_type((place, word): (TextPosition, &[u8])) -> Result<Type, Fault> {
 /// The words of a line.
 struct Words<'a> {
     rest: &'a [u8],
-    /// Where `rest` begins.
+    /// The position at which `rest` begins.
     place: TextPosition,
 }
 
 impl<'a> Words<'a> {
-    /// Reads the next word; empty at the end of the line.
+    /// Reads the next word. The word is empty at the end of the line.
     fn next(&mut self) -> (TextPosition, &'a [u8]) {
         let rest = self.rest.trim_ascii_start();
         self.place.column += self.rest.len() - rest.len();

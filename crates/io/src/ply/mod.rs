@@ -20,11 +20,11 @@
 //! Edits interpolate floating-point properties of vertices and copy all other properties. Non-finite positions
 //! are an error. Other non-finite values become 0, with a note.
 //!
-//! The writer uses the same table in the other direction and writes little-endian binary. Positions and custom
-//! attributes are written with 64 bits, normals and texture coordinates with 32 bits if that is exact, and colors
-//! as bytes if every component is a multiple of 1/255, so that reading restores the written values. Texture
-//! coordinates that agree around each vertex are written as `s t`. Corner attributes are written as lists of
-//! `face`. Materials and edge attributes cannot be stored.
+//! The writer uses the same table in the other direction and writes little-endian binary. All values are restored
+//! exactly when the file is read. Positions and custom attributes are written with 64 bits. Normals and texture
+//! coordinates are written with 32 bits if that is exact, and colors as bytes if every component is a multiple of
+//! 1/255. If texture coordinates agree around each vertex, they are written as `s t`. Corner attributes are written as
+//! lists of `face`. Materials and edge attributes cannot be stored.
 
 mod attribute_comments;
 mod body;

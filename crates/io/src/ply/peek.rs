@@ -8,8 +8,8 @@ use crate::fault::Fault;
 use crate::note::Notes;
 use crate::peek::PeekMesh;
 
-/// Returns the counts of a PLY file, and notes on the elements that are left out. Positions and the vertices of faces are
-/// not checked.
+/// Returns the counts of a PLY file, and adds notes on the elements that are left out. Positions and the vertices of
+/// faces are not checked.
 ///
 /// # Errors
 ///

@@ -23,8 +23,8 @@ use crate::{Polygons, parallel};
 ///
 /// # Errors
 ///
-/// The first position that breaks the rules of the format: line and column in a text and in the header, the byte in
-/// binary values.
+/// The first position that breaks the rules of the format. In a text and in the header, the position is a line and a
+/// column. In binary values, it is a byte.
 pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
     let header = parse(bytes)?;
     let roles = Roles::of(&header)?;
@@ -58,7 +58,8 @@ pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
     Ok(reader.polygons)
 }
 
-/// The comments that describe existing properties. If several comments describe a property, the first one is used.
+/// Returns the comments that describe existing properties. If several comments describe the same property, the first
+/// one is used.
 fn attribute_comments(header: &Header) -> Vec<AttributeComment> {
     let properties = header.elements.iter().flat_map(|e| &e.properties);
     let names: BTreeSet<&str> = properties.map(|p| p.name.as_str()).collect();
@@ -119,8 +120,8 @@ impl Reader<'_, '_> {
         })
     }
 
-    /// Converts strips, in which -1 ends a strip, to triangles. Every second triangle is reversed. Triangles that
-    /// visit a vertex twice only connect parts of a strip and are left out.
+    /// Converts strips, in which -1 ends a strip, to triangles. Every second triangle is reversed. Triangles that visit
+    /// a vertex twice are left out, because they only connect parts of a strip.
     fn strips(&mut self, element: usize, list: usize) -> Result<(), Fault> {
         let table = &self.tables[element];
         let found = triangles_of_strips(table, list, self.polygons.positions.len());
@@ -332,7 +333,7 @@ impl Reader<'_, '_> {
     }
 }
 
-/// The edit rule of an attribute that no comment describes.
+/// Returns the edit rule of an attribute that no comment describes.
 pub(super) fn plain_rule(domain: Domain, kind: Type) -> Rule {
     if domain == Domain::Vertex && kind.is_float() {
         Rule::Interpolate
@@ -356,7 +357,7 @@ fn mark_used(used: &mut [bool], properties: &[usize]) {
     }
 }
 
-/// Returns the properties if none of them is used.
+/// Returns the properties if all of them are unused.
 fn free<const N: usize>(used: &[bool], properties: Option<[usize; N]>) -> Option<[usize; N]> {
     properties.filter(|properties| !properties.iter().any(|&p| used[p]))
 }

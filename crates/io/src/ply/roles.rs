@@ -1,4 +1,4 @@
-//! The meaning of the elements and properties of a header.
+//! Finds the meaning of the elements and properties of a header.
 
 use super::header::{Element, Header};
 use crate::fault::Fault;
@@ -55,7 +55,7 @@ impl Roles {
         element == self.vertex || Some(element) == faces
     }
 
-    /// Notes the elements that do not become a part of the mesh.
+    /// Adds notes about the elements that do not become a part of the mesh.
     pub(super) fn note_unused(&self, header: &Header, notes: &mut Notes) {
         for (place, element) in header.elements.iter().enumerate() {
             if !self.uses(place) {
@@ -98,7 +98,8 @@ fn corner_list(element: &Element) -> Result<usize, Fault> {
     )))
 }
 
-/// Returns the properties of the first family of names whose members all exist.
+/// A family is a list of property names, such as `s` and `t`. Returns the properties of the first family whose names
+/// all exist.
 fn family<const N: usize>(element: &Element, names: &[[&str; N]]) -> Option<[usize; N]> {
     names.iter().find_map(|family| {
         let mut found = [0; N];
@@ -129,7 +130,7 @@ const COLORS: [[&str; 4]; 3] = [
     ["r", "g", "b", "a"],
 ];
 
-/// The names of all families, which other attributes must not have.
+/// Returns the names of all families. Other attributes must not have these names.
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
     let families = UVS.as_flattened().iter().chain(COLORS.as_flattened());
     let others = POSITION
@@ -150,7 +151,7 @@ pub(super) fn uv(element: &Element) -> Option<[usize; 2]> {
     family(element, &UVS)
 }
 
-/// The properties of red, green, blue and, if it exists, alpha.
+/// Returns the properties of red, green and blue, and the property of alpha if it exists.
 pub(super) fn color(element: &Element) -> Option<([usize; 3], Option<usize>)> {
     COLORS
         .iter()

@@ -1,10 +1,10 @@
-//! Triangle strips, as in the files of the Stanford scans.
+//! Reads triangle strips, as in the files of the Stanford scans.
 
 use super::columns::item_at;
 use super::table::Table;
 
-/// Three vertices for each triangle, the number of strips, and the number of triangles left out because they visit
-/// a vertex twice.
+/// Three vertices for each triangle, the number of strips, and the number of triangles that are left out because they
+/// visit a vertex twice.
 type Strips = (Vec<u32>, usize, usize);
 
 /// Converts lists, in which -1 ends a strip, to triangles. Every second triangle of a strip is reversed.

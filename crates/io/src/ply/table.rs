@@ -18,35 +18,37 @@ pub(super) struct Table<'a> {
     layout: Layout,
 }
 
-/// The positions of rows. After a list whose length differs between rows, a new segment begins, which has its own
-/// list of positions.
+/// The positions of rows. A row is divided into segments: a new segment begins after each list whose length differs
+/// between rows. Each segment has its own list of positions.
 #[derive(Debug)]
 enum Layout {
     /// All rows have the same length, because each list has the same count in every row.
     Even {
         stride: usize,
-        /// For each property, its offset in a row. For a list, the offset of its first item.
+        /// For each property, the offset of its value in a row. For a list, this is the offset of its first item.
         places: Vec<usize>,
-        /// For each property, the count of its list; 0 if it is not a list.
+        /// For each property, the count of its list. 0 if the property is not a list.
         counts: Vec<usize>,
     },
     Uneven {
-        /// For each property, its segment and its offset in the segment. For a list, the offset of its first item.
+        /// For each property, its segment and its offset in the segment. For a list, this is the offset of its first
+        /// item.
         places: Vec<(usize, usize)>,
-        /// For each segment, where it begins in each row; empty if no property is in the segment.
+        /// For each segment, the position at which it begins in each row. Empty if no property is in the segment.
         starts: Vec<Vec<usize>>,
-        /// For each property, the counts of its list in each row; empty if it is not a list.
+        /// For each property, the count of its list in each row. Empty if the property is not a list.
         counts: Vec<Vec<u32>>,
     },
 }
 
 impl<'a> Table<'a> {
-    /// Locates the rows of an element in `file` from `start` on. Returns the table and its end.
+    /// Locates the rows of an element in `file`, from `start` on. Returns the table and the position after its last
+    /// row.
     ///
     /// # Errors
     ///
-    /// If the file is too short for the rows, or if a list has a negative count. Memory is only allocated for rows
-    /// that the file can hold.
+    /// If the file is too short for the rows, or if a list has a negative count. Memory is allocated only if the file
+    /// is long enough for the rows.
     pub(super) fn locate(
         element: &'a Element,
         file: &'a [u8],
@@ -126,7 +128,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// The number of items in the list of each row, if it is the same for all rows.
+    /// Returns the number of items in the list of each row, if this number is the same for all rows.
     pub(super) fn even_count(&self, property: usize) -> Option<usize> {
         match &self.layout {
             Layout::Even { counts, .. } => Some(counts[property]),
@@ -135,7 +137,7 @@ impl<'a> Table<'a> {
     }
 }
 
-/// The layout if the counts of every row equal those of the first row, and the total length of the rows.
+/// Returns the layout and the total length of the rows, if every row has the same counts as the first row.
 fn even(properties: &[Property], rows: usize, bytes: &[u8], big: bool) -> Option<(Layout, usize)> {
     let mut at = 0_usize;
     let (mut places, mut counts, mut lists) = (Vec::new(), Vec::new(), Vec::new());
@@ -155,7 +157,7 @@ fn even(properties: &[Property], rows: usize, bytes: &[u8], big: bool) -> Option
     let length = stride.checked_mul(rows)?;
     bytes.get(..length)?;
     for (at, kind, count) in lists {
-        // Most lists have a count of one byte, so that case is kept out of the generic loop.
+        // In most lists, the count has one byte. For speed, this case does not use the generic loop.
         let is_same = if kind == Type::UInt8 {
             parallel::all(rows, |row| usize::from(bytes[row * stride + at]) == count)
         } else {
@@ -176,7 +178,7 @@ fn even(properties: &[Property], rows: usize, bytes: &[u8], big: bool) -> Option
     Some((layout, length))
 }
 
-/// Finds the layout of rows with different counts by scanning them, and the total length of the rows.
+/// Scans rows with different counts. Returns the layout and the total length of the rows.
 fn scanned(
     element: &Element,
     all: &[u8],

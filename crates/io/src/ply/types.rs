@@ -1,4 +1,4 @@
-//! The scalar types of PLY files, and decoding their bytes.
+//! The scalar types of PLY files, and functions that decode their bytes.
 
 use bytemuck::Pod;
 
@@ -28,14 +28,14 @@ const TYPES: [(Type, [&str; 2], usize); 8] = [
 ];
 
 impl Type {
-    /// Parses a type name of either family: `uchar` or `uint8`.
+    /// Parses the old or the new name of a type, such as `uchar` or `uint8`.
     pub(super) fn parse(word: &[u8]) -> Option<Self> {
         let is_it = |name: &&str| name.as_bytes() == word;
         let found = TYPES.iter().find(|(_, names, _)| names.iter().any(is_it));
         found.map(|&(kind, ..)| kind)
     }
 
-    /// The old name, which all readers accept.
+    /// Returns the old name of the type, which all readers accept.
     pub(super) fn name(self) -> &'static str {
         TYPES[self as usize].1[0]
     }
@@ -68,7 +68,7 @@ impl Type {
     }
 }
 
-/// Runs `$body` with `$t` as the Rust type of the values.
+/// Runs `$body`, in which `$t` is the Rust type of the values.
 macro_rules! with_type {
     ($type:expr, $t:ident => $body:expr) => {
         with_type!(@ $type, $t => $body;
@@ -97,7 +97,7 @@ pub(super) fn read<T: Pod + Into<f64>>(bytes: &[u8], big: bool) -> f64 {
     value.into()
 }
 
-/// Reads values that are `stride` bytes apart, the first at the beginning of `bytes`.
+/// Reads values that are `stride` bytes apart. The first value is at the beginning of `bytes`.
 pub(super) fn read_all(kind: Type, big: bool, bytes: &[u8], stride: usize, out: &mut [f64]) {
     with_type!(kind, T => {
         for (i, x) in out.iter_mut().enumerate() {

@@ -22,7 +22,7 @@ use crate::writing::{
 };
 use crate::{SingleFile, WriteOptions};
 
-/// Writes `scene` as little-endian binary, and lists what the file does not store.
+/// Writes `scene` as little-endian binary, and lists the content that the file does not store.
 ///
 /// # Errors
 ///
@@ -54,7 +54,7 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile,
             if let Some(uvs) = uvs_of_vertices(mesh, &values) {
                 vertices.known(&["s", "t"], Cow::Owned(uvs));
             } else {
-                // `MeshLab` uses the same property if the corners of a vertex differ.
+                // If the corners of a vertex differ, the texture coordinates are a list of each face, as in `MeshLab`.
                 let form = float_for(&values, 2);
                 faces.values(&["texcoord"], true, values, 2, form);
             }
@@ -92,10 +92,10 @@ enum Field<'a> {
     Corners(Type),
     Values {
         values: Cow<'a, Values>,
-        /// The number of components that are written. The alpha of opaque colors is left out.
+        /// The number of components that are written. If all colors are opaque, their alpha is left out.
         size: usize,
         form: Type,
-        /// The type of the count of a list, which holds the values of the corners of a face.
+        /// If the field is a list with the values of the corners of a face, the type of its count.
         count: Option<Type>,
     },
 }
@@ -187,8 +187,8 @@ impl<'a> Element<'a> {
         self.values(names, false, values, size, form);
     }
 
-    /// Adds values under the name of their attribute, with a comment if the name and the types are not enough to
-    /// restore the attribute.
+    /// Adds values under the name of their attribute. If the name and the types are not enough to restore the
+    /// attribute, adds a comment.
     fn free(&mut self, domain: Domain, column: &Column, values: Cow<'a, Values>) {
         let kind = Kind::of(&values);
         let form = match kind {
@@ -353,7 +353,7 @@ fn to_float(x: f64) -> f32 {
     x as f32
 }
 
-/// The smallest floating-point type in which the first `size` components of all values are exact.
+/// Returns the smallest floating-point type that stores the first `size` components of all values exactly.
 fn float_for(values: &Values, size: usize) -> Type {
     let is_float = |x: f64| f64::from(to_float(x)).to_bits() == x.to_bits();
     if all_numbers(values, size, is_float) {

@@ -1,4 +1,4 @@
-//! Binary STL: a header of 80 bytes, the number of triangles, and 50 bytes for each triangle.
+//! Reads binary STL files: a header of 80 bytes, the number of triangles, and 50 bytes for each triangle.
 
 use glam::DVec3;
 use mesh::zeroed;
@@ -8,11 +8,11 @@ use crate::fault::Fault;
 use crate::parallel::{self, BLOCK};
 
 pub(super) const HEADER: usize = 80;
-/// Where the triangles begin, after the number of triangles in 4 bytes.
+/// The position at which the triangles begin. The number of triangles, in 4 bytes, precedes them.
 pub(super) const START: usize = HEADER + 4;
 /// The size of a triangle: a normal and three corners with three 32-bit numbers each, and 2 attribute bytes.
 pub(super) const FACET: usize = 50;
-/// The number of triangles that the file declares; `None` if the file is too short.
+/// Returns the number of triangles that the file declares, or `None` if the file is too short.
 pub(super) fn count(bytes: &[u8]) -> Option<u32> {
     let count = bytes.get(HEADER..)?.first_chunk()?;
     Some(u32::from_le_bytes(*count))

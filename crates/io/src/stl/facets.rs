@@ -1,4 +1,4 @@
-//! Facets, and whether their normals agree with their corners.
+//! Stores facets, and compares their normals with their corners.
 
 use std::ops::Range;
 
@@ -17,7 +17,7 @@ pub(super) struct Facets {
     pub(super) solids: Vec<(String, Range<usize>)>,
 }
 
-/// How a facet normal relates to the corners.
+/// The relation between the normal of a facet and its corners.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Side {
     Same,
@@ -27,9 +27,9 @@ pub(super) enum Side {
     Opposite,
 }
 
-/// Compares a facet normal with the normal of the corners. They agree if the sine of the angle between them is at
-/// most 1/10 (6 degrees), which is more than rounding causes in a sliver. They also count as agreeing if the facet
-/// normal is zero or not finite, or if the facet has no area.
+/// Compares the normal of a facet with the normal of its corners. The two agree if the sine of the angle between them
+/// is at most 1/10 (6 degrees), which allows for rounding errors in a sliver. They also agree if the normal of the
+/// facet is zero or not finite, or the facet has no area.
 #[inline]
 pub(super) fn compare(normal: DVec3, [a, b, c]: [DVec3; 3]) -> Side {
     let area = (b - a).cross(c - a);
@@ -45,7 +45,8 @@ pub(super) fn compare(normal: DVec3, [a, b, c]: [DVec3; 3]) -> Side {
             Side::Opposite
         };
     }
-    // A sliver. Its corners are rounded to 24 bits, and its area can be caused by rounding alone.
+    // If the facet is a sliver, the normals are not compared: the corners are rounded to 24 bits, and rounding alone
+    // can cause the area.
     let size = a.abs().max(b.abs()).max(c.abs()).max_element();
     let longest = (b - a).length_squared().max((c - a).length_squared());
     let rounding = 4.0 / f64::from(1 << 24) * size;

@@ -11,8 +11,8 @@
 //! | header, `solid a` of the only solid | not kept |
 //! | attribute bytes other than 0 (colors, in two dialects) | left out, with a note |
 //!
-//! A file is binary if its size matches its declared number of triangles, whatever its first word is. Otherwise it
-//! is text if it begins with `solid`.
+//! If the size of a file matches the number of triangles that it declares, the file is binary, even if its first word
+//! is `solid`. Otherwise, a file that begins with `solid` is a text.
 //!
 //! The writer creates binary files with 32 bits for a coordinate. Polygons are triangulated. The header stores
 //! [`provenance`](crate::WriteOptions::provenance). All attributes are lost.

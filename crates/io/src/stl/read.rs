@@ -15,7 +15,7 @@ use crate::polygons::{OBJECT_TAG, most_tags};
 use crate::text::BYTE_ORDER_MARK;
 use crate::weld::weld;
 
-/// What is left out of binary files.
+/// The notes about content of binary files that is left out.
 const REST: &str = "bytes after the last facet left out";
 const COLORED: &str = "facets with attribute bytes (possibly colors): the bytes left out";
 
@@ -42,7 +42,7 @@ pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
 
 enum Kind {
     Text,
-    /// A binary file, with the end of its facets.
+    /// A binary file. The number is the position of the end of its facets.
     Binary(usize),
 }
 
@@ -58,8 +58,8 @@ fn kind(bytes: &[u8]) -> Result<Kind, Fault> {
         .unwrap_or(bytes)
         .trim_ascii_start();
     let word = start.get(..5).unwrap_or_default();
-    // The header of a binary file can begin with `solid`. A binary file has zero bytes near its beginning, but a
-    // text has none.
+    // The header of a binary file can also begin with `solid`. But a binary file has zero bytes near its beginning, and
+    // a text has none.
     if word.eq_ignore_ascii_case(b"solid") && !bytes[..n_bytes.min(512)].contains(&0) {
         return Ok(Kind::Text);
     }
@@ -136,8 +136,8 @@ fn set_tags(polygons: &mut Polygons, solids: &[(String, Range<usize>)], notes: &
     notes.left_out("too-many-names", too_many, None, what);
 }
 
-/// Returns the counts of an STL file, and notes on the bytes of a binary file that are left out. The number of vertices is
-/// an upper bound, because corners are not compared.
+/// Returns the counts of an STL file, and adds notes on the bytes of a binary file that are left out. The number of
+/// vertices is an upper bound, because corners are not compared.
 ///
 /// # Errors
 ///

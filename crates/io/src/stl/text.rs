@@ -1,4 +1,4 @@
-//! STL as text: words in a fixed order, with any line breaks.
+//! Reads STL as text. The words have a fixed order, and line breaks can be anywhere between them.
 
 use glam::DVec3;
 
@@ -59,8 +59,7 @@ fn solid(cursor: &mut Cursor, found: &mut Facets) -> Result<(), Fault> {
     }
 }
 
-/// Reads a normal. Some programs write `nan` for the normal of a facet without area; the normal is zero in that
-/// case.
+/// Reads a normal. Some programs write `nan` for the normal of a facet without area. In this case, the result is zero.
 fn normal(cursor: &mut Cursor) -> Result<DVec3, Fault> {
     let mut normal = DVec3::ZERO;
     for i in 0..3 {

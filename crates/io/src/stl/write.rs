@@ -13,7 +13,7 @@ use crate::parallel;
 use crate::weld::n_merged;
 use crate::{SingleFile, WriteOptions};
 
-/// Writes `scene`, and lists what the file does not store.
+/// Writes `scene`, and lists the content that the file does not store.
 ///
 /// # Errors
 ///
@@ -65,7 +65,7 @@ fn note_losses(mesh: &Mesh, losses: &mut Losses) {
     losses.add(Domain::Face, "polygon", polygons, reason);
 }
 
-/// A header of 80 bytes with the program and the provenance. It never begins with `solid`.
+/// Returns a header of 80 bytes with the name of the program and the provenance. The header never begins with `solid`.
 fn header(options: &WriteOptions) -> [u8; HEADER] {
     let mut text = concat!("meshwright ", env!("CARGO_PKG_VERSION")).to_owned();
     if let Some(provenance) = &options.provenance {
@@ -73,7 +73,7 @@ fn header(options: &WriteOptions) -> [u8; HEADER] {
         text += provenance;
     }
     let mut header = [b' '; HEADER];
-    // Some readers recognize binary files by zero bytes.
+    // The header ends with a zero byte, because some readers recognize binary files by zero bytes.
     header[HEADER - 1] = 0;
     let room = &mut header[..HEADER - 1];
     let printable = text

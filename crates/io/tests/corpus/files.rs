@@ -1,4 +1,5 @@
-//! Properties that must hold for any bytes read as any format. Shared by the fuzzer and the replay of its corpus.
+//! Checks properties that must hold if arbitrary bytes are read as a file of any format. The fuzzer and the test that
+//! replays its corpus share these checks.
 
 use std::path::Path;
 
@@ -9,26 +10,26 @@ use scene::Scene;
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
 
-/// Reading can use this multiple of the size of the file, plus [`SMALL`] bytes.
+/// Reading can use the size of the file times this factor, plus [`SMALL`] bytes.
 const TIMES: usize = 64;
 
 /// The number of bytes for tables, threads and messages that reading can use in addition.
 const SMALL: usize = 1 << 20;
 
-/// The largest number of rounds in which the written bytes can differ. For example, an object that loses its last
-/// vertices is missing in the next round.
+/// The maximum number of rounds of writing and reading after which the written bytes must stay the same. One round is
+/// not always enough: for example, an object that loses its last vertices is missing in the next round.
 const ROUNDS: usize = 4;
 
 /// The memory that repeated instances can use even in a small file.
 const INSTANCES: usize = 1 << 25;
 
-/// Reads `bytes` as a file with this extension, in bounded memory. Then writes and reads the result until a
-/// round loses nothing more. From then on, the bytes must stay the same. An `.mtl` file is read as the library
-/// of an `.obj` file, and the content of a `.dae` file is written as OBJ.
+/// Reads `bytes` as a file with this extension, in bounded memory. Then writes and reads the result, until a round of
+/// writing and reading loses nothing. From that round on, the bytes must stay the same. An `.mtl` file is read as the
+/// library of an `.obj` file, and the content of a `.dae` file is written as OBJ.
 ///
 /// # Panics
 ///
-/// If any of these properties does not hold.
+/// If one of these properties does not hold.
 pub(crate) fn check(extension: &str, bytes: &[u8]) {
     let folder = tempfile::tempdir_in(memory_folder()).expect("there is a folder for files");
     let (name, content) = match extension {
@@ -59,7 +60,7 @@ pub(crate) fn check(extension: &str, bytes: &[u8]) {
         "dae" => path.with_extension("obj"),
         _ => path,
     };
-    // The content can exceed what the format can store, such as the range of 32-bit numbers.
+    // The format may be unable to store the content, such as numbers outside of the 32-bit range.
     let Some(mut last) = round_trip(&path, loaded) else {
         return;
     };
@@ -79,14 +80,14 @@ pub(crate) fn check(extension: &str, bytes: &[u8]) {
     }
 }
 
-/// The result of writing and reading.
+/// The result of writing and reading a file once.
 struct Round {
     bytes: Vec<u8>,
     has_losses: bool,
     loaded: Loaded,
 }
 
-/// Writes the objects, and reads the file; `None` if the format refuses the objects.
+/// Writes the objects, and reads the file. Returns `None` if the format refuses the objects.
 fn round_trip(path: &Path, loaded: Loaded) -> Option<Round> {
     let mut scene = Scene::new();
     for object in loaded.objects {

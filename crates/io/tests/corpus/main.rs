@@ -1,5 +1,5 @@
-//! Each file in `tests/fuzz/corpus/` is a separate test. The file must be read or refused in little time and
-//! memory, as the fuzzer checks for random bytes. The corpus includes the findings of the fuzzer, under
+//! Each file in `tests/fuzz/corpus/` is a separate test. The file must be read or refused in little time and memory,
+//! which the fuzzer also checks for random bytes. The corpus includes the files for which the fuzzer found errors, with
 //! descriptive names.
 
 mod files;

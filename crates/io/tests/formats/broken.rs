@@ -1,4 +1,4 @@
-//! Behavior that all formats share: names, folders, and invalid files.
+//! Tests of the behavior that all formats share: names, folders, and invalid files.
 
 use std::fs;
 

@@ -235,7 +235,7 @@ fn errors_have_a_position_and_a_message() {
     }
 }
 
-/// Reads a file and checks that this takes little time.
+/// Reads a file, and checks that reading takes little time.
 fn read_quickly(text: &str) -> Result<Loaded, ReadError> {
     let start = Instant::now();
     let result = read(text.as_bytes());

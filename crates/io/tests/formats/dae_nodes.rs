@@ -210,7 +210,7 @@ fn triangles_of(loader: &mesh_loader::Mesh) -> Vec<[[f32; 3]; 3]> {
     loader.faces.iter().map(triangle).collect()
 }
 
-/// `mesh_loader` reads triangles and polygons, does not apply transforms, and returns positions as f32.
+/// The crate `mesh_loader` reads triangles and polygons, does not apply transforms, and returns positions as `f32`.
 #[test]
 fn another_reader_finds_the_same_triangles() {
     for (kind, content) in [

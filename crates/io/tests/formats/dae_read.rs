@@ -8,7 +8,7 @@ use scene::{AlphaMode, Object, Texture};
 
 use crate::{Folder, assert_same, polygons, read};
 
-/// A file with one geometry with these lists of polygons, and a node with these transforms.
+/// Returns a file with one geometry, which has these lists of polygons, and one node, which has these transforms.
 pub(crate) fn file(lists: &str, transforms: &str) -> String {
     format!(
         r##"<?xml version="1.0" encoding="utf-8"?>
@@ -184,7 +184,7 @@ fn each_input_becomes_a_column_with_its_own_indices() {
         panic!("uv1 has two components");
     };
     assert_eq!(second[h[2].index()], b);
-    // The corners of each vertex agree, so the values become vertex attributes.
+    // The corners of each vertex have equal values, so the values become vertex attributes.
     let normals = mesh.get(VERTEX_NORMAL).unwrap();
     assert_eq!(normals[mesh.origin(h[0]).index()], DVec3::Z);
     assert_eq!(normals[mesh.origin(h[2]).index()], DVec3::X);

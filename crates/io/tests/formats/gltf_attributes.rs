@@ -1,4 +1,4 @@
-//! Custom attributes of glTF files, and integers instead of floats.
+//! Tests of glTF files with custom attributes, and with integers instead of floats.
 
 use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4, Vec2Swizzles};
@@ -150,7 +150,8 @@ fn attributes_of_some_primitives_are_zero_in_the_others() {
 
 #[test]
 fn quantized_positions_normals_and_coordinates_are_read() {
-    // Positions as signed shorts, not normalized; normals as normalized bytes; texture coordinates as bytes.
+    // Positions are signed 16-bit integers that are not normalized, normals are normalized bytes, and texture
+    // coordinates are bytes.
     let mut bytes = Vec::new();
     for [x, y] in [[0_i16, 0], [300, 0], [300, 300], [0, -300]] {
         for value in [x, y, 7, 0] {
@@ -264,7 +265,7 @@ fn colors_of_every_type_are_read() {
 
 #[test]
 fn sparse_accessors_do_not_need_a_buffer_view() {
-    // The positions of the square are zeros, three of which are replaced.
+    // The positions of the square are zeros. Sparse values replace three of them.
     let mut bytes = floats(&SQUARE[3..]);
     bytes.extend([1_u8, 2, 3, 0]);
     let accessors = json!([{

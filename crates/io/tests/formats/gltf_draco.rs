@@ -1,4 +1,4 @@
-//! Primitives compressed by Draco. The files come from the original encoder; see the folder `draco`.
+//! Tests of primitives that are compressed by Draco. The original encoder wrote the files; see the folder `draco`.
 
 use mesh_io::ReadError;
 use proptest::prelude::*;
@@ -108,7 +108,7 @@ fn draco_files_that_break_the_rules_are_errors_with_the_primitive() {
             json!(7);
     });
     assert!(error.contains("buffer view 7 does not exist"), "{error}");
-    // An attribute that the stream does not have consists of zeros, as without the extension.
+    // If the stream does not have an attribute, its values are zeros, as without the extension.
     let (mut json, binary) = parts(FILES[0].0);
     let extension =
         &mut json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"];

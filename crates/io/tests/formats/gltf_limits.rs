@@ -1,4 +1,4 @@
-//! Small glTF files that declare large content: they are refused quickly and without much memory.
+//! Checks that small glTF files that declare large content are refused quickly and without much memory.
 
 use std::time::{Duration, Instant};
 
@@ -26,7 +26,7 @@ fn repeated_references_to_the_same_data_are_limited() {
     json["meshes"][0]["primitives"] = vec![primitive; 5_000].into();
     let error = read_json(&json).unwrap_err();
     assert!(error.to_string().contains("so often"), "{error}");
-    // The same number of nodes with the same mesh.
+    // The file has the same number of nodes, which all show the same mesh.
     let mut json = square(&[0, 1, 2].repeat(20_000), 4);
     json["nodes"] = vec![json!({ "mesh": 0 }); 5_000].into();
     json["scenes"][0]["nodes"] = (0..5_000).collect();
@@ -72,7 +72,7 @@ fn a_container_with_a_wrong_length_is_refused() {
     }
 }
 
-/// Returns the error of reading the document, and checks that it comes quickly.
+/// Returns the error of reading the document, and checks that reading takes little time.
 fn error_quickly(json: &Value) -> String {
     let start = Instant::now();
     let error = read_baked(json).unwrap_err();

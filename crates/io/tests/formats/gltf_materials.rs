@@ -26,7 +26,7 @@ fn picture() -> Image {
     }
 }
 
-/// A triangle mesh with two sets of texture coordinates and this material on all faces.
+/// Returns a triangle mesh with two sets of texture coordinates, and with this material on all faces.
 pub(crate) fn painted(name: &str, material: Material) -> Object {
     let mut mesh: Mesh = shapes::octahedron();
     let uvs = |k: usize| DVec2::new((k % 3) as f64 * 0.25, (k % 5) as f64 * 0.125);

@@ -1,4 +1,4 @@
-//! glTF files with compressed views, written by gltfpack with `meshopt/make.mjs`.
+//! Tests of glTF files with compressed views. The program `gltfpack` wrote the files; see `meshopt/make.mjs`.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -43,8 +43,8 @@ fn corners(mesh: &Mesh, name: &str) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// The positions and attributes at the corners of each triangle, rotated so that the lowest corner is first, and
-/// sorted.
+/// Returns the positions and attributes at the corners of each triangle. The corners are rotated so that the lowest
+/// corner is first, and the triangles are sorted.
 fn triangles(mesh: &Mesh) -> Vec<Vec<Vec<f64>>> {
     let half_edges = mesh.faces().flat_map(|f| mesh.face_half_edges(f));
     let corners: Vec<Vec<f64>> = half_edges
@@ -105,9 +105,9 @@ fn filtered_values_are_close_and_positions_equal() {
     let filtered = triangles(&torus("torus_khr.glb"));
     assert_eq!(plain.len(), filtered.len());
     for (a, b) in plain.concat().iter().zip(&filtered.concat()) {
-        // Position and texture coordinates.
+        // The first five numbers are the position and the texture coordinates.
         assert_eq!(a[..5], b[..5]);
-        // Normals of 8 bits, then colors.
+        // The other numbers are normals, which have 8 bits, and then colors.
         assert!(
             a[5..8]
                 .iter()
@@ -145,7 +145,8 @@ fn fallback_buffers_are_never_read() {
         "torus_fallback.bin",
         std::fs::read(file("torus_fallback.bin")).unwrap(),
     );
-    // The file of the fallback buffer is missing, with and without the declaration.
+    // The file of the fallback buffer is missing. The first time, the buffer is declared as a fallback; the second
+    // time, it is not.
     let path = folder.with("a.gltf", &gltf);
     assert_same(
         only(&path).as_mesh().unwrap(),
@@ -259,7 +260,7 @@ fn a_small_stream_of_four_billion_vertices_is_refused_at_once() {
 
 #[test]
 fn decoded_views_are_limited_to_64_times_the_file() {
-    // Blocks of 256 equal elements, in 3 bytes each.
+    // Each block has 256 equal elements in 3 bytes.
     let stream = |blocks: usize| {
         let mut stream = vec![0xa1];
         stream.resize(1 + 3 * blocks, 0xaa);
@@ -279,10 +280,10 @@ fn decoded_views_are_limited_to_64_times_the_file() {
     }
 }
 
-/// Triangles in rows, each with three separate vertices, in about two bytes for each triangle: close to the best
-/// possible compression.
+/// Returns a document with rows of triangles, each of which has three separate vertices. A triangle needs about two
+/// bytes, which is close to the best possible compression.
 fn dense_triangles(n: usize) -> Value {
-    // Elements of 8 bytes: x increases by 1 for each element, y for each 256 elements, and z for each 65536.
+    // Elements have 8 bytes. x increases by 1 after each element, y after 256 elements, and z after 65536 elements.
     let mut stream = vec![0xa0];
     let blocks = (3 * n).div_ceil(256);
     for block in 0..blocks {
@@ -328,7 +329,7 @@ fn dense_triangles(n: usize) -> Value {
 
 #[test]
 fn well_compressed_files_are_read() {
-    // The meshes need 150 times the size of the file, and more than the minimal budget.
+    // The meshes need 150 times the size of the file, and more than the minimum budget.
     for n in [85, 60_000] {
         let loaded = read_json(&dense_triangles(n)).unwrap();
         let mesh = loaded.objects[0].as_mesh().unwrap();

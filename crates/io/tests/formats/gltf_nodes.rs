@@ -1,4 +1,5 @@
-//! Nodes of glTF: a file that is read and written again keeps its hierarchy, cameras, lights and extras.
+//! Tests of the nodes of glTF files: a file that is read and written again keeps its hierarchy, cameras, lights and
+//! extras.
 
 use geometry::shapes;
 use glam::{DVec3, DVec4};
@@ -11,7 +12,8 @@ use store::Disk;
 use crate::Folder;
 use crate::gltf_read::{read_json, square};
 
-/// A document with a hierarchy of nodes: a mesh shown twice, a mesh of its own, a camera and two lights.
+/// Returns a document with a hierarchy of nodes. One mesh is shown twice, another mesh once, and there are a camera and
+/// two lights.
 fn asset() -> Value {
     let mut json = square(&[0, 1, 2, 0, 2, 3], 4);
     let primitives = json["meshes"][0]["primitives"].clone();
@@ -45,7 +47,8 @@ fn asset() -> Value {
     json
 }
 
-/// The document without the order and the numbers of its parts: the tree of the nodes with everything they refer to.
+/// Returns a form of the document that does not depend on the order and the numbers of its parts. It is the tree of the
+/// nodes, with all parts to which the nodes refer.
 fn canonical(json: &Value) -> Value {
     fn node_tree(json: &Value, i: &Value) -> Value {
         let mut node = json["nodes"][index(i)].clone();
@@ -215,7 +218,7 @@ fn formats_without_nodes_are_written_with_placed_instances() {
         for loss in [("nodes", 7), ("cameras", 2), ("lights", 2)] {
             assert!(lost.contains(&loss), "{extension}: {lost:?}");
         }
-        // Cameras belong to no object.
+        // The losses of cameras have no object name.
         let mut losses = report.losses.iter();
         let cameras = losses.find(|l| l.attribute == "cameras").unwrap();
         assert!(cameras.object.is_empty());
@@ -254,7 +257,7 @@ fn baked_tangents_turn_with_their_node() {
     let path = folder.path("a.gltf");
     mesh_io::write(&Disk, &path, &scene, &WriteOptions::default()).unwrap();
     let mut json: Value = serde_json::from_slice(&std::fs::read(&path).unwrap()).unwrap();
-    // A quarter turn around z, and a mirror.
+    // One node has a quarter turn around z, and the other a reflection.
     let half = 0.5_f64.sqrt();
     json["nodes"][0]["rotation"] = json!([0.0, 0.0, half, half]);
     json["nodes"][0]["scale"] = json!([1.0, 1.0, -1.0]);
@@ -382,11 +385,11 @@ fn a_placement_beyond_32_bits_is_refused() {
     assert_eq!(folder.count(), 0);
 }
 
-/// The file is checked by the Khronos validator.
+/// The Khronos validator checks the file that this test writes.
 #[test]
 fn nodes_cameras_and_lights_are_valid() {
     let mut json = asset();
-    // The validator advises to use only objects.
+    // The validator recommends that extras are objects.
     for i in [3, 6] {
         json["nodes"][i]["extras"] = json!({ "list": [], "nothing": null });
     }

@@ -1,4 +1,4 @@
-//! Compressed and quantized glTF files: the same content within the reported errors.
+//! Checks that compressed and quantized glTF files have the same content, up to the reported errors.
 
 use glam::{DVec2, DVec3, DVec4};
 use mesh::{CORNER_TANGENT, Domain, Mesh, UV, VERTEX_NORMAL};
@@ -65,7 +65,7 @@ fn torus() -> Mesh {
     mesh
 }
 
-/// Two objects, one of which two nodes show, below a node that scales.
+/// Returns a scene with two objects below a node with a scale. Two nodes show one of the objects.
 fn placed() -> Scene {
     let mut scene = scene([
         Object::mesh("torus", torus()),
@@ -118,7 +118,8 @@ fn baked(scene: &Scene, options: &WriteOptions) -> Vec<Object> {
     read_back(&folder, "a.glb", Placements::Bake).objects
 }
 
-/// The faces as lists of corners with all their numbers, in ascending order. The smallest corner of a face comes first.
+/// Returns the faces in ascending order. Each face is a list of corners with all their numbers, and starts at its
+/// smallest corner.
 fn sorted_faces(mesh: &Mesh) -> Vec<Vec<Vec<u64>>> {
     let corner = |h| {
         let v = mesh.origin(h);
@@ -221,7 +222,7 @@ fn quantized_positions_are_within_the_reported_error() {
             "{losses:?}"
         );
         let error = packing.position_error.unwrap();
-        // Half a step along each axis of the largest object, which is stretched 4 times at most.
+        // The error is at most half a step along each axis of the largest object, which is stretched at most 4 times.
         let step = 5.4 / f64::from((1 << position) - 1);
         assert!(error < 0.5 * step * 3.0_f64.sqrt() * 4.01, "{error}");
         let objects = read_back(&folder, "a.glb", Placements::Bake).objects;
@@ -234,7 +235,7 @@ fn quantized_positions_are_within_the_reported_error() {
                 largest = largest.max(a.distance(*b));
             }
         }
-        // Plain positions are rounded to 32 bits.
+        // Positions that are not quantized are rounded to 32 bits.
         assert!(
             largest <= error + 1e-5 && largest > error / 4.0,
             "{largest} {error}"
@@ -277,7 +278,7 @@ fn quantized_attributes_are_within_the_reported_errors() {
         }
         let error = packing.uv_error.unwrap();
         assert!(error <= 0.5 / most + 0.5 / 65535.0);
-        // Faces with several corners are in the same order, so that corners correspond.
+        // The faces of both meshes are in the same order, so their corners correspond.
         for (a, b) in mesh.get(UV).unwrap().iter().zip(plain.get(UV).unwrap()) {
             assert!((*a - *b).abs().max_element() <= error + 1e-7);
         }

@@ -57,7 +57,8 @@ pub(crate) fn floats(values: &[f32]) -> Vec<u8> {
 /// Four corners of a square, counter-clockwise.
 pub(crate) const SQUARE: [f32; 12] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0];
 
-/// The square with these indices after the positions, in a primitive mode.
+/// Returns a document with the square. The indices follow the positions in the buffer, and `mode` is the mode of the
+/// primitive.
 pub(crate) fn square(indices: &[u16], mode: u32) -> Value {
     let mut bytes = floats(&SQUARE);
     bytes.extend(indices.iter().flat_map(|i| i.to_le_bytes()));
@@ -113,7 +114,7 @@ fn lists_strips_and_fans_become_triangles() {
     );
     assert_eq!(rotated_triangles(&mesh_of(&square(&[0, 1, 2, 3], 6))), two);
     assert_eq!(rotated_triangles(&mesh_of(&square(&[1, 2, 0, 3], 5))), two);
-    // A strip with triangles without area, which are left out.
+    // The strip has triangles without area, which are left out.
     let jumping = mesh_of(&square(&[0, 1, 2, 2, 2, 3, 0], 5));
     assert_eq!(jumping.n_faces(), 2);
     assert!(jumping.is_dense() && jumping.n_edges() == 5);
@@ -124,7 +125,7 @@ fn without_indices_vertices_are_used_in_order() {
     let mut positions = SQUARE.to_vec();
     positions.extend_from_within(0..3);
     positions.extend_from_within(6..9);
-    // 0 1 2, 3 0 2 as new vertices, which are merged with the existing ones.
+    // The triangles are 0 1 2 and 3 0 2. Each corner is a new vertex, and equal vertices are merged.
     let bytes = floats(&positions);
     let accessors = json!([{ "bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3" }]);
     let mesh = mesh_of(&document(
@@ -140,7 +141,8 @@ fn without_indices_vertices_are_used_in_order() {
 
 #[test]
 fn interleaved_normalized_and_sparse_arrays_are_read() {
-    // Position as 3 floats, color as 4 bytes, texture coordinates as 2 shorts: 20 bytes for each vertex.
+    // Each vertex has 20 bytes: 3 floats for the position, 4 bytes for the color, and two 16-bit integers for the
+    // texture coordinates.
     let mut bytes = Vec::new();
     for (i, position) in SQUARE.chunks(3).enumerate() {
         bytes.extend(floats(position));
@@ -193,7 +195,7 @@ fn interleaved_normalized_and_sparse_arrays_are_read() {
         };
         assert_eq!(uvs[h.index()], DVec2::new(0.0, v));
     }
-    // Without data, all positions are zero, so all vertices are merged.
+    // The accessor has no data, so all positions are zero, and all vertices are merged.
     json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = json!(3);
     let loaded = read_json(&json).unwrap();
     assert_eq!(loaded.objects[0].as_mesh().unwrap().n_faces(), 0);
@@ -289,7 +291,7 @@ fn content_left_out_is_noted() {
     json["materials"][0]["extensions"] = extensions;
     let kept = read_json(&json).unwrap();
     let loaded = read_baked(&json).unwrap();
-    // If the nodes are kept, so are cameras, lights and skins.
+    // If nodes are kept, cameras, lights and skins are kept too, and three notes are missing.
     assert_eq!(kept.notes.len(), loaded.notes.len() - 3);
     let is_left_out =
         |note: &mesh_io::Note| note.what.contains("cameras") || note.what.contains("lights");

@@ -1,4 +1,4 @@
-//! Skins, morph targets and animations of glTF: a file that is read and written again keeps them.
+//! Tests of skins, morph targets and animations of glTF files. A file that is read and written again keeps them.
 
 use glam::{DAffine3, DVec3, Mat4};
 use mesh::{joint_name, morph_name};
@@ -64,7 +64,7 @@ impl Accessors {
 /// The number of rings of the arm.
 const RINGS: usize = 5;
 
-/// The vertices of an arm along y: rings of four vertices.
+/// Returns the vertices of an arm along the y axis, which consists of rings of four vertices.
 fn positions() -> Vec<f32> {
     let square = [[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]];
     let ring = |r: usize| square.map(|[x, z]| [0.25 * x, 0.5 * r as f32, 0.25 * z]);
@@ -188,7 +188,7 @@ pub(crate) fn arm_scene() -> Scene {
     changed_scene(|_| ())
 }
 
-/// The scene of the arm after a change of its JSON.
+/// Changes the JSON of the arm, and returns the scene of the changed file.
 pub(crate) fn changed_scene(change: impl Fn(&mut Value)) -> Scene {
     let mut json = arm();
     change(&mut json);
@@ -241,8 +241,8 @@ pub(crate) fn numbers(json: &Value, bytes: &[u8], accessor: &Value) -> Vec<f64> 
     }
 }
 
-/// A document with its numbers, without the order and the numbering of its parts: nodes by their names, and each corner
-/// of a mesh with its joints sorted by weight.
+/// Returns a form of a document that does not depend on the order and the numbers of its parts. Nodes are listed by
+/// name, and each corner of a mesh has its joints sorted by weight.
 fn canonical(json: &Value, bytes: &[u8]) -> Value {
     let name = |node: &Value| match node.as_u64() {
         Some(_) => json["nodes"][index(node)]["name"].clone(),
@@ -368,7 +368,8 @@ fn an_asset_that_no_step_touched_keeps_skin_targets_and_animations() {
         assert_eq!(back.digest(), scene.digest(), "{extension}");
         assert_eq!(back, scene, "{extension}");
     }
-    // The validator notes that the weights of the node replace those of the mesh.
+    // The scene has no weights at the node, because the validator would report that they replace the weights of the
+    // mesh.
     let valid = changed_scene(|j| drop(j["nodes"][4].as_object_mut().unwrap().remove("weights")));
     written("rigged_arm", &valid);
 }
@@ -396,7 +397,7 @@ fn weights_and_deltas_become_vertex_attributes() {
     assert_eq!(names, expected);
 }
 
-/// The posed points, computed from the definition in the specification.
+/// Returns the posed points. They are computed directly from the definition in the specification.
 fn posed_by_hand(scene: &Scene, turn: &DAffine3) -> Vec<DVec3> {
     let mesh = scene.objects()[0].as_mesh().unwrap();
     let at = |x: f64, y: f64| DAffine3::from_translation(DVec3::new(x, y, 0.0));
@@ -447,7 +448,7 @@ fn instances_have_the_pose_of_the_joints_and_the_weights_of_the_node() {
 #[test]
 fn coincident_vertices_with_different_weights_are_not_merged() {
     let mut json = arm();
-    // The vertices of an unindexed arm coincide, and have the same weights.
+    // In an arm without indices, vertices coincide and have the same weights.
     let mut a = Accessors::default();
     let points = [
         [0.0, 0.0, 0.0],
@@ -495,7 +496,7 @@ fn coincident_vertices_with_different_weights_are_not_merged() {
     let offset = index(&a.views[joints]["byteOffset"]);
     a.bytes[offset + 16] = 1;
     let split = build(a, &json);
-    // The triangles then meet at one vertex only, which is split too.
+    // The triangles then meet only at one vertex, which is also split.
     assert_eq!((split.n_vertices(), split.n_edges()), (6, 6));
 }
 

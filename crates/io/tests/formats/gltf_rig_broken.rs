@@ -1,4 +1,4 @@
-//! Invalid skins, morph targets and animations of glTF.
+//! Tests of invalid skins, morph targets and animations in glTF files.
 
 use mesh_io::Loaded;
 use serde_json::{Value, json};
@@ -93,7 +93,7 @@ fn repairs_and_left_out_parts_are_counted() {
             .map(|n| format!("{} {}", n.count, n.what))
             .collect()
     };
-    // Weights of 0.
+    // All weights are 0.
     let found = notes(|j| {
         let accessor = j["accessors"][3].as_object_mut().unwrap();
         accessor.remove("bufferView");
@@ -104,7 +104,7 @@ fn repairs_and_left_out_parts_are_counted() {
             "20 vertices without weights in /meshes/0/primitives/0/attributes/WEIGHTS_0"
         )
     );
-    // The positions as weights.
+    // The accessor of the positions is used as weights.
     let found = notes(|j| {
         j["accessors"][3]["count"] = json!(20);
         j["accessors"][3]["byteOffset"] = json!(0);

@@ -1,4 +1,4 @@
-//! What written files do not store of skins, morph targets and animations.
+//! Tests of losses: skins, morph targets and animations that written files do not store.
 
 use mesh::{joint_name, morph_name};
 use mesh_io::WriteOptions;
@@ -35,12 +35,12 @@ fn what_a_written_file_cannot_store_is_a_loss() {
         );
     };
     assert_eq!(losses(&|_| ()), Vec::<String>::new());
-    // Joints that the skin does not have.
+    // The mesh has weights of joints that the skin does not have.
     assert_eq!(
         losses(&|s| mesh(s, &|m| set(m, 7, 0.5))),
         ["20 joint weights"]
     );
-    // No weights at all, and no weights at some vertices.
+    // The mesh has no weights, or some vertices have no weights.
     let none = |m: &mut mesh::Mesh| {
         (0..3).for_each(|j| drop(m.remove_column(mesh::Domain::Vertex, &joint_name(j))));
     };
@@ -51,7 +51,7 @@ fn what_a_written_file_cannot_store_is_a_loss() {
         losses(&|s| mesh(s, &|m| set(m, 0, -0.5))),
         ["20 joint weights", "4 joint weights"]
     );
-    // A mesh without deltas has no weights of targets to animate.
+    // If a mesh has no deltas, an animation of the weights of its targets is lost.
     let unmorphed = |m: &mut mesh::Mesh| {
         (0..2).for_each(|t| drop(m.remove_column(mesh::Domain::Vertex, &morph_name(t))));
     };
@@ -61,7 +61,7 @@ fn what_a_written_file_cannot_store_is_a_loss() {
     );
     let one = |m: &mut mesh::Mesh| drop(m.remove_column(mesh::Domain::Vertex, &morph_name(0)));
     assert_eq!(losses(&|s| mesh(s, &one)), ["1 morph targets"]);
-    // Without its node, nothing shows the arm with the skin.
+    // Without the node of the arm, no node shows the arm with its skin.
     assert_eq!(losses(&|s| s.unplace("arm")), ["20 joint weights"]);
 }
 
@@ -113,7 +113,7 @@ fn more_than_four_influences_are_reduced_or_written_as_more_sets() {
     let back = scene_of(crate::read(&path).unwrap());
     let weights = |scene: &Scene| scene.objects()[0].as_mesh().unwrap().attributes().clone();
     assert_eq!(weights(&back), weights(&scene));
-    // The number of sets in the file is kept.
+    // The written file has the same number of sets as the file that was read.
     let (json, _, losses) = output(&back);
     assert_eq!(losses, Vec::<String>::new());
     assert!(json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_1"].is_u64());

@@ -1,5 +1,5 @@
-//! Writes scenes of all kinds as glTF into `target/tmp/gltf`, where the Khronos validator checks them (`.ci/run`).
-//! These tests only check that two readers can read them.
+//! Writes scenes of all kinds as glTF into `target/tmp/gltf`, where the Khronos validator checks them (`.ci/run`). The
+//! tests in this file only check that two readers can read the scenes.
 
 use std::path::PathBuf;
 
@@ -89,7 +89,7 @@ fn shapes_are_valid() {
 
 #[test]
 fn sizes_around_16_bits_are_valid() {
-    // Up to 65535 vertices, 16-bit indices are sufficient.
+    // For at most 65535 vertices, 16-bit indices are sufficient.
     for (columns, rows) in [(254, 256), (255, 255), (279, 249)] {
         let mesh = shapes::grid(columns, rows);
         written(

@@ -1,4 +1,4 @@
-//! Written glTF files, read by the `gltf` crate with its validation and by this crate.
+//! Tests of written glTF files. The `gltf` crate reads and validates the files, and this crate reads them too.
 
 use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4};
@@ -30,8 +30,8 @@ pub(crate) fn sphere() -> Mesh {
 
 type Corner = ([f32; 3], Option<[f32; 2]>);
 
-/// The content of a file according to the `gltf` crate: for each object the corners of its triangles, as positions
-/// and texture coordinates (v downwards).
+/// Returns the content of a file according to the `gltf` crate: the positions and the texture coordinates of the
+/// corners of the triangles of each object. Here, v points downwards.
 fn read_by_gltf_crate(path: &std::path::Path) -> Vec<(String, Vec<Corner>)> {
     let file = gltf::Gltf::open(path).unwrap();
     let mut objects = Vec::new();
@@ -149,7 +149,7 @@ fn vertex_normals_stay_on_vertices() {
 
 #[test]
 fn normals_of_32_bits_are_written_unchanged() {
-    // Dividing this normal by its length would change the last digit of z each time.
+    // If this normal were divided by its length, the last digit of z would change each time.
     let normal = DVec3::new(
         -0.725_670_099_258_422_9,
         0.688_042_759_895_324_7,
@@ -316,7 +316,7 @@ fn peeking_reads_only_the_document() {
         assert_eq!(counts[1], ("box", 8, 12, false));
         assert_eq!((counts[0].2, counts[0].3), (20, true));
     }
-    // The binary part can even be missing.
+    // The binary part of the file can also be missing.
     let whole = std::fs::read(folder.path("a.glb")).unwrap();
     let cut = folder.with("cut.glb", &whole[..whole.len() - 100]);
     assert!(mesh_io::peek(&store::Disk, &cut, &ReadOptions::default()).is_ok());

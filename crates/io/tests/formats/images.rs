@@ -1,4 +1,4 @@
-//! Images of materials: found beside the model, embedded, copied, or reported as missing.
+//! Tests of the images of materials, which are found beside the model, embedded, copied, or reported as missing.
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,7 @@ use store::{Memory, Store, files_below};
 const PNG: &[u8] = b"\x89PNG\r\n\x1a\n...";
 const JPEG: &[u8] = b"\xff\xd8\xff...";
 
-/// A store with an OBJ file whose only material has this texture, and further files.
+/// Returns a store with further files and an OBJ file whose only material has this texture.
 fn model(texture: &str, files: &[(&str, &[u8])]) -> Memory {
     let store = Memory::default();
     let obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n";
@@ -122,9 +122,9 @@ fn a_different_image_or_file_with_the_same_name_is_not_replaced() {
     let files = convert(&store, "in/a.obj", "out/b.obj", None);
     assert_eq!(files, ["b.mtl", "b.obj", "x.2.png", "x.png"]);
     assert_eq!(store.read("out/x.png".as_ref()).unwrap(), b"other");
-    // The second time, the copy exists.
+    // The second time, the copy already exists and is not written again.
     assert_eq!(convert(&store, "in/a.obj", "out/b.obj", None), files);
-    // The model itself is not replaced either.
+    // The image does not replace the model file either.
     let store = model("b.obj", &[("in/b.obj", PNG)]);
     let files = convert(&store, "in/a.obj", "out/b.obj", None);
     assert_eq!(files, ["b.2.obj", "b.mtl", "b.obj"]);
@@ -169,7 +169,7 @@ fn missing_and_unsafe_images_are_notes_with_the_path() {
         let expected = format!("in/a.obj: 1 image `{texture}` left out: {why}");
         assert_eq!(found.notes[0].to_string(), expected);
         assert_eq!(image(&found), Image::File(texture.to_owned()));
-        // The path is still written.
+        // The path of the missing image is still written.
         convert(&store, "in/a.obj", "out/b.glb", None);
         assert_eq!(
             image(&read(&store, "out/b.glb")),

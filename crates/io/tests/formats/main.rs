@@ -1,4 +1,4 @@
-//! Reading and writing whole files, checked by general properties and by other readers.
+//! Tests of reading and writing whole files. The results are compared with general properties and with other readers.
 
 mod broken;
 mod compressed;
@@ -89,7 +89,7 @@ fn scene(objects: impl IntoIterator<Item = Object>) -> Scene {
     scene
 }
 
-/// The polygons of a file with this content, and the notes of reading it.
+/// Reads a file with this content. Returns the polygons and the notes.
 fn found(name: &str, content: impl AsRef<[u8]>) -> (Polygons, Vec<String>) {
     let folder = Folder::new();
     let path = folder.with(name, content);
@@ -102,7 +102,7 @@ fn found(name: &str, content: impl AsRef<[u8]>) -> (Polygons, Vec<String>) {
     (all.remove(0).1, notes)
 }
 
-/// The only object of a file, which must be read without notes.
+/// Returns the only object of a file. Reading the file must not give notes.
 fn only(path: &Path) -> Object {
     let Loaded {
         mut objects, notes, ..
@@ -120,8 +120,8 @@ fn polygons(mesh: &Mesh) -> Vec<Vec<usize>> {
     mesh.faces().map(polygon).collect()
 }
 
-/// Compares the polygons, positions and attributes of two meshes, with corner values listed by face. The numbering
-/// of half-edges is ignored.
+/// Compares the polygons, positions and attributes of two meshes. Corner values are listed by face, so that the numbers
+/// of half-edges do not matter.
 fn assert_same(a: &Mesh, b: &Mesh) {
     assert_eq!(a.positions(), b.positions());
     assert_eq!(polygons(a), polygons(b));

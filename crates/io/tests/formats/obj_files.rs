@@ -10,7 +10,8 @@ use scene::{AlphaMode, Geometry, Material, Object, Texture};
 
 use crate::{Folder, assert_same, only, read, scene, tag, write};
 
-/// A mesh with everything that OBJ can store: polygons, an isolated vertex, seams, groups and materials.
+/// Returns a mesh with all kinds of content that OBJ can store: polygons, an isolated vertex, seams, groups and
+/// materials.
 fn rich() -> Object {
     let mut positions = shapes::cube().positions().to_vec();
     positions.push(DVec3::new(0.1, -1e-9, 1e300));
@@ -97,7 +98,7 @@ fn assert_round_trip(object: &Object) {
     assert_same(back.as_mesh().unwrap(), object.as_mesh().unwrap());
     assert_eq!(back.materials, object.materials);
     assert_eq!(back.name, "it");
-    // Writing the objects that were read gives the same bytes.
+    // If the objects that were read are written again, the bytes are the same.
     let again = folder.path("again/it.obj");
     std::fs::create_dir(folder.path("again")).unwrap();
     write(&again, [back]);

@@ -1,4 +1,4 @@
-//! OBJ files with lines that list very many names: they are read quickly.
+//! Checks that OBJ files with lines of very many names are read quickly.
 
 use std::time::{Duration, Instant};
 
@@ -8,7 +8,7 @@ use crate::{Folder, read};
 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
-/// Reads a text with a library `a.mtl`, and checks that this takes little time.
+/// Reads a text with a library `a.mtl`, and checks that reading takes little time.
 fn read_quickly(text: &str, library: &str) -> Loaded {
     let folder = Folder::new();
     folder.with("a.mtl", library);
@@ -34,7 +34,7 @@ fn a_line_of_many_libraries_is_cut() {
         "{rest}"
     );
     assert_eq!(notes.len() - 1 + rest.count, names.len());
-    // Words that could form one name, line by line.
+    // In each line, all words together could be one name.
     let line = format!("mtllib {}\n", "b ".repeat(400));
     read_quickly(&format!("{}{TRIANGLE}", line.repeat(5000)), "newmtl red\n");
 }

@@ -9,7 +9,7 @@ use scene::{Geometry, Object};
 
 use crate::{Folder, assert_same, only, polygons, read, write};
 
-/// A grid with bumps, optionally triangulated, with texture coordinates and with normals.
+/// Returns the text of a grid with bumps. The grid can be triangulated, and can have texture coordinates and normals.
 fn grid_text(columns: usize, rows: usize, cut: bool, uvs: bool, normals: bool) -> String {
     use std::fmt::Write;
     let mut text = String::new();
@@ -45,7 +45,7 @@ fn grid_text(columns: usize, rows: usize, cut: bool, uvs: bool, normals: bool) -
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(40))]
 
-    /// tobj splits and renumbers vertices, so corners are compared by value.
+    /// The crate `tobj` splits and renumbers vertices, so corners are compared by value.
     #[test]
     fn tobj_reads_the_same_triangles(
         columns in 1..6_usize, rows in 1..6_usize, cut: bool, uvs: bool, normals: bool,

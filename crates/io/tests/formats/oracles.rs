@@ -1,4 +1,5 @@
-//! Written PLY, STL and OFF files, read by simple readers, and OBJ files of any dialect, read by another program.
+//! Tests with other readers. Simple readers read written PLY, STL and OFF files, and another program reads OBJ files of
+//! any dialect.
 
 use geometry::shapes;
 use glam::DVec3;
@@ -78,7 +79,7 @@ fn ply_files_without_attributes_are_doubles_and_lists() {
     }
 }
 
-/// `mesh_loader` returns three separate vertices for each facet.
+/// The crate `mesh_loader` returns three separate vertices for each facet.
 #[test]
 fn another_reader_finds_the_same_facets_in_stl_files() {
     for mesh in [
@@ -104,8 +105,8 @@ fn another_reader_finds_the_same_facets_in_stl_files() {
     }
 }
 
-/// How a corner is written: with repeated elements for the same vertex, and with or without texture coordinates and
-/// normals.
+/// The form in which corners are written. Elements can be repeated for the same vertex, and texture coordinates and
+/// normals can be left out.
 #[derive(Clone, Copy, Debug)]
 struct Spelling {
     has_uv: bool,
@@ -144,7 +145,7 @@ impl Spelling {
 }
 
 proptest! {
-    /// tobj replaces a missing texture coordinate or normal of a corner with that of another corner.
+    /// If a corner has no texture coordinate or no normal, the crate `tobj` uses that of another corner.
     #[test]
     fn tobj_reads_the_same_corners_of_any_dialect(
         points in prop::collection::vec((-1e3..1e3_f64, -10..10_i32, any::<i16>()), COUNT),

@@ -1,10 +1,10 @@
-//! What [`mesh_io::peek`] knows of the content that reading leaves out.
+//! Tests of the notes of [`mesh_io::peek`] about content that reading leaves out.
 
 use mesh_io::{ReadOptions, peek, read};
 use store::{Memory, Store};
 
-/// Checks that peeking at a file notes exactly these contents, each given by a part of its text, and that reading
-/// leaves them out too.
+/// Checks that peeking at a file gives exactly the expected notes, and that reading gives these notes too. An expected
+/// note is given by a part of its text.
 #[track_caller]
 fn peek_notes(files: &[(&str, &[u8])], expected: &[&str]) {
     let store = Memory::default();

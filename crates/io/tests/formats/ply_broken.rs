@@ -351,7 +351,8 @@ proptest! {
 
 #[test]
 fn repeated_comments_for_a_list_do_not_take_long() {
-    // A naive reader would compare each comment with all faces. The last face does not match the comments.
+    // The last face does not match the comments. A naive reader would compare each comment with all faces, which takes
+    // long.
     let n = 50_000;
     let comment = "comment meshwright corner float copy values \"a\"\n".repeat(20_000);
     let head = format!(

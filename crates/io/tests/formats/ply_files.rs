@@ -23,7 +23,7 @@ fn put(mesh: &mut Mesh, domain: Domain, name: &str, rule: Rule, values: Values) 
     mesh.insert_column(domain, Column { name, rule, values });
 }
 
-/// For each half-edge with a face, a value computed from its index; zero for the other half-edges.
+/// Returns a value for each half-edge with a face, computed from its index. The other half-edges get zero.
 fn on_corners<T: Default + Clone>(mesh: &Mesh, value: impl Fn(f64) -> T) -> Vec<T> {
     let mut all = vec![T::default(); mesh.n_half_edges()];
     for h in mesh.faces().flat_map(|f| mesh.face_half_edges(f)) {

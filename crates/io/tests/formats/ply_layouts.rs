@@ -21,7 +21,7 @@ enum Encoding {
     Big,
 }
 
-/// Appends a value of a type as bytes or as a word. The value is a small integer, which fits every type.
+/// Appends a value of a type as bytes or as a word. The value is a small integer, which every type can store.
 fn push(out: &mut Vec<u8>, encoding: Encoding, kind: usize, value: i64) {
     let bytes = match kind % 8 {
         0 | 1 => value.to_be_bytes()[7..].to_vec(),

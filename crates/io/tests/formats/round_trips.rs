@@ -1,5 +1,5 @@
-//! Properties of writing and reading: a scene survives a round trip, except for reported losses and the changes in
-//! the table of the crate's documentation.
+//! Checks that writing a scene and reading it again preserves the scene, except for reported losses and for the changes
+//! that are listed in a table of the documentation of the crate.
 
 mod flat;
 mod models;
@@ -23,7 +23,7 @@ const FORMATS: [&str; 7] = ["obj", "glb", "ply", "stl", "off", "bez", "bzc"];
 /// The table in the documentation of the crate.
 const TABLE: &str = include_str!("../../src/kept.md");
 
-/// What a format does with some content.
+/// The result of a round trip for some content.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Outcome {
     /// The content is restored bit for bit.
@@ -80,7 +80,7 @@ fn round_trip(objects: &[Object], extension: &str) -> Result<RoundTrip, WriteErr
     })
 }
 
-/// The reported losses, as keys of differences.
+/// Returns the reported losses as keys of differences.
 fn reported(objects: &[Object], losses: &[Loss]) -> BTreeSet<Key> {
     let materials = objects.iter().flat_map(|object| &object.materials);
     let materials: BTreeSet<&str> = materials.map(|material| material.name.as_str()).collect();
@@ -90,7 +90,7 @@ fn reported(objects: &[Object], losses: &[Loss]) -> BTreeSet<Key> {
         (domain, name) => key(domain, name),
     };
     let mut all: BTreeSet<Key> = losses.iter().map(of).collect();
-    // If all vertices of a mesh are isolated, the mesh is lost with its vertices.
+    // If all vertices of a mesh are isolated, the mesh is lost together with its vertices.
     let is_bare = |object: &Object| object.as_mesh().is_some_and(|mesh| mesh.n_faces() == 0);
     if objects.iter().any(is_bare) && all.contains(&key(Domain::Vertex, "position")) {
         all.insert(key(None, "name"));
@@ -106,7 +106,7 @@ fn is_soup(extension: &str) -> bool {
     matches!(extension, "stl" | "glb" | "gltf")
 }
 
-/// The rows of the table: for each feature, what each format does with it.
+/// Returns the rows of the table: for each feature, the outcome for each format.
 fn table() -> BTreeMap<String, Vec<Outcome>> {
     let cells = |line: &str| -> Vec<String> {
         let line = line.trim().trim_matches('|');
@@ -132,7 +132,7 @@ fn table() -> BTreeMap<String, Vec<Outcome>> {
     lines.skip(1).map(of_line).collect()
 }
 
-/// The differences that a format can cause without a report.
+/// Returns the differences that a format can cause without a report.
 fn unreported(extension: &str) -> &'static BTreeMap<Key, Difference> {
     static UNREPORTED: OnceLock<BTreeMap<&str, BTreeMap<Key, Difference>>> = OnceLock::new();
     let unreported = UNREPORTED.get_or_init(|| {
@@ -204,13 +204,13 @@ fn check_laws(objects: &[Object], extension: &str) -> Result<(), String> {
             .losses
             .iter()
             .any(|loss| loss.reason.contains(&new_name));
-        // Corner values can become vertex values after their loss was reported.
+        // A loss can be reported for corner values although they become vertex values later.
         let as_corners = key(Domain::Corner, &what.1);
         let is_reported = reported.contains(what)
             || what.0 == Some(Domain::Vertex) && reported.contains(&as_corners)
-            // If unused materials are lost, the remaining ones have different indices.
+            // If unused materials are lost, the indices of the remaining materials change.
             || *what == key(Domain::Face, "material") && reported.contains(&key(None, "materials"));
-        // The table's entry for one custom attribute applies to all custom attributes.
+        // In the table, the entry for one custom attribute applies to all custom attributes.
         let other = key(Domain::Vertex, "heat");
         let is_custom = *difference == Difference::Rounded
             && matches!(what.0, Some(Domain::Vertex | Domain::Corner))
@@ -258,7 +258,7 @@ fn check_laws(objects: &[Object], extension: &str) -> Result<(), String> {
     ensure(third.bytes == second.bytes, || {
         "the third file differs from the second".to_owned()
     })?;
-    // Content that has a different form after the first round trip can be written differently the second time.
+    // Content that has a different form after the first round trip can be written differently in the second round trip.
     let other_forms = ["name", "domain", "rule", "order of faces"].map(|what| key(None, what));
     let has_other_form = other_forms.iter().any(|what| all.contains_key(what));
     let is_another_form = has_other_form || is_merged || has_empty_columns(objects);

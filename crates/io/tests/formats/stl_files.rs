@@ -28,7 +28,7 @@ fn assert_error(bytes: impl AsRef<[u8]>, expected: &str) {
     );
 }
 
-/// A binary file of triangles with their normals.
+/// Returns a binary file of triangles with their normals.
 fn binary(facets: &[[[f32; 3]; 4]]) -> Vec<u8> {
     let mut out = b"solid from a program that says so anyway".to_vec();
     out.resize(80, b' ');

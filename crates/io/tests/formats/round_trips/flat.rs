@@ -1,4 +1,4 @@
-//! Scenes as lists of bits, and the differences between two scenes.
+//! Converts scenes to lists of bits, and finds the differences between two scenes.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,11 +7,11 @@ use glam::DVec3;
 use mesh::{Column, Domain, HalfEdgeId, Mesh, Rule, Values, VertexId};
 use scene::{Geometry, Image, Material, Object};
 
-/// What differs: the values of a domain with this name, or another part of an object. Names are the same as in
-/// losses.
+/// The part of an object that differs: the values of a domain with this name, or another part with this name. The names
+/// are the same as in losses.
 pub(super) type Key = (Option<Domain>, String);
 
-/// How much two scenes differ in something.
+/// The kind of difference between two scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Difference {
     /// Numbers are equal in 32 bits.
@@ -42,8 +42,8 @@ struct Flat {
     edges: Vec<([usize; 2], usize)>,
 }
 
-/// The differences between a scene and the scene that was read back from a file. Formats that store separate
-/// triangles (`soup`) can reorder vertices and faces.
+/// The differences between a scene and the scene that was read back from a file. If `soup` is true, the format stores
+/// separate triangles, and the order of vertices and faces can change.
 pub(super) fn differences(before: &[Object], after: &[Object], soup: bool) -> Differences {
     let mut all = Differences::new();
     if before.len() != after.len() {
@@ -70,7 +70,7 @@ fn add(all: &mut Differences, key: Key, difference: Difference) {
 }
 
 fn materials(a: &Object, b: &Object, all: &mut Differences) {
-    // The format decides whether an image is a file or embedded.
+    // Whether an image is a file or embedded depends on the format.
     let with_bytes = |object: &Object| {
         let mut materials = object.materials.clone();
         for texture in materials.iter_mut().flat_map(Material::textures_mut) {
@@ -157,8 +157,8 @@ fn meshes(a: &Mesh, b: &Mesh, soup: bool, all: &mut Differences) {
     }
 }
 
-/// How numbers differ. Numbers that are rounded to 32 bits are compared only approximately, because glTF stores
-/// 1 - v for texture coordinates.
+/// Returns the kind of difference between numbers. Numbers that are rounded to 32 bits are compared only approximately,
+/// because glTF stores 1 - v instead of the texture coordinate v.
 fn rows_differ(a: &[Row], b: &[Row]) -> Option<Difference> {
     if a == b {
         return None;
@@ -327,7 +327,8 @@ impl Flat {
         self.faces = turned.into_iter().map(|t| t.0).collect();
     }
 
-    /// Moves corner values to vertices if they agree around each vertex and no vertex values have this name.
+    /// Moves corner values to vertices, if the corner values agree around each vertex and no vertex values have this
+    /// name.
     fn agree(&mut self, name: &str) -> bool {
         let (from, to) = (key(Domain::Corner, name), key(Domain::Vertex, name));
         let (kind, rows) = &self.columns[&from];

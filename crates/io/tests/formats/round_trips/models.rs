@@ -13,7 +13,7 @@ use scene::{AlphaMode, Geometry, Image, Material, Object, Texture};
 
 use super::flat::{Key, key};
 
-/// A row of the table: its name, what differs in a scene if the feature is not stored, and a scene.
+/// A row of the table. It has a name, the expected difference if a format does not store the feature, and a scene.
 pub(super) struct Feature {
     pub(super) name: &'static str,
     pub(super) key: Key,
@@ -62,7 +62,7 @@ fn with<T: Value>(
     one(mesh)
 }
 
-/// One object, with the same name as the file.
+/// Returns one object, which has the same name as the file.
 pub(super) fn one(mesh: Mesh) -> Vec<Object> {
     vec![Object::mesh("it", mesh)]
 }

@@ -38,7 +38,7 @@ const NAMES: [&str; 22] = [
 
 const RULES: [Rule; 4] = [Rule::Interpolate, Rule::Normal, Rule::Copy, Rule::Drop];
 
-/// Any finite number: a random number, or one that is easily written incorrectly.
+/// Returns any finite number: a random number, or a number that programs often write incorrectly.
 fn number() -> impl Strategy<Value = f64> {
     let any = any::<u64>().prop_map(f64::from_bits);
     let any = any.prop_filter("finite", |x| x.is_finite());
@@ -129,7 +129,7 @@ impl Sketch {
     }
 }
 
-/// Faces between some vertices, with distinct corners.
+/// Returns random faces. The corners of a face are distinct vertices.
 fn faces() -> impl Strategy<Value = Vec<Vec<u32>>> {
     let all: Vec<u32> = (0..9).collect();
     let face = (prop::sample::subsequence(all, 3..7)).prop_shuffle();
@@ -161,7 +161,7 @@ fn has_double_edges(objects: &[Object]) -> bool {
     ends.windows(2).any(|pair| pair[0] == pair[1])
 }
 
-/// Every run tests the same cases. `PROPTEST_RNG_SEED=2 PROPTEST_CASES=1000` runs different cases.
+/// Every run tests the same cases. The environment variables `PROPTEST_RNG_SEED=2 PROPTEST_CASES=1000` run other cases.
 fn cases() -> ProptestConfig {
     let config = ProptestConfig::default();
     match config.rng_seed {

@@ -1,4 +1,4 @@
-//! Every recipe in `scenes/` is a test.
+//! Runs every recipe in `scenes/` as several tests.
 //!
 //! ```text
 //! teapot                          all expectations hold, and the digest equals the digest in digests.txt
@@ -24,7 +24,7 @@ use tempfile::TempDir;
 /// The memory budget in bytes.
 const BUDGET: u64 = 4 << 30;
 
-/// Recipes whose planned peak exceeds this number of bytes are not run from every step.
+/// The maximum planned memory peak, in bytes, of recipes that are run from every step.
 const MAX_BYTES_FROM_EVERY_STEP: u64 = 16 << 20;
 
 /// The operations that only write files. The expectations of a recipe do not depend on them.
@@ -92,7 +92,7 @@ impl Scene {
         Ok(found)
     }
 
-    /// Reads and checks `source` as if it were the text of the file. The error has all diagnostics.
+    /// Reads and checks `source` as if it were the text of the file. An error message has all diagnostics.
     fn load(&self, source: &str, out: &Path) -> Result<Loaded, String> {
         let registry = ops_all::registry();
         let options = Options {
@@ -257,7 +257,7 @@ fn from_every_step(recipe: &Scene) -> Result<(), Failed> {
     if loaded.forecast.peak_bytes() > MAX_BYTES_FROM_EVERY_STEP {
         return Ok(());
     }
-    // The run does not write the files of earlier steps, so expectations of files are removed.
+    // The run does not write the files of earlier steps, so expectations about files are removed.
     let expectations = &mut loaded.recipe.expectations;
     expectations.retain(|placed| placed.that.output().is_none());
     let recorder = SceneRecorder::default();
@@ -295,7 +295,7 @@ fn every_step_is_needed(recipe: &Scene) -> Result<(), Failed> {
         }
         let id = step.field("id").filter(|_| step.name().is_none());
         let id = id.and_then(Value::as_str);
-        // Without the step, an expectation that names the id of the step would always fail. So the recipe is also
+        // If a step is removed, expectations that name the id of the step always fail. Therefore the recipe is also
         // tested without the step and without these expectations.
         let naming = list(&parsed.value, "expect").iter().filter(|expectation| {
             let after = expectation
@@ -330,7 +330,7 @@ fn every_step_is_needed(recipe: &Scene) -> Result<(), Failed> {
     fail(format!("the recipe succeeds without these steps:\n{steps}"))
 }
 
-/// Tests that a step is reported if only the expectations that name the step depend on it.
+/// Tests that a step is reported as unneeded if only the expectations that name the step depend on it.
 fn unneeded_steps_are_found() -> Result<(), Failed> {
     let source = r#"(
         recipe: 1,

@@ -5,7 +5,7 @@ use mesh::{CREASE, DVec3, Mesh};
 /// The scales of coordinates. Most meshes have ordinary coordinates.
 const SCALES: [f64; 8] = [1.0, 1.0, 1.0, 1.0, 0.0, 1e-300, 1e100, 1e290];
 
-/// Takes the first byte; 0 if there is none.
+/// Removes the first byte and returns it. Returns 0 if there are no bytes.
 pub(crate) fn take(bytes: &mut &[u8]) -> u8 {
     let Some((&first, rest)) = bytes.split_first() else {
         return 0;
@@ -14,8 +14,8 @@ pub(crate) fn take(bytes: &mut &[u8]) -> u8 {
     first
 }
 
-/// Takes a mesh of at most 32 vertices and 40 faces, with creases if the first byte is odd. Returns `None` if the bytes do
-/// not make a mesh.
+/// Removes the bytes of a mesh and returns the mesh, which has at most 32 vertices and 40 faces. If the first byte is
+/// odd, the mesh has creases. Returns `None` if the bytes do not give a valid mesh.
 pub(crate) fn mesh(bytes: &mut &[u8]) -> Option<Mesh> {
     let kind = take(bytes);
     let scale = SCALES[usize::from(kind >> 5)];

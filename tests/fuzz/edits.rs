@@ -1,6 +1,6 @@
-//! Applies arbitrary edits in any order to a shape. The mesh must stay valid, and a rollback must restore it.
+//! Applies arbitrary edits in any order to a mesh. The mesh must stay valid, and a rollback must restore the mesh.
 //!
-//! The first byte chooses the shape. Every six bytes after it are an edit.
+//! The first byte chooses the mesh. Then every six bytes are an edit.
 
 #![no_main]
 
@@ -13,7 +13,7 @@ use geometry::shapes;
 
 use any_edit::{EditCode, edit_and_check};
 
-/// A run stops when the mesh has more faces than this, so that no run takes long.
+/// The maximum number of faces. If the mesh has more faces, the run stops, so that no run takes long.
 const MAX_FACES: usize = 100;
 
 fuzz_target!(|bytes: &[u8]| {

@@ -1,5 +1,5 @@
-//! Reads arbitrary bytes as a `.glb` file. Most mutations change one of the two chunks and correct the lengths
-//! in the headers. Otherwise the reader would reject nearly all files at the header.
+//! Reads arbitrary bytes as a `.glb` file. Most mutations change one of the two chunks and correct the lengths in the
+//! headers. Without the correction, the reader would reject nearly all files at the header.
 
 #![no_main]
 

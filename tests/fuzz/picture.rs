@@ -1,4 +1,5 @@
-//! Draws arbitrary meshes with arbitrary cameras and styles. A picture has the requested size, or is refused.
+//! Draws arbitrary meshes with arbitrary cameras and styles. Either the picture has the requested size, or drawing is
+//! refused.
 
 #![no_main]
 

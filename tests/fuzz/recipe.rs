@@ -1,5 +1,5 @@
-//! Reads, checks and runs arbitrary texts as recipes, with all operations, selections and expectations. Files are in memory.
-//! A recipe is refused, or it runs and its result is valid.
+//! Reads, checks and runs arbitrary texts as recipes, with all operations, selections and expectations. Files are in
+//! memory. Either the recipe is refused, or its result is valid.
 
 #![no_main]
 
@@ -36,7 +36,7 @@ fuzz_target!(|text: &str| {
     };
     let loaded = engine.load(&source, &options);
     if loaded.has_errors() {
-        // Each error has a text and is in the source.
+        // Each error has a message and a position in the source.
         assert!(loaded.diagnostics.iter().all(|d| !d.message.is_empty()));
         return;
     }

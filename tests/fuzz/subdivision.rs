@@ -1,4 +1,4 @@
-//! Subdivides arbitrary meshes with any scheme. The result must be valid and finite, or the mesh refused.
+//! Subdivides arbitrary meshes with any scheme. Either the result is valid and finite, or the mesh is refused.
 
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! Long random sequences of edits of all kinds, on every fixture.
+//! Tests long random sequences of edits of all kinds on every fixture.
 
 use glam::DVec3;
 use mesh::Mesh;
@@ -10,7 +10,7 @@ use crate::fixtures;
 /// The number of edits in a sequence.
 const EDITS: usize = 1000;
 
-/// Meshes with more faces than this only get edits that do not add faces.
+/// The maximum number of faces for edits that add faces. Larger meshes get only other edits.
 const MAX_FACES: usize = 150;
 
 /// Returns the small fixtures, with and without attributes.
@@ -38,7 +38,7 @@ proptest! {
     ) {
         for start in meshes() {
             let mut mesh = start;
-            // Small integers, so that vertices coincide and faces have no area.
+            // Coordinates are small integers, so that some vertices coincide and some faces have no area.
             let mut numbers = coordinates.iter().cycle().map(|&x| f64::from(x));
             for p in mesh.positions_mut() {
                 *p = DVec3::from_array([(); 3].map(|()| numbers.next().expect("the numbers are cyclic")));
@@ -47,12 +47,12 @@ proptest! {
             mesh.begin();
             for (i, &code) in codes.iter().enumerate() {
                 let code = if mesh.n_faces() > MAX_FACES {
-                    // Deletes faces, compacts, or removes edges.
+                    // These kinds of edits delete faces, compact the mesh, or remove edges.
                     EditCode { kind: [2, 7, 8, 9, 12, 25, 26][usize::from(code.kind % 7)], ..code }
                 } else {
                     code
                 };
-                // Regularly opens an inner journal level and rolls it back.
+                // Every tenth edit is made in an inner level of the journal, which is then rolled back.
                 if i % 10 == 9 {
                     let before = mesh.clone();
                     mesh.begin();

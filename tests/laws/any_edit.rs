@@ -1,4 +1,4 @@
-//! Any local edit of a mesh, encoded as numbers. Shared by the random tests and the fuzzer.
+//! Encodes any local edit of a mesh as numbers, for the random tests and the fuzzer.
 
 use mesh::{DVec3, Domain, EdgeId, EditError, FaceId, HalfEdgeId, Mesh, Seams, VertexId};
 
@@ -37,7 +37,7 @@ impl EditCode {
 
 const SPLIT: u8 = 1;
 
-/// Applies the edit. Also tries numbers beyond the last element, and dead elements.
+/// Applies the edit. Numbers can be beyond the last element, and elements can be dead.
 ///
 /// # Errors
 /// The reason why the edit was refused.
@@ -111,7 +111,7 @@ pub(crate) fn edit(mesh: &mut Mesh, code: EditCode) -> Result<(), EditError> {
     }
 }
 
-/// Returns the number of an element, or one beyond the last element.
+/// Returns the number of an element, or a number beyond the last element.
 fn pick(mesh: &Mesh, domain: Domain, number: u16) -> usize {
     usize::from(number) % (mesh.domain_len(domain) + 1)
 }
@@ -126,7 +126,7 @@ fn exists(mesh: &Mesh, h: HalfEdgeId) -> bool {
     mesh.has_edge(h.edge())
 }
 
-/// Returns the half-edge `steps` modulo 6 steps further around the face or the hole.
+/// Returns the half-edge that is k steps further around the face or the hole, where k is `steps` modulo 6.
 fn later(mesh: &Mesh, h: HalfEdgeId, steps: u16) -> HalfEdgeId {
     if exists(mesh, h) {
         (0..steps % 6).fold(h, |h, _| mesh.next(h))
@@ -135,7 +135,7 @@ fn later(mesh: &Mesh, h: HalfEdgeId, steps: u16) -> HalfEdgeId {
     }
 }
 
-/// Returns the half-edge `steps` modulo 6 steps further around the vertex.
+/// Returns the half-edge that is k steps further around the vertex, where k is `steps` modulo 6.
 fn around(mesh: &Mesh, h: HalfEdgeId, steps: u16) -> HalfEdgeId {
     if exists(mesh, h) {
         (0..steps % 6).fold(h, |h, _| mesh.next(h.twin()))
@@ -144,7 +144,7 @@ fn around(mesh: &Mesh, h: HalfEdgeId, steps: u16) -> HalfEdgeId {
     }
 }
 
-/// Returns the first half-edge of a hole from `h` on, or `h` itself if the mesh has no hole.
+/// Returns the first half-edge of a hole, counting from `h` on. If the mesh has no hole, returns `h`.
 fn hole(mesh: &Mesh, h: HalfEdgeId) -> HalfEdgeId {
     let n = mesh.domain_len(Domain::Corner);
     (0..n)
@@ -154,7 +154,8 @@ fn hole(mesh: &Mesh, h: HalfEdgeId) -> HalfEdgeId {
 }
 
 /// Applies the edit and checks the guarantees of every edit. The mesh stays valid. If the mesh has no duplicate edges,
-/// the edit makes none, unless its documentation says that it can. A refused edit changes nothing.
+/// the edit creates none, unless the documentation of the edit says that it can. If the edit is refused, nothing
+/// changes.
 ///
 /// # Panics
 ///

@@ -1,7 +1,7 @@
-//! Tests the manual: every recipe runs, every example in the tables can be read, and no example is missing.
+//! Tests the book: every recipe runs, every example in the tables can be read, and no example is missing.
 //!
-//! A code block marked `ron` is a whole recipe that runs in the folder `scenes/`, `ron,step` is a step, and
-//! `ron,sweep` is a sweep.
+//! A code block marked `ron` is a whole recipe that runs in the folder `scenes/`. A block marked `ron,step` is a step,
+//! and a block marked `ron,sweep` is a sweep.
 
 use std::fs;
 use std::path::PathBuf;
@@ -55,7 +55,7 @@ fn blocks(kind: &str) -> Vec<(String, String)> {
 }
 
 /// Reads a recipe as if it were in the folder `scenes/`, and runs it unless `read_only` is true. Returns the problem,
-/// if any.
+/// if there is one.
 fn problem(engine: &Engine, text: &str, read_only: bool) -> Option<String> {
     let folder = tempfile::tempdir().expect("a temporary folder can be made");
     let options = Options {

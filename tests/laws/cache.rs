@@ -1,5 +1,5 @@
-//! Every recipe in `scenes/` gives the same results with a cache as without a cache. The cache can be empty,
-//! full, damaged, or shared by two runs.
+//! Checks that every recipe in `scenes/` gives the same results with a cache as without a cache. The cache can be
+//! empty, filled, damaged, or shared by two runs.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -91,8 +91,8 @@ fn all_files(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// Damages every n-th file in one of four ways: changes a bit, truncates, removes, or copies a different file
-/// over it.
+/// Damages every n-th file in one of four ways: one bit is changed, or the file is truncated, removed, or replaced by a
+/// different file.
 fn damage(folder: &Path, n: usize) {
     let files = all_files(folder);
     for (i, path) in files.iter().enumerate().filter(|(i, _)| i % n == 0) {
@@ -161,7 +161,7 @@ fn every_operation_that_the_scenes_use_can_be_cached() {
         run(&path, Some(&cache));
         let (_, outcome) = run(&path, Some(&cache));
         for step in &outcome.steps {
-            // A large output that takes little time to write is not cached.
+            // If a large output takes little time to write, the output is not cached.
             let fine = matches!(step.ran, None | Some(recipe::RerunReason::NotKept));
             assert!(fine, "{}, {}: {:?}", path.display(), step.label, step.ran);
         }

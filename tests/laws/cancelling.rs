@@ -1,4 +1,4 @@
-//! Cancellation of operations and runs.
+//! Tests the cancellation of operations and runs.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -45,7 +45,7 @@ fn an_operation_cancelled_at_its_first_call_changes_nothing() {
         if stop.has_cancelled() && !was_cancelled {
             failures.push(format!("{}: did not stop when cancelled", case.name));
         }
-        // An operation that has nothing to do need not report progress.
+        // An operation that changes nothing does not have to report progress.
         if (result.is_ok() || was_cancelled) && scene != case.scene {
             failures.push(format!(
                 "{}: changed the scene before its first progress call",
@@ -59,7 +59,7 @@ fn an_operation_cancelled_at_its_first_call_changes_nothing() {
     assert_none(&failures);
 }
 
-/// The steps before the tested step in the recipes of the next test. They make an object for each name that samples
+/// The steps before the tested step in the recipes of the next test. They create an object for each name that samples
 /// use.
 const PRELUDE: &str = r#"
     Cube(name: "mesh", triangles: true),

@@ -1,4 +1,4 @@
-//! The effect of flipped diagonals on the symmetry of a subdivided cube, for all 64 patterns.
+//! Tests how flipped diagonals change the symmetry of a subdivided cube, for all 64 patterns of diagonals.
 
 use engine::FileReader;
 use geometry::shapes;
@@ -58,7 +58,7 @@ fn no_pattern_of_flipped_diagonals_keeps_more_than_twelve_rotations_of_a_cube() 
             .iter()
             .all(|scene| is_symmetric(scene, None, Some(12)))
     );
-    // The two patterns are the edges of a tetrahedron and of its mirror image.
+    // In the two patterns, the diagonals are the edges of a tetrahedron and of its mirror image.
     assert_eq!(
         scenes
             .iter()

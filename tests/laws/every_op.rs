@@ -17,7 +17,7 @@ use crate::{assert_none, fixtures};
 
 /// An operation with its parameters and the scene on which it is tested.
 pub(crate) struct Case {
-    /// For example `Weld(distance: 0) on cube`.
+    /// The name of the case, for example `Weld(distance: 0) on cube`.
     pub(crate) name: String,
     operation: &'static str,
     pub(crate) step: Box<dyn Step>,
@@ -81,7 +81,7 @@ impl Case {
     }
 }
 
-/// Returns the file settings. Inputs are the models of the recipes.
+/// Returns the file settings. The input files are the models of the recipes in `scenes/`.
 pub(crate) fn files(output: &Path) -> Files {
     Files {
         input: crate::root().join("scenes/assets"),
@@ -178,8 +178,8 @@ fn results_and_refusals_are_the_same_twice_and_for_any_number_of_threads() {
     assert_none(&failures);
 }
 
-/// Returns what must be equal between runs. File errors are not compared, because temporary folders have
-/// different names each time.
+/// Returns the part of a result that must be equal between runs. File errors are left out, because temporary folders
+/// have different names each time.
 fn summary(result: &StepResult) -> String {
     match result {
         Ok((scene, report)) => format!("{} {report:?}", scene.digest()),
@@ -223,7 +223,7 @@ fn planning_never_panics_even_for_incomplete_plans() {
             on: None,
             budget: u64::MAX,
         };
-        // Plans are incomplete after a step that could not be read.
+        // A plan is incomplete if an earlier step could not be read.
         for incomplete in [false, true] {
             let mut plan = exact_plan(&case.scene);
             plan.incomplete = incomplete;
@@ -265,7 +265,7 @@ fn differences(scene: &Scene, plan: &Plan) -> Vec<String> {
         .iter()
         .map(|o| (o.name.as_str(), o.geometry.kind()))
         .collect();
-    // An incomplete plan knows only some of the objects.
+    // An incomplete plan has only some of the objects.
     let is_known = |object: &&(&str, &str)| !plan.incomplete || planned.contains(object);
     let known: Vec<_> = found.iter().filter(is_known).copied().collect();
     if known != planned {

@@ -30,11 +30,12 @@ const NUMBERS: &[&str] = &[
     "9223372036854775807",
 ];
 
-/// The memory budget in bytes. Cases whose plan exceeds it are skipped, so that meshes stay small.
+/// The memory budget in bytes. If the plan of a case exceeds the budget, the case is skipped, so that meshes stay
+/// small.
 const BUDGET: u64 = 1 << 20;
 
-/// Returns variants of a sample, in which an extreme number replaces one number or all numbers. Leaves out variants
-/// that cannot be read.
+/// Returns variants of a sample in which an extreme number replaces one number or all numbers. Variants that cannot be
+/// read are left out.
 fn extreme_variants(parameters: &str, can_be_read: impl Fn(&str) -> bool) -> Vec<String> {
     let tokens: Vec<_> = Lexer::new(parameters).collect();
     let with = |chosen: &[usize], number: &str| -> String {
@@ -60,8 +61,8 @@ fn extreme_variants(parameters: &str, can_be_read: impl Fn(&str) -> bool) -> Vec
     texts
 }
 
-/// Returns a scene with an object of each kind, a cube of triangles, and the same cube scaled to very large and
-/// very small sizes.
+/// Returns several scenes: an object of each kind, a cube of triangles, and the same cube scaled to very large and very
+/// small sizes.
 fn scenes() -> Vec<(&'static str, Scene)> {
     let find = |wanted: &str| {
         let mut all = fixtures::scenes().into_iter();
@@ -130,7 +131,7 @@ fn extreme_numbers_give_valid_results_or_errors() {
     let mut failed = Vec::new();
     for (entry, sample) in samples(&registry) {
         let can_be_read = |text: &str| entry.parse(&ron_tree::parse(text).value).is_ok();
-        // Tests each variant on the first scene and on one of the other scenes, in turn.
+        // Each variant is tested on the first scene and on one of the other scenes, which take turns.
         let others = scenes[1..].iter().cycle();
         for (text, other) in extreme_variants(sample, can_be_read).iter().zip(others) {
             for (name, scene) in [&scenes[0], other] {

@@ -1,5 +1,5 @@
-//! No crate below the program accesses files or clocks directly, because the crates must run on platforms
-//! without them.
+//! Checks that only the program and the crates in `ALLOWED` access files or clocks directly, because the other crates
+//! must run on platforms without files and clocks.
 
 use std::path::{Path, PathBuf};
 
@@ -8,7 +8,7 @@ use super::{assert_none, root};
 /// The crates that can access files directly: the program, the store, the step cache on disk, and benchmarks.
 const ALLOWED: [&str; 4] = ["benches", "cache", "cli", "store"];
 
-/// The words that show direct access.
+/// The words in source code that show direct access to files or clocks.
 const WORDS: [&str; 13] = [
     "std::fs",
     "File::open",
@@ -50,7 +50,7 @@ fn search(folder: &Path, found: &mut Vec<String>) {
             search(&path, found);
         } else if name.ends_with(".rs") && !["tests.rs", "testing.rs"].contains(&&*name) {
             let text = std::fs::read_to_string(&path).unwrap_or_default();
-            // The tests of a file are at its end.
+            // The tests of a source file are at its end and are not checked.
             let code = text.split("#[cfg(test)]\nmod tests {").next();
             for (i, line) in code.unwrap_or_default().lines().enumerate() {
                 let is_comment = line.trim_start().starts_with("//");

@@ -1,5 +1,5 @@
-//! The scenes on which every operation is tested. The first mesh of a scene is named "mesh" and a second one
-//! "other", so that samples can refer to them.
+//! The scenes on which every operation is tested. The first mesh of a scene is named "mesh" and the second mesh
+//! "other", so that samples can refer to the meshes.
 
 use bezier::Curve;
 use geometry::shapes;
@@ -31,7 +31,7 @@ pub(crate) fn scenes() -> Vec<(&'static str, Scene)> {
     scenes
 }
 
-/// Returns the fixtures that are one mesh without attributes.
+/// Returns the fixtures that consist of one mesh without attributes.
 pub(crate) fn meshes() -> Vec<(&'static str, Mesh)> {
     vec![
         ("nothing", Mesh::default()),
@@ -86,7 +86,7 @@ pub(crate) fn with_attributes(mut mesh: Mesh) -> Object {
     mesh.set(MATERIAL, (0..n_faces).map(|f| [0, 1, -1][f % 3]).collect());
     mesh.set(SMOOTHING, vec![1; n_faces]);
     for domain in Domain::ALL {
-        // Corners have the values of their vertices, so that they add no seams.
+        // Corners have the values of their vertices, so that these attributes add no seams.
         let sources: Vec<usize> = match domain {
             Domain::Corner => mesh.half_edges().map(|h| mesh.origin(h).index()).collect(),
             _ => (0..mesh.domain_len(domain)).collect(),
@@ -252,6 +252,6 @@ fn the_fixtures_have_the_intended_properties() {
             "{name}"
         );
     }
-    // The mesh must be longer than one block of a blocked sum.
+    // The mesh must have more vertices than one block of a sum that is computed in blocks.
     assert!(mesh("large torus of triangles").n_vertices() > 4096);
 }

@@ -1,15 +1,17 @@
-//! How the time of operations and expectations grows: doubling the mesh must not take more than 2.3 times as long.
+//! Checks how the time of operations and expectations grows. If the mesh is twice as large, the work must take at most
+//! 2.3 times as long.
 //!
-//! Nothing that a test could count stands for this work: progress is reported in parts of equal number for any size,
-//! and a quadratic search allocates nothing. So these tests measure, and run only on request, on a machine that does
-//! nothing else (about five minutes):
+//! These tests measure times, because the work cannot be counted: the number of progress reports does not depend on the
+//! size of the mesh, and a quadratic search allocates no memory. The tests run only on request, on a machine that does
+//! nothing else, and take about five minutes:
 //!
 //! ```text
 //! cargo test --release -p meshwright-tests --test laws growth -- --ignored --nocapture
 //! ```
 //!
-//! Each time is the median of several runs on one thread. Times are compared over two doublings, which evens out the
-//! steps at which the data no longer fits into a cache. A growth that is too large is measured again before it counts.
+//! Each time is the median of several runs on one thread. The mesh is doubled twice between compared times, because the
+//! time also jumps when the data no longer fit in a cache. If a growth is too large, it is measured again before the
+//! test fails.
 
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
@@ -28,31 +30,32 @@ use crate::extremes::MEASURES;
 use crate::fixtures::with_attributes;
 use crate::samples::samples;
 
-/// The largest growth of the time when the mesh is doubled twice: 2.3 squared.
+/// The maximum growth of the time when the mesh is doubled twice, which is 2.3 squared.
 const MAX_GROWTH: f64 = 2.3 * 2.3;
 
-/// The shortest time that is measured. Meshes are enlarged until the work takes this long.
+/// The minimum time that is measured. Meshes are enlarged until the work takes this long.
 const LONG_ENOUGH: Duration = Duration::from_millis(4);
 
-/// A run of the smallest mesh that takes longer is a failure.
+/// The maximum time for the smallest mesh. If the work takes longer, the test fails.
 const TOO_LONG: Duration = Duration::from_secs(20);
 
-/// The number of faces of the first mesh, and of the largest mesh before two doublings.
+/// The number of faces of the first mesh, and of the largest mesh before it is doubled twice.
 const SIZES: [usize; 2] = [1000, 64_000];
 
-/// Operations with a sample that no generated scene fits, or that measure nothing that grows with a mesh.
+/// Operations that are not tested: their samples fit no generated scene, or their work does not grow with the mesh.
 const OTHER: &str =
     "Load Polygons MoveControlPoint CurveLevels SampleCurve CurveFigure HalfEdgeFigure";
 
-/// Steps that take longer, with the largest growth of their time and the reason.
+/// Steps whose time may grow faster, with the maximum growth. The comment gives the reason.
 const STEEPER: &[(&str, f64)] = &[
-    // All vertices of a row become one, whose valence is the length of a row: n^1.5.
+    // All vertices of a row become one vertex, whose valence is the length of a row. So the time for n faces is
+    // proportional to n^1.5.
     ("CollapseEdges(edges: All", 8.5),
-    // Holes of up to 500 edges are filled in cubic time, which the boundary of the largest grids exceeds.
+    // Holes of at most 500 edges are filled in cubic time. The boundaries of the largest grids are longer.
     ("FillHoles(", 8.5),
 ];
 
-/// Selections that visit more than their neighborhood.
+/// Steps with selections that visit more than the neighborhood of an element.
 const SELECTIONS: &[&str] = &[
     "TagVertices(name: \"new\", vertices: Grow(Grow(Random(count: 1000, seed: 1))))",
     "TagVertices(name: \"new\", vertices: Nearest(to: (0, 0, 0), count: 1000))",
@@ -95,7 +98,8 @@ fn scenes(n: usize) -> Vec<(&'static str, Scene)> {
     ]
 }
 
-/// The number of rows of a square mesh of at least `n` faces; at least 6, so that half as many rows make a torus.
+/// Returns the number of rows of a square mesh of at least `n` faces. It is at least 6, so that a torus with half as
+/// many rows is possible.
 fn side(n: usize) -> u32 {
     let is_enough = |side: &u32| side.pow(2) as usize >= n;
     (6..u32::MAX).find(is_enough).expect("ids have 32 bits")
@@ -137,7 +141,7 @@ fn lines(n: usize) -> Geometry {
 enum Growth {
     /// The work is refused or fails.
     Refused,
-    /// The factor of the time when the mesh is doubled twice.
+    /// The factor by which the time grows when the mesh is doubled twice.
     By(f64),
     /// The work takes longer than [`TOO_LONG`].
     TooLong,
@@ -172,7 +176,7 @@ fn growth(scene: impl Fn(usize) -> Scene, work: impl Fn(Scene) -> bool) -> Growt
         return Growth::TooLong;
     }
     if first < LONG_ENOUGH {
-        // The time hardly depends on the mesh.
+        // The time hardly depends on the size of the mesh.
         return Growth::By(1.0);
     }
     let large = scene(4 * n);
@@ -258,7 +262,7 @@ fn expectations_take_at_most_two_point_three_times_as_long_on_twice_the_mesh() {
                 }
                 scene
             };
-            // The digest of the scene, which every run computes, takes a time in proportion to the mesh.
+            // Every run computes the digest of the scene, which takes a time proportional to the size of the mesh.
             let work = |scene| {
                 let outcome = recipe.run_from(0, scene, Run::default(), &Silent);
                 outcome.checked > 0 || !outcome.failures.is_empty()

@@ -1,4 +1,4 @@
-//! The dependencies between crates, and the number of packages in a first build.
+//! Checks the dependencies between crates, and the number of packages in a first build.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use crate::{assert_none, root};
 
-/// The direct dependencies allowed for each crate. A crate can also use everything that these crates can use.
+/// The direct dependencies that each crate may have. A crate can also use the dependencies of these crates.
 const ALLOWED_DEPENDENCIES: &[(&str, &[&str])] = &[
     ("progress", &[]),
     ("store", &[]),
@@ -90,7 +90,7 @@ fn crates_use_only_allowed_dependencies() {
             let is_group = used.starts_with("ops-") && used != "ops-all";
             let is_allowed =
                 allowed.contains(used.as_str()) || is_group && allowed.contains("ops-*");
-            // Tests can use more crates.
+            // This rule does not hold for the dependencies of tests.
             if dependency["kind"].is_null() && !is_allowed {
                 failures.push(format!(
                     "{name} uses {used}, which is not an allowed dependency"

@@ -1,5 +1,4 @@
-//! Properties that everything in the workspace must have: every operation on every fixture, every schema, every
-//! sequence of edits.
+//! Tests general properties: of every operation on every fixture, of every schema, and of random sequences of edits.
 
 mod all_edits;
 mod any_edit;

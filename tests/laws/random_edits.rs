@@ -1,4 +1,4 @@
-//! Random sequences of local edits, compared with a naive implementation on polygon lists.
+//! Compares random sequences of local edits with a naive implementation on polygon lists.
 
 use std::sync::LazyLock;
 
@@ -9,7 +9,7 @@ use proptest::prelude::*;
 
 use crate::fixtures;
 
-/// An edit with the number of its element. Numbers beyond the last element are tested too.
+/// An edit with the number of its element. Numbers can be beyond the last element.
 #[derive(Clone, Copy, Debug)]
 enum Edit {
     Flip(usize),
@@ -31,7 +31,7 @@ fn edit() -> impl Strategy<Value = Edit> {
     ]
 }
 
-/// The fixtures that are small enough to be cloned for each edit, and two meshes with attributes.
+/// Two meshes with attributes, and all fixtures that are small enough to be cloned for each edit.
 static MESHES: LazyLock<Vec<Mesh>> = LazyLock::new(|| {
     let mut meshes: Vec<Mesh> = fixtures::meshes()
         .into_iter()
@@ -55,7 +55,7 @@ proptest! {
         edits in proptest::collection::vec(edit(), 1..24),
     ) {
         let mut mesh = MESHES[which].clone();
-        // Small integers, so that vertices coincide and triangles have no area.
+        // Coordinates are small integers, so that some vertices coincide and some triangles have no area.
         let mut numbers = coordinates.iter().cycle().map(|&x| f64::from(x));
         for p in mesh.positions_mut() {
             *p = DVec3::from_array([(); 3].map(|()| numbers.next().expect("the numbers are cyclic")));
@@ -67,7 +67,7 @@ proptest! {
     }
 }
 
-/// Applies an edit to the mesh and to the oracle and compares the results.
+/// Applies an edit to the mesh and to the polygon list `oracle`, and compares the results.
 fn step(mesh: &mut Mesh, oracle: &mut Polygons, edit: Edit) -> Result<(), TestCaseError> {
     let before = mesh.clone();
     let (expected, euler) = expected(mesh, oracle, edit);
@@ -75,7 +75,7 @@ fn step(mesh: &mut Mesh, oracle: &mut Polygons, edit: Edit) -> Result<(), TestCa
         Edit::Flip(e) => mesh.flip_edge(edge(mesh, e)),
         Edit::Split(e, quarters) => {
             let split = mesh.split_edge(edge(mesh, e), f64::from(quarters) / 4.0);
-            // The new vertex is the last one.
+            // The new vertex has the last index.
             split.map(|m| assert_eq!(m.index() + 1, mesh.positions().len()))
         }
         Edit::DeleteFace(f) => mesh.delete_face(face(mesh, f)),
@@ -120,7 +120,8 @@ fn has_parallel_edges(mesh: &Mesh) -> bool {
     ends.windows(2).any(|pair| pair[0] == pair[1])
 }
 
-/// Returns the expected result of an edit, and V - E + F after it.
+/// Returns the expected result of an edit, and the expected value of V - E + F: the number of vertices minus edges plus
+/// faces.
 fn expected(mesh: &Mesh, oracle: &Polygons, edit: Edit) -> (Result<Polygons, EditError>, i64) {
     let euler = mesh.euler_characteristic();
     match edit {
@@ -147,7 +148,7 @@ fn expected(mesh: &Mesh, oracle: &Polygons, edit: Edit) -> (Result<Polygons, Edi
             if !mesh.has_face(f) {
                 return (Err(EditError::NoSuchFace(f)), euler);
             }
-            // Removes the face and the edges without another face, and keeps the vertices.
+            // Removes the face, and its edges that have no other face. The vertices stay.
             let sides = mesh.face_half_edges(f);
             let n_removed = sides.filter(|&h| mesh.face(h.twin()).is_none()).count();
             let n_removed = i64::try_from(n_removed).expect("a small number");
@@ -260,8 +261,8 @@ impl Polygons {
         self.faces.iter().position(has_side)
     }
 
-    /// Flips the edge between two faces: each end moves to the next corner. Refusals are in the order of the
-    /// checks in the mesh.
+    /// Flips the edge between two faces: each end moves to the next corner. The checks are in the same order as in the
+    /// mesh.
     fn flip(&self, [a, b]: [u32; 2], e: EdgeId) -> Result<Self, EditError> {
         let (Some(f), Some(g)) = (self.with_side(a, b), self.with_side(b, a)) else {
             return Err(EditError::Boundary(e));
@@ -269,8 +270,8 @@ impl Polygons {
         if f == g {
             return Err(EditError::SameFace(e));
         }
-        // Rotates one face to start with a, b and the other face to start with b, a. Then c and d are the next
-        // corners.
+        // One face is rotated so that it starts with a, b, and the other so that it starts with b, a. Then c and d are
+        // the next corners.
         let from = |f: usize, start: (u32, u32)| {
             let mut face = self.faces[f].clone();
             let place = sides(&face).position(|side| side == start);
@@ -337,8 +338,8 @@ impl Polygons {
         }
     }
 
-    /// Collapses the edge from a to b, if the topology does not change and no new elements coincide. Refusals
-    /// are in the order of the checks in the mesh.
+    /// Collapses the edge from a to b, if the topology does not change and no new elements coincide. The checks are in
+    /// the same order as in the mesh.
     fn collapse(&self, [a, b]: [u32; 2], t: f64, e: EdgeId) -> Result<Self, EditError> {
         if t > 1.0 {
             return Err(EditError::OutsideEdge(t));
@@ -376,8 +377,8 @@ impl Polygons {
         if !beside.contains(&None) && is_open(a) && is_open(b) {
             return Err(EditError::JoinsBoundaries(e));
         }
-        // If a triangle has the same larger face on all three sides, both sides of the remaining edge would be
-        // in that face.
+        // If a larger face is beside all three sides of a triangle, both sides of the remaining edge would be in that
+        // face.
         let around = |f: usize| sides(&self.faces[f]).map(|(x, y)| self.with_side(y, x));
         let is_within = |f: usize, g: usize| {
             let larger = self.faces[f].len() == 3 && self.faces[g].len() > 3;
@@ -408,8 +409,8 @@ impl Polygons {
         Err(EditError::Vanishes(e))
     }
 
-    /// Whether this is a manifold with the same topology as `before`, with one vertex less, `vanished` faces
-    /// less and `vanished` + 1 edges less, and no additional coincident elements.
+    /// Whether this is a manifold with the same topology as `before` and no additional coincident elements. It must
+    /// have one vertex, `vanished` faces and `vanished` + 1 edges less than `before`.
     fn has_topology_of(&self, before: &Self, vanished: usize) -> bool {
         let [mine, other] = [self, before].map(|polygons| {
             // Counts corners of a face at the same vertex, edges with the same face on both sides, and pairs of
@@ -482,7 +483,7 @@ impl Polygons {
             let after = sides(face).cycle().skip(1);
             let corners = sides(face).zip(after).filter(|&((_, at), _)| at == v);
             for ((before, _), (_, after)) in corners {
-                // The neighbors of v in this corner name the two edges.
+                // The two edges are identified by the neighbors of v in this corner.
                 let mut fan = vec![before, after];
                 fans.retain(|other| {
                     let is_joined = other.iter().any(|w| fan.contains(w));

@@ -1,4 +1,4 @@
-//! The files in `ops/` agree with the list of built-in operations.
+//! Checks that the files in `ops/` agree with the list of built-in operations.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -9,7 +9,7 @@ fn list(folder: PathBuf) -> impl Iterator<Item = PathBuf> {
     entries.map(|entry| entry.expect("the folder can be listed").path())
 }
 
-/// Returns the operation names that the files of all groups stand for, each with its file.
+/// Returns the names of the operations that the files of all groups define, each with its file.
 fn files() -> BTreeMap<String, PathBuf> {
     list(crate::root().join("ops"))
         .flat_map(|group| list(group.join("src")))

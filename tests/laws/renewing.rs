@@ -44,14 +44,15 @@ fn updating_restores_changed_numbers_of_every_recipe() {
     assert!(n_changed > 50, "only {n_changed} numbers were changed");
 }
 
-/// Returns the number with a different last digit.
+/// Returns `number` with a different last digit.
 fn with_other_digit(number: &str) -> String {
     let (rest, last) = number.split_at(number.len() - 1);
     let digit: u8 = last.parse().expect("a number ends with a digit");
     format!("{rest}{}", (digit + 3) % 10)
 }
 
-/// Collects the spans of the integers recorded in expectations. Skips numbers that come from a parameter.
+/// Collects the spans of the integers that are recorded in expectations. Numbers that come from a parameter are
+/// skipped.
 fn collect_recorded(items: &[Value], numbers: &mut Vec<Span>) {
     for item in items {
         if item.name().is_none() {

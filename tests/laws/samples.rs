@@ -1,4 +1,4 @@
-//! The steps with which all properties are tested: the example of each operation, and the steps below.
+//! The steps with which general properties are tested. They are the example of each operation, and the steps below.
 
 use op::{Entry, Registry};
 use proptest::collection::vec;
@@ -9,7 +9,7 @@ use ron_tree::{Lexer, ValueKind};
 const MORE_STEPS: &[&str] = &[
     r#"Load(path: "curve.bzc", name: "new")"#,
     r#"Load(path: "bunny.obj", non_manifold: Refuse)"#,
-    // A bow-tie vertex, which is split, and a point without a face.
+    // These polygons have a bow-tie vertex, which is split, and a point without a face.
     r#"Polygons(name: "new", points: [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (-1, 0, 0),
         (-1, -1, 0)], faces: [[0, 1, 2], [0, 4, 5]])"#,
     r#"Polygons(name: "new", points: [(0, 0, 0)], faces: [[0, 1, 2]])"#,
@@ -178,8 +178,8 @@ const MORE_STEPS: &[&str] = &[
     r#"Transfer(from: "mesh", attributes: ["uv"], within: 0.1)"#,
 ];
 
-/// Returns operations with samples of their parameters, such as `(levels: 2)`. Most of them work on an existing
-/// mesh.
+/// Returns operations with samples of their parameters, such as `(levels: 2)`. Most of these operations need an
+/// existing mesh.
 pub(crate) fn samples(registry: &Registry) -> Vec<(&Entry, &'static str)> {
     let examples = registry.entries().iter().map(|entry| entry.example);
     examples
@@ -216,7 +216,8 @@ fn every_example_is_a_step_of_its_operation() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 4000, ..ProptestConfig::default() })]
 
-    /// The syntax tree and `ron` read the same step from a sample or a slightly changed sample, or both fail.
+    /// Checks that the recipe parser and the crate `ron` read the same step from a sample or a slightly changed sample,
+    /// or both fail.
     #[test]
     fn samples_are_read_as_ron_reads_them(
         at in any::<Index>(),

@@ -1,4 +1,4 @@
-//! The schemas of operations and recipes are strict and documented, and agree with the reader.
+//! Checks that the schemas of operations and recipes are strict, have documentation, and agree with the reader.
 
 use jsonschema::Validator;
 use recipe::{Diagnostic, Parameter};
@@ -7,7 +7,7 @@ use serde_json::Value as Json;
 use crate::samples::samples;
 use crate::{assert_none, recipes};
 
-/// Calls `visit` with each schema below this one and its path.
+/// Calls `visit` with each schema inside of this schema, and its path.
 fn walk<'s>(schema: &'s Json, path: &str, visit: &mut impl FnMut(&'s Json, &str)) {
     visit(schema, path);
     match schema {
@@ -38,7 +38,7 @@ fn no_object_in_a_schema_allows_unknown_fields() {
     let schema = recipe::schema(&ops_all::registry());
     let mut failures = Vec::new();
     walk(&schema, "", &mut |schema, path| {
-        // A field can be named `properties` too. Then its value is a schema, with a description.
+        // A field can also have the name `properties`. In this case, its value is a schema with a description.
         let is_object = schema["type"] == "object" && schema["properties"].is_object();
         if is_object && schema["additionalProperties"] != false {
             failures.push(format!("{path}: needs deny_unknown_fields"));
@@ -61,7 +61,7 @@ fn every_parameter_and_every_variant_has_a_description() {
         if is_choice && !has_text(schema) {
             failures.push(format!("{path}: a variant without a doc comment"));
         }
-        // schemars lists variants like this if they have no doc comments.
+        // The crate `schemars` lists variants in this form if they have no doc comments.
         if schema["type"] == "string" && schema["enum"].is_array() {
             failures.push(format!("{path}: variants without doc comments"));
         }
@@ -91,7 +91,7 @@ fn unknown_fields_are_errors_at_every_level() {
     let mut failures = Vec::new();
     for (entry, sample) in samples(&registry) {
         for (at, _) in sample.match_indices('(') {
-            // Skips parentheses of tuples, which have no fields.
+            // Parentheses of tuples are skipped, because tuples have no fields.
             let inside = &sample[at + 1..];
             let mut name = inside.split(':').next().expect("a first part").chars();
             let is_empty = inside.starts_with(')');
@@ -172,7 +172,7 @@ fn every_sample_fits_the_schema() {
     assert_none(&failures);
 }
 
-/// A recipe with one of everything.
+/// A recipe with one example of each kind of part.
 const VALID: &str = r#"(
     recipe: 1,
     about: "a bit of everything",

@@ -1,5 +1,5 @@
-//! Compares the crate `subdivision` with Pixar's OpenSubdiv on the cases in `tests/oracle/`.
-//! `tests/oracle/README.md` describes the files.
+//! Compares the crate `subdivision` with Pixar's OpenSubdiv on the cases in `tests/oracle/`. The file
+//! `tests/oracle/README.md` describes the format of the cases.
 
 mod case;
 
@@ -11,11 +11,12 @@ use subdivision::{Rules, Scheme, subdivide};
 
 use case::{Lines, case, folder, mesh_of, parse, point, result, rules_of};
 
-/// The tolerance for equal numbers: the results have seven digits, and OpenSubdiv's sharpness is `f32`.
+/// The tolerance for equal numbers. It is necessary because the results have seven digits, and OpenSubdiv stores
+/// sharpness as `f32`.
 const TOLERANCE: f64 = 1e-6;
 
-/// Returns for each vertex of `mesh` the nearest position in `expected`. Fails unless all pairs are within the
-/// tolerance and each position is used once.
+/// Finds the nearest position in `expected` for each vertex of `mesh`. Fails if a distance exceeds the tolerance, or a
+/// position is used twice.
 fn matched(mesh: &Mesh, expected: &[DVec3], tolerance: f64) -> Result<Vec<VertexId>, String> {
     if mesh.n_vertices() != expected.len() {
         let n = mesh.n_vertices();
@@ -105,9 +106,9 @@ fn faces_differ(mesh: &Mesh, partners: &[VertexId], expected: &Lines) -> Vec<Str
     failures
 }
 
-/// Describes the differences between the sharpness of `mesh` and the expected sharpness. Skips boundary edges,
-/// and vertices that the boundary rule makes corners, because OpenSubdiv includes the rule in its sharpness
-/// values.
+/// Describes the differences between the sharpness of `mesh` and the expected sharpness. Boundary edges, and vertices
+/// that are corners because of the boundary rule, are skipped, because the sharpness values of OpenSubdiv include this
+/// rule.
 fn sharpness_differs(mesh: &Mesh, partners: &[VertexId], expected: &Lines) -> Vec<String> {
     let creases: BTreeMap<[VertexId; 2], f64> = expected
         .creases()
@@ -177,7 +178,7 @@ fn compared(mesh: &Mesh, expected: &Lines, tolerance: f64) -> Vec<String> {
 }
 
 /// Describes the differences between the limit surface at the vertices of a refined mesh and the expected limit
-/// surface. Only compares values for which OpenSubdiv uses exact limit masks: the positions of all vertices
+/// surface. Compares only values for which OpenSubdiv uses exact limit masks. These are the positions of all vertices
 /// except darts, and the normals of smooth vertices, of regular boundary vertices and of corners with one face.
 fn limits_differ(mesh: &Mesh, rules: Rules, expected: &Lines, tolerance: f64) -> Vec<String> {
     let partners =
@@ -269,22 +270,23 @@ fn assert_positions(case: &str, expected_values: &[([f64; 3], usize)]) {
 
 #[test]
 fn the_stored_results_of_small_meshes_equal_those_computed_by_hand() {
-    // Loop: an old vertex of valence 3 has the weight 7/16 and each neighbor 3/16; the neighbors of p sum to
-    // -p. On an edge each end has the weight 3/8 and each of the two other vertices 1/8.
+    // With Loop subdivision, an old vertex p of valence 3 has the weight 7/16, and each neighbor the weight 3/16. The
+    // sum of the neighbors is -p. For the new vertex on an edge, each end has the weight 3/8, and each of the two
+    // opposite vertices the weight 1/8.
     let quarter = [0.0, 0.0, 0.25];
     assert_positions(
         "known_tetrahedron",
         &[(quarter, 3), ([0.25; 3], 1), ([0.0, 0.25, 0.25], 6)],
     );
-    // Catmull-Clark: the vertex has the weight 1/3, and each neighbor and each face 1/9; the three neighbors
-    // sum to p, and so do the three faces.
+    // With Catmull-Clark subdivision, an old vertex p of the cube has the weight 1/3, and each neighbor and each face
+    // point the weight 1/9. The sum of the three neighbors is p, and so is the sum of the three face points.
     let [near, corner, far] = [[0.0, 0.0, 1.0], [5.0 / 9.0; 3], [0.0, 0.75, 0.75]];
     assert_positions("known_cube", &[(near, 6), (corner, 8), (far, 12)]);
-    // With sharpness 1/2, positions are halfway between those of the smooth rules and those of the sharp rules. The
-    // sharp rules keep corners and midpoints.
+    // With sharpness 1/2, each position is halfway between the results of the smooth rule and the sharp rule. The sharp
+    // rule keeps corners, and puts new vertices at the midpoints of edges.
     let [corner, far] = [[7.0 / 9.0; 3], [0.0, 0.875, 0.875]];
     assert_positions("known_sharp_cube", &[(near, 6), (corner, 8), (far, 12)]);
-    // On a boundary without corners the weights are 3/4 and twice 1/8.
+    // On a boundary without corners, a vertex has the weight 3/4, and its two neighbors have the weight 1/8.
     let [corner, far] = [[0.0, 0.75, 0.75], [0.0, 0.0, 1.0]];
     assert_positions("known_square", &[([0.0; 3], 1), (corner, 4), (far, 4)]);
     // The uvs of the square are the positions of its corners, and `CornersOnly` keeps them.

@@ -45,8 +45,8 @@ pub(super) fn compare(normal: DVec3, [a, b, c]: [DVec3; 3]) -> Side {
             Side::Opposite
         };
     }
-    // If the facet is a sliver, the normals are not compared: the corners are rounded to 24 bits, and rounding alone
-    // can cause the area.
+    // If the facet is a sliver, the normals are not compared. The corners are rounded to 24 bits, and the area can be a
+    // result of this rounding.
     let size = a.abs().max(b.abs()).max(c.abs()).max_element();
     let longest = (b - a).length_squared().max((c - a).length_squared());
     let rounding = 4.0 / f64::from(1 << 24) * size;

@@ -105,8 +105,8 @@ impl Scene {
         instances
     }
 
-    /// Returns the scene without nodes: each instance is an object with points in scene space. Cameras, lights, skins and
-    /// animations are left out.
+    /// Returns the scene without nodes: each instance is an object with points in scene space. Cameras, lights, skins
+    /// and animations are left out.
     pub fn placed(&self) -> Cow<'_, Self> {
         if self.graph().is_empty() {
             return Cow::Borrowed(self);

@@ -35,7 +35,8 @@ impl Repairs {
 ///
 /// # Errors
 ///
-/// If an accessor is invalid, or refers to a joint that the skin does not have. `here` is the location of the primitive.
+/// If an accessor is invalid, or refers to a joint that the skin does not have. `here` is the location of the
+/// primitive.
 pub(super) fn joints(
     reader: &Reader,
     primitive: &Primitive,

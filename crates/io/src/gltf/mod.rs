@@ -8,8 +8,8 @@
 //!                    `- primitive
 //! ```
 //!
-//! Each mesh that a node shows becomes an object in its own space, and the nodes become the graph of the scene. The parts
-//! of a file become:
+//! Each mesh that a node shows becomes an object in its own space, and the nodes become the graph of the scene. The
+//! parts of a file become:
 //!
 //! | glTF | in the scene |
 //! | --- | --- |
@@ -66,8 +66,8 @@
 //! - vertices at exactly the same position are merged, unless their weights or deltas differ,
 //! - each vertex has at most four joints, or as many as in the file that was read,
 //! - normals are normalized, and colors are clamped to 0 to 1,
-//! - isolated vertices, empty meshes, tangents of vertices, tangents without normals, integers, tags, texture coordinates after a gap in
-//!   their numbers, and attributes of edges and faces (except `material`) are lost.
+//! - isolated vertices, empty meshes, tangents of vertices, tangents without normals, integers, tags, texture
+//!   coordinates after a gap in their numbers, and attributes of edges and faces (except `material`) are lost.
 //!
 //! If [`WriteOptions`](crate::WriteOptions) asks for it, arrays are quantized (`quantize`) and compressed (`compress`).
 //!

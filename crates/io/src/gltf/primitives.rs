@@ -29,8 +29,8 @@ const SMALL: u64 = 16;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Triangles {
     pub(super) positions: Vec<DVec3>,
-    /// Corner attributes with one value for each vertex, and the vertex attributes that deform the mesh. The v coordinate
-    /// of textures points upwards.
+    /// Corner attributes with one value for each vertex, and the vertex attributes that deform the mesh. The v
+    /// coordinate of textures points upwards.
     pub(super) attributes: Attributes,
     /// Three corners for each triangle.
     pub(super) corners: Vec<u32>,

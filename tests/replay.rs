@@ -27,7 +27,7 @@ const BUDGET: u64 = 4 << 30;
 /// The maximum planned memory peak, in bytes, of recipes that are run from every step.
 const MAX_BYTES_FROM_EVERY_STEP: u64 = 16 << 20;
 
-/// The operations that only write files. The expectations of a recipe do not depend on them.
+/// The operations that only write files. The expectations of a recipe do not depend on these operations.
 const OUTPUTS: [&str; 3] = ["CurveFigure", "Picture", "Save"];
 
 const DIGESTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/digests.txt");

@@ -59,8 +59,8 @@ fn an_operation_cancelled_at_its_first_call_changes_nothing() {
     assert_none(&failures);
 }
 
-/// The steps before the tested step in the recipes of the next test. They create an object for each name that samples
-/// use.
+/// The steps before the tested step in the recipes of the next test. These steps create an object for each name that
+/// samples use.
 const PRELUDE: &str = r#"
     Cube(name: "mesh", triangles: true),
     Octahedron(name: "other"),

@@ -98,8 +98,8 @@ fn scenes(n: usize) -> Vec<(&'static str, Scene)> {
     ]
 }
 
-/// Returns the number of rows of a square mesh of at least `n` faces. It is at least 6, so that a torus with half as
-/// many rows is possible.
+/// Returns the number of rows of a square mesh of at least `n` faces. The number of rows is at least 6, so that a torus
+/// with half as many rows is possible.
 fn side(n: usize) -> u32 {
     let is_enough = |side: &u32| side.pow(2) as usize >= n;
     (6..u32::MAX).find(is_enough).expect("ids have 32 bits")

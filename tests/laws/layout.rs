@@ -90,7 +90,7 @@ fn crates_use_only_allowed_dependencies() {
             let is_group = used.starts_with("ops-") && used != "ops-all";
             let is_allowed =
                 allowed.contains(used.as_str()) || is_group && allowed.contains("ops-*");
-            // This rule does not hold for the dependencies of tests.
+            // The dependencies of tests are not checked.
             if dependency["kind"].is_null() && !is_allowed {
                 failures.push(format!(
                     "{name} uses {used}, which is not an allowed dependency"

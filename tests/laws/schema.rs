@@ -38,7 +38,8 @@ fn no_object_in_a_schema_allows_unknown_fields() {
     let schema = recipe::schema(&ops_all::registry());
     let mut failures = Vec::new();
     walk(&schema, "", &mut |schema, path| {
-        // A field can also have the name `properties`. In this case, its value is a schema with a description.
+        // A field can also have the name `properties`. The value of a field named `properties` is a schema with a
+        // description.
         let is_object = schema["type"] == "object" && schema["properties"].is_object();
         if is_object && schema["additionalProperties"] != false {
             failures.push(format!("{path}: needs deny_unknown_fields"));
@@ -61,7 +62,7 @@ fn every_parameter_and_every_variant_has_a_description() {
         if is_choice && !has_text(schema) {
             failures.push(format!("{path}: a variant without a doc comment"));
         }
-        // The crate `schemars` lists variants in this form if they have no doc comments.
+        // The crate `schemars` writes an `enum` of strings if variants have no doc comments.
         if schema["type"] == "string" && schema["enum"].is_array() {
             failures.push(format!("{path}: variants without doc comments"));
         }

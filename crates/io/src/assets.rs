@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use store::{Store, StoreError, folder_of};
 
-/// Resolves a path that must stay inside a folder. The path must be relative and must not name a drive. It can
+/// Resolves a path that must stay inside a folder. The path must be relative and must not name a drive. The path can
 /// contain `..` if it does not leave the folder.
 ///
 /// # Errors
@@ -116,8 +116,8 @@ pub(crate) struct Assets<'a> {
     store: &'a dyn Store,
     /// The requested file.
     pub(crate) path: &'a Path,
-    /// Folders in which images are searched first, before the folder of the requested file. They are relative to that
-    /// folder.
+    /// Folders in which images are searched first, before the folder of the requested file. These folders are relative
+    /// to the folder of the requested file.
     pub(crate) image_folders: Vec<PathBuf>,
     seen: BTreeSet<FileDependency>,
 }

@@ -9,7 +9,7 @@ pub(crate) fn leading_number(text: &[u8]) -> Option<(f64, usize)> {
         [b'+' | b'-', rest @ ..] => rest,
         _ => text,
     };
-    // This check excludes words such as `nan` and `inf`.
+    // A number must start with a digit or a point, so words such as `nan` and `inf` are refused.
     matches!(unsigned, [b'0'..=b'9' | b'.', ..]).then_some(())?;
     let (x, length) = fast_float2::parse_partial::<f64, _>(text).ok()?;
     x.is_finite().then_some((x, length))

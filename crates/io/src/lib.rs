@@ -130,11 +130,11 @@ pub struct ReadOptions {
     /// Whether reading fails if anything in the file would be left out.
     pub strict: bool,
     /// Whether the copies of split vertices are marked. If the mesh is written to an `.obj`, `.ply` or `.off` file, the
-    /// copies are then merged, and the file has the same vertices as the file that was read. This option is for
-    /// conversions without edits.
+    /// copies are then merged, and the file has the same vertices as the file that was read. The option `keep_vertices`
+    /// is for conversions without edits.
     pub keep_vertices: bool,
-    /// The memory budget in bytes for content whose size does not follow from the size of the file. Such content is the
-    /// total of all images, and the decompressed content of a `.gz` file. Defaults to 4 GiB.
+    /// The memory budget in bytes for content whose size does not follow from the size of the file. This budget applies
+    /// to the total of all images, and to the decompressed content of a `.gz` file. Defaults to 4 GiB.
     pub budget: Option<u64>,
 }
 
@@ -162,7 +162,8 @@ pub struct WriteOptions {
     /// images next to the original model are copied next to the written file. OBJ files cannot embed images, so
     /// embedded images are also written to files.
     pub images: Option<Images>,
-    /// How to compress the geometry of glTF files. If `None`, it is not compressed. Other formats are refused.
+    /// How to compress the geometry of glTF files. If `None`, the geometry is not compressed. Other formats are
+    /// refused.
     pub compression: Option<Compression>,
     /// How to quantize the geometry of glTF files. If `None`, numbers have 32 bits. Other formats are refused.
     pub quantization: Option<Quantization>,
@@ -351,8 +352,8 @@ fn fail_if_left_out(path: &Path, notes: &[Note]) -> Result<(), ReadError> {
     })
 }
 
-/// Returns the objects that reading a file would give, with their counts. Uses the headers of the file if it has
-/// any.
+/// Returns the objects that reading a file would give, with their counts. If the file has headers, only the headers are
+/// read.
 ///
 /// Also returns the content that reading would leave out, as far as it is known without reading.
 ///

@@ -20,9 +20,9 @@ pub struct Note {
     pub line: Option<usize>,
     /// The number of elements, statements or other things that the note is about.
     pub count: usize,
-    /// The words that follow the count, in the plural, such as `statements 'vp' left out`. They name the things, and
-    /// say how the reader handled them. If the count is 1, [`Display`](fmt::Display) writes the first noun in the
-    /// singular.
+    /// The words that follow the count, in the plural, such as `statements 'vp' left out`. The words name the elements,
+    /// statements or other things, and say how the reader handled them. If the count is 1, [`Display`](fmt::Display)
+    /// writes the first noun in the singular.
     pub what: String,
     /// The affected elements of the file, if they are known.
     pub elements: Option<Elements>,
@@ -244,7 +244,7 @@ impl Notes {
         self.add(code, NoteKind::Changed, count, line.into(), what.into());
     }
 
-    /// Adds a note about these elements and their positions, unless there are none.
+    /// Adds a note about these elements and their positions. Adds nothing if there are no elements.
     pub(crate) fn elements(
         &mut self,
         code: &'static str,

@@ -47,7 +47,7 @@ pub struct PeekObject {
     pub geometry: PeekGeometry,
     /// The number of nodes that show the object, or 1 in a file without nodes.
     pub instances: u64,
-    /// The names of the materials of the object; `None` if they are only known after reading.
+    /// The names of the materials of the object. `None` if the names are known only after reading.
     pub materials: Option<Vec<String>>,
 }
 

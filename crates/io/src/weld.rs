@@ -41,7 +41,7 @@ fn vertices_with_faces(mesh: &Mesh) -> Vec<usize> {
     })
 }
 
-/// The positions of these vertices, rounded to 32 bits.
+/// Returns the positions of `vertices`, rounded to 32 bits.
 fn rounded_places(mesh: &Mesh, vertices: &[usize]) -> Vec<DVec3> {
     parallel::collect(vertices.len(), |i| {
         mesh.position(VertexId::new(vertices[i]))

@@ -97,12 +97,12 @@ pub(crate) fn zero_non_finite(values: &mut Values) -> usize {
 }
 
 /// The name of the vertex attribute that marks the copies of split vertices. Its value is the index of the copy minus
-/// the index of the original, and 0 for originals. It exists if
+/// the index of the original, and 0 for originals. Readers add this attribute if
 /// [`ReadOptions::keep_vertices`](crate::ReadOptions::keep_vertices) is set.
 pub(crate) const COPY_DISTANCE: &str = "distance to the original vertex";
 
-/// The vertices of a mesh without the copies of split vertices. These are the vertices of the file from which the mesh
-/// was read.
+/// The vertices of a mesh without the copies of split vertices. Without the copies, the vertices are those of the file
+/// from which the mesh was read.
 pub(crate) struct FileVertices {
     /// The vertices to write, and the number with which each vertex of the mesh is written. `None` if the mesh has no
     /// copies.

@@ -10,7 +10,7 @@ use crate::{Image, PictureError};
 /// The duration of the images of an animation, and the number of repetitions.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub struct Timing {
-    /// The duration of each image in milliseconds. In a GIF file it is rounded up to hundredths of a second.
+    /// The duration of each image in milliseconds. In a GIF file, the duration is rounded up to hundredths of a second.
     pub delay: u16,
     /// The number of times that the animation plays. 0 means that the animation repeats forever.
     pub plays: u16,
@@ -86,8 +86,8 @@ pub fn to_gif(
             width,
             height,
             delay: timing.delay.div_ceil(10),
-            // If the images have transparent pixels, each image is cleared before the next one is shown. Otherwise it
-            // would stay visible through these pixels.
+            // If the images have transparent pixels, each image is cleared before the next one is shown. Otherwise, the
+            // old image would stay visible through the transparent pixels.
             dispose: if palette.transparent().is_some() {
                 gif::DisposalMethod::Background
             } else {

@@ -34,7 +34,7 @@ pub enum Camera {
         #[serde(default)]
         steady: bool,
     },
-    /// Looks from one point to another.
+    /// Looks from one point to another point.
     LookAt {
         /// The position of the camera, `(x, y, z)`, in scene units.
         from: [f64; 3],
@@ -202,7 +202,7 @@ impl Default for Projection {
     }
 }
 
-/// The default field of view, in degrees. It is near that of a portrait lens of 80 mm on 35 mm film.
+/// The default field of view, in degrees. A portrait lens of 80 mm on 35 mm film has nearly the same field of view.
 const DEFAULT_ANGLE: f64 = 25.0;
 /// The field of view, in degrees, that determines the scale of an orthographic `LookAt`.
 const ORTHOGRAPHIC_ANGLE: f64 = 30.0;
@@ -229,7 +229,7 @@ impl Up {
 
     /// Returns the directions to the right, upwards and to the front.
     ///
-    /// `Auto` must have been replaced by [`resolved`](Self::resolved); it is treated like `Y`.
+    /// `Auto` must have been replaced by [`resolved`](Self::resolved). If not, `Auto` is treated like `Y`.
     fn axes(self) -> [DVec3; 3] {
         match self {
             Self::Y | Self::Auto => [DVec3::X, DVec3::Y, DVec3::Z],
@@ -271,11 +271,11 @@ impl Side {
 /// Pixel coordinates start at the upper left corner of the picture and grow to the right and downwards.
 #[derive(Clone, Copy, Debug)]
 pub struct View {
-    /// The directions to the right, upwards, and towards the camera. They are orthogonal unit vectors.
+    /// The directions to the right, upwards, and towards the camera. The directions are orthogonal unit vectors.
     axes: [DVec3; 3],
     /// With perspective, the position of the camera; otherwise a point that is shown in the middle of the picture.
     eye: DVec3,
-    /// The number of pixels per scene unit. With perspective, this is the number at distance 1.
+    /// The number of pixels per scene unit. With perspective, the number of pixels per scene unit at distance 1.
     scale: f64,
     is_perspective: bool,
     /// The distance of the near plane: points that are nearer to the camera are not visible. Minus infinity without
@@ -290,8 +290,8 @@ pub struct View {
 pub struct ScreenPoint {
     /// Pixels from the left and from the top of the picture.
     pub at: DVec2,
-    /// The depth. It grows with the distance from the camera. For points of a plane, it is a linear function of the
-    /// position in the picture.
+    /// The depth, which grows with the distance from the camera. For points of a plane, the depth is a linear function
+    /// of the position in the picture.
     pub depth: f64,
 }
 

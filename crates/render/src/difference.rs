@@ -10,7 +10,7 @@ use crate::{Image, PictureError};
 /// The color of pixels that differ.
 const DIFFERENT: [u8; 4] = [0xd6, 0x20, 0x28, 255];
 
-/// The contrast of the expected image is divided by this.
+/// The factor by which the contrast of the expected image is reduced.
 const FAINT: u32 = 4;
 
 /// Returns a faint gray copy of `expected` with the different pixels in red. A pixel is different if a channel differs

@@ -1,4 +1,5 @@
-//! The input of the rasterizer: triangles, lines, points and label positions. It is independent of meshes and styles.
+//! The input of the rasterizer: triangles, lines, points and label positions. The input does not depend on meshes and
+//! styles.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -96,8 +97,8 @@ pub struct Line {
     pub width: f32,
     /// Linear red, green, blue and alpha.
     pub color: [f32; 4],
-    /// The faces beside the line. They never hide the line. The numbers of faces continue from part to part;
-    /// [`NO_FACE`] means no face.
+    /// The faces beside the line. The faces beside a line never hide it. The numbers of faces continue from part to
+    /// part; [`NO_FACE`] means no face.
     pub faces: [u32; 2],
     /// The opacity of the line where a surface hides it, from 0 to 1. A hidden point is drawn as a ring.
     pub hidden: f32,

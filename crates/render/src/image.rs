@@ -109,8 +109,8 @@ impl Image {
         })
     }
 
-    /// Composites `image` over this image. `corner` is the column and the row of the top left corner of `image`, which
-    /// must be entirely inside of this image.
+    /// Composites `image` over this image. `corner` is the column and the row at which the top left corner of `image`
+    /// is placed. All of `image` must be inside of this image.
     pub fn place(&mut self, image: &Self, corner: [u64; 2]) {
         let [x, y] = corner.map(|c| usize::try_from(c).unwrap_or(usize::MAX));
         let rows = self.pixels.chunks_exact_mut(self.width as usize).skip(y);
@@ -123,8 +123,8 @@ impl Image {
 
     /// Encodes the image as a PNG file, without an alpha channel if all pixels are opaque.
     ///
-    /// Each of `texts` is a keyword of 1 to 79 Latin-1 characters and a text. They are stored in the file, for example
-    /// to record its provenance.
+    /// Each of `texts` is a keyword of 1 to 79 Latin-1 characters and a text. The texts are stored in the file, for
+    /// example to record its provenance.
     ///
     /// # Errors
     ///

@@ -1,7 +1,7 @@
 //! Renders pictures of scenes without a GPU.
 //!
-//! Everything is computed on the CPU, in parallel, and gives the same bytes on every machine and for any number
-//! of threads. The crate depends on meshes, curves and scenes, but not on operations or recipes. It reads and
+//! Everything is computed on the CPU, in parallel, and gives the same bytes on every machine and for any number of
+//! threads. The crate depends on meshes, curves and scenes, but not on operations or recipes. The crate reads and
 //! writes no files.
 //!
 //! ```text

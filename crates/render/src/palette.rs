@@ -53,7 +53,7 @@ impl Palette {
         self.transparent
     }
 
-    /// Returns the index of the nearest color. If several colors are equally near, returns the first of them.
+    /// Returns the index of the nearest color. If several colors are equally near, returns the first of these colors.
     pub fn index(&mut self, [r, g, b, a]: [u8; 4]) -> u8 {
         if let Some(transparent) = self.transparent
             && a < OPAQUE_ALPHA
@@ -70,7 +70,7 @@ impl Palette {
     }
 }
 
-/// Returns the index of the nearest color. If several colors are equally near, returns the first of them.
+/// Returns the index of the nearest color. If several colors are equally near, returns the first of these colors.
 fn nearest(colors: &[[u8; 3]], color: [u8; 3]) -> usize {
     let distance_squared = |candidate: &[u8; 3]| -> u32 {
         let squares = candidate

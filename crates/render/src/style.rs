@@ -13,8 +13,8 @@ use crate::{Color, PictureError};
 pub enum Shading {
     /// Each face has one shade.
     Flat,
-    /// Shades change smoothly across edges that are not sharp. If the mesh has normals at corners or vertices, they are
-    /// used.
+    /// Shades change smoothly across edges that are not sharp. If the mesh has normals at corners or vertices, these
+    /// normals are used.
     #[default]
     Smooth,
     /// Like `Smooth`, with highlights.

@@ -141,8 +141,8 @@ impl Texture {
         coverage
     }
 
-    /// Returns the footprint of a pixel of the picture. It is between the two mipmap levels whose pixels are closest in
-    /// size to that pixel (Williams, "Pyramidal Parametrics", 1983).
+    /// Returns the footprint of a pixel of the picture. The footprint is between the two mipmap levels whose pixels are
+    /// closest in size to the pixel of the picture (Williams, "Pyramidal Parametrics", 1983).
     fn footprint(&self, uv: DVec2, steps: [DVec2; 2]) -> Footprint {
         let (sin, cos) = libm::sincos(self.transform.rotation);
         let [sx, sy] = self.transform.scale;

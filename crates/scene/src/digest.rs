@@ -107,10 +107,10 @@ impl Scene {
 /// The text that precedes the graph in the canonical form. The form of a scene without nodes has no graph.
 pub(crate) const GRAPH: &str = "graph";
 
-/// The first text of the canonical form. It contains the version of the form.
+/// The first text of the canonical form. This text contains the version of the form.
 pub(crate) const FORM: &str = "meshwright scene 1";
-/// The marker before the other properties of a material. It is at a place where the length of a text could be. No text
-/// has this length, so the marker cannot be mistaken for a text.
+/// The marker before the other properties of a material. The marker is at a place where the length of a text could be.
+/// No text has this length, so the marker cannot be mistaken for a text.
 pub(crate) const MORE: u64 = u64::MAX;
 
 /// The name of a texture in the canonical form, and a function that returns its field of a material.
@@ -149,8 +149,8 @@ fn code<T: PartialEq>(all: &[T], value: &T) -> u32 {
         .unwrap_or(0)
 }
 
-/// Returns the named numbers of a material. These are all numeric properties except base color, metalness and
-/// roughness, which are always written.
+/// Returns the named numbers of a material. The named numbers are all numeric properties except base color, metalness
+/// and roughness, which are always written.
 fn named_numbers(m: &Material) -> [(&'static str, Vec<f64>); 7] {
     let flag = |is: bool| vec![f64::from(u8::from(is))];
     let alpha = match m.alpha {

@@ -52,7 +52,7 @@ pub struct Object {
 /// The shape of an object.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Geometry {
-    /// A mesh. It is shared until it is changed, so that copying a scene is cheap.
+    /// A mesh. The mesh is shared until it is changed, so that copying a scene is cheap.
     Mesh(Arc<Mesh>),
     /// Bicubic Bezier patches.
     Patches(Vec<Patch>),
@@ -181,7 +181,8 @@ impl Scene {
         Ok(self.graph_mut().append(graph))
     }
 
-    /// Removes an object and returns it. Its nodes are removed, unless they have children, a camera or a light.
+    /// Removes an object and returns it. The nodes that show the object are removed, unless they have children, a
+    /// camera or a light.
     pub fn remove(&mut self, name: &str) -> Option<Object> {
         let index = self.objects.iter().position(|o| o.name == name)?;
         self.unplace(name);
@@ -196,8 +197,8 @@ impl Scene {
         }
     }
 
-    /// Renames an object. If a node or the mesh of the object has the same name, it is renamed too. The object keeps
-    /// its position in the list. Returns whether the object exists.
+    /// Renames an object. A node or mesh of the object with the same name is renamed too. The object keeps its position
+    /// in the list. Returns whether the object exists.
     ///
     /// # Errors
     ///

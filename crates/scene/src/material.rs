@@ -151,7 +151,7 @@ pub enum Image {
         /// The content of the image file.
         bytes: Arc<[u8]>,
     },
-    /// The bytes of an image file. They are shared, so that copying a material is cheap.
+    /// The bytes of an image file. The bytes are shared, so that copying a material is cheap.
     Embedded {
         /// The media type, such as `image/png`.
         mime: String,

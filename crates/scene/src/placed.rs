@@ -16,10 +16,10 @@ use crate::{Geometry, Object, Pose, Scene};
 pub struct Instance<'s> {
     /// The object.
     pub object: &'s Object,
-    /// A name that is unique among all instances. If the object has one instance, this is the name of the object.
-    /// Otherwise it is the name of the node, followed by a number if necessary.
+    /// A name that is unique among all instances. If the object has one instance, the name of the instance is the name
+    /// of the object. Otherwise, the name of the instance is the name of the node, followed by a number if necessary.
     pub name: String,
-    /// The map from the space of the object to the scene. For a skinned mesh, this is the map of its first joint.
+    /// The map from the space of the object to the scene. For a skinned mesh, the map of the first joint.
     pub to_scene: DAffine3,
     /// The deformation of the object.
     pub pose: Pose,
@@ -133,7 +133,7 @@ impl Scene {
 ///
 /// Normals are multiplied by the cofactor matrix of the map, which is its inverse transpose times its determinant
 /// (Turkowski, "Properties of Surface-Normal Transformations", 1990). The determinant of a reflection is negative and
-/// so negates the normals; reversing the faces negates them again.
+/// so negates the normals. Reversing the faces negates the normals again.
 pub fn transformed(mesh: &Mesh, map: &DAffine3) -> Mesh {
     let is_mirror = map.matrix3.determinant() < 0.0;
     let map = LinearMap::of(map);

@@ -20,7 +20,7 @@ pub fn changed_faces(mesh: &Mesh, other: Option<&Mesh>) -> Vec<bool> {
     changed
 }
 
-/// Returns a hash of the corner positions of a face. It does not depend on the corner at which the face starts.
+/// Returns a hash of the corner positions of a face. The hash does not depend on the corner at which the face starts.
 fn fingerprint(mesh: &Mesh, f: FaceId) -> u64 {
     let mut corners: Vec<[u64; 3]> = (mesh.face_vertices(f))
         .map(|v| bits(mesh.position(v)))

@@ -17,7 +17,7 @@ use crate::viewpoint::{Target, clear_direction};
 
 /// The size of each of the two views, in pixels.
 const SIZE: [u32; 2] = [720, 540];
-/// The color of surfaces, which is pale so that marks are visible on it.
+/// The color of surfaces. It is pale, so that marks are visible on surfaces.
 const SURFACE: Color = Color::rgb(0xcf, 0xd8, 0xe3);
 /// The color of the locations of errors.
 const ERROR: Color = Color::rgb(0xd6, 0x20, 0x28);
@@ -259,8 +259,8 @@ pub(crate) fn bits(p: DVec3) -> [u64; 3] {
     (p + DVec3::ZERO).to_array().map(f64::to_bits)
 }
 
-/// Returns the preferred direction towards the camera. This direction is between the normal of the surface and the
-/// default view.
+/// Returns the preferred direction towards the camera. The preferred direction is between the normal of the surface and
+/// the default view.
 fn preferred_direction(normal: DVec3, locations: &[ErrorLocation], center: DVec3) -> DVec3 {
     let default = DVec3::new(0.5, 0.4, 1.0).normalize();
     let middle = locations

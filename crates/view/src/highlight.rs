@@ -13,7 +13,7 @@ const VERTEX_DIAMETER: f64 = 13.0;
 /// The exponent for smaller pictures: the width of edges is proportional to the shorter side raised to this exponent.
 /// If the width were proportional to the shorter side itself, edges in small pictures would be too thin to see.
 const EDGE_POWER: f64 = 0.25;
-/// The power for the diameter of vertices. It is used like `EDGE_POWER` for the width of edges.
+/// The power for the diameter of vertices. `VERTEX_POWER` is used like `EDGE_POWER` for the width of edges.
 const VERTEX_POWER: f64 = 0.4;
 
 /// The opacity of hidden edges.
@@ -32,8 +32,8 @@ fn scaled(length: f64, power: f64, size: [u32; 2]) -> f64 {
     }
 }
 
-/// Returns the maximum diameter of `n` dots in pixels. It is chosen so that the dots cover at most 15 % of a picture,
-/// but is at least 2.5 pixels.
+/// Returns the maximum diameter of `n` dots in pixels. With this diameter, the dots cover at most 15 % of a picture.
+/// The diameter is at least 2.5 pixels, even if the dots then cover more.
 fn max_diameter(n: usize, [width, height]: [u32; 2]) -> f64 {
     #[expect(
         clippy::cast_precision_loss,

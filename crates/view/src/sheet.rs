@@ -149,7 +149,7 @@ pub fn sheet_size(
 /// # Errors
 ///
 /// [`PictureError::Size`] like [`sheet_size`]; [`PictureError::Budget`] if the sheet needs more than `budget` bytes.
-/// Both conditions are checked before memory is allocated.
+/// The sizes are checked before memory is allocated.
 pub fn sheet(cells: &[Cell], style: &SheetStyle, budget: u64) -> Result<Image, PictureError> {
     sheet_with_headings(cells, Headings::default(), style, budget)
 }

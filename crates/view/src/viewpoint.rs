@@ -123,7 +123,7 @@ fn triangle_distance([a, b, c]: [DVec3; 3], from: DVec3, direction: DVec3) -> f6
     let q = offset.cross(ab);
     let v = direction.dot(q) * inverse;
     let t = ac.dot(q) * inverse;
-    // For a triangle without area or seen edge-on, these numbers are NaN, and the condition is false.
+    // For a triangle that has no area or is seen edge-on, the numbers are NaN, and the condition is false.
     if u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 {
         t
     } else {
@@ -205,7 +205,7 @@ mod tests {
                 .for_each(|p| *p = *p * size + center);
             mesh
         };
-        // A large cube around the point, and a small one in front of it.
+        // The scene has a large cube around the point, and a small cube in front of the point.
         let mut scene = scene(cube(10.0, DVec3::ZERO));
         let small = Object::mesh("small", cube(0.4, DVec3::Z));
         scene.insert(small).unwrap();

@@ -11,8 +11,8 @@ use subdivision::{Rules, Scheme, subdivide};
 
 use case::{Lines, case, folder, mesh_of, parse, point, result, rules_of};
 
-/// The tolerance for equal numbers. It is necessary because the results have seven digits, and OpenSubdiv stores
-/// sharpness as `f32`.
+/// The tolerance for equal numbers. The tolerance is necessary because the results have seven digits, and OpenSubdiv
+/// stores sharpness as `f32`.
 const TOLERANCE: f64 = 1e-6;
 
 /// Finds the nearest position in `expected` for each vertex of `mesh`. Fails if a distance exceeds the tolerance, or a
@@ -178,8 +178,9 @@ fn compared(mesh: &Mesh, expected: &Lines, tolerance: f64) -> Vec<String> {
 }
 
 /// Describes the differences between the limit surface at the vertices of a refined mesh and the expected limit
-/// surface. Compares only values for which OpenSubdiv uses exact limit masks. These are the positions of all vertices
-/// except darts, and the normals of smooth vertices, of regular boundary vertices and of corners with one face.
+/// surface. Compares only values for which OpenSubdiv uses exact limit masks. The compared values are the positions of
+/// all vertices except darts, and the normals of smooth vertices, of regular boundary vertices and of corners with one
+/// face.
 fn limits_differ(mesh: &Mesh, rules: Rules, expected: &Lines, tolerance: f64) -> Vec<String> {
     let partners =
         matched(mesh, &expected.positions(), tolerance).expect("the meshes were compared before");
@@ -289,7 +290,7 @@ fn the_stored_results_of_small_meshes_equal_those_computed_by_hand() {
     // On a boundary without corners, a vertex has the weight 3/4, and its two neighbors have the weight 1/8.
     let [corner, far] = [[0.0, 0.75, 0.75], [0.0, 0.0, 1.0]];
     assert_positions("known_square", &[([0.0; 3], 1), (corner, 4), (far, 4)]);
-    // The uvs of the square are the positions of its corners, and `CornersOnly` keeps them.
+    // The uvs of the square are the positions of its corners, and the rule `CornersOnly` keeps these uvs.
     let corners = result("known_square").uvs();
     let unchanged = corners.iter().filter(|uv| uv.abs() == DVec2::ONE);
     assert_eq!(unchanged.count(), 4);

@@ -1,17 +1,17 @@
 //! The approximate costs in bytes of the parts of a file, for its memory budget.
 
-/// The memory budget of a file is this multiple of its size in bytes, but at least [`MIN_BUDGET`].
+/// The memory budget of a file is its size in bytes times this factor, but at least [`MIN_BUDGET`].
 pub(super) const BUDGET_FACTOR: usize = 64;
 /// The smallest memory budget of a file, in bytes.
 pub(super) const MIN_BUDGET: usize = 1 << 24;
-/// The approximate size of an object without faces. The sizes of a material, the binding of a material, a vertex, a
-/// corner, and an additional value of a corner follow.
+/// The approximate size of an object without faces. The constants below are the sizes of a material, the binding of a
+/// material, a vertex, a corner, and an additional value of a corner.
 pub(super) const OBJECT: usize = 1000;
 pub(super) const MATERIAL: usize = 1000;
 pub(super) const BOUND: usize = 50;
 pub(super) const VERTEX: usize = 64;
 pub(super) const CORNER: usize = 48;
 pub(super) const VALUE: usize = 24;
-/// The cost of reading a number. If a number is read several times, each time counts. This cost limits time rather than
-/// memory.
+/// The cost of reading a number. If a number is read several times, each time counts. The cost of numbers limits time
+/// rather than memory.
 pub(super) const NUMBER: usize = 20;

@@ -25,7 +25,7 @@ pub(super) struct Surface<'a> {
     pub(super) polygons: Polygons,
     /// The material symbols of the polygons, in order of first occurrence.
     pub(super) symbols: Vec<&'a str>,
-    /// For each polygon, the index of its symbol, or -1 if it has none.
+    /// For each polygon, the index of its symbol, or -1 if the polygon has no symbol.
     pub(super) symbol_of: Vec<i32>,
 }
 
@@ -88,7 +88,7 @@ impl<'a, 'd> Geometries<'a, 'd> {
         Self { document, sources }
     }
 
-    /// Reads the polygons of a geometry; `None` if it has none.
+    /// Reads the polygons of a geometry. Returns `None` if the geometry has no polygons.
     ///
     /// # Errors
     ///

@@ -120,7 +120,7 @@ fn read_effect<'a>(document: &Document<'a>, effect: Node<'a>) -> Result<Material
 /// Returns the opacity of a shader, from 0 to 1, or `None` if the shader does not declare an opacity.
 ///
 /// COLLADA 1.4.1, "Determining transparency": `A_ONE` uses the alpha of the transparent color. `RGB_ZERO` uses 1 minus
-/// the luminance of the transparent color. Both numbers are multiplied by the transparency.
+/// the luminance of the transparent color. Each of these numbers is multiplied by the transparency of the effect.
 fn opacity(scope: &Scope, shader: Node) -> Result<Option<f64>, Fault> {
     let transparent = child(shader, "transparent");
     let transparency = match child(shader, "transparency") {

@@ -143,7 +143,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         Ok(())
     }
 
-    /// Pushes the nodes below `node` on the stack. The first of them is on top.
+    /// Pushes the nodes below `node` on the stack. The first node is on top of the stack.
     fn open_children(
         &mut self,
         node: Node<'a>,
@@ -246,8 +246,8 @@ impl<'a, 'd> Walk<'a, 'd> {
         Ok(materials)
     }
 
-    /// Returns the transform of a node relative to its parent. It is the product of the transform elements of the node,
-    /// in the order of the file from left to right.
+    /// Returns the transform of a node relative to its parent. The transform is the product of the transform elements
+    /// of the node, in the order of the file from left to right.
     fn transform(&mut self, node: Node<'a>) -> Result<DAffine3, Fault> {
         if let Some(known) = self.transforms.get(&number_of(node)) {
             return Ok(*known);

@@ -22,7 +22,7 @@ impl Reader<'_> {
     ///
     /// # Errors
     ///
-    /// If the accessor does not exist. `pointer` is the location that refers to it.
+    /// If the accessor does not exist. `pointer` is the location that refers to the accessor.
     pub(super) fn count(&self, index: usize, pointer: &str) -> Result<u64, Fault> {
         Ok(self.accessor(index, pointer)?.count.0)
     }

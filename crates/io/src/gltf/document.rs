@@ -60,8 +60,7 @@ pub(super) struct Document {
     pub(super) animations: Vec<AnimationJson>,
     pub(super) cameras: Vec<Json>,
     pub(super) lights: Vec<Json>,
-    /// The other parts of the file that are kept, with the names that [`Graph::document`](scene::Graph::document) gives
-    /// them.
+    /// The parts of the file for [`Graph::document`](scene::Graph::document), by name.
     pub(super) kept: BTreeMap<String, String>,
     /// The root nodes of the scene.
     pub(super) roots: Vec<usize>,
@@ -111,7 +110,7 @@ impl Document {
     }
 }
 
-/// Returns the part at `index`, or an error at `pointer`, the location that refers to it.
+/// Returns the part at `index`. `pointer` is the location that refers to this part, for errors.
 ///
 /// # Errors
 ///

@@ -6,9 +6,9 @@
 //!                 attributes: the numbers of the attributes in the stream
 //! ```
 //!
-//! The crate `draco-core` decodes streams into additional buffers, with a buffer view for each accessor. The rest of
-//! the reader then finds uncompressed data. If a file also has uncompressed data, that data is read instead of the
-//! stream.
+//! The crate `draco-core` decodes streams into additional buffers, with a buffer view for each accessor. After that,
+//! the other modules of the reader find uncompressed data. If a file also has uncompressed data, that data is read
+//! instead of the stream.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;

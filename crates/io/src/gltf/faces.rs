@@ -13,8 +13,8 @@ use crate::parallel;
 /// Triangles in the order of the faces.
 pub(super) struct Faces {
     pub(super) n_triangles: usize,
-    /// The corners of the triangles, as vertices of glTF; `None` if the mesh has only triangles and all of them have
-    /// the same material.
+    /// The corners of the triangles, as vertices of glTF. `None` if the mesh has only triangles, and all faces have the
+    /// same material.
     pub(super) corners: Option<Vec<u32>>,
 }
 

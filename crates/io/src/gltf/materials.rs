@@ -232,7 +232,8 @@ fn to_sampler(from: &SamplerJson, here: &str) -> Result<Sampler, Fault> {
     })
 }
 
-/// Returns the transform of a texture. Also returns the set of texture coordinates if the extension overrides it.
+/// Returns the transform of a texture. If the extension overrides the set of texture coordinates, also returns this
+/// set.
 fn transform(
     extensions: &Extensions,
     here: &str,

@@ -21,8 +21,8 @@ use crate::fault::Fault;
 use crate::note::Notes;
 use crate::parallel;
 
-/// The cost in bytes of looking for an attribute that a primitive does not have. This cost limits time rather than
-/// memory.
+/// The cost in bytes of looking for an attribute that a primitive does not have. The cost of missing attributes limits
+/// time rather than memory.
 const SMALL: u64 = 16;
 
 /// All primitives of a mesh. A vertex on a seam is stored once for each side of the seam, as in glTF.
@@ -230,7 +230,7 @@ impl Triangles {
             let what = "the weights of joints and the morph targets of all primitives need too much memory";
             return Err(Fault::json(here.to_owned(), what));
         }
-        // If only other primitives have an attribute, the attribute is zero at these vertices.
+        // If only other primitives have an attribute, its values are zero at the vertices of this primitive.
         for column in self.attributes.of(Domain::Corner) {
             if own.column(Domain::Corner, &column.name).is_none() {
                 let zeros = n * column.values.bytes_per_value();

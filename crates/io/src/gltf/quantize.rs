@@ -6,9 +6,9 @@
 //! ```
 //!
 //! The positions of an object are rounded to points of a grid. An additional node, the node of the grid, has the mesh
-//! and maps the grid to the space of the object. It is a child of each node that shows the object, so the other nodes
-//! do not change. If no node shows the object, only the node of the grid is written. The scale of the grid is the same
-//! along all axes, so normals keep their directions.
+//! and maps the grid to the space of the object. The node of the grid is a child of each node that shows the object, so
+//! the other nodes do not change. If no node shows the object, only the node of the grid is written. The scale of the
+//! grid is the same along all axes, so normals keep their directions.
 //!
 //! Normals are rounded on an octahedron, like the filter of compressed files does. Therefore compressing a quantized
 //! file does not change its content.
@@ -78,8 +78,8 @@ impl<'a> Quantizer<'a> {
         }
     }
 
-    /// Quantizes the positions of an object, and returns them with their bounds. Adds a loss if positions become
-    /// equal. Returns `None` if positions are not quantized.
+    /// Quantizes the positions of an object. Returns the quantized positions and their bounds. Adds a loss if positions
+    /// become equal. Returns `None` if positions are not quantized.
     pub(super) fn positions(
         &mut self,
         prepared: &'a PreparedObject<'a>,
@@ -144,7 +144,7 @@ impl<'a> Quantizer<'a> {
         Some((integers, bounds))
     }
 
-    /// Quantizes an attribute. Returns `None` if it is not quantized.
+    /// Quantizes an attribute. Returns `None` if the attribute is not quantized.
     pub(super) fn stream(
         &mut self,
         prepared: &PreparedObject,
@@ -341,7 +341,7 @@ impl Grid {
     }
 }
 
-/// Rounds numbers from 0 to 1, and returns them with the largest error.
+/// Rounds numbers from 0 to 1. Returns the rounded numbers and the largest error.
 fn fractions(prepared: &PreparedObject, stream: &Stream, bits: Bits) -> (Integers, f64) {
     let PreparedObject { mesh, split, .. } = prepared;
     let (size, largest) = if bits.is_byte() {
@@ -406,8 +406,8 @@ fn octahedral(v: DVec3, bits: Bits) -> [i16; 3] {
 }
 
 /// Returns an upper bound for the factor by which a map stretches lengths. The bound is exact for a rotation with a
-/// scale for each axis. It follows from the fact that the largest eigenvalue of a matrix is at most the largest sum of
-/// absolute values in a row.
+/// scale for each axis. The bound follows from the fact that the largest eigenvalue of a matrix is at most the largest
+/// sum of absolute values in a row.
 fn stretch(map: &DAffine3) -> f64 {
     let m = map.matrix3;
     let square = m.transpose() * m;

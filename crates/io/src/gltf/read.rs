@@ -74,8 +74,8 @@ fn objects(
     let deformers = Deformers::of_meshes(document);
     let mut rig = RigReader::new(reader);
     let placed = std::mem::take(&mut nodes.meshes);
-    // The number of remaining uses of each mesh. The last object that uses a mesh takes its arrays instead of
-    // copying them.
+    // The number of remaining uses of each mesh. The last object that uses a mesh takes the arrays of the mesh instead
+    // of copying them.
     let mut uses = BTreeMap::new();
     for placed in &placed {
         *uses.entry(placed.mesh).or_insert(0) += 1;
@@ -212,8 +212,8 @@ fn cost_of_material(material: &Material) -> usize {
     size_of::<Material>() + material.name.len() + paths.map(str::len).sum::<usize>()
 }
 
-/// Builds polygons from a mesh. Vertices along the seams of glTF are merged. If the pose has joints, it places the
-/// polygons. Otherwise, `to_scene` places them.
+/// Builds polygons from a mesh. Vertices along the seams of glTF are merged. If the pose has joints, the joints place
+/// the polygons. Otherwise, `to_scene` places them.
 fn polygons(
     triangles: Triangles,
     places: &BTreeMap<usize, i32>,

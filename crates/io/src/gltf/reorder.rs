@@ -166,7 +166,7 @@ mod tests {
         let n = 100_u32;
         let mut corners = Vec::new();
         for i in 0..n * n {
-            // This visits every square once, because 7919 and the number of squares have no common factor.
+            // The loop visits every square once, because 7919 and the number of squares have no common factor.
             let square = i * 7919 % (n * n);
             let v = square / n * (n + 1) + square % n;
             corners.extend([v, v + 1, v + n + 2, v, v + n + 2, v + n + 1]);

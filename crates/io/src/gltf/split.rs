@@ -9,12 +9,12 @@ use super::streams::Stream;
 use crate::loss::Losses;
 use crate::parallel::{self, BLOCK};
 
-/// The maximum number of corners around its vertex with which a corner is compared, the latest corners first. With this
-/// limit, the time for a vertex with a million corners stays linear. If a vertex has more distinct corners, equal
-/// corners can become two vertices.
+/// The maximum number of comparisons for a corner. A corner is compared with the other corners around its vertex, the
+/// latest first. With this limit, the time for a vertex with a million corners stays linear. If a vertex has more
+/// distinct corners, equal corners can become two vertices.
 const MAX_COMPARED: usize = 64;
 
-/// The vertices of glTF. They have the order of the vertices of the mesh, unless they are reordered.
+/// The vertices of glTF. Unless they are reordered, vertices of glTF are in the order of the vertices of the mesh.
 pub(super) struct Split {
     /// The number of vertices.
     pub(super) n: usize,

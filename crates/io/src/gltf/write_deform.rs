@@ -19,7 +19,7 @@ pub(super) struct Deformation<'a> {
     joints: Vec<u16>,
     /// The weights of `joints`, which add up to 1 at each vertex.
     weights: Vec<f32>,
-    /// The deltas of each morph target; `None` if they are all 0.
+    /// The deltas of each morph target. `None` if all deltas of the target are 0.
     pub(super) morphs: Vec<Option<&'a [DVec3]>>,
 }
 
@@ -126,7 +126,7 @@ impl<'a> Deformation<'a> {
         self.joints.iter().all(|&joint| joint < 256)
     }
 
-    /// The delta of a morph target at a vertex of the mesh. Zero if it is not finite.
+    /// Returns the delta of a morph target at a vertex of the mesh, or zero if the delta is not finite.
     pub(super) fn delta(&self, target: usize, v: usize) -> [f32; 3] {
         let delta = self.morphs[target]
             .map_or(DVec3::ZERO, |deltas| deltas[v])
@@ -178,7 +178,7 @@ impl Bound {
         let n = own.len();
         own.retain(|(_, weight)| *weight > 0.0 && weight.is_finite());
         self.invalid += usize::from(own.len() < n && is_used);
-        // Weights that are 0 in 32 bits have no effect and are removed.
+        // Weights that become 0 when they are rounded to 32 bits have no effect and are removed.
         own.retain(|(_, weight)| *weight as f32 > 0.0);
         own.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
         self.truncated += usize::from(own.len() > most && is_used);

@@ -331,8 +331,8 @@ impl<'a> Writer<'a> {
 
     fn indices(&mut self, prepared: &'a PreparedObject<'a>, faces: &'a Faces) -> usize {
         let PreparedObject { mesh, split, .. } = prepared;
-        // The largest number of each type is not used as an index, because graphics cards interpret it as the start of
-        // a new primitive.
+        // The largest number of each type is not used as an index, because graphics cards interpret this number as the
+        // start of a new primitive.
         let short = u16::try_from(split.n).is_ok();
         let component = if short {
             ComponentType::U16
@@ -347,7 +347,7 @@ impl<'a> Writer<'a> {
         self.accessor(view, count, component, Type::Scalar)
     }
 
-    /// Adds a view after all other views. It begins at a multiple of 4 bytes.
+    /// Adds a view after all other views. The view begins at a multiple of 4 bytes.
     pub(super) fn view(
         &mut self,
         length: usize,

@@ -20,7 +20,8 @@ pub(super) struct NodeList {
     pub(super) lights: Vec<Value>,
     pub(super) skins: Vec<Value>,
     pub(super) animations: Vec<Value>,
-    /// The other parts of the document that are kept. Each entry is the name of a part, and its members.
+    /// The parts of the document that come from [`Graph::document`](scene::Graph::document). Each entry is the name of
+    /// a part, and its members.
     pub(super) kept: Vec<(String, Map<String, Value>)>,
 }
 

@@ -37,7 +37,7 @@ fn parse_in_parts(bytes: &[u8], size: usize) -> Result<ObjFile, Fault> {
     }
 }
 
-/// Parses a file as a whole. This function is called if parsing in parts fails, usually to find the exact error.
+/// Parses a file as a whole. The file is parsed as a whole if parsing in parts fails, usually to find the exact error.
 fn parse_whole(bytes: &[u8]) -> Result<Part, Fault> {
     let part = read_whole(bytes, Limits::Start)?;
     if fits(std::slice::from_ref(&part)) {
@@ -50,7 +50,8 @@ fn parse_whole(bytes: &[u8]) -> Result<Part, Fault> {
     read_whole(bytes, Limits::Whole(counts))
 }
 
-/// Returns the error for the first unknown statement, if the file has no vertices. Such a file is not an OBJ file.
+/// Returns the error for the first unknown statement, if the file has no vertices. A file with unknown statements and
+/// without vertices is not an OBJ file.
 fn first_unknown(file: &ObjFile) -> Option<Fault> {
     let unknown = |(what, &(_, line)): (&LeftOut, &(usize, usize))| match what {
         LeftOut::Unknown(word) => Some((line, word.clone())),

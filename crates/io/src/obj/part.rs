@@ -108,8 +108,8 @@ impl Part {
     }
 }
 
-/// The groups, object, material and smoothing group of consecutive faces. Each is `None` if this part of the file does
-/// not set it.
+/// The groups, object, material and smoothing group of consecutive faces. A field is `None` if this part of the file
+/// does not set it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct PartRun {
     pub(super) first_face: usize,

@@ -29,7 +29,8 @@ pub(super) fn read_part(bytes: &[u8], is_first: bool) -> Result<Part, Fault> {
     Parser::new(cursor, Limits::Part).run()
 }
 
-/// Parses the statements of a whole file in order. This is slower than parsing in parts, but errors are exact.
+/// Parses the statements of a whole file in order. Parsing in order is slower than parsing in parts, but errors are
+/// exact.
 ///
 /// # Errors
 ///

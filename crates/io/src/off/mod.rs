@@ -15,8 +15,8 @@
 //!
 //! The letters can be combined, as in `STCNOFF`. A line then has position, normal, color and texture coordinates, in
 //! this order. The keyword can be missing. If all color components of a file are integers, and at least one is greater
-//! than 1, all components are divided by 255. Otherwise, they are used as they are. Binary files are refused, and so
-//! are files with a different number of coordinates (`4OFF`, `nOFF`).
+//! than 1, all components are divided by 255. Otherwise, the components are used as they are. Binary files are refused,
+//! and so are files with a different number of coordinates (`4OFF`, `nOFF`).
 //!
 //! The writer uses the same table in the other direction. Texture coordinates are only written if they agree around
 //! each vertex.

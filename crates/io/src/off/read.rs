@@ -9,7 +9,7 @@ use crate::note::Notes;
 use crate::peek::PeekMesh;
 use crate::text::{Cursor, TextPosition, check_encoding, number, parsed};
 
-/// The face attribute for indices into a color map.
+/// The name of the face attribute that stores indices into a color map.
 pub(super) const COLOR_INDEX: &str = "color_index";
 
 /// The color of faces without a color, if other faces have one.
@@ -190,7 +190,7 @@ fn numbers<const N: usize>(words: Words) -> Result<[f64; N], Fault> {
     Ok(numbers)
 }
 
-/// The colors of a file. After all colors are read, they are scaled.
+/// The colors of a file. The colors are scaled after all of them are read.
 #[derive(Default)]
 struct Colors {
     /// The color and, if given, the alpha of each element; `None` for a face without a color.

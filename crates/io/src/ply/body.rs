@@ -225,7 +225,8 @@ fn push_value(
     word: &[u8],
 ) -> Result<i64, Fault> {
     if kind.is_float() {
-        // Non-finite values are accepted here. The code that uses the value decides whether they are allowed.
+        // Non-finite values are accepted here. The code that uses a value decides whether non-finite values are
+        // allowed.
         let x = if is_not_finite(word) {
             f64::NAN
         } else {

@@ -72,7 +72,7 @@ pub(super) enum Source<'a> {
 }
 
 /// Decodes the values of `kind` in a table. If a list does not have the right number of values for the corners of its
-/// face, these corners get zero. Returns the values and the number of such faces.
+/// face, the corners of this face get zero. Returns the values and the number of such faces.
 pub(super) fn values(table: &Table, source: Source, kind: Kind) -> (Values, usize) {
     #[expect(
         clippy::cast_possible_truncation,

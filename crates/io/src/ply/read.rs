@@ -24,7 +24,7 @@ use crate::{Polygons, parallel};
 /// # Errors
 ///
 /// The first position that breaks the rules of the format. In a text and in the header, the position is a line and a
-/// column. In binary values, it is a byte.
+/// column. In binary values, the position is a byte.
 pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
     let header = parse(bytes)?;
     let roles = Roles::of(&header)?;

@@ -141,7 +141,7 @@ fn set_tags(polygons: &mut Polygons, solids: &[(String, Range<usize>)], notes: &
 ///
 /// # Errors
 ///
-/// If a binary file is shorter than it declares.
+/// If a binary file is shorter than its declared number of triangles requires.
 pub(crate) fn peek(bytes: &[u8], notes: &mut Notes) -> Result<PeekMesh, Fault> {
     let n = match kind(bytes)? {
         Kind::Text => text::count(bytes),

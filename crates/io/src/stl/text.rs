@@ -59,7 +59,7 @@ fn solid(cursor: &mut Cursor, found: &mut Facets) -> Result<(), Fault> {
     }
 }
 
-/// Reads a normal. Some programs write `nan` for the normal of a facet without area. In this case, the result is zero.
+/// Reads a normal. Some programs write `nan` for the normal of a facet without area. For `nan`, the normal is zero.
 fn normal(cursor: &mut Cursor) -> Result<DVec3, Fault> {
     let mut normal = DVec3::ZERO;
     for i in 0..3 {

@@ -47,8 +47,8 @@ fn asset() -> Value {
     json
 }
 
-/// Returns a form of the document that does not depend on the order and the numbers of its parts. It is the tree of the
-/// nodes, with all parts to which the nodes refer.
+/// Returns a form of the document that does not depend on the order and the numbers of its parts. The result is the
+/// tree of the nodes, with all parts to which the nodes refer.
 fn canonical(json: &Value) -> Value {
     fn node_tree(json: &Value, i: &Value) -> Value {
         let mut node = json["nodes"][index(i)].clone();

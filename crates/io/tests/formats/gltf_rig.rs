@@ -1,4 +1,5 @@
-//! Tests of skins, morph targets and animations of glTF files. A file that is read and written again keeps them.
+//! Tests of skins, morph targets and animations of glTF files. A file that is read and written again keeps its skins,
+//! morph targets and animations.
 
 use glam::{DAffine3, DVec3, Mat4};
 use mesh::{joint_name, morph_name};
@@ -397,7 +398,7 @@ fn weights_and_deltas_become_vertex_attributes() {
     assert_eq!(names, expected);
 }
 
-/// Returns the posed points. They are computed directly from the definition in the specification.
+/// Returns the posed points. The posed points are computed directly from the definition in the specification.
 fn posed_by_hand(scene: &Scene, turn: &DAffine3) -> Vec<DVec3> {
     let mesh = scene.objects()[0].as_mesh().unwrap();
     let at = |x: f64, y: f64| DAffine3::from_translation(DVec3::new(x, y, 0.0));

@@ -64,7 +64,7 @@ impl Builder<'_, '_> {
         Ok(())
     }
 
-    /// Adds the edges of a tessellated surface. This must happen before the faces of the surface are added.
+    /// Adds the edges of a tessellated surface. The edges must be added before the faces of the surface.
     fn grid(&mut self, surface: &Tessellation, lines: &Lines) {
         let mut edges: BTreeMap<[u32; 2], [u32; 2]> = BTreeMap::new();
         for (f, corners) in (self.n_faces..).zip(surface.faces()) {
@@ -114,7 +114,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Returns the color of lines. If the style does not set the color, lines are darker than surfaces, so that they
+    /// Returns the color of lines. If the style does not set the color, lines are darker than surfaces, so that lines
     /// are visible on white.
     fn line_color(&self, color: Color) -> [f32; 4] {
         let [r, g, b, a] = color.linear();

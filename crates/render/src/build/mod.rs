@@ -23,7 +23,7 @@ pub struct Overlays {
     pub highlights: Vec<Highlight>,
     /// Numbers that are shown as colors, with at most one coloring for each object.
     pub colorings: Vec<Coloring>,
-    /// Lines and dots that belong to no element. They are drawn on top of all other lines and dots.
+    /// Lines and dots that belong to no element. Strokes are drawn on top of all other lines and dots.
     pub strokes: Vec<Stroke>,
     /// Texts at points of the scene.
     pub labels: Vec<Label>,
@@ -125,8 +125,8 @@ pub const PALETTE: [Color; 6] = [
 
 /// Converts a scene to a drawing. Returns the drawing, and a message for each texture that cannot be drawn.
 ///
-/// `images` returns the bytes of an image file for its path in a material. If it returns `None`, or the bytes are not a
-/// PNG or JPEG file, the surface is drawn without this texture, and a message gives the path and the reason.
+/// `images` returns the bytes of an image file for its path in a material. If `images` returns `None`, or the bytes are
+/// not a PNG or JPEG file, the surface is drawn without this texture, and a message gives the path and the reason.
 ///
 /// The drawing uses these properties of materials: base color and alpha with their texture, roughness, emission, and
 /// `unlit`.

@@ -42,7 +42,7 @@ fn a_fitted_camera_shows_all_points_inside_its_margins() {
                 let seen = view.screen_point(p).unwrap();
                 (min, max) = (min.min(seen.at), max.max(seen.at));
             });
-            // In one direction, the points touch both margins. In the other direction, they stay inside of both
+            // In one direction, the points touch both margins. In the other direction, the points stay inside of both
             // margins.
             let margin = DVec2::new(20.0, 10.0);
             let (low, high) = (min - margin, DVec2::new(200.0, 100.0) - margin - max);

@@ -109,7 +109,7 @@ fn is_visible(face_normal: DVec3, direction: DVec3) -> bool {
 struct Frame {
     /// The directions to the right and upwards in the figure.
     axes: [DVec3; 2],
-    /// The middle of the faces. Positions are relative to it.
+    /// The middle of the faces. Positions are relative to the middle.
     middle: DVec3,
     /// The number of pixels per scene unit.
     scale: f64,

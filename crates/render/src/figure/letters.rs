@@ -167,8 +167,8 @@ fn clusters(text: &Text) -> Vec<Cluster> {
     clusters
 }
 
-/// Whether a character that no font has is invisible and has no width. This is true for characters that join or
-/// separate other characters, or set the direction or variant of other characters.
+/// Whether a character that no font has is invisible and has no width. Invisible characters join or separate other
+/// characters, or set the direction or variant of other characters.
 fn is_invisible(c: char) -> bool {
     matches!(c, '\u{ad}' | '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{206f}'
         | '\u{fe00}'..='\u{fe0f}' | '\u{feff}')
@@ -242,7 +242,7 @@ impl Typeface {
     }
 
     /// Returns the offset of an accent on a letter that can already have accents. If the font defines a position on the
-    /// last of these accents, the new accent is placed there. Otherwise, it is placed on the letter.
+    /// last of these accents, the new accent is placed there. Otherwise, the accent is placed on the letter.
     fn mark_offset(&self, letter: &Cluster, mark: GlyphId) -> [i32; 2] {
         let (base, _) = letter.glyphs[0];
         let (last, [x, y]) = letter.glyphs[letter.glyphs.len() - 1];

@@ -1,7 +1,7 @@
 //! Writes SVG documents: shapes, texts and groups, in pixels from the top left corner.
 //!
-//! Documents use only features that look the same in all programs and give the same pixels on every processor. They
-//! have no gradients, arcs, filters or style sheets. Coordinates have three decimals.
+//! Documents use only features that look the same in all programs and give the same pixels on every processor.
+//! Documents have no gradients, arcs, filters or style sheets. Coordinates have three decimals.
 
 use glam::DVec2;
 
@@ -152,8 +152,8 @@ pub struct Text {
     pub size: f64,
     /// The color.
     pub color: Color,
-    /// The color and the width, in pixels, of an outline behind the letters, which makes them readable on any
-    /// background.
+    /// The color and the width, in pixels, of an outline behind the letters. The outline makes the letters readable on
+    /// any background.
     pub halo: Option<(Color, f64)>,
     /// The point of the text that is at its position.
     pub anchor: Anchor,

@@ -21,7 +21,7 @@ use crate::{PictureError, View};
 const MAX_CHUNKS: usize = 32;
 /// The minimum number of items in a chunk. The last chunk of a part can have fewer items.
 const MIN_CHUNK: usize = 1 << 15;
-/// The maximum number of tiles that an item touches if it is in the lists of single tiles.
+/// The maximum number of tiles that an item in the lists of single tiles can touch.
 const MAX_LISTED_TILES: usize = 64;
 /// The lists of a chunk have at most `EXTRA_ENTRIES` entries, plus this number of entries for each item of the chunk.
 const ENTRIES_PER_ITEM: usize = 8;
@@ -47,8 +47,8 @@ fn n_tiles([left, top, right, bottom]: TileRect) -> usize {
     (right - left) as usize * (bottom - top) as usize
 }
 
-/// Returns the maximum number of tiles that an item touches if it is in the lists of single tiles. An item that touches
-/// more tiles is in the list that all tiles read, so that the size of the lists is bounded.
+/// Returns the maximum number of tiles that an item in the lists of single tiles can touch. An item that touches more
+/// tiles is in the list that all tiles read, so that the size of the lists is bounded.
 fn max_listed_tiles(items: &[(u32, TileRect)]) -> usize {
     let mut entries = [0; MAX_LISTED_TILES + 1];
     for &(_, rect) in items {

@@ -44,7 +44,7 @@ struct Map {
     /// The directions in which columns, rows, and depth increase.
     axes: [Vec3; 3],
     /// For each texel, the largest depth in the direction of the map and the largest depth in the opposite direction.
-    /// The latter is the negative of the smallest depth.
+    /// The largest depth in the opposite direction is the negative of the smallest depth.
     depths: Vec<[f32; 2]>,
 }
 
@@ -143,8 +143,8 @@ impl Occlusion {
             let (column, row) = (x as usize, y as usize);
             let (s, t) = (x - column as f32, y - row as f32);
             let index = row * self.side + column;
-            // Behind the stored depth, visibility decreases linearly over 6 texels of depth. It is interpolated between
-            // four texels.
+            // Behind the stored depth, visibility decreases linearly over 6 texels of depth. Visibility is interpolated
+            // between four texels.
             let (side, depth) = if cosine > 0.0 {
                 (0, depth)
             } else {

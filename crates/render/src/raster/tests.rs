@@ -49,7 +49,7 @@ fn plain() -> Look {
 
 /// Returns the view of an orthographic camera in front of the plane z = 0, whose picture is `height` units high.
 fn front_view(height: f64, size: [u32; 2]) -> View {
-    // At this distance, an orthographic `LookAt` is `height` units high, as its documentation says.
+    // At this distance, the picture of an orthographic `LookAt` is `height` units high, as documented there.
     let distance = 0.5 * height / libm::tan(15.0_f64.to_radians());
     let camera = Camera::LookAt {
         from: [0.0, 0.0, distance],
@@ -446,7 +446,7 @@ fn a_line_is_hidden_behind_a_surface_and_visible_on_it() {
         let light = |p: &[u8; 4]| 1.0 - f64::from(to_linear(p[0]));
         picture.image.pixels.iter().map(light).sum::<f64>()
     };
-    // On the surface and in front of it, the line is visible in its full width, although the surface is slanted.
+    // The line is visible in its full width if it is on the slanted surface or in front of the surface.
     let visible = with_line(0.5, 0.0);
     assert!(visible > 300.0, "{visible}");
     assert_eq!(with_line(0.0, 0.0), visible);
@@ -617,8 +617,8 @@ fn degenerate_drawings_are_rendered() {
     let drawings = [
         Drawing::default(),
         dot,
-        // The first three triangles have collapsed to a point or a line, or are seen edge-on. The others are very
-        // large, huge, very small, or far from the origin.
+        // The first three triangles are a point, a line, and a triangle that is seen edge-on. The other triangles are
+        // very large, huge, very small, or far from the origin.
         drawing(vec![part(vec![DVec3::ZERO; 3], vec![[0, 1, 2]], WHITE)]),
         drawing(vec![part(
             vec![p(0., 0., 0.), p(1., 0., 0.), p(2., 0., 0.)],

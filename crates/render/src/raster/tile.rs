@@ -2,8 +2,8 @@
 //!
 //! A pixel has 16 samples, one in each of 16 rows and columns (n-rooks: Shirley, "Discrepancy as a Quality Measure for
 //! Sample Distributions", 1991). This arrangement was found by a search over edges of all directions that cut a pixel.
-//! Of all tested arrangements, it has the smallest difference between the fraction of covered samples and the exact
-//! covered area.
+//! Of all tested arrangements, this one has the smallest difference between the fraction of covered samples and the
+//! exact covered area.
 
 use std::ops::{Add, BitOr, Mul, Sub};
 
@@ -84,9 +84,9 @@ impl Tile {
         ((y - self.top) * TILE + (x - self.left)) as usize
     }
 
-    /// Draws a triangle. At each sample that the triangle covers, it replaces the current triangle if it is nearer to
-    /// the camera. At the same depth, the triangle with the lower index is visible. Only samples whose bit is set in
-    /// `mask` can be covered.
+    /// Draws a triangle. At each sample that the triangle covers, the triangle replaces the current triangle of the
+    /// sample, if it is nearer to the camera. At the same depth, the triangle with the lower index is visible. Only
+    /// samples whose bit is set in `mask` can be covered.
     pub(super) fn draw(&mut self, id: u32, projected: &ProjectedTriangle, mask: u16) {
         let Some(setup) = Setup::new(projected, self) else {
             return;
@@ -270,10 +270,10 @@ impl Setup {
         };
         let [x0, x1] = axis(0, tile.left, tile.right)?;
         let [y0, y1] = axis(1, tile.top, tile.bottom)?;
-        // The edge function of the edge from s to t is the cross product of t - s and (x, y) - s. It is twice the
-        // signed area of the triangle that the edge forms with the point (x, y). The area is positive if the triangle
-        // is clockwise, because y points downwards. A sample exactly on an edge belongs to the triangle below or to the
-        // right of the edge.
+        // The edge function of the edge from s to t is the cross product of t - s and (x, y) - s. The value of the edge
+        // function is twice the signed area of the triangle that the edge forms with the point (x, y). The area is
+        // positive if the triangle is clockwise, because y points downwards. A sample exactly on an edge belongs to the
+        // triangle below or to the right of the edge.
         let edge = |s: [i64; 2], t: [i64; 2]| {
             let (a, b) = (s[1] - t[1], t[0] - s[0]);
             let c = -(a * s[0] + b * s[1]);

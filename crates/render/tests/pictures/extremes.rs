@@ -33,7 +33,7 @@ fn draw(mesh: Mesh, camera: &Camera, style: &Style, size: [u32; 2]) -> Image {
 
 /// Returns an orthographic camera in front of the scene, whose picture is `height` units high.
 fn front(height: f64) -> Camera {
-    // At this distance, an orthographic `LookAt` is `height` units high, as its documentation says.
+    // At this distance, the picture of an orthographic `LookAt` is `height` units high, as documented there.
     let distance = 0.5 * height / libm::tan(15.0_f64.to_radians());
     Camera::LookAt {
         from: [0.0, 0.0, distance],
@@ -156,8 +156,8 @@ fn scaling_a_scene_does_not_change_its_picture() {
                 let mean = difference(&draw_scaled(scale), &unscaled);
                 assert!(mean < 0.2, "{shading:?}, {scale:e}: {mean}");
             }
-            // Depths are `f32`. If they are out of the range of `f32`, rendering must not fail, but the picture is not
-            // checked.
+            // Depths are `f32`. If depths are out of the range of `f32`, rendering must not fail, but the picture is
+            // not checked.
             for scale in [1e-300, 1e-70, 1e70, 1e300] {
                 assert_eq!(draw_scaled(scale).pixels.len(), unscaled.pixels.len());
             }

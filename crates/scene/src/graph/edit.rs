@@ -33,8 +33,8 @@ impl Graph {
         self.retain_channels(|c| c.property != AnimatedProperty::Weights || shows[c.node]);
     }
 
-    /// Renames an object. If a node or the mesh has the old name, it gets the new name. If no node has the old name,
-    /// the mesh always gets the new name.
+    /// Renames an object. A node or mesh with the old name gets the new name. If no node has the old name, the mesh
+    /// always gets the new name.
     pub(crate) fn rename_object(&mut self, from: &str, to: &str) {
         let mut is_named = false;
         for node in &mut self.nodes {
@@ -145,7 +145,7 @@ impl Graph {
         left_out
     }
 
-    /// Returns the part of the graph that shows the objects that `is_wanted` accepts. It has the nodes of these
+    /// Returns the part of the graph that shows the objects that `is_wanted` accepts. This part has the nodes of the
     /// objects, the joints of their skins, the ancestors of all these nodes, and their animations. The parts of the
     /// document are kept; cameras and lights are not.
     pub(crate) fn only(&self, is_wanted: impl Fn(&str) -> bool) -> Self {

@@ -11,7 +11,7 @@ pub enum Placement {
     Parts {
         /// The translation along x, y and z.
         translation: [f64; 3],
-        /// The rotation as a quaternion x, y, z, w. It is normalized where it is used.
+        /// The rotation as a quaternion x, y, z, w. The quaternion is normalized when it is used.
         rotation: [f64; 4],
         /// The scale along x, y and z.
         scale: [f64; 3],

@@ -16,7 +16,7 @@ pub struct Skin {
     /// The nodes that are the joints.
     pub joints: Vec<usize>,
     /// The index of the inverse bind matrices in [`Graph::arrays`]: 16 numbers for each joint, column by column. `None`
-    /// if all of them are the identity.
+    /// if all inverse bind matrices are the identity.
     pub inverse_bind_matrices: Option<usize>,
     /// The node that is the root of the joints, for programs that need it.
     pub skeleton: Option<usize>,

@@ -1,5 +1,5 @@
-//! The canonical form of skins, morph weights and animations. It follows after the other parts of a graph. A graph
-//! without skins, morph weights and animations has the same form as in earlier versions, which had none of them.
+//! The canonical form of skins, morph weights and animations. These parts follow after the other parts of a graph. A
+//! graph without skins, morph weights and animations has the same form as in earlier versions, which had none of them.
 
 use super::rig::{AnimatedProperty, Animation, AnimationSampler, Channel, Interpolation, Skin};
 use super::{Graph, MeshLabel};

@@ -3,7 +3,7 @@
 use super::triangles::Recent;
 
 /// The table at the end of each stream, with the pairs of 4-bit values to which a code can refer. A stream can have any
-/// pairs. These pairs are frequent (`kCodeAuxEncodingTable` of meshoptimizer).
+/// pairs. This table has pairs that are frequent (`kCodeAuxEncodingTable` of meshoptimizer).
 const PAIRS: [u8; 16] = [
     0x00, 0x76, 0x87, 0x56, 0x67, 0x78, 0xa9, 0x86, 0x65, 0x89, 0x68, 0x98, 0x01, 0x69, 0, 0,
 ];

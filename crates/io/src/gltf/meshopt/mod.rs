@@ -7,9 +7,9 @@
 //!                 filter: NONE, OCTAHEDRAL, QUATERNION, EXPONENTIAL or COLOR
 //! ```
 //!
-//! Both extensions are read the same way. The second extension adds version 1 of the attribute codec and the color
-//! filter. Source: Kapoulkine et al., "`KHR_meshopt_compression`", Khronos Group, 2025, appendix A for the codecs and
-//! appendix B for the filters.
+//! The two extensions are read in the same way. The second extension adds version 1 of the attribute codec and the
+//! color filter. Source: Kapoulkine et al., "`KHR_meshopt_compression`", Khronos Group, 2025, appendix A for the codecs
+//! and appendix B for the filters.
 
 mod attributes;
 mod encode_attributes;
@@ -95,8 +95,8 @@ pub(super) fn pointer(view: usize, extension: &str) -> String {
 }
 
 /// Returns a flag for each buffer, which is true if the reader never reads the buffer. The reader does not read a
-/// buffer that is declared as a fallback. It also does not read a buffer that only the uncompressed ranges of
-/// compressed views refer to.
+/// buffer that is declared as a fallback. The reader also does not read a buffer to which only the uncompressed ranges
+/// of compressed views refer.
 pub(super) fn fallbacks(
     buffers: &[Value],
     views: &[View],

@@ -13,7 +13,8 @@ use scene::{AlphaMode, Geometry, Image, Material, Object, Texture};
 
 use super::flat::{Key, key};
 
-/// A row of the table. It has a name, the expected difference if a format does not store the feature, and a scene.
+/// A row of the table. A row has a name, a scene with a feature, and the expected difference if a format does not store
+/// the feature.
 pub(super) struct Feature {
     pub(super) name: &'static str,
     pub(super) key: Key,

@@ -77,8 +77,8 @@ impl Frame {
         self.position + DVec2::new(q.x, -q.y)
     }
 
-    /// Maps a curve to the figure by mapping its control points. This is exact because the map is affine, and Bezier
-    /// curves are affinely invariant.
+    /// Maps a curve to the figure by mapping its control points. The result is exact, because the map is affine, and
+    /// Bezier curves are affinely invariant.
     pub(super) fn curve(&self, curve: &Curve<DVec2>) -> Curve<DVec2> {
         let points = curve.points().iter().map(|&p| self.map(p)).collect();
         Curve::new(points).expect("the number of points is the same, and mapped points are finite")

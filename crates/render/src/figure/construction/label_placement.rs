@@ -55,8 +55,8 @@ impl LabelPlacement {
         best.1
     }
 
-    /// Returns the cost of a label at a position. It is the length of the lines that the label hides, in pixels. Hidden
-    /// points, hidden labels, and a position that is partly outside of the visible area cost more.
+    /// Returns the cost of a label at a position. The cost is the length of the lines that the label hides, in pixels.
+    /// Hidden points, hidden labels, and a position that is partly outside of the visible area cost more.
     fn cost(&self, middle: DVec2, half: DVec2) -> f64 {
         let padded = half + DVec2::splat(2.0);
         let segments = self.segments.iter();

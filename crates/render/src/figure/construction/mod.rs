@@ -127,7 +127,8 @@ fn point_name() -> Vec<Run> {
     ]
 }
 
-/// Returns the scale of line widths and letters in a panel of this width. It is 1 for panels of at least 440 pixels.
+/// Returns the scale of line widths and letters in a panel of this width. The scale is 1 for panels that are at least
+/// 440 pixels wide.
 fn zoom(panel_width: f64) -> f64 {
     (panel_width / 440.0).clamp(0.62, 1.0)
 }
@@ -141,10 +142,10 @@ const TITLE: f64 = 30.0;
 /// The minimum width of the drawing in a panel, in pixels.
 const MIN_DRAWING_WIDTH: f64 = 32.0;
 
-/// Draws a figure of these panels. They are arranged in rows, from left to right.
+/// Draws a figure of these panels. The panels are arranged in rows, from left to right.
 ///
 /// Each curve and its construction fill their panel, with the same scale in both axes. If all control points of a curve
-/// are equal, it is drawn as a point.
+/// are equal, the curve is drawn as a point.
 ///
 /// # Errors
 ///

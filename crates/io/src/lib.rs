@@ -352,8 +352,8 @@ fn fail_if_left_out(path: &Path, notes: &[Note]) -> Result<(), ReadError> {
     })
 }
 
-/// Returns the objects that reading a file would give, with their counts. If the file has headers, only the headers are
-/// read.
+/// Returns the objects that reading a file would give, with their counts. If the file has headers, the counts come from
+/// the headers.
 ///
 /// Also returns the content that reading would leave out, as far as it is known without reading.
 ///

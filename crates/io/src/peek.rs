@@ -121,7 +121,7 @@ impl PeekGeometry {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[expect(
     clippy::struct_excessive_bools,
-    reason = "attributes do not depend on each other"
+    reason = "the flags are independent of each other"
 )]
 pub struct PeekMesh {
     /// The number of vertices.

@@ -279,12 +279,18 @@ impl Keys {
 }
 
 /// Returns the index in an entry.
-#[expect(clippy::cast_possible_truncation, reason = "only the low half is used")]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the index is in the lower half"
+)]
 fn low(entry: u64) -> u32 {
     entry as u32
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "only the low half is used")]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the index is in the lower half"
+)]
 fn low_half(product: u128) -> u64 {
     product as u64
 }

@@ -133,7 +133,7 @@ pub fn to_srgb(light: f32) -> u8 {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "from 0 to 1; NaN becomes 0"
+        reason = "the number is from 0 to 1, and NaN becomes 0"
     )]
     TABLE[(light * STEPS as f32 + 0.5) as usize]
 }
@@ -148,7 +148,7 @@ pub(crate) fn byte(value: f32) -> u8 {
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
-    reason = "the purpose of this function"
+    reason = "the function truncates numbers"
 )]
 pub(crate) fn whole(value: f64) -> usize {
     value as usize
@@ -158,7 +158,7 @@ pub(crate) fn whole(value: f64) -> usize {
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
-    reason = "the purpose of this function"
+    reason = "the function truncates numbers"
 )]
 pub(crate) fn whole_u32(value: f64) -> u32 {
     value as u32
@@ -167,7 +167,7 @@ pub(crate) fn whole_u32(value: f64) -> u32 {
 /// Rounds a number to the nearest `f32`.
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "the purpose of this function"
+    reason = "the function rounds numbers"
 )]
 pub(crate) fn narrow(value: f64) -> f32 {
     value as f32

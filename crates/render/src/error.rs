@@ -42,7 +42,7 @@ pub enum PictureError {
     Unreadable {
         /// The index of the file, 0 or 1.
         file: usize,
-        /// Why the file cannot be read.
+        /// The reason why the file cannot be read.
         why: String,
     },
     /// An image cannot be encoded.

@@ -37,7 +37,7 @@ fn scaled(length: f64, power: f64, size: [u32; 2]) -> f64 {
 fn max_diameter(n: usize, [width, height]: [u32; 2]) -> f64 {
     #[expect(
         clippy::cast_precision_loss,
-        reason = "an area per dot needs no precision"
+        reason = "the area of a dot need not be exact"
     )]
     let area = 0.15 * f64::from(width) * f64::from(height) / n.max(1) as f64;
     area.sqrt().max(2.5)

@@ -102,7 +102,7 @@ impl Layout {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
-            reason = "at most the width of an image"
+            reason = "the number is at most the width of an image"
         )]
         let heading_width = match headings.rows {
             [] => 0,
@@ -237,7 +237,7 @@ pub fn notice(
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "at most the height of an image"
+        reason = "the number is at most the height of an image"
     )]
     let max_lines = (f64::from(height) / (1.5 * size)).max(1.0) as usize;
     if lines.len() > max_lines {

@@ -15,7 +15,7 @@ use super::sources::{Vectors, vectors};
 use crate::Polygons;
 use crate::fault::Fault;
 
-/// The largest number of sets of texture coordinates that are read.
+/// The maximum number of sets of texture coordinates.
 const MAX_UV_SETS: usize = 8;
 
 /// The polygons of a geometry in its local coordinates.
@@ -197,7 +197,7 @@ impl<'a, 'd> Geometries<'a, 'd> {
                 _ => {
                     let what = (
                         "inputs",
-                        "inputs left out: other than normals, colors and texture coordinates, or repeated",
+                        "inputs left out: repeated, or not normals, colors or texture coordinates",
                     );
                     self.document.left_out(1, input, what);
                 }

@@ -82,8 +82,7 @@ pub(super) fn placed<'a>(
     Ok(placed)
 }
 
-/// Traverses the nodes of a scene with an explicit stack, because nodes can be nested as deeply as the file is
-/// long.
+/// Traverses the nodes of a scene with an explicit stack, because nodes can be nested very deeply.
 struct Walk<'a, 'd> {
     document: &'d Document<'a>,
     /// The number of elements that can still be visited. The number is limited because, with instances, a small file

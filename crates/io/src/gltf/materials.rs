@@ -257,7 +257,10 @@ fn unit(x: f64) -> f64 {
 
 /// Rounds a number to 32 bits, clamped to the 32-bit range. Returns the shortest decimal number that has this 32-bit
 /// value.
-#[expect(clippy::cast_possible_truncation, reason = "that is the purpose")]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "rounding to 32 bits is intended"
+)]
 pub(super) fn rounded(x: f64) -> f64 {
     let x = (x as f32).clamp(f32::MIN, f32::MAX);
     // The conversion to text and back keeps, for example, 0.8 as 0.8.

@@ -130,7 +130,7 @@ impl<'a> Quantizer<'a> {
         }
         let merged = weld::n_merged_as(mesh, |p| DVec3::from(grid.steps(p, bits).map(f64::from)));
         let merged = merged.saturating_sub(weld::n_merged(mesh));
-        let reason = "quantized to the position of another vertex, with which readers merge them";
+        let reason = "quantized to the position of another vertex, so readers merge these vertices";
         losses.add(Domain::Vertex, "position", merged, reason);
         self.grids.insert(name, Grid { error, ..grid });
         self.uses_extension = true;
@@ -164,7 +164,7 @@ impl<'a> Quantizer<'a> {
                     (0.0..=1.0).contains(&x) && (0.0..=1.0).contains(&y)
                 });
                 if !is_inside {
-                    let reason = "coordinates outside of 0 to 1".to_owned();
+                    let reason = "coordinates are outside of the range from 0 to 1".to_owned();
                     let name = prepared.object.name.clone();
                     let what = (name, stream.column.name.clone(), reason);
                     self.report.unquantized.push(what);

@@ -147,15 +147,18 @@ impl Stream<'_> {
     /// Describes how values that glTF does not allow are changed, for a loss.
     pub(super) fn change(&self) -> &'static str {
         match self.meaning {
-            Meaning::Normal => "without a direction, written as the normal of the face",
-            Meaning::Tangent => "without a direction or with a sign other than 1 or -1, changed",
-            Meaning::Color => "outside of 0 to 1, clamped",
-            Meaning::Uv | Meaning::Custom => "not finite in 32 bits, written as 0",
+            Meaning::Normal => "without a direction, so written as the normal of the face",
+            Meaning::Tangent => "without a direction, or with an invalid sign, so changed",
+            Meaning::Color => "outside of the range from 0 to 1, so clamped",
+            Meaning::Uv | Meaning::Custom => "not finite when rounded to 32 bits, so written as 0",
         }
     }
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "glTF stores 32 bits")]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "glTF stores 32-bit numbers"
+)]
 fn narrow(value: [f64; 4], good: bool) -> ([f32; 4], bool) {
     let narrow = value.map(|x| x as f32);
     if narrow.iter().all(|x| x.is_finite()) {

@@ -103,9 +103,9 @@ impl<'a> Deformation<'a> {
         }
         let reason = format!("only the {most} largest weights of each vertex are written");
         losses.add(Domain::Vertex, "influences", truncated, reason);
-        let reason = "negative or not finite, written as 0";
+        let reason = "negative or not finite, so written as 0";
         losses.add(Domain::Vertex, "joint weights", invalid, reason);
-        let reason = "vertices without weights, bound to the first joint";
+        let reason = "vertices without weights follow the first joint";
         losses.add(Domain::Vertex, "joint weights", unbound, reason);
     }
 
@@ -173,7 +173,10 @@ struct Bound {
 
 impl Bound {
     /// Adds a vertex with these joints and weights.
-    #[expect(clippy::cast_possible_truncation, reason = "glTF stores 32 bits")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "glTF stores 32-bit numbers"
+    )]
     fn push(&mut self, own: &mut Vec<(u16, f64)>, most: usize, is_used: bool) {
         let n = own.len();
         own.retain(|(_, weight)| *weight > 0.0 && weight.is_finite());
@@ -246,7 +249,7 @@ fn morphs<'a>(
             .any(|deltas| !deltas[v].as_vec3().is_finite())
     };
     let lost = parallel::count(mesh.n_vertices(), is_lost);
-    let reason = "not finite in 32 bits, written as 0";
+    let reason = "not finite when rounded to 32 bits, so written as 0";
     losses.add(Domain::Vertex, "morph targets", lost, reason);
     morphs
 }

@@ -57,7 +57,7 @@ impl MaterialWriter {
         }
         let mut changed = 0;
         let json = self.json(&material, &mut changed);
-        let reason = "values outside of the range of glTF, clamped";
+        let reason = "values outside of the range of glTF are clamped";
         losses.add(None, &material.name, changed, reason);
         self.materials.push(json);
         self.known.push(material);

@@ -216,7 +216,7 @@ fn next<'a>(
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
-    reason = "the range is checked"
+    reason = "the range of the integer is checked"
 )]
 fn push_value(
     out: &mut Vec<u8>,

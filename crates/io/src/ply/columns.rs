@@ -76,7 +76,7 @@ pub(super) enum Source<'a> {
 pub(super) fn values(table: &Table, source: Source, kind: Kind) -> (Values, usize) {
     #[expect(
         clippy::cast_possible_truncation,
-        reason = "the type of the property fits"
+        reason = "the property has values of this type"
     )]
     let to_int = |[x]: [f64; 1]| x as i32;
     match kind {

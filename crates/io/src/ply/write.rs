@@ -347,7 +347,7 @@ fn push_numbers(out: &mut Vec<u8>, numbers: &[f64], form: Type) {
 
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "only used where the value is exact"
+    reason = "called only for values that are exact in 32 bits"
 )]
 fn to_float(x: f64) -> f32 {
     x as f32

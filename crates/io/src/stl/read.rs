@@ -17,7 +17,7 @@ use crate::weld::weld;
 
 /// The notes about content of binary files that is left out.
 const REST: &str = "bytes after the last facet left out";
-const COLORED: &str = "facets with attribute bytes (possibly colors): the bytes left out";
+const COLORED: &str = "facets with attribute bytes (possibly colors): these bytes are left out";
 
 /// Reads an STL file from its bytes.
 ///

@@ -203,7 +203,7 @@ struct Triangulation {
 /// Triangulates the faces of a mesh, which can be concave.
 fn triangulate(mesh: &Mesh, with_corners: bool) -> Triangulation {
     let n = mesh.domain_len(Domain::Face);
-    // If all faces are triangles, each triangle has the index of its face.
+    // If the mesh is dense and all faces are triangles, each triangle has the index of its face.
     let is_simple = mesh.is_dense() && 3 * mesh.n_faces() == n_corners(mesh);
     let chunks: Vec<Triangulation> = (0..n.div_ceil(CHUNK))
         .into_par_iter()

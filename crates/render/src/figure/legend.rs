@@ -268,7 +268,10 @@ fn ticks(low: f64, high: f64) -> Vec<Tick> {
             label: single_label(low),
         }];
     }
-    #[expect(clippy::cast_possible_truncation, reason = "from -324 to 308")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the exponent is from -324 to 308"
+    )]
     let mut exponent = libm::floor(libm::log10(rough)) as i32;
     let power = |text: String| text.parse::<f64>().unwrap_or(f64::MAX);
     let fraction = rough / power(format!("1e{exponent}"));
@@ -282,7 +285,10 @@ fn ticks(low: f64, high: f64) -> Vec<Tick> {
     let step = power(format!("{digit}e{exponent}"));
     // A step is at least 1e-14 times the larger end. Therefore the rounded quotients are small enough to be exact
     // integers in `f64`.
-    #[expect(clippy::cast_possible_truncation, reason = "at most 1e15")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the quotients are at most 1e15"
+    )]
     let [first, last] = [
         (low / step - 1e-9).ceil() as i64,
         (high / step + 1e-9).floor() as i64,
@@ -407,7 +413,7 @@ mod tests {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "a legend is at most some hundred pixels wide"
+        reason = "a legend is at most a few hundred pixels wide"
     )]
     fn the_bar_shows_its_colors_from_bottom_to_top() {
         let mut image = Image::filled(300, 300, [0, 255, 0, 255]).unwrap();

@@ -138,7 +138,7 @@ impl Occlusion {
             #[expect(
                 clippy::cast_possible_truncation,
                 clippy::cast_sign_loss,
-                reason = "inside the map"
+                reason = "the point is inside the map"
             )]
             let (column, row) = (x as usize, y as usize);
             let (s, t) = (x - column as f32, y - row as f32);
@@ -216,7 +216,10 @@ struct MapPoint {
 /// the bounding sphere overflows.
 fn step(texels: f32) -> i32 {
     let max = MAX_SIDE as f32;
-    #[expect(clippy::cast_possible_truncation, reason = "inside the map")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the point is inside the map"
+    )]
     let step = (texels.clamp(0.0, max) * STEPS as f32) as i32;
     step
 }

@@ -44,7 +44,10 @@ impl GridPoint {
     fn new(point: ScreenPoint) -> Self {
         let at = point.at.to_array().map(|x| {
             let x = (x.clamp(-FAR, FAR) * f64::from(GRID) + 0.5).floor();
-            #[expect(clippy::cast_possible_truncation, reason = "within the limits above")]
+            #[expect(
+                clippy::cast_possible_truncation,
+                reason = "the number is clamped above"
+            )]
             let x = x as i32;
             x
         });

@@ -202,7 +202,7 @@ impl Number for i64 {
 impl Number for i32 {
     #[expect(
         clippy::cast_possible_truncation,
-        reason = "the caller ensures that the value fits"
+        reason = "the caller ensures that the value fits into the type"
     )]
     fn of(value: i64) -> Self {
         value as Self

@@ -89,7 +89,7 @@ impl ColorMap {
 
     /// Returns the sRGB color of a whole number in [`Classes`](Self::Classes). The colors repeat after eight.
     pub fn class(self, class: f64) -> [u8; 3] {
-        // The small offset avoids that rounding selects the color of the previous class.
+        // The small offset prevents rounding from selecting the color of the previous class.
         self.srgb(class.floor().rem_euclid(8.0) / 7.0 + 1e-9)
     }
 

@@ -232,7 +232,7 @@ impl Encoder<'_> {
         self.text(path.unwrap_or(""));
 
         let mut default = Material::new("");
-        // In the first version of the form, a surface was transparent exactly if its base color was.
+        // In the first version of the form, a surface was transparent if and only if its base color was transparent.
         if m.base_color[3] < 1.0 {
             default.alpha = AlphaMode::Blend;
         }

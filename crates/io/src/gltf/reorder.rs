@@ -44,7 +44,7 @@ fn triangles_in_fans(corners: &[u32], n_vertices: usize) -> Vec<u32> {
     let mut last_use = vec![0_usize; n_vertices];
     let mut time = RECENT + 1;
     let mut ordered = Vec::with_capacity(corners.len());
-    // The vertices used so far, with the latest one at the end. Below is the first vertex that has not been tried.
+    // The vertices used so far, with the latest one at the end, and the first vertex that has not been tried.
     let mut used: Vec<u32> = Vec::new();
     let mut untried = 0..n_vertices;
     let mut center = untried.next();

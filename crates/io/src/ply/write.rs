@@ -54,7 +54,8 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile,
             if let Some(uvs) = uvs_of_vertices(mesh, &values) {
                 vertices.known(&["s", "t"], Cow::Owned(uvs));
             } else {
-                // If the corners of a vertex differ, the texture coordinates are a list of each face, as in `MeshLab`.
+                // If the corners of a vertex differ, texture coordinates are written as a list for each face, as in
+                // `MeshLab`.
                 let form = float_for(&values, 2);
                 faces.values(&["texcoord"], true, values, 2, form);
             }

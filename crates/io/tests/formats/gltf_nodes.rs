@@ -136,7 +136,7 @@ fn an_asset_that_no_step_touched_comes_out_as_it_went_in() {
     assert_eq!(canonical(&after), canonical(&asset()));
     assert_eq!(after["meshes"].as_array().unwrap().len(), 4);
     assert_eq!(after["nodes"].as_array().unwrap().len(), 8);
-    // Reading again gives the same scene bit by bit.
+    // If the written file is read again, the scene is the same bit by bit.
     let folder = Folder::new();
     for extension in ["glb", "gltf", "mws"] {
         let path = folder.path("a").with_extension(extension);

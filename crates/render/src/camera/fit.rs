@@ -103,7 +103,7 @@ impl Fit {
         let (half, slant) = (self.half, self.slant());
         let (mut borders, mut front) = ([f64::NEG_INFINITY; 4], f64::NEG_INFINITY);
         if self.steady {
-            // The maximum of x + t z over the points (x, y, z) of the sphere.
+            // The maximum of x + t z over the points (x, y, z) of the sphere, for the slope t of a clipping plane.
             let border = |t: f64| radius * (1.0 + t * t).sqrt();
             let [a, b] = [border(slant.x), border(slant.y)];
             (borders, front) = ([a, a, b, b], radius);

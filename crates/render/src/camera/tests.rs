@@ -165,7 +165,7 @@ fn cameras_with_invalid_numbers_are_refused() {
 
 #[test]
 fn the_extreme_points_of_all_parts_give_the_same_view_as_all_points() {
-    // Two clouds of points, separate from each other and from the origin.
+    // The points form two clouds, which are far from each other and from the origin.
     let cloud = |seed: u32, middle: DVec3| -> Vec<DVec3> {
         let mut state = seed;
         let mut number = || {

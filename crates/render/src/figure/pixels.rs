@@ -144,7 +144,7 @@ impl PaintedPath {
             paint
         };
         let bounds = self.path.bounds();
-        // A path along an axis has no inside to fill.
+        // A straight path along an axis encloses no area and is not filled.
         if let Some(color) = self.fill
             && bounds.width() > 0.0
             && bounds.height() > 0.0

@@ -175,7 +175,7 @@ impl ProjectedLine {
         let depth = d0 + (d1 - d0) * t;
         let view = shader.view;
         // On a curved surface, the surface beside a line can be nearer to the camera than the line. The line stays
-        // visible if the difference is less than this length.
+        // visible if the difference is less than `bias`.
         let bias = view.pixel_size(depth) * (1.0 + self.radius);
         let limit = depth - view.depth_change(bias, depth);
         if f64::from(triangle_depth) >= limit {

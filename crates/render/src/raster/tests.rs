@@ -49,7 +49,8 @@ fn plain() -> Look {
 
 /// Returns the view of an orthographic camera in front of the plane z = 0, whose picture is `height` units high.
 fn front_view(height: f64, size: [u32; 2]) -> View {
-    // At this distance, the picture of an orthographic `LookAt` is `height` units high, as documented there.
+    // At this distance, the picture of an orthographic `LookAt` is `height` units high (see the documentation of
+    // `LookAt`).
     let distance = 0.5 * height / libm::tan(15.0_f64.to_radians());
     let camera = Camera::LookAt {
         from: [0.0, 0.0, distance],
@@ -415,7 +416,7 @@ fn lines_cover_no_more_than_half_of_a_dense_mesh() {
         let picture = rendered(&lines, &front_view(128.0, size), size, &plain());
         let found = covered(&picture) / 128.0 / 128.0;
         let width = 1.0_f64.min(0.15 * side);
-        // Lines overlap near vertices, so the covered fraction is less than this sum.
+        // Lines overlap near vertices, so the covered fraction is less than the sum of the areas of the lines.
         let sum = 2.0 * 3.0_f64.sqrt() * width / side;
         assert!(
             (0.7 * sum..1.02 * sum).contains(&found),

@@ -33,7 +33,8 @@ fn draw(mesh: Mesh, camera: &Camera, style: &Style, size: [u32; 2]) -> Image {
 
 /// Returns an orthographic camera in front of the scene, whose picture is `height` units high.
 fn front(height: f64) -> Camera {
-    // At this distance, the picture of an orthographic `LookAt` is `height` units high, as documented there.
+    // At this distance, the picture of an orthographic `LookAt` is `height` units high (see the documentation of
+    // `LookAt`).
     let distance = 0.5 * height / libm::tan(15.0_f64.to_radians());
     Camera::LookAt {
         from: [0.0, 0.0, distance],

@@ -208,7 +208,7 @@ fn id(n: usize) -> u32 {
 // ---- Removing -------------------------------------------------------------------------------
 
 /// Removes the polygons for which `is_dropped` is true, and the corners for which `is_corner_kept` is false. If a list
-/// of flags is empty, all its polygons or corners are kept.
+/// of flags is empty, all polygons or all corners are kept.
 pub(crate) fn keep(
     polygons: &mut Polygons,
     is_dropped: &[bool],

@@ -17,7 +17,7 @@ pub(crate) struct CornerNumbers {
     same: Vec<AtomicU32>,
     /// For each half-edge that is the first with its value, the number of the value, from 0.
     numbers: Vec<AtomicU32>,
-    /// For each number, the first half-edge with that value.
+    /// For each number of a value, the first half-edge with that value.
     firsts: Vec<HalfEdgeId>,
 }
 

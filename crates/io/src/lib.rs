@@ -212,7 +212,7 @@ pub fn read(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Loa
 ///
 /// # Errors
 ///
-/// As [`read()`].
+/// The errors of [`read()`].
 pub fn read_bytes(
     store: &dyn Store,
     path: &Path,

@@ -1,4 +1,4 @@
-//! Making glTF files smaller: compression and quantization.
+//! Makes glTF files smaller by compression and quantization.
 
 use std::fmt;
 

@@ -101,7 +101,7 @@ pub(crate) fn count(n: usize, is: impl Fn(usize) -> bool + Sync) -> usize {
         .sum()
 }
 
-/// Returns for each number below `n` whether it occurs in `indices`.
+/// Returns one flag for each number below `n`: whether the number occurs in `indices`.
 pub(crate) fn index_flags(n: usize, indices: &[u32]) -> Vec<AtomicBool> {
     let named: Vec<AtomicBool> = (0..n).map(|_| AtomicBool::new(false)).collect();
     blocks(indices.len(), |block| {

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 /// reported as a [`Note`](crate::Note) with the affected elements.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Policies {
-    /// Edges with more than two faces, and vertices at which faces meet that are not connected by edges.
+    /// Edges with more than two faces, and vertices where groups of faces meet that share no edge.
     pub non_manifold: NonManifold,
     /// Neighboring faces with opposite orientation: both faces run in the same direction along their common edge.
     pub orientation: Orientation,
@@ -23,7 +23,7 @@ pub struct Policies {
     pub isolated: CleanupPolicy,
 }
 
-/// How places are handled where faces do not form a manifold.
+/// The handling of places where faces do not form a manifold.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum NonManifold {
@@ -34,7 +34,7 @@ pub enum NonManifold {
     Refuse,
 }
 
-/// How neighboring faces with opposite orientations are handled.
+/// The handling of neighboring faces with opposite orientations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Orientation {
@@ -57,7 +57,7 @@ pub enum Placements {
     Bake,
 }
 
-/// How elements are handled that are probably not needed.
+/// The handling of elements that are probably not needed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum CleanupPolicy {

@@ -24,8 +24,8 @@ pub(crate) enum Content<'a> {
 /// A function that appends a block of a few hundred kilobytes to a file.
 pub(crate) type Block<'a> = Box<dyn Fn(&mut Vec<u8>) + Send + Sync + 'a>;
 
-/// First writes all files to temporary files. When all are complete, moves them to their paths in the given order. The
-/// last file is compressed if its name ends in `.gz`. Returns the paths and the total size in bytes.
+/// First writes all files to temporary files. When all files are complete, moves them to their paths in the given
+/// order. The last file is compressed if its name ends in `.gz`. Returns the paths and the total size in bytes.
 ///
 /// # Errors
 ///

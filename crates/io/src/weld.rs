@@ -232,7 +232,7 @@ impl Table {
         }
     }
 
-    /// Returns the index of the first entry with the position of this entry.
+    /// Returns the index of the first position that equals the position of `entry`.
     fn first(&mut self, entry: u64, positions: &[DVec3]) -> u32 {
         let number = low(entry);
         let mut at = low(entry >> self.shift) as usize;

@@ -71,7 +71,7 @@ pub(crate) fn read(
 ///
 /// # Errors
 ///
-/// As [`read`].
+/// The errors of [`read`].
 pub(crate) fn peek(bytes: &[u8], name: &str, notes: &mut Notes) -> Result<Vec<PeekObject>, Fault> {
     each_object(bytes, name, notes, |name, object| {
         let geometry = PeekGeometry::Mesh(object.counts());

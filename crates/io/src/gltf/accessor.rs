@@ -68,7 +68,7 @@ impl Reader<'_> {
     ///
     /// # Errors
     ///
-    /// As [`vectors`](Self::vectors).
+    /// The errors of [`vectors`](Self::vectors).
     pub(super) fn floats(
         &self,
         index: usize,
@@ -195,7 +195,7 @@ impl Reader<'_> {
     ///
     /// # Errors
     ///
-    /// As [`vectors`](Self::vectors).
+    /// The errors of [`vectors`](Self::vectors).
     pub(super) fn indices(&self, index: usize, pointer: &str) -> Result<Vec<u32>, Fault> {
         let accessor = self.accessor(index, pointer)?;
         let here = format!("/accessors/{index}");

@@ -9,8 +9,8 @@ const BUDGET_FACTOR: u64 = 64;
 /// The smallest budget of a file, in bytes.
 const MIN_BUDGET: u64 = 1 << 24;
 
-/// The weight of a byte of a buffer with compressed views: the byte increases the budget like this number of other
-/// bytes. A triangle with its share of the vertices takes two bytes in a compressed view, and at least twenty bytes in
+/// Each byte of a buffer with compressed views increases the budget as much as this number of bytes of uncompressed
+/// data. A triangle with its share of the vertices takes two bytes in a compressed view, and at least twenty bytes in
 /// an uncompressed view. The resulting meshes have the same size.
 const COMPRESSED: u64 = 4;
 
@@ -18,7 +18,7 @@ const COMPRESSED: u64 = 4;
 #[derive(Default)]
 pub(super) struct Budget {
     left: Cell<u64>,
-    /// The number of bytes that compressed views can still be decoded to.
+    /// The total size in bytes to which compressed views can still be decoded.
     inflation: Cell<u64>,
 }
 

@@ -337,8 +337,8 @@ fn list<'a>(json: &'a Value, key: &str) -> Result<&'a [Value], Fault> {
     }
 }
 
-/// Deserializes the elements of a list. The budget limits their memory, because an element with default values takes
-/// far less space in the text than in memory.
+/// Deserializes the elements of a list. The budget limits the memory of the elements, because an element with default
+/// values takes far less space in the text than in memory.
 fn pieces<T: DeserializeOwned>(json: &Value, key: &str, budget: &Budget) -> Result<Vec<T>, Fault> {
     let piece = |(i, value): (usize, &Value)| {
         T::deserialize(value).map_err(|e| Fault::json(format!("/{key}/{i}"), e.to_string()))

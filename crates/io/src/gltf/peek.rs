@@ -26,7 +26,7 @@ use crate::peek::{PeekGeometry, PeekMesh, PeekObject, PeekRig};
 ///
 /// # Errors
 ///
-/// As [`read`](super::read()), for the parts that are checked.
+/// The errors of [`read`](super::read()) for the parts that are checked.
 pub(crate) fn peek(
     json: &[u8],
     name: &str,

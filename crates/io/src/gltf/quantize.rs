@@ -10,8 +10,8 @@
 //! the other nodes do not change. If no node shows the object, only the node of the grid is written. The scale of the
 //! grid is the same along all axes, so normals keep their directions.
 //!
-//! Normals are rounded on an octahedron, like the filter of compressed files does. Therefore compressing a quantized
-//! file does not change its content.
+//! Normals are rounded on an octahedron, in the same way as by the filter of compressed files. Therefore compressing a
+//! quantized file does not change its content.
 #![expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

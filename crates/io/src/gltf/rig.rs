@@ -63,7 +63,7 @@ pub(super) fn check(document: &Document) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Returns for each node of the file whether a skin or an animation refers to it.
+/// Returns one flag for each node of the file: whether a skin or an animation refers to the node.
 pub(super) fn referenced(document: &Document) -> Vec<bool> {
     let mut flags = vec![false; document.nodes.len()];
     let of_skins = document.skins.iter();

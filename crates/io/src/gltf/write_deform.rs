@@ -208,8 +208,8 @@ impl Bound {
     }
 }
 
-/// Returns the morph targets of an object. Their number is the number of weights in the label of the object or, if that
-/// is greater, the number of targets of the mesh.
+/// Returns the morph targets of an object. The number of morph targets is the number of weights in the label of the
+/// object or, if that is greater, the number of targets of the mesh.
 fn morphs<'a>(
     object: &Object,
     mesh: &'a Mesh,

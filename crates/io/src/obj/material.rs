@@ -21,8 +21,8 @@ const MAX_NAMES: usize = 512;
 /// The largest length of a path in bytes.
 const MAX_PATH_BYTES: usize = 1024;
 
-/// Reads the materials of an OBJ file. The materials of its libraries come first, in order. Then follow default
-/// materials for the names that no library defines.
+/// Reads the materials of an OBJ file. The materials of its libraries come first, in order. Default materials follow
+/// for the names that no library defines.
 ///
 /// # Errors
 ///

@@ -1,4 +1,4 @@
-//! Returns the values of a PLY file, which can be binary or text, as tables.
+//! Provides the values of a PLY file as tables. The file can be binary or text.
 //!
 //! The rows of a text are first converted to binary rows, with 64 bits for every floating-point value. Thus the other
 //! modules only handle binary rows.

@@ -27,9 +27,9 @@ pub(super) enum Side {
     Opposite,
 }
 
-/// Compares the normal of a facet with the normal of its corners. The two agree if the sine of the angle between them
-/// is at most 1/10 (6 degrees), which allows for rounding errors in a sliver. The normals also agree if the normal of
-/// the facet is zero or not finite, or the facet has no area.
+/// Compares the normal of a facet with the normal of its corners. The two normals agree if the sine of the angle
+/// between them is at most 1/10 (6 degrees), which allows for rounding errors in a sliver. The normals also agree if
+/// the normal of the facet is zero or not finite, or the facet has no area.
 #[inline]
 pub(super) fn compare(normal: DVec3, [a, b, c]: [DVec3; 3]) -> Side {
     let area = (b - a).cross(c - a);

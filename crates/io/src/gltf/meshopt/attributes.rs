@@ -35,7 +35,7 @@ enum Channel {
     Bytes,
     /// As separate differences of two 16-bit numbers.
     Shorts,
-    /// As the bits that differ, rotated left by this number.
+    /// As the bits that differ, rotated left by this number of bits.
     Bits(u32),
 }
 

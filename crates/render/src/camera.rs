@@ -63,8 +63,8 @@ impl Default for Camera {
 }
 
 impl Camera {
-    /// Returns the camera turned to the right by an angle, about the upward axis through the point that the camera
-    /// looks at. [`Self::Fit`] also becomes [steady](Self::Fit::steady).
+    /// Returns the camera rotated about the upward axis through the point that the camera looks at. A positive angle
+    /// moves the camera to the right. [`Self::Fit`] also becomes [steady](Self::Fit::steady).
     #[must_use]
     pub fn turned(mut self, degrees: f64) -> Self {
         match &mut self {
@@ -210,8 +210,8 @@ const ORTHOGRAPHIC_ANGLE: f64 = 30.0;
 impl Up {
     /// Replaces `Auto` by the upward axis of a scene with these points.
     fn resolved(self, points: &impl Fn(&mut dyn FnMut(DVec3))) -> Self {
-        /// The largest distance of the lowest point from the plane at which the scene stands on the plane, as a
-        /// fraction of the size of the scene.
+        /// A scene stands on a plane if the distance of its lowest point from the plane is at most this fraction of the
+        /// size of the scene.
         const TOLERANCE: f64 = 1e-3;
         if self != Self::Auto {
             return self;

@@ -17,7 +17,8 @@ pub enum ColorMap {
     Diverging,
     /// From black to white.
     Gray,
-    /// Eight easily distinguished colors, which repeat, one for each whole number. For labels and classes.
+    /// Eight colors that are easy to distinguish, one for each whole number. After eight numbers, the colors repeat.
+    /// For labels and classes.
     Classes,
 }
 

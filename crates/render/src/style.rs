@@ -88,10 +88,12 @@ pub struct Style {
     pub boundary: Option<Lines>,
     /// Draws crease edges. The width grows with the sharpness, up to twice `width`.
     pub creases: Option<Lines>,
-    /// Draws vertex normals as short lines. The value is their length as a fraction of the size of the scene.
+    /// Draws vertex normals as short lines. The value is the length of the lines as a fraction of the size of the
+    /// scene.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub normals: Option<f64>,
-    /// Draws dots at all vertices of meshes and all points of polylines. The value is their diameter in pixels.
+    /// Draws dots at all vertices of meshes and all points of polylines. The value is the diameter of the dots in
+    /// pixels.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub points: Option<f64>,
     /// Draws the control nets of Bezier patches and the control polygons of curves.

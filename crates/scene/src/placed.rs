@@ -1,4 +1,4 @@
-//! The instances of objects: each object once for each node that shows it.
+//! Lists the instances of objects. An object has one instance for each node that shows it.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;

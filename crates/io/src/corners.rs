@@ -1,4 +1,4 @@
-//! Numbers the distinct values on the corners around vertices, for writers.
+//! Assigns numbers to the distinct values on the corners around vertices, for writers.
 
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
@@ -9,8 +9,8 @@ use mesh::{FaceId, HalfEdgeId, Mesh, VertexId};
 /// The maximum number of distinct values at a vertex with which a corner is compared.
 const MAX_COMPARED: usize = 64;
 
-/// Numbers the distinct values on the corners of each vertex of a mesh. The numbers are in the order of the faces and
-/// their corners, over the whole mesh.
+/// Assigns numbers to the distinct values on the corners of each vertex of a mesh. The numbers are in the order of the
+/// faces and their corners, over the whole mesh.
 #[derive(Debug)]
 pub(crate) struct CornerNumbers {
     /// For each half-edge of a face, the first half-edge that starts at the same vertex and has the same value.
@@ -22,8 +22,8 @@ pub(crate) struct CornerNumbers {
 }
 
 impl CornerNumbers {
-    /// Numbers the values of corners. `equal` returns whether two corners of one vertex have the same value. A
-    /// corner is compared with the latest [`MAX_COMPARED`] distinct values at its vertex, so that the time for a
+    /// Assigns numbers to the values of corners. `equal` returns whether two corners of one vertex have the same value.
+    /// A corner is compared with the latest [`MAX_COMPARED`] distinct values at its vertex, so that the time for a
     /// vertex with a million corners stays linear. If a vertex has more distinct values, a value can get a second
     /// number.
     pub(crate) fn new(mesh: &Mesh, equal: impl Fn(HalfEdgeId, HalfEdgeId) -> bool + Sync) -> Self {

@@ -192,7 +192,7 @@ pub(crate) fn mapped(
         let mut column = mesh.remove_column(*domain, name).expect("listed above");
         let is_delta = is_delta(*domain, name);
         if *rule == Rule::Drop && is_mirror {
-            // No element is removed, so the values stay valid and are copied.
+            // Reversing faces removes no element, so the values stay valid and are copied.
             column.rule = Rule::Copy;
         }
         if (*rule == Rule::Normal || is_delta)

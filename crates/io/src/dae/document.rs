@@ -203,8 +203,8 @@ impl<'a> Document<'a> {
         Ok(())
     }
 
-    /// Finds the element of a `kind` to which the attribute `key` of `node` refers by `#id`. Returns `None` if the
-    /// attribute refers to another file.
+    /// Finds the element to which the attribute `key` of `node` refers by `#id`. The element must be of the given
+    /// `kind`. Returns `None` if the attribute refers to another file.
     ///
     /// # Errors
     ///
@@ -227,7 +227,8 @@ impl<'a> Document<'a> {
         self.find(node, id, kind).map(Some)
     }
 
-    /// Finds the element of a `kind` with this id, to which `node` refers.
+    /// Finds the element with this id, which must be of the given `kind`. `node` is the element that refers to it, for
+    /// errors.
     ///
     /// # Errors
     ///

@@ -42,8 +42,8 @@ impl Budget {
         }
     }
 
-    /// Increases the budget for buffers of `size` bytes that contain compressed views. The amount for uncompressed data
-    /// of this size was added before.
+    /// Increases the budget for buffers of `size` bytes that contain compressed views. This increase is in addition to
+    /// the usual increase for the size of the buffers.
     pub(super) fn grant_compressed(&self, size: u64) {
         let more = size.saturating_mul(BUDGET_FACTOR * (COMPRESSED - 1));
         self.left.set(self.left.get().saturating_add(more));

@@ -96,7 +96,7 @@ pub(super) fn split(mesh: &Mesh, streams: &[Stream]) -> Split {
     }
     let vertex_of: Vec<AtomicU32> = mesh::zeroed(mesh.n_half_edges());
     let m = seams.len();
-    // In each block, the vertices are first numbered from 0. Later, the numbers are shifted.
+    // In each block, the vertices are first numbered from 0. Later, the offset of the block is added to the numbers.
     let blocks = parallel::blocks(n, |vertices| {
         let mut corners = Vec::with_capacity(BLOCK);
         let (mut values, mut own) = (Vec::new(), Vec::new());

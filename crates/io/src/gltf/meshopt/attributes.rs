@@ -51,8 +51,8 @@ pub(super) fn shortest(count: u64, stride: u64) -> u64 {
     let controls = (stride / 4) as u64;
     let mut tail = (stride + stride / 4).max(24);
     if count == 0 {
-        // The tail of version 0 can be shorter, but its blocks are longer. So the tail of version 0 matters only if
-        // there are no blocks.
+        // The tail of version 0 can be shorter, but its blocks are longer. So version 0 gives the shortest stream only
+        // if there are no blocks.
         tail = tail.min(stride.max(32));
     }
     let around = 1 + tail as u64;

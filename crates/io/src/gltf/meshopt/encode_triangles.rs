@@ -92,7 +92,7 @@ impl State {
         let rotations = [[a, b, c], [b, c, a], [c, a, b]];
         let new_first = rotations.iter().find(|[a, ..]| *a == self.next);
         let [a, b, c] = *new_first.unwrap_or(&rotations[0]);
-        // The explicit pair 0 means that vertices are numbered from 0 again.
+        // A pair of value 0 that is stored explicitly means that vertices are numbered from 0 again.
         let restarts = self.next > 0 && [a, b, c] == [0, 1, 2];
         if restarts {
             self.next = 0;

@@ -23,7 +23,7 @@ pub struct Timing {
 /// # Errors
 ///
 /// [`PictureError::Encode`] if there are no images, the sizes of the images differ, or a keyword is invalid;
-/// [`PictureError::Cancelled`].
+/// [`PictureError::Cancelled`] if the listener cancels the work.
 pub fn to_apng(
     frames: &[Image],
     timing: Timing,
@@ -54,7 +54,7 @@ pub fn to_apng(
 /// # Errors
 ///
 /// [`PictureError::Encode`] if there are no images, the sizes of the images differ, or a side is longer than 65535
-/// pixels; [`PictureError::Cancelled`].
+/// pixels; [`PictureError::Cancelled`] if the listener cancels the work.
 pub fn to_gif(
     frames: &[Image],
     timing: Timing,

@@ -31,7 +31,7 @@ pub enum PictureError {
     /// A number of the style is out of range, or the style or an overlay does not match the scene.
     #[error("{0}")]
     Style(String),
-    /// The progress listener cancelled the work.
+    /// The progress listener canceled the work.
     #[error("cancelled")]
     Cancelled,
     /// The bytes are not an image that can be read.

@@ -47,8 +47,8 @@ impl Image {
     ///
     /// # Errors
     ///
-    /// [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`], [`PictureError::Decode`] if the file is
-    /// neither PNG nor JPEG, or is broken.
+    /// [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`]; [`PictureError::Decode`] if the file is
+    /// not a PNG or JPEG file, or is broken.
     pub fn decode(bytes: &[u8]) -> Result<Self, PictureError> {
         if bytes.starts_with(b"\xff\xd8") {
             Self::from_jpeg(bytes)
@@ -61,8 +61,8 @@ impl Image {
     ///
     /// # Errors
     ///
-    /// [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`], [`PictureError::Decode`] if the file is
-    /// not PNG, or is broken.
+    /// [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`]; [`PictureError::Decode`] if the file is
+    /// not a PNG file, or is broken.
     pub fn from_png(bytes: &[u8]) -> Result<Self, PictureError> {
         let failed = |error: png::DecodingError| PictureError::Decode(error.to_string());
         let mut reader = decoder(bytes).read_info().map_err(failed)?;
@@ -137,7 +137,7 @@ impl Image {
     ///
     /// # Errors
     ///
-    /// The errors of [`Self::to_png`], and [`PictureError::Cancelled`].
+    /// The errors of [`Self::to_png`], and [`PictureError::Cancelled`] if the listener cancels the work.
     pub fn to_png_with_progress(
         &self,
         texts: &[(&str, &str)],

@@ -78,8 +78,8 @@ pub use texture::{Alpha, Texture};
 ///
 /// # Errors
 ///
-/// [`PictureError::Budget`] before anything large is allocated, and the errors of [`build()`], [`View::new`] and
-/// [`render`].
+/// [`PictureError::Budget`] if the budget is too small, which is checked before anything large is allocated; and the
+/// errors of [`build()`], [`View::new`] and [`render`].
 pub fn picture(
     scene: &scene::Scene,
     camera: &Camera,

@@ -148,8 +148,8 @@ pub fn sheet_size(
 ///
 /// # Errors
 ///
-/// [`PictureError::Size`] like [`sheet_size`]; [`PictureError::Budget`] if the sheet needs more than `budget` bytes.
-/// The sizes are checked before memory is allocated.
+/// [`PictureError::Size`] under the same conditions as [`sheet_size`]; [`PictureError::Budget`] if the sheet needs more
+/// than `budget` bytes. The sizes are checked before memory is allocated.
 pub fn sheet(cells: &[Cell], style: &SheetStyle, budget: u64) -> Result<Image, PictureError> {
     sheet_with_headings(cells, Headings::default(), style, budget)
 }

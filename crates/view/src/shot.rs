@@ -140,7 +140,8 @@ impl Shot<'_> {
     ///
     /// # Errors
     ///
-    /// [`PictureError::Budget`] before anything is drawn, [`PictureError::Camera`], [`PictureError::Cancelled`].
+    /// [`PictureError::Budget`] if the budget is too small, which is checked before anything is drawn;
+    /// [`PictureError::Camera`] if a camera is invalid; [`PictureError::Cancelled`] if the listener cancels the work.
     pub fn draw(
         &self,
         subjects: &[Subject],

@@ -254,7 +254,7 @@ pub(super) fn note_left_out(file: &ObjFile, notes: &mut Notes) {
                 ("faces-too-small", text.to_owned())
             }
             LeftOut::Weights => {
-                let text = "weights of vertices other than 1 left out";
+                let text = "vertex weights other than 1 left out";
                 ("vertex-weights", text.to_owned())
             }
             LeftOut::Depths => {

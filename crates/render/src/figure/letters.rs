@@ -189,7 +189,7 @@ impl Typeface {
         Self { face, positions }
     }
 
-    /// Returns the embedded font that has the glyph of a character in text of this font, and the glyph. If no font has
+    /// Returns the glyph of a character in text of this font, and the embedded font that has this glyph. If no font has
     /// the character, the glyph is 0.
     fn find(font: Font, c: char) -> (&'static Self, GlyphId) {
         let (first, fallbacks) = match font {

@@ -416,7 +416,7 @@ fn lines_cover_no_more_than_half_of_a_dense_mesh() {
         let picture = rendered(&lines, &front_view(128.0, size), size, &plain());
         let found = covered(&picture) / 128.0 / 128.0;
         let width = 1.0_f64.min(0.15 * side);
-        // Lines overlap near vertices, so the covered fraction is less than the sum of the areas of the lines.
+        // Lines overlap near vertices, so the covered area is less than the sum of the areas of the lines.
         let sum = 2.0 * 3.0_f64.sqrt() * width / side;
         assert!(
             (0.7 * sum..1.02 * sum).contains(&found),

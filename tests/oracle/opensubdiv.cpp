@@ -126,7 +126,7 @@ Case read(char const* path) {
             out.uvs.push_back(uv);
         } else if (key == "face") {
             read_face(line, out);
-            continue;  // It reads to the end of the line, which is not an error.
+            continue;  // Reading a face up to the end of the line is not an error.
         } else if (key == "crease") {
             int v, w;
             float sharpness;

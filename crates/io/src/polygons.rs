@@ -208,8 +208,8 @@ impl Polygons {
     }
 
     /// Builds a mesh of these polygons, and returns it with the materials. A corner attribute becomes a vertex
-    /// attribute if the corners of each vertex have the same value, and no vertex attribute has the same name. Texture
-    /// coordinates stay on the corners; these are the attributes whose names begin with `uv`.
+    /// attribute if the corners of each vertex have the same value, and no vertex attribute has the same name. Tangents
+    /// and texture coordinates stay on the corners. Texture coordinates are the attributes whose names begin with `uv`.
     ///
     /// # Errors
     ///
@@ -233,7 +233,8 @@ impl Polygons {
         for (domain, mut column) in self.attributes {
             column.values = sources.gather(domain, column.values);
             let mut domain = domain;
-            // If a vertex attribute has the same name, the corner attribute stays on the corners.
+            // Vertex attributes are inserted before corner attributes. If a vertex attribute has the same name, the
+            // corner attribute stays on the corners.
             let vertices = built.mesh.attributes();
             if domain == Domain::Corner
                 && !column.name.starts_with("uv")

@@ -116,7 +116,8 @@ pub(crate) const MORE: u64 = u64::MAX;
 /// The name of a texture in the canonical form, and a function that returns its field of a material.
 type NamedTexture = (&'static str, fn(&mut Material) -> &mut Option<Texture>);
 
-/// The textures that a material can have in addition to its base color texture, with their names.
+/// The textures of a material, with their names in the canonical form. The base color texture is in this list because
+/// it can have other properties than its path.
 pub(crate) const TEXTURES: [NamedTexture; 5] = [
     ("base color texture", |m| &mut m.base_color_texture),
     ("metallic roughness texture", |m| {

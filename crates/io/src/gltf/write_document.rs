@@ -37,7 +37,7 @@ pub(super) struct Writer<'a> {
     /// For each object that is written, its joints, weights and morph targets.
     pub(super) deformed: BTreeMap<&'a str, Deformed>,
     /// The accessors of arrays. The key is the array, the number of numbers in each element, and the total number of
-    /// elements.
+    /// numbers.
     pub(super) number_accessors: BTreeMap<(usize, usize, usize), usize>,
     pub(super) pieces: Vec<Piece<'a>>,
     materials: MaterialWriter,

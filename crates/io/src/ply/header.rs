@@ -7,8 +7,8 @@ use super::types::Type;
 use crate::fault::Fault;
 use crate::text::{BYTE_ORDER_MARK, TextPosition, name, parsed, quoted};
 
-/// The maximum number of properties of an element. The maximum limits the number of passes over the data. Programs
-/// write fewer properties.
+/// The maximum number of properties of all elements together. The maximum limits the number of passes over the data.
+/// Programs write fewer properties.
 pub(super) const MAX_PROPERTIES: usize = 4096;
 /// The maximum number of elements. The maximum limits the time of searches by name. Programs write fewer elements.
 const MAX_ELEMENTS: usize = 1024;

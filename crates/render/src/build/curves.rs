@@ -22,8 +22,8 @@ const SEGMENTS: u32 = 200;
 const SINGLE_POINT: f64 = 3.0;
 
 impl Builder<'_, '_> {
-    /// Adds Bezier patches. If the style has a wireframe or control nets, also adds the grids of the patches or their
-    /// control nets.
+    /// Adds Bezier patches. If the style has a wireframe, also adds a grid on each patch. If the style has control
+    /// nets, also adds the control nets of the patches.
     pub(super) fn patches(&mut self, patches: &[Patch], color: Color) -> Result<(), PictureError> {
         let surface = bezier::tessellate(patches, CELLS, Faces::Quads)
             .map_err(|e| PictureError::Style(format!("the patches cannot be drawn: {e}")))?;

@@ -91,7 +91,7 @@ mod tests {
                 end = d;
             }
             assert_eq!(end, *curve.points().last().unwrap());
-            // The distance from the curve is measured as the distance from a fine polyline on the curve.
+            // A fine polyline on the curve replaces the curve, because the distance from a polyline is easy to compute.
             let fine: Vec<DVec2> = curve.sample(20_000).collect();
             let distance = |p: DVec2, a: DVec2, b: DVec2| {
                 let edge = b - a;

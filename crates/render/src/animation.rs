@@ -74,7 +74,7 @@ pub fn to_gif(
         plays => gif::Repeat::Finite(plays - 1),
     })?;
     if let Some(comment) = comment {
-        // Blocks of an extension have at most 255 bytes.
+        // In a GIF file, the blocks of an extension have at most 255 bytes.
         let blocks: Vec<&[u8]> = comment.as_bytes().chunks(255).collect();
         encoder.write_raw_extension(gif::Extension::Comment.into(), &blocks)?;
     }

@@ -231,7 +231,8 @@ impl Surroundings {
     }
 }
 
-/// Whether a face is one of the error locations. `face_locations` has the locations by their first points.
+/// Whether a face is one of the error locations. `face_locations` maps the first point of each location to the
+/// location.
 fn is_face_location(
     mesh: &Mesh,
     f: FaceId,

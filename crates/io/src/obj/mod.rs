@@ -15,8 +15,8 @@
 //! | `s 1` | face attribute `smoothing` |
 //! | `usemtl a`, `mtllib` | face attribute `material` and the object's materials |
 //!
-//! The writer uses the same table in the other direction, so that reading a written file, or writing a read file,
-//! preserves this content.
+//! The writer uses the same table in the other direction. Therefore this content is preserved when a written file is
+//! read, and when a file that was read is written again.
 //!
 //! Modules:
 //!

@@ -291,7 +291,7 @@ fn content_left_out_is_noted() {
     json["materials"][0]["extensions"] = extensions;
     let kept = read_json(&json).unwrap();
     let loaded = read_baked(&json).unwrap();
-    // If nodes are kept, cameras, lights and skins are kept too, and three notes are missing.
+    // If nodes are kept, cameras, lights and skins are kept too, so there are three notes less.
     assert_eq!(kept.notes.len(), loaded.notes.len() - 3);
     let is_left_out =
         |note: &mesh_io::Note| note.what.contains("cameras") || note.what.contains("lights");

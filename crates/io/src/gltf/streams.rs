@@ -30,7 +30,7 @@ enum Meaning {
 /// Returns the streams of a mesh. Adds losses for all other attributes.
 pub(super) fn streams<'a>(mesh: &'a Mesh, losses: &mut Losses) -> Vec<Stream<'a>> {
     let mut streams: Vec<Stream> = Vec::new();
-    // glTF numbers texture coordinates from 0, without gaps.
+    // In glTF, the sets of texture coordinates are numbered from 0, without gaps.
     let is_uv = |set: u32| {
         let mut columns = mesh.attributes().of(Domain::Corner).iter();
         let is_it =

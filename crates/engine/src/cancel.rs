@@ -5,17 +5,18 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use op::Progress;
 use recipe::Listener;
 
-/// A listener that ignores all events, and cancels its runs once it is set.
+/// A listener that ignores all events. Once [`set`](Self::set) is called, the listener cancels the runs that it listens
+/// to.
 #[derive(Debug, Default)]
 pub struct Cancel(AtomicBool);
 
 impl Cancel {
-    /// Returns a listener that is not set.
+    /// Returns a listener that does not cancel its runs yet.
     pub const fn new() -> Self {
         Self(AtomicBool::new(false))
     }
 
-    /// Cancels the runs. Returns whether it was set before.
+    /// Cancels the runs. Returns whether they were already canceled.
     pub fn set(&self) -> bool {
         self.0.swap(true, Ordering::Relaxed)
     }

@@ -14,8 +14,8 @@ pub struct Context<'a> {
     files: &'a Files,
     /// The objects named in the step's `on:`; `None` if the step acts on all objects that it supports.
     pub on: Option<&'a [String]>,
-    /// The text that seeds the random choices of the step, together with the `seed` of each choice: the label of the
-    /// step in the recipe.
+    /// The label of the step in the recipe. Each random choice of the step is seeded with this label and with its own
+    /// `seed`.
     pub stream: &'a str,
     /// The memory budget of meshes, in bytes.
     pub budget: u64,
@@ -121,7 +121,7 @@ impl<'a> Context<'a> {
         std::mem::take(notes)
     }
 
-    /// Returns the progress, for long computations outside of this crate.
+    /// Returns the receiver of progress reports, for long computations in other crates.
     pub fn progress(&self) -> &'a dyn Progress {
         self.progress
     }

@@ -18,7 +18,8 @@ pub enum OnRefusal {
 }
 
 impl OnRefusal {
-    /// Returns how many of the `selected` elements are edited: all of them, or from 0 to all if refusals are skipped.
+    /// Returns the planned number of edited elements: all `selected` elements, or any number of them if refusals are
+    /// skipped.
     #[must_use]
     pub fn done(self, selected: Range) -> Range {
         match self {

@@ -42,7 +42,7 @@ pub struct Files {
     pub input: PathBuf,
     /// The output folder.
     pub output: PathBuf,
-    /// Names and values of placeholders: ("model.stem", "cow") for `{model.stem}` in an output path.
+    /// Names and values of placeholders: ("model.stem", "cow") replaces `{model.stem}` in an output path by `cow`.
     pub placeholders: Vec<(String, String)>,
     /// A line with the provenance of the outputs, for formats that can store it.
     pub provenance: Option<String>,
@@ -120,9 +120,9 @@ impl Files {
         full
     }
 
-    /// Logs that a file was read: a file whose path [`to_read`](Self::to_read) returned, or a file that this file
-    /// refers to. If an operation calls this for every requested path, the step can be cached. The result of the step
-    /// must then not depend on the contents of any other file.
+    /// Logs that a file was read: either a file whose path [`to_read`](Self::to_read) returned, or another file that
+    /// such a file refers to. If an operation calls this for every requested path, the step can be cached. In that
+    /// case, the result of the step must not depend on the contents of any other file.
     pub fn has_read(&self, path: impl Into<PathBuf>) {
         self.log.note(FileUse::Read(path.into()));
     }

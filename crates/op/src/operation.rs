@@ -29,11 +29,11 @@ pub trait MeshOperation:
     const EXAMPLE: &'static str;
     /// Earlier names of the operation, which recipes may still use.
     const ALIASES: &'static [&'static str] = &[];
-    /// What people who know other programs may call the operation, in lower case. Errors about an unknown operation
-    /// suggest the operation for these words.
+    /// Words for the operation in other programs, in lower case. If a recipe uses one of these words as the name of a
+    /// step, the error suggests this operation.
     const WORDS: &'static [&'static str] = &[];
-    /// What the step does to each element that its report counts as changed, as a participle: `flipped`. Step tables show
-    /// it after the number. If empty, the number is not shown.
+    /// The word that step tables show after the number of changed elements, such as `flipped` in `12 flipped`. If
+    /// empty, the tables do not show the number.
     const DONE: &'static str = "";
 
     /// Returns the names of other objects whose meshes the operation reads with [`Context::other_mesh`], each with the
@@ -72,11 +72,11 @@ pub trait Operation:
     const EXAMPLE: &'static str;
     /// Earlier names of the operation, which recipes may still use.
     const ALIASES: &'static [&'static str] = &[];
-    /// What people who know other programs may call the operation, in lower case. Errors about an unknown operation
-    /// suggest the operation for these words.
+    /// Words for the operation in other programs, in lower case. If a recipe uses one of these words as the name of a
+    /// step, the error suggests this operation.
     const WORDS: &'static [&'static str] = &[];
-    /// What the step does to each element that its report counts as changed, as a participle: `flipped`. Step tables show
-    /// it after the number. If empty, the number is not shown.
+    /// The word that step tables show after the number of changed elements, such as `flipped` in `12 flipped`. If
+    /// empty, the tables do not show the number.
     const DONE: &'static str = "";
     /// Whether a step may choose objects with `on:`.
     const TAKES_ON: bool = false;
@@ -183,11 +183,11 @@ const fn target_kind<T: MeshOperation>() -> TargetKind {
         operation: <T as MeshOperation>::NAME,
         does: "changes meshes",
         none: "no mesh to change",
-        help: "load or make a mesh in an earlier step; Tessellate turns patches into one",
+        help: "load or create a mesh in an earlier step; Tessellate converts patches to a mesh",
     }
 }
 
-/// Applies an operation to one object. After an error the mesh of the object is unchanged.
+/// Applies an operation to one object. If the operation fails, the mesh of the object is unchanged.
 fn apply_to<T: MeshOperation>(
     operation: &T,
     scene: &mut Scene,

@@ -97,7 +97,7 @@ impl Range {
         self.times(Self::exactly(n))
     }
 
-    /// Returns the range from 0 to the highest count, for elements of which some can be missing.
+    /// Returns the range from 0 to the highest count. Used if any number of the elements can be missing.
     #[must_use]
     pub const fn or_less(self) -> Self {
         Self::at_most(self.max)
@@ -146,7 +146,7 @@ pub struct MeshPlan {
     pub degrees: Range,
     /// The known attributes.
     pub attributes: Vec<PlannedAttribute>,
-    /// Whether the mesh can have attributes that are not listed, like a mesh from a file.
+    /// Whether the mesh can have attributes that are not listed, as a mesh from a file can.
     pub has_unlisted_attributes: bool,
     /// The names of the materials; `None` if they are unknown.
     pub materials: Option<Vec<String>>,
@@ -196,7 +196,7 @@ impl MeshPlan {
                 .map(|(domain, c)| PlannedAttribute {
                     domain,
                     name: c.name.clone(),
-                    // Columns with the rule `Drop` are lost in an edit that changes connectivity.
+                    // Attributes with the rule `Drop` are lost in an edit that changes connectivity.
                     certain: c.rule != Rule::Drop,
                 })
                 .collect(),
@@ -379,8 +379,8 @@ impl Plan {
         &self.objects
     }
 
-    /// Returns the objects for changes. To add an object, use [`insert`](Self::insert), whose time does not grow
-    /// with the number of objects.
+    /// Returns the objects for modification. To add an object, use [`insert`](Self::insert) instead, which is faster:
+    /// its time does not grow with the number of objects.
     pub fn objects_mut(&mut self) -> &mut Vec<PlannedObject> {
         self.is_edited = true;
         self.index_by_name.clear();
@@ -429,15 +429,15 @@ impl Plan {
         }
     }
 
-    /// Returns a problem if an object already has this name. `field` is the parameter with the name.
+    /// Returns a problem if an object already has this name. `field` is the parameter that contains the name.
     pub fn taken(&self, name: &str, field: &str) -> Option<Problem> {
         self.object(name)?;
         let message = scene::DuplicateName(name.to_owned()).to_string();
         Some(Problem::error(message).at([field]))
     }
 
-    /// Returns a problem with the known names if no object has this name and the plan is not incomplete. `path` is the
-    /// parameter with the name.
+    /// If no object has this name, returns a problem that lists the known names. Returns `None` if the plan is
+    /// incomplete. `path` is the path of the parameter that contains the name.
     pub fn missing<const N: usize>(&self, name: &str, path: [&str; N]) -> Option<Problem> {
         if self.incomplete || self.object(name).is_some() {
             return None;

@@ -28,7 +28,7 @@ pub struct Registry {
 pub struct Entry {
     /// The name of the step in recipes.
     pub name: &'static str,
-    /// The version of its results.
+    /// The version of the operation's results.
     pub version: u32,
     /// One line: what the operation does.
     pub summary: &'static str,
@@ -89,7 +89,7 @@ impl Entry {
     ///
     /// # Errors
     ///
-    /// Why these are not parameters of this operation, with the location.
+    /// If the parameters are not valid for this operation. The error contains the reason and the location.
     pub fn parse(&self, step: &Value) -> Result<Box<dyn Step>, ron_tree::Error> {
         match &step.kind {
             ValueKind::Call(call) => (self.parse)(&call.body),
@@ -98,11 +98,12 @@ impl Entry {
         }
     }
 
-    /// Reads parameters `(levels: 2)` with the crate `ron`. Tests compare [`parse`](Self::parse) with it.
+    /// Reads parameters `(levels: 2)` with the crate `ron`. Tests compare its result with that of
+    /// [`parse`](Self::parse).
     ///
     /// # Errors
     ///
-    /// Why the text does not contain parameters of this operation.
+    /// If the text does not contain valid parameters of this operation.
     pub fn parse_by_ron(&self, parameters: &str) -> SpannedResult<Box<dyn Step>> {
         (self.parse_by_ron)(parameters)
     }
@@ -129,7 +130,7 @@ impl Registry {
         self
     }
 
-    /// Adds an operation and removes any operation that has the same name as its name or an earlier name.
+    /// Adds an operation, and removes each operation whose current or earlier name is the name of the new operation.
     #[must_use]
     pub fn with_override<T: Operation>(mut self) -> Self {
         self.entries

@@ -16,13 +16,13 @@ pub struct Report {
     pub refused: Vec<Refused>,
     /// Attributes and other data that were lost.
     pub losses: Vec<Loss>,
-    /// What reading a file changed.
+    /// Changes that were made while a file was read.
     pub changes: Vec<ReadingChange>,
     /// Other facts, one line each.
     pub notes: Vec<String>,
 }
 
-/// Something that reading a file changed, such as faces that were reversed.
+/// A change that was made while a file was read, such as the reversal of faces.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub struct ReadingChange {
     /// A stable name of the kind of change, for programs, such as `faces-reversed`.
@@ -35,7 +35,7 @@ pub struct ReadingChange {
     pub message: String,
 }
 
-/// Elements of a file, by their numbers in it, counted from 0.
+/// Elements of a file, given by their numbers in the file, counted from 0.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub enum ReadingElements {
     /// Vertices.
@@ -60,7 +60,7 @@ pub struct Refused {
 /// Data that a step or a file format could not preserve.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub struct Loss {
-    /// The object that lost the data, or the file. Empty if the loss concerns the whole scene, such as its cameras.
+    /// The object or the file that lost the data. Empty if the loss concerns the whole scene, such as its cameras.
     pub object: String,
     /// The name of the lost data, such as the name of an attribute. Recipes use it to allow the loss.
     pub name: String,
@@ -84,7 +84,8 @@ impl fmt::Display for Loss {
 }
 
 impl Loss {
-    /// Creates a loss of a file that is read. `code` names what is lost, `message` says it, with the file.
+    /// Creates a loss that occurred while a file was read. `code` names the lost data. `message` describes the loss and
+    /// names the file.
     pub fn reading(file: &str, code: &str, message: impl Into<String>) -> Self {
         Self {
             object: file.to_owned(),
@@ -132,8 +133,8 @@ impl Report {
         }
     }
 
-    /// Counts edits that were refused for this reason. `first` returns the message of the first of them. It is called
-    /// only if the report has no refusal for this reason yet.
+    /// Counts edits that were refused for this reason. `first` returns the message of the first of these edits. `first`
+    /// is called only if the report has no refusal for this reason yet.
     pub(crate) fn count_refused(
         &mut self,
         reason: Refusal,

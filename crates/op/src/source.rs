@@ -6,8 +6,8 @@ use scene::{Object, Scene};
 
 use crate::{Context, MeshPlan, OpError, Plan, PlannedGeometry, Problem, Report, Vector};
 
-/// The largest number of edges of a mesh that is built from polygons. An edge belongs to at most two corners, each
-/// corner can need two half-edges, and the largest id of a half-edge is 2^32 - 2.
+/// The largest number of edges of a mesh that is built from polygons. Each edge adds at most two corners to the faces,
+/// each corner can need two half-edges, and the largest id of a half-edge is 2^32 - 2.
 const MAX_EDGES: u64 = (u32::MAX as u64 - 1) / 4;
 
 /// A mesh that a step creates: the name of its object, its counts, and the problems of the parameters.
@@ -65,9 +65,8 @@ impl<'a> Source<'a> {
         source
     }
 
-    /// Multiplies the coordinates by a factor above 0 for each axis, and then moves the mesh from the origin to
-    /// `center`, the parameter of that name. `parameters` are the names, for error messages, of the parameters that
-    /// determine the factors.
+    /// Scales the mesh along each axis by a factor above 0, and then moves it from the origin to `center`, the value of
+    /// the parameter `center`. `parameters` names the parameters that determine the factors, for error messages.
     #[must_use]
     pub fn placed(mut self, parameters: &'static str, scale: [f64; 3], center: Vector) -> Self {
         self.scale_parameters = parameters;
@@ -91,8 +90,8 @@ impl<'a> Source<'a> {
         problems
     }
 
-    /// Adds the object at the end of a scene. `make` creates the mesh and is called only if the checks of the problems,
-    /// the name and the memory succeed.
+    /// Adds the object at the end of a scene. `make` creates the mesh and is called only if there are no problems, the
+    /// name is not taken and the memory is sufficient.
     ///
     /// # Errors
     ///

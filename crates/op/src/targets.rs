@@ -17,7 +17,7 @@ pub struct TargetKind {
     pub operation: &'static str,
     /// What the operation does, as a verb phrase: `changes meshes`.
     pub does: &'static str,
-    /// What the scene lacks if there is nothing to act on: `no mesh to change`.
+    /// The message if the scene has no object to act on: `no mesh to change`.
     pub none: &'static str,
     /// How a recipe gets an object of this kind.
     pub help: &'static str,
@@ -98,7 +98,8 @@ pub fn target_names(
     Ok(targets.map(|o| o.name.clone()).collect())
 }
 
-/// Returns a scene of the objects that a step acts on: those named in `on:`, with the nodes that place them, or all.
+/// Returns a scene of the objects that a step acts on: the objects named in `on:` with the nodes that place them, or
+/// all objects.
 pub fn target_scene<'s>(scene: &'s Scene, cx: &Context) -> Cow<'s, Scene> {
     let Some(on) = cx.on else {
         return Cow::Borrowed(scene);

@@ -153,7 +153,7 @@ fn range(schema: &Schema) -> String {
     let is_number = schema.own("type").is_some_and(|name| name == "number");
     let mut text = String::new();
     for (key, word) in above.into_iter().chain(below) {
-        // The minimum 0 of an unsigned integer is not worth mentioning.
+        // The minimum 0 of an unsigned integer is not shown.
         let is_relevant = |bound: &&serde_json::Number| is_number || bound.as_u64() != Some(0);
         if let Some(bound) = schema.numbers(key).next().filter(is_relevant) {
             text += &format!(" {word} {bound}");

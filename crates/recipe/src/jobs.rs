@@ -7,10 +7,10 @@
 //!
 //! Jobs run on the same threads as the parallel loops inside them. While every thread has a job, no thread is idle, so
 //! each loop runs on the thread of its job at no extra cost. When no jobs are left to start, idle threads help with the
-//! loops of the last jobs. A thread never blocks until memory becomes free, because a blocked thread could not help.
-//! Instead it returns to the pool, and the thread that next completes a job wakes it again. A thread that waits inside
-//! a job for a part of a loop never starts another job in the meantime. So no job has to wait for another job, and a
-//! job cannot deadlock on a lock that a suspended job on the same thread holds.
+//! loops of the last jobs. If there is not enough memory for the next job, a thread does not block, because a blocked
+//! thread could not help. Instead, the thread returns to the pool, and the thread that next completes a job wakes it
+//! again. While a thread waits inside a job for a part of a loop, it does not start another job. So no job has to wait
+//! for another job, and a job cannot deadlock on a lock that a suspended job on the same thread holds.
 
 use std::any::Any;
 use std::cell::Cell;
@@ -66,7 +66,7 @@ pub struct Jobs<B, S, W> {
 
 impl<B, S, W> Jobs<B, S, W> {
     /// Runs the jobs. `ended` is called on the calling thread with all jobs that ended since the last call, in the
-    /// order in which they ended. Every job is passed to it exactly once.
+    /// order in which they ended. Every job is passed to `ended` exactly once.
     ///
     /// Jobs start in their order. A job starts when its bytes and the bytes of the running jobs together are within the
     /// budget. A job that exceeds the budget by itself runs alone. A panic ends only the job that panicked.
@@ -135,7 +135,7 @@ fn deliver<T>(
 }
 
 thread_local! {
-    /// Whether this thread runs a job, or waits inside a job for a part of it.
+    /// Whether this thread runs a job, or waits for a part of a job that it runs.
     static RUNS_JOB: Cell<bool> = const { Cell::new(false) };
 }
 
@@ -164,8 +164,8 @@ where
     S: Fn() -> bool + Sync,
     W: Fn(usize) -> T + Sync,
 {
-    /// Runs jobs until no job can start. Whenever it starts a job and the limits allow one more, wakes another thread.
-    /// If `is_broadcast`, all threads were started together, so the first job wakes no other thread.
+    /// Runs jobs until no job can start. Wakes another thread whenever it has started a job and the limits allow one
+    /// more. If `is_broadcast`, all threads were started together, so the first job wakes no other thread.
     fn work<'s>(&'s self, scope: &Scope<'s>, is_broadcast: bool) {
         // This thread already runs a job, which waits for a part of a loop. If the thread started another job now, the
         // waiting job could not continue before the other job has ended.

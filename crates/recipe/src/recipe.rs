@@ -112,7 +112,7 @@ impl OnLoss {
     }
 }
 
-/// The kind of a step that contains steps.
+/// The kind of a step that contains other steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     Call,
@@ -148,7 +148,7 @@ pub struct RecipeStep {
     pub step: Option<Arc<dyn Step>>,
     /// The names of the objects in `on`, with their spans.
     pub on: Option<Vec<(String, Span)>>,
-    /// The reason with which the step must be refused, if the recipe expects a refusal.
+    /// The reason for which the step must be refused, if the recipe expects a refusal.
     pub refused: Option<Refusal>,
     /// Which losses the step may cause.
     pub on_loss: OnLoss,
@@ -179,7 +179,7 @@ impl RecipeStep {
             .map(|on| on.iter().map(|(name, _)| name.clone()).collect())
     }
 
-    /// Returns the step as it is in the repetition number `turn` of a `Repeat` around it.
+    /// Returns the step for repetition number `turn` of a `Repeat` around the step.
     pub(crate) fn in_turn(mut self, turn: u32) -> Self {
         self.turns.insert(0, turn);
         let turns: Vec<String> = self.turns.iter().map(u32::to_string).collect();
@@ -218,8 +218,8 @@ impl Recipe {
             .unwrap_or_default()
     }
 
-    /// Returns the file settings of each scope. The recipe itself has `files`. A called recipe reads from its own
-    /// folder and has its own placeholders.
+    /// Returns the file settings of each scope. The settings of the recipe itself are `files`. A called recipe reads
+    /// from its own folder and has its own placeholders.
     pub fn files(&self, files: &Files) -> Vec<Files> {
         let of = |(i, scope): (usize, &Scope)| {
             if i == 0 {
@@ -241,7 +241,7 @@ impl Recipe {
             .any(|placed| placed.that.output().is_some())
     }
 
-    /// Returns the index of a scope's text in [`Recipe::sources`].
+    /// Returns the index in [`Recipe::sources`] of the text of a scope.
     pub fn source_of(&self, scope: usize) -> usize {
         self.scopes.get(scope).map_or(0, |scope| scope.source)
     }
@@ -261,8 +261,8 @@ impl Recipe {
                 .as_ref()
                 .map(|s| s.canonical())
                 .unwrap_or_default();
-            // If the label is only the name of the operation, the digest uses `None`, so that it is the same as in
-            // older versions.
+            // If the label is only the name of the operation, the digest uses `None`, so that the digest is the same as
+            // in older versions.
             let id = (step.label != step.name).then_some(&step.label);
             let line = format!("{id:?} {:?} {} {canonical}\n", step.on_names(), step.name);
             hasher.update(line.as_bytes());

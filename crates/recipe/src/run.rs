@@ -123,8 +123,8 @@ struct Runner<'a> {
     log: FileLog,
     stage: Option<PathBuf>,
     session: Option<Box<dyn CachedRun + 'a>>,
-    /// The scene before the step with index `scene_index`. `scene_index` is less than `n_done` if the results of the
-    /// steps between them came from the cache.
+    /// The scene before the step with index `scene_index`. If the results of the last steps came from the cache,
+    /// `scene_index` is less than `n_done`.
     scene: Scene,
     scene_index: usize,
     /// The index of the step that the run starts with.
@@ -145,7 +145,7 @@ pub(crate) struct StepError {
     places: Vec<ErrorLocation>,
 }
 
-/// The run ends early because it was canceled or because a failure was reported.
+/// Signals that the run ends early, because it was canceled or because a failure was reported.
 struct Stopped;
 
 impl Runner<'_> {
@@ -444,8 +444,8 @@ impl Runner<'_> {
 ///
 /// # Errors
 ///
-/// If the step was canceled, `None`. If the step failed, the reason. In both cases, the scene is unchanged. But if the
-/// operation panicked and the scene had not been cloned before, the scene is empty.
+/// `None` if the step was canceled, or the reason if it failed. In both cases, the scene is unchanged, with one
+/// exception: if the operation panicked and the scene had not been cloned before, the scene is empty.
 pub(crate) fn run_step(
     step: &RecipeStep,
     scene: &mut Scene,

@@ -34,7 +34,8 @@ impl<'r> Schemas<'r> {
         if let Some(schema) = created().get(entry.name) {
             return schema.clone();
         }
-        // Created without the lock: two threads may create the same schema, and one of them is used.
+        // The schema is created without holding the lock. If two threads create the same schema, only one of the two is
+        // kept.
         let schema = Arc::new(entry.schema());
         created().entry(entry.name).or_insert(schema).clone()
     }
@@ -210,7 +211,8 @@ fn recipe(param: &Json, step: &Json, expectation: &Json, on_loss: &Json) -> Json
 }
 
 fn step_fields(operation: &Json, defined: &mut SchemaGenerator) -> Json {
-    // Keywords beside `$ref` or `oneOf` in the same object would mix with it, so the schema is wrapped in `allOf`.
+    // A description in the same object as `$ref` or `oneOf` would become part of that schema, so the schema is wrapped
+    // in `allOf`.
     let described = |schema: &Json, doc: &str| json!({ "allOf": [schema], "description": doc });
     json!({
         "type": "object",

@@ -16,8 +16,8 @@ use crate::schema;
 use crate::shape;
 use ron_tree::{Diagnostic, Value, ValueKind};
 
-/// Reads a selection in the syntax of recipes. The selection is for elements of `kind`. If `kind` is `None`, it is for
-/// the only kind of elements that has such a selection.
+/// Reads a selection in the syntax of recipes. The selection selects elements of `kind`. If `kind` is `None`, the
+/// selection must be valid for only one kind of elements, and selects elements of that kind.
 ///
 /// # Errors
 ///
@@ -61,8 +61,8 @@ pub fn read_step<T: DeserializeOwned + JsonSchema>(source: &str) -> Result<T, Ve
     T::deserialize(parameters).map_err(|error| vec![shape::unread(step.span, error)])
 }
 
-/// Returns the text of a variant of `T` with the name of the variant as recipes write it, if the text has the name in
-/// another case: `front` becomes `Front`.
+/// Returns a text that starts with the name of a variant of `T`, with the case of the name corrected: `front` becomes
+/// `Front`.
 pub fn with_case_of<T: JsonSchema>(text: &str) -> String {
     let end = text.find(|c: char| !(c.is_alphanumeric() || c == '_'));
     let (name, rest) = text.split_at(end.unwrap_or(text.len()));

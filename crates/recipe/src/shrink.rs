@@ -42,8 +42,8 @@ pub fn is_alike(a: &str, b: &str) -> bool {
     words(a) == words(b)
 }
 
-/// Returns the smallest scene that was found for which `fails` returns true. `fails` must return true for `scene`, and
-/// is called at most `tries` times.
+/// Returns the smallest scene found for which `fails` returns true. `fails` must return true for `scene`. `fails` is
+/// called at most `tries` times.
 ///
 /// # Errors
 ///
@@ -84,7 +84,7 @@ struct Search<F> {
 }
 
 impl<F: FnMut(&Scene) -> Result<bool, OpError>> Search<F> {
-    /// Replaces the best scene if the step also fails on `scene`. Returns whether it does.
+    /// If the step also fails on `scene`, replaces the best scene by `scene`. Returns whether the step fails.
     fn attempt(&mut self, scene: Scene) -> Result<bool, OpError> {
         if self.left == 0 {
             return Ok(false);

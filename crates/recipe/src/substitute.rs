@@ -3,8 +3,8 @@
 use ron_tree::{Call, Diagnostic, Span, Value, ValueKind};
 
 /// Replaces each `arg("name")` in `value` by the value of the parameter. `resolve` is called with the name of the
-/// parameter and the span of that name, and returns its value. The new value has the span of its `arg(..)` and the name
-/// of the parameter.
+/// parameter and the span of that name, and returns the value of the parameter. The new value has the span of its
+/// `arg(..)` and the name of the parameter.
 ///
 /// Returns the errors of `resolve`, and an error for each `arg` without a name. In these cases the `arg` stays
 /// unchanged.

@@ -2,8 +2,8 @@
 //! that does not hold by the actual value. The rest of the text stays unchanged.
 //!
 //! Recorded values are `eq`, `is`, the corners of `Bounds`, `Digest`, and the reference file of `Output`. Requirements
-//! are never changed: one-sided bounds such as `min` and `below`, and conditions such as `Manifold`. A value that comes
-//! from a parameter is not changed either.
+//! are never changed: one-sided bounds such as `min` and `below`, and conditions such as `Manifold`. Values that come
+//! from parameters are never changed either.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -98,8 +98,8 @@ pub fn update(recipe: &Recipe, outcome: &Outcome) -> Update {
     }
 }
 
-/// Returns the expectations of the text that do not hold. For each of these expectations, the list has one entry for
-/// each repetition of the step. The entry is `None` if the expectation holds in that repetition.
+/// Returns the expectations of the text that do not hold. Each of these expectations has a list with one entry for each
+/// repetition of its step. The entry is `None` if the expectation holds in that repetition.
 fn unmet_in_text<'o>(
     recipe: &Recipe,
     outcome: &'o Outcome,
@@ -275,8 +275,8 @@ fn number_text(value: &Value) -> Result<&str, String> {
     }
 }
 
-/// Returns an error if the value comes from a parameter. It is not updated, because other values may depend on the
-/// parameter.
+/// Returns an error if the value comes from a parameter. Such a value is not updated, because other values may depend
+/// on the parameter.
 fn not_from_parameter(value: &Value) -> Result<(), String> {
     match &value.kind {
         ValueKind::Call(call) if &*call.name.text == "arg" => Err(format!(

@@ -1,7 +1,7 @@
 //! Old names in a recipe: the reader accepts them with a warning, and `meshwright upgrade` replaces them.
 //!
-//! A renamed operation keeps its old names as aliases. A renamed field or variant declares them for `serde` and in its
-//! schema:
+//! A renamed operation keeps its old names as aliases. A renamed field or variant declares its old names for `serde`
+//! and in its schema:
 //!
 //! ```text
 //! #[serde(alias = "amount")]

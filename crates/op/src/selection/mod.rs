@@ -425,13 +425,14 @@ fn lowest<S: Select, K: PartialOrd>(
     chosen
 }
 
-/// Adds a note to the report if a choice of `count` elements has fewer candidates, which are marked in `mask`.
+/// Adds a note to the report if fewer than `count` elements are available for a choice. `mask` marks the available
+/// elements.
 fn note_if_fewer<S: Select>(choice: &str, count: u32, mask: &[bool], cx: &Context) {
     let available = mask.iter().filter(|&&m| m).count();
     if available < count as usize {
         let word = S::WORD;
         cx.note(format!(
-            "{choice}(count: {count}) selected all {word} available: {available}"
+            "{choice}(count: {count}) selected all available {word}: {available}"
         ));
     }
 }
@@ -460,7 +461,7 @@ fn named_vertex(mesh: &Mesh, index: u32) -> Result<VertexId, OpError> {
     ))
 }
 
-/// Returns the refusal of a number that no element has, in a mesh with `n` elements of this kind.
+/// Returns the refusal for an element number that does not exist in a mesh with `n` elements of this kind.
 fn missing_element(number: u32, singular: &str, n: usize, plural: &str) -> OpError {
     let noun = if n == 1 { singular } else { plural };
     let message = format!("{singular} {number} does not exist: the mesh has {n} {noun}");

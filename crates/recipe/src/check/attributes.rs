@@ -3,7 +3,7 @@
 //!
 //! The plan of each step states which attributes the step keeps, provides and drops. An attribute is lost if a mesh
 //! certainly has it before a step but not after the step. An attribute is missing if all attributes of the mesh are
-//! known and it is not one of them.
+//! known and the attribute is not one of them.
 
 use std::collections::HashSet;
 
@@ -15,7 +15,7 @@ use crate::recipe::{OnLoss, RecipeExpectation, RecipeStep};
 use crate::shape::did_you_mean;
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
-/// The attributes that steps have dropped so far.
+/// The attributes that the steps checked so far have dropped.
 #[derive(Debug, Default)]
 pub(super) struct Attributes {
     dropped: Vec<DroppedAttribute>,

@@ -34,7 +34,7 @@ pub struct StepForecast {
     pub faces: Range,
     /// The memory that all meshes take, in bytes.
     pub bytes: Range,
-    /// What the step certainly loses of the files that it reads.
+    /// The data of input files that the step certainly loses.
     pub losses: Vec<Loss>,
 }
 
@@ -198,7 +198,7 @@ fn exceeds_budget(step: &RecipeStep, bytes: u64, budget: u64) -> Diagnostic {
     Diagnostic::error(step.span, message).with_help("raise the budget with --budget")
 }
 
-/// Formats a number of bytes in MiB, or in KiB if there are few.
+/// Formats a number of bytes in MiB, or a small number in KiB.
 pub fn mebibytes(bytes: u64) -> String {
     let mebi = bytes as f64 / f64::from(1 << 20);
     if mebi < 0.1 {

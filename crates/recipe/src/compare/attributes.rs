@@ -52,7 +52,7 @@ impl AttributeDifference {
     }
 }
 
-/// Compares the attributes of two meshes. Values are compared only if the orders of their elements are given.
+/// Compares the attributes of two meshes. Values are compared only if the orders of the elements are given.
 pub(super) fn differences(
     [a, b]: [&Mesh; 2],
     orders: Option<&[Order; 2]>,

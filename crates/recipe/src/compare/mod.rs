@@ -14,8 +14,8 @@ pub use meshes::{Connectivity, Counts, MeshDifference, Moved};
 /// The comparison of two scenes.
 #[derive(Clone, Debug)]
 pub struct Difference {
-    /// Whether both scenes have the same objects in the same order. The name of a remaining object is ignored if it is
-    /// compared with the other remaining object.
+    /// Whether both scenes have the same objects in the same order. If the two remaining objects are compared with each
+    /// other, their names are ignored.
     pub identical: bool,
     /// Objects that only the first scene has.
     pub only_first: Vec<String>,

@@ -24,7 +24,7 @@ pub(crate) use same::same_faces;
 pub use subject::{ActualValue, Reader, Subject, Violation};
 pub use symmetry::Group;
 
-/// A condition on a scene. It is checked for all meshes together, or only for those of the objects that
+/// A condition on a scene. The condition is checked for all meshes together, or only for the meshes of the objects that
 /// `on:` names.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]

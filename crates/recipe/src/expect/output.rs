@@ -23,7 +23,7 @@ pub(super) fn is_picture(path: &str) -> bool {
         .any(|e| extension.eq_ignore_ascii_case(e))
 }
 
-/// Returns the full path of a reference file, which `test --update` may write.
+/// Returns the full path of a reference file. `test --update` may write the file.
 ///
 /// # Errors
 ///

@@ -4,8 +4,8 @@ use mesh::{DVec3, Mesh, VertexId};
 
 use super::subject::counted;
 
-/// The vertices of a mesh, for searches by position. They are a k-d tree: the vertex in the middle of the list splits the
-/// others by the coordinate in which they extend most, and so do the middles of both halves.
+/// The vertices of a mesh, for searches by position. The list is a k-d tree: the vertex in the middle of the list
+/// splits the other vertices by the coordinate in which they extend most. Both halves are split in the same way.
 pub(super) struct PositionIndex<'m> {
     mesh: &'m Mesh,
     tree: Vec<(VertexId, u8)>,
@@ -50,8 +50,8 @@ impl<'m> PositionIndex<'m> {
         found
     }
 
-    /// Calls `at` for the vertices of a part of the tree that can be within the distance that `at` returned last, which is
-    /// `limit` at first. Returns the last distance.
+    /// Calls `at` for the vertices in a part of the tree that can be within a distance of `p`. The distance is `limit`
+    /// at first, and then the last value that `at` returned. Returns the final distance.
     fn visit(
         &self,
         tree: &[(VertexId, u8)],
@@ -79,8 +79,8 @@ impl<'m> PositionIndex<'m> {
         limit
     }
 
-    /// Returns, for each vertex of `other` (by index), the vertex within the tolerance of its image. `None` if the
-    /// vertices do not match one to one.
+    /// Returns, for each vertex of `other` (by index), the vertex that is within the tolerance of the vertex's image.
+    /// `None` if the vertices do not match one to one.
     pub(super) fn matching(
         &self,
         other: &Mesh,
@@ -101,7 +101,7 @@ impl<'m> PositionIndex<'m> {
     }
 }
 
-/// Orders vertices as a k-d tree, and stores the coordinate by which each of them splits the others.
+/// Orders vertices as a k-d tree. Stores with each vertex the coordinate by which it splits its part of the tree.
 fn split(mesh: &Mesh, tree: &mut [(VertexId, u8)]) {
     let positions = tree.iter().map(|&(v, _)| mesh.position(v));
     let Some((min, max)) = positions

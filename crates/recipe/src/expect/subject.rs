@@ -44,7 +44,7 @@ pub struct Violation {
     pub message: String,
     /// The actual value, if the expectation holds after the expected value is replaced by it.
     pub found: Option<ActualValue>,
-    /// Whether the expectation could not be checked. If so, the `Not` of the expectation does not hold either.
+    /// Whether the expectation could not be checked. If so, `Not(..)` of the expectation does not hold either.
     pub(super) is_unknown: bool,
 }
 
@@ -377,7 +377,7 @@ impl<'a> Subject<'a> {
 }
 
 /// Returns the elements that a selection matches on one object. A refused selection, for example one that names a
-/// missing edge, violates the expectation, so its `Not` holds.
+/// missing edge, violates the expectation, so `Not(..)` of the expectation holds.
 pub(super) fn selected<S: Select>(
     selection: &S,
     object: &Object,

@@ -1,4 +1,4 @@
-//! Checks expectations against small scenes, and the messages of those that do not hold.
+//! Checks expectations against small scenes, and the messages of expectations that do not hold.
 
 mod counts;
 mod logic;

@@ -25,7 +25,8 @@ use ron_tree::{Span, Value, ValueKind};
 /// The maximum nesting depth of calls.
 const MAX_CALLS: usize = 32;
 
-/// The number of steps that a call counts as, in addition to its own steps, because reading a text takes time.
+/// The number that each call adds to the number of steps, in addition to the steps of the called recipe. Bounds the
+/// time for reading called recipes.
 const STEPS_PER_CALL: usize = 20;
 
 /// Returns the kind of a step that contains steps, or `None` for other steps.
@@ -44,8 +45,8 @@ impl Reader<'_, '_> {
     /// Replaces a step that contains steps by the inner steps.
     pub(super) fn flow(&mut self, kind: Kind, mut value: Value) -> Vec<Draft> {
         let is_envelope = matches!(value.kind, ValueKind::Struct(_));
-        // The inner steps are taken out of `value`: each of them is read, and its parameters are substituted, later,
-        // like all steps.
+        // The inner steps are taken out of `value`. They are read later like all steps, and their parameters are
+        // substituted then.
         let bodies = ["steps", "otherwise"].map(|field| {
             let run = if is_envelope {
                 value.field_mut("run")
@@ -224,8 +225,8 @@ impl Reader<'_, '_> {
         drafts
     }
 
-    /// Returns the index of the text of a called recipe. If the text cannot be read or calls itself, reports an error
-    /// and returns `None`.
+    /// Returns the index of the text of a called recipe. If the text cannot be read, or the recipe calls itself,
+    /// reports an error and returns `None`.
     fn open_called(&mut self, path: &Path, span: Span) -> Option<usize> {
         let mut chain = vec![self.scope];
         while let Some((caller, _)) = self.shared.scopes[*chain.last()?].called {

@@ -66,8 +66,7 @@ pub fn read(source: &Source, registry: &Registry, values: Values) -> Reading {
     read_by(&Schemas::new(registry), &Disk, source, values)
 }
 
-/// Does the same as [`read`](read()) with `schemas` that several recipes can share. Called recipes are read from
-/// `store`.
+/// Like [`read`](read()), but uses `schemas`, which several recipes can share, and reads called recipes from `store`.
 pub fn read_by(schemas: &Schemas, store: &dyn Store, source: &Source, values: Values) -> Reading {
     let mut shared = Shared {
         schemas,
@@ -155,8 +154,8 @@ fn canonical(store: &dyn Store, path: &Path) -> PathBuf {
 #[derive(Clone)]
 struct Draft {
     step: RecipeStep,
-    /// The ids that end with this step: the id of the step, and the ids of the calls, repetitions and conditions whose
-    /// last step it is. Only ids of this text.
+    /// The ids that end with this step: the id of the step itself, and the id of each call, repetition and condition
+    /// whose last step is this one. Contains only ids of this text.
     ends: Vec<String>,
     /// The expectations that are checked after the step.
     then: Vec<RecipeExpectation>,
@@ -249,8 +248,7 @@ impl<'s, 'a> Reader<'s, 'a> {
             .parameters
             .clone_from(&self.parameters);
         let mut drafts = self.steps(take_items(root.field_mut("steps")));
-        // For each id, the indices of the steps that end it: one index for each repetition, and none if the id is in a
-        // branch that is not taken.
+        // For each id, the index of its last step in each repetition. Empty if the id is in a branch that is not taken.
         let mut ends: HashMap<String, Vec<usize>> = HashMap::new();
         for (i, draft) in drafts.iter().enumerate() {
             for id in &draft.ends {

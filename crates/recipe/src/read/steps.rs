@@ -84,8 +84,8 @@ impl Reader<'_, '_> {
         let refused = envelope("refused").and_then(|reason| Refusal::deserialize(reason).ok());
         let on_loss = envelope("on_loss").and_then(|on_loss| OnLoss::deserialize(on_loss).ok());
         let note = envelope("note").and_then(Value::as_str);
-        // The name can be a part of the label, which seeds random choices. An old name is replaced by the current one,
-        // so that the choices are the same.
+        // The name can be a part of the label, and the label seeds random choices. An old name is replaced by the
+        // current name, so that both names give the same choices.
         let name = entry.as_ref().map_or(name, |entry| entry.name).to_owned();
         Draft::new(RecipeStep {
             step,

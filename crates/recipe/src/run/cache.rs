@@ -1,4 +1,4 @@
-//! The interface between a run and a step cache. How results are stored is up to the cache.
+//! The interface between a run and a step cache. The cache decides how results are stored.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -17,7 +17,8 @@ pub trait StepCache: fmt::Debug + Sync {
 }
 
 /// A run with a cache: looks up steps, stores the results of steps that ran, and loads scenes. For each step, the run
-/// calls [`look_up`](Self::look_up) and, if that fails, runs the step and calls [`record_step`](Self::record_step).
+/// calls [`look_up`](Self::look_up). If the lookup fails, the run runs the step and calls
+/// [`record_step`](Self::record_step).
 pub trait CachedRun {
     /// Looks up the next step. If `stage` is given, the files that the step wrote are restored into it.
     ///
@@ -155,7 +156,7 @@ pub enum RerunReason {
     /// An earlier step ran: its number (counted from 1) and its label.
     #[error("step {0} {1} ran again")]
     Earlier(usize, String),
-    /// The steps before the step are not the same as in the last run.
+    /// The earlier steps are not the same as in the last run.
     #[error("the steps before it changed")]
     Order,
     /// The result of the step was removed from the cache.

@@ -41,7 +41,7 @@ pub struct Outcome {
 pub struct UnmetExpectation {
     /// The index of the expectation in [`Recipe::expectations`](crate::Recipe::expectations).
     pub expectation: usize,
-    /// The index of its error in [`Outcome::failures`].
+    /// The index of the expectation's error in [`Outcome::failures`].
     pub failure: usize,
     /// The actual value, if the recipe can be updated with it.
     pub found: Option<ActualValue>,

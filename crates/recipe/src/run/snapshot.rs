@@ -5,8 +5,8 @@ use std::sync::{Arc, Weak};
 use mesh::Mesh;
 use scene::{Graph, Material, Scene};
 
-/// A snapshot of a scene, to be compared with a later state of the scene. It holds only weak references to meshes:
-/// while a strong reference exists, an operation must copy the mesh before it changes the mesh.
+/// A snapshot of a scene, to be compared with a later state of the scene. The snapshot holds only weak references to
+/// meshes, because a strong reference would force an operation to copy a mesh before changing it.
 pub(super) struct SceneSnapshot {
     objects: Vec<(String, Vec<Material>, Option<Weak<Mesh>>)>,
     graph: Graph,

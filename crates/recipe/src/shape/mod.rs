@@ -1,8 +1,9 @@
 //! Checks values of a recipe against the JSON schema of their Rust type.
 //!
-//! The schema is derived by `schemars`, and the values are written as `ron` writes the type: a value that is accepted
-//! here can be deserialized, unless it breaks a rule that the schema does not state (a direction must not be zero).
-//! Unlike deserialization, the check finds all errors of a value, each with its span and a help text.
+//! The schema is derived by `schemars`, and the values are written as `ron` writes the type. A value that is accepted
+//! here can be deserialized, unless the value breaks a rule that the schema does not contain, such as the rule that a
+//! direction must not be zero. Unlike deserialization, the check finds all errors of a value, each with its span and a
+//! help text.
 //!
 //! ```text
 //! schema                                        in the recipe
@@ -56,7 +57,7 @@ pub(crate) fn checked(value: &Value, schema: &Json) -> Checked {
 /// # Errors
 ///
 /// All errors of the value against the schema. Empty if a part of the value could not be read, because the parser has
-/// already reported that.
+/// already reported the reason.
 pub(crate) fn typed<T: DeserializeOwned>(
     value: &Value,
     schema: &Json,

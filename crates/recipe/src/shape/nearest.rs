@@ -34,8 +34,9 @@ pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) ->
     near.into_iter().map(|(_, candidate)| candidate).collect()
 }
 
-/// Returns a lower bound of the edit distance of two names: the larger of the numbers of letters that only one of the
-/// names has. It is fast to compute, and rules out most names.
+/// Returns a lower bound of the edit distance between two names. The bound is the larger of two counts: the letters
+/// that only the first name has, and the letters that only the second name has. The bound is fast to compute and
+/// excludes most names.
 fn min_distance(a: &str, b: &str) -> usize {
     let mut surplus = [0_isize; 32];
     a.bytes()

@@ -123,7 +123,7 @@ fn to_int(limit: &serde_json::Number, round: fn(f64) -> f64) -> i128 {
         .unwrap_or_else(|| round(limit.as_f64().unwrap_or(0.0)) as i128)
 }
 
-/// A range of numbers. Each limit is given with whether it is exclusive.
+/// A range of numbers. Each limit has a flag: whether the limit is exclusive.
 struct Bounds {
     least: Option<(f64, bool)>,
     most: Option<(f64, bool)>,

@@ -1,4 +1,4 @@
-//! Explains selections of the wrong kind of elements, such as `Faces([0])` where edges are selected.
+//! Explains errors about selections of the wrong kind, such as `Faces([0])` where a selection of edges is expected.
 
 use std::sync::LazyLock;
 
@@ -17,8 +17,8 @@ pub(super) struct WrongKind {
 /// The name of the type, and its variants.
 type Variants = (&'static str, Vec<String>);
 
-/// Explains the variant `name` in a place for the selection type `expected`, if another selection type has this variant.
-/// Returns `None` for other types and variants.
+/// Explains the error if the variant `name` is not part of the selection type `expected`, but is part of another
+/// selection type. Returns `None` for other types and variants.
 pub(super) fn of_other_kind(name: &str, expected: &str) -> Option<WrongKind> {
     static ALL: LazyLock<[Variants; 3]> = LazyLock::new(|| {
         [

@@ -92,8 +92,8 @@ impl Checker {
                 Some(help),
             );
         }
-        // The best variant knows most of the names. Among equal variants, the one with the fewest errors is best, and
-        // then the first one.
+        // The best variant is the one that knows most of the names. If several variants know equally many names, the
+        // one with the fewest errors is best. If they also have equally many errors, the first one is best.
         let fit = |((_, _, trial), names): &((&str, Schema, Self), Vec<String>)| {
             (n_known(value, names), Reverse(trial.diagnostics.len()))
         };
@@ -167,7 +167,7 @@ fn in_full(value: &Value, name: &str) -> Value {
     Value::new(span, ValueKind::Call(Box::new(Call { name, body })))
 }
 
-/// Counts the names in the value that are among `names`.
+/// Counts the names in the value that `names` contains.
 fn n_known(value: &Value, names: &[String]) -> usize {
     let inside: usize = value.parts().map(|part| n_known(part, names)).sum();
     let is_known = |(name, _): (&str, _)| names.iter().any(|known| known == name);

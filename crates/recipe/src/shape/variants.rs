@@ -18,7 +18,7 @@ impl Checker {
         match choice.others.as_slice() {
             [] => self.check_variant(value, schema, choice, place),
             [one] => self.check(value, one, place),
-            // Several other schemas occur only for untagged enumerations, which parameters do not use.
+            // More than one other schema occurs only for untagged enumerations, which parameters do not use.
             _ => {}
         }
     }

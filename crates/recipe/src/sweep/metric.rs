@@ -1,4 +1,4 @@
-//! The metrics of a sweep: what it records of each run.
+//! The metrics of a sweep: the values that the sweep records of each run.
 
 use std::fmt;
 

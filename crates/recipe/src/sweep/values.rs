@@ -11,7 +11,7 @@ use crate::schema;
 use crate::shape;
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
-/// A description of values that are not listed one by one.
+/// A description of several values, such as a range, instead of a list of the values.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 enum Values {

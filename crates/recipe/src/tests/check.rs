@@ -118,7 +118,7 @@ fn a_step_without_a_mesh_to_change_is_an_error() {
         &steps("Lift(by: 1)"),
         "Lift",
         "Lift finds no mesh to change",
-        "load or make a mesh in an earlier step; Tessellate turns patches into one",
+        "load or create a mesh in an earlier step; Tessellate converts patches to a mesh",
     );
 }
 

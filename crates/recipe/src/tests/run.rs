@@ -273,7 +273,7 @@ fn a_mesh_that_exceeds_the_budget_is_not_built() {
     assert!(outcome.scene.unwrap().objects().is_empty());
 }
 
-/// A listener that cancels at a given call, and records the events.
+/// A listener that cancels the run at a given call, and records the events.
 struct Cancel {
     at: u64,
     calls: AtomicU64,

@@ -1,4 +1,4 @@
-//! Tests of updating: recorded values are replaced, and nothing else.
+//! Tests of updating: only recorded values are replaced.
 
 use proptest::prelude::*;
 

@@ -1,4 +1,4 @@
-//! Tests of `Not`, and of expectations that are wrong in themselves.
+//! Tests of `Not`, and of expectations that are invalid.
 
 use scene::Scene;
 

@@ -90,7 +90,8 @@ fn store_bytes(folder: &Folder, blob: BlobRef, bytes: &[u8]) -> bool {
         })
 }
 
-/// Whether a blob is already stored. If so, marks it as used. Its content is checked only when it is read.
+/// Whether a blob is already stored. If so, marks the blob as used. The content of the blob is checked only when the
+/// blob is read.
 fn is_stored(folder: &Folder, blob: &BlobRef) -> bool {
     let exists = exists(folder, blob);
     if exists {
@@ -122,7 +123,7 @@ pub(crate) fn store_file(folder: &Folder, path: &Path) -> Option<BlobRef> {
     (is_stored(folder, &blob) || folder.write(&to, copy)).then_some(blob)
 }
 
-/// Whether a blob exists and has the right length. Does not read it.
+/// Whether a blob exists and has the right length. Does not read the blob.
 pub(crate) fn exists(folder: &Folder, blob: &BlobRef) -> bool {
     let path = folder.path(Kind::Blob, &blob.hash);
     fs::symlink_metadata(path).is_ok_and(|meta| meta.is_file() && meta.len() == blob.len)

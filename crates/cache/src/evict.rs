@@ -8,9 +8,9 @@ use std::time::{Duration, SystemTime};
 use crate::CacheSize;
 use crate::folder::{Folder, Kind, Unusable, write_all};
 
-/// Temporary files older than this were left by killed processes and are removed.
+/// The maximum age of temporary files. Older files were left by killed processes and are removed.
 const MAX_TEMPORARY_AGE: Duration = Duration::from_secs(3600);
-/// If the file `sizes` is longer than this, in bytes, it is replaced by a single total.
+/// The maximum length of the file `sizes`, in bytes. A longer file is replaced by a single total.
 const MAX_SIZES_LEN: u64 = 1 << 16;
 
 struct Entry {
@@ -166,7 +166,7 @@ fn evict(folder: &Folder, limit: u64) -> io::Result<u64> {
             if total <= limit / 10 * 9 {
                 break;
             }
-            // Another process may have removed it.
+            // Another process may have removed the file.
             if fs::remove_file(&entry.path).is_ok() || !entry.path.exists() {
                 total -= entry.len;
             }

@@ -11,9 +11,9 @@ use recipe::RecipeExpectation;
 /// An expectation that holds for a scene.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub(crate) struct MetExpectation {
-    /// The digest of its text and of its `on`.
+    /// The digest of the expectation's text and `on`.
     id: Hash,
-    /// The files that it compares with.
+    /// The files that the expectation compares with.
     inputs: Inputs,
 }
 

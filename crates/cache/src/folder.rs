@@ -14,7 +14,7 @@ pub(crate) type Hash = [u8; 32];
 
 /// Larger files are read, written and hashed by several threads, in pieces of this size (in bytes).
 const PIECE: usize = 4 << 20;
-/// If the last mark of a file as used is less than this time ago, the file is not marked again.
+/// If a file was marked as used within this time, it is not marked again.
 const TOUCH_INTERVAL: Duration = Duration::from_secs(3600);
 
 /// Kinds of files. Each kind has its own folder.
@@ -152,7 +152,8 @@ impl Folder {
             return Some(key);
         }
         self.write(&self.key_file(), |file| write_all(file, &[&random()]));
-        // Read again: another process may have created a key at the same time, and the last one written is valid.
+        // The key is read again: another process may have created a key at the same time, and the key that was written
+        // last is valid.
         self.key().ok()
     }
 
@@ -189,7 +190,8 @@ impl Folder {
     }
 }
 
-/// Opens a file of the cache. Returns it with its length. The cache creates no links, so any link counts as damage.
+/// Opens a file of the cache. Returns the file and its length. The cache creates no links, so any link counts as
+/// damage.
 pub(crate) fn open_cache_file(path: &Path) -> Result<(File, u64), Unusable> {
     let meta = fs::symlink_metadata(path).map_err(unreadable)?;
     if meta.is_symlink() {
@@ -198,7 +200,7 @@ pub(crate) fn open_cache_file(path: &Path) -> Result<(File, u64), Unusable> {
     open(path)
 }
 
-/// Opens a regular file. Returns it with its length.
+/// Opens a regular file. Returns the file and its length.
 pub(crate) fn open(path: &Path) -> Result<(File, u64), Unusable> {
     let meta = fs::metadata(path).map_err(unreadable)?;
     if !meta.is_file() {

@@ -91,7 +91,7 @@ impl History {
 }
 
 impl Ingredients {
-    /// Returns the first difference from the current step.
+    /// Returns the first difference between the past step and the current step.
     fn difference(&self, now: &Self, rerun: Option<(usize, String)>) -> Option<RerunReason> {
         Some(if self.program != now.program {
             RerunReason::Program

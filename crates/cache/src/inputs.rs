@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::folder::{Hash, Unusable, hash_rest, open};
 use recipe::FileChange;
 
-/// What a path referred to when a step looked at it.
+/// The state of a path when a step accessed it.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub(crate) enum PathState {
     /// A regular file with this content.
@@ -73,7 +73,7 @@ impl FileChecker {
         found
     }
 
-    /// Returns the first of these files that has changed, and how.
+    /// Returns the first of these files that has changed, and how it has changed.
     pub(crate) fn first_change(
         &mut self,
         folders: &Files,
@@ -148,7 +148,7 @@ impl FileChecker {
     }
 }
 
-/// Returns the digest of a regular file, or `None` if the path is not one.
+/// Returns the digest of a regular file, or `None` if the path is not a regular file.
 fn digest_of(path: &Path) -> io::Result<Option<Hash>> {
     if !path.is_file() {
         return Ok(None);

@@ -7,8 +7,8 @@ use crate::folder::Hash;
 use crate::inputs::FileState;
 use recipe::RecipeStep;
 
-/// The version of the storage format. Every digest depends on it, so that programs with another version never find
-/// these files.
+/// The version of the storage format. Every digest depends on this version, so that programs with another version never
+/// find files of this version.
 const FORMAT: &str = "meshwright step cache 1";
 
 /// Everything that determines the result of a step before it runs.

@@ -3,7 +3,7 @@
 //! ```text
 //! steps/ab/cdef..     the records of a step, by its key: report, counts, files, and references to blobs
 //! blobs/12/3456..     arrays of scenes and output files, each by the BLAKE3 digest of its content
-//! recipes/..          what the keys of the steps in the last run of a recipe were computed from, to explain changes
+//! recipes/..          for each recipe, the data behind the keys of the steps in its last run, to explain changes
 //! tmp/                files that are being written
 //! sizes               the number of bytes that each run has added
 //! key                 the secret key of the cache: random bytes that enter the digests of records
@@ -24,10 +24,10 @@
 //!
 //! **What is stored.** Records are always stored. Scenes and files of fewer than [`ALWAYS_STORED`] bytes are always
 //! stored too. A larger scene is stored if the computation since the last stored scene took longer than storing the
-//! scene takes (at [`BYTES_PER_SECOND`]). Therefore storing at most about doubles the time of a first run, and
-//! recomputing a scene in a later run takes no longer than storing the scene would have taken. The same rule applies to
-//! large output files, but the time for loading the scene is added to the computing time. Equal arrays are stored once:
-//! a step that changes one attribute adds only that attribute.
+//! scene takes (at [`BYTES_PER_SECOND`]). A first run that stores its results therefore takes at most about twice as
+//! long, and recomputing a scene in a later run takes no longer than storing the scene would have taken. The same rule
+//! applies to large output files, but the time for loading the scene is added to the computing time. Equal arrays are
+//! stored once: a step that changes one attribute adds only that attribute.
 //!
 //! **Size.** At the end of a run that has stored something, the numbers of bytes that all runs have added are summed.
 //! If the sum exceeds the limit, all files are listed, and the least recently used files are removed until the
@@ -71,8 +71,8 @@ pub struct Cache {
 pub struct Caching<'a> {
     /// The cache.
     pub cache: &'a Cache,
-    /// The file of the recipe, if it has one. What the keys of its steps were computed from is stored, so that the next
-    /// run can report what changed.
+    /// The file of the recipe, if it has one. For this file, the data behind the keys of the steps is stored, so that
+    /// the next run can report changes.
     pub recipe: Option<&'a Path>,
     /// Whether [`Outcome::scene`](recipe::Outcome::scene) must be available even if no step needs it.
     pub want_scene: bool,

@@ -331,7 +331,7 @@ fn an_input_file_that_changes_disappears_or_appears_is_named() {
         assert_eq!(ran[0], (1, why));
         place.runs_nothing(&text);
     }
-    // The files are again as in an earlier run, and the result of that run is still in the cache.
+    // The files have the same contents as in an earlier run, and the result of that run is still in the cache.
     fs::remove_file(place.path("n.beside")).unwrap();
     place.write("n.txt", "4");
     place.runs_nothing(&text);
@@ -465,7 +465,7 @@ fn a_large_scene_that_is_fast_to_compute_may_be_computed_again() {
     let place = Place::new();
     let text = steps("Sheet(columns: 60000), Write(path: \"a.txt\")");
     place.run(&text);
-    // It depends on the speed of the machine whether the scene is stored. The outcome is the same in both cases.
+    // Whether the scene is stored depends on the speed of the machine. The outcome is the same in both cases.
     let more = text.replace("])", ", Sheet(columns: 1, name: \"b\")])");
     let outcome = place.run(&more);
     assert_eq!(outcome.steps.len(), 3);

@@ -1,12 +1,13 @@
 //! Measures how well a batch of 200 small files uses the processors, and how much of the time is spent in runs.
 //!
-//! Runs the program on wavy grids of 1,600 quadrilaterals (about 100 kB of OBJ), which it triangulates, subdivides once
-//! and writes as GLB, five times each with one thread and with all threads of the machine. Prints medians:
+//! The input files are wavy grids of 1,600 quadrilaterals (about 100 kB of OBJ). The recipe triangulates each grid,
+//! subdivides it once and writes it as GLB. The batch runs five times with one thread, and five times with all threads
+//! of the machine. Prints medians:
 //!
 //! - the wall time of the whole program,
 //! - busy: user and system time, divided by wall time times threads,
-//! - in jobs: the total time of all runs, divided by wall time times threads. This excludes reading and checking of the
-//!   recipe, digests, the journal and the report.
+//! - in jobs: the total time of all runs, divided by wall time times threads. The total does not include the time for
+//!   reading and checking the recipe, for digests, the journal and the report.
 //!
 //! ```text
 //! cargo bench -p meshwright-cli --bench batch

@@ -1,4 +1,5 @@
-//! Checks that a file is of the kind that a command expects. The error for another kind names the commands that fit.
+//! Checks that a file is of the kind that a command expects. The error for another kind names the commands that accept
+//! the file.
 
 use std::path::Path;
 
@@ -19,8 +20,8 @@ pub(crate) enum FileKind {
 /// The maximum size of a file that is read to find out whether it is a sweep, in bytes. Sweeps are short.
 const MAX_SWEEP: u64 = 1 << 20;
 
-/// Checks the kind of a file by its extension; recipes and sweeps, which share an extension, by their contents. Files
-/// that are missing or of an unknown kind pass: the command itself reports them.
+/// Checks the kind of a file by its extension. Recipes and sweeps share an extension, so they are distinguished by
+/// their contents. Files that are missing or of an unknown kind pass: the command itself reports them.
 ///
 /// # Errors
 ///

@@ -4,7 +4,7 @@ use std::path::Path;
 
 /// A recipe or an input file, with its result.
 pub(crate) struct Case<'a> {
-    /// The path, which is the name of the case; its folder is the class.
+    /// The path. It is the name of the case, and its folder is the class of the case.
     pub(crate) path: &'a Path,
     /// In seconds.
     pub(crate) time: f64,

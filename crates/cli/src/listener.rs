@@ -55,7 +55,7 @@ impl<'a> Terminal<'a> {
         ) {
             bar.set_style(style);
         }
-        // The tick starts a thread, which fails if memory is short.
+        // Periodic redrawing starts a thread, which fails if memory is short.
         if !bar.is_hidden() {
             bar.enable_steady_tick(Duration::from_millis(120));
         }

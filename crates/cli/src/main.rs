@@ -11,10 +11,10 @@ fn main() -> ExitCode {
     cli::run(ops_all::registry())
 }
 
-/// Prints the backtraces of panics, if `RUST_BACKTRACE` asks for them, in place of the standard library.
+/// Prints the backtraces of panics in place of the standard library, if `RUST_BACKTRACE` requests them.
 ///
-/// The standard library prints a backtrace if memory runs out, too. Printing takes a lock and needs memory, so a second
-/// failed allocation would wait for this lock forever.
+/// The standard library would also print a backtrace when memory runs out. Printing takes a lock and needs memory, so a
+/// second failed allocation would wait for this lock forever.
 fn print_backtraces_in_a_hook() {
     const VARIABLE: &str = "RUST_BACKTRACE";
 

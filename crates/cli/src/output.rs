@@ -149,8 +149,8 @@ fn terminal_width() -> Option<usize> {
         .filter(|&columns| columns > 0)
 }
 
-/// Aligns rows in columns. If the table is wider than `limit`, the header and then the first column and a last column of
-/// texts are shortened, but no numbers.
+/// Aligns rows in columns. If the table is wider than `limit`, the titles are shortened first, then a last column of
+/// texts, and then the first column. Numbers are never shortened.
 fn table_within(rows: &[Vec<String>], limit: Option<usize>, last_is_text: bool) -> String {
     /// Names are not shortened below this number of characters.
     const MIN: usize = 8;
@@ -347,7 +347,7 @@ pub(crate) fn write_atomically(path: &Path, bytes: &[u8]) -> anyhow::Result<()> 
     Ok(write_temporary(path, bytes)?.commit()?)
 }
 
-/// Writes a temporary file beside `path`; committing it moves it to `path`. Creates missing parent folders.
+/// Writes a temporary file beside `path`; committing the file moves it to `path`. Creates missing parent folders.
 pub(crate) fn write_temporary(path: &Path, bytes: &[u8]) -> Result<Box<dyn NewFile>, StoreError> {
     let write = || -> io::Result<Box<dyn NewFile>> {
         Disk.make_folder(folder_of(path))?;

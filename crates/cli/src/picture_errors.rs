@@ -15,7 +15,7 @@ use crate::listener::{INTERRUPT, lock};
 use crate::output::{STAMP, escape_control, print_error, write_atomically};
 
 impl PictureErrorsArgs {
-    /// Creates the pictures of a file's failures. `budget` is the memory for each, in bytes.
+    /// Creates the pictures of a file's failures. `budget` is the memory for each picture, in bytes.
     pub(crate) fn of(&self, file: &Path, budget: u64) -> Pictures {
         self.named(Path::new(store::stem(file)), budget)
     }
@@ -40,7 +40,7 @@ impl PictureErrorsArgs {
 /// Maximum number of pictures of a run.
 const MAX_PICTURES: usize = 20;
 
-/// Files with more bytes are not compared as pictures: no picture of a recipe is this large.
+/// The maximum size of files that are compared as pictures, in bytes. No picture of a recipe is larger.
 const MAX_FILE_SIZE: u64 = 64 << 20;
 
 /// Draws the failures of a run, if requested, and keeps the list of pictures.

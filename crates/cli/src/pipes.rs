@@ -15,7 +15,7 @@ use store::{Disk, Memory, Store as _};
 
 use crate::args::WrongUsage;
 
-/// The largest number of bytes that are read from standard input. Its size is not known before it is read.
+/// The largest number of bytes that are read from standard input, whose size is not known in advance.
 const MAX_INPUT: u64 = 1 << 32;
 
 /// Whether a path stands for standard input or standard output. A file with this name is `./-`.
@@ -84,7 +84,7 @@ pub(crate) fn mesh_name(
     Err(WrongUsage(message).into())
 }
 
-/// Reads a mesh file from standard input. `name` is its path for messages, as of [`mesh_name`].
+/// Reads a mesh file from standard input. `name` is the path that [`mesh_name`] returned, for messages.
 pub(crate) fn read_mesh(name: &Path, options: &ReadOptions) -> anyhow::Result<mesh_io::Loaded> {
     let bytes = read_up_to(io::stdin(), MAX_INPUT).context("cannot read standard input")?;
     mesh_io::read_bytes(&Disk, name, bytes, options).map_err(|error| anyhow::anyhow!("{error}"))
@@ -105,8 +105,8 @@ fn read_up_to(stream: impl Read, most: u64) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Writes a scene to standard output. `name` chooses the format, as of [`mesh_name`]. Materials of OBJ files, which
-/// need a second file, are a loss.
+/// Writes a scene to standard output. `name` is the path that [`mesh_name`] returned, and determines the format.
+/// Materials of OBJ files need a second file, so they are lost.
 ///
 /// # Errors
 ///

@@ -9,8 +9,8 @@ use store::{Entry, NewFile, StoreError, folder_of};
 
 use crate::listener::lock;
 
-/// The disk. Records the paths that are read or looked for, also those of missing files. They can include folders and
-/// output files.
+/// The disk, as a store that records the paths that are read or looked for, including paths of missing files. The
+/// recorded paths can include folders and output files.
 #[derive(Debug, Default)]
 pub(crate) struct RecordingDisk(Mutex<Recorded>);
 

@@ -29,8 +29,8 @@ pub(crate) fn is_recipe(path: &Path) -> bool {
 /// The code of notes about missing images.
 const IMAGES: &str = "image-missing";
 
-/// Loads the scene of a mesh file, or runs a recipe up to `stop`. Checks no expectations and writes no files. Missing images
-/// are not reported: only pictures need them, and report them.
+/// Loads the scene of a mesh file, or runs a recipe up to `stop`. Checks no expectations and writes no files. Missing
+/// images are not reported here: only pictures need images, and drawing a picture reports missing images.
 pub(crate) fn load_scene(
     path: &Path,
     options: &ReadOptions,
@@ -66,7 +66,7 @@ pub(crate) fn read_file(path: &Path, options: &ReadOptions) -> anyhow::Result<(S
     into_scene(path, loaded)
 }
 
-/// Like [`read_file`], for standard input if `path` is `-`. `name` is the path of [`pipes::mesh_name`].
+/// Like [`read_file`], for standard input if `path` is `-`. `name` is the path that [`pipes::mesh_name`] returned.
 pub(crate) fn read_file_or_input(
     path: &Path,
     name: &Path,

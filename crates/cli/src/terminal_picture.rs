@@ -36,8 +36,8 @@ pub(crate) enum Protocol {
 /// Maximum width of a picture made of characters.
 const MAX_WIDTH: u32 = 100;
 
-/// Prints a picture to standard output, in the best encoding that the terminal supports; in a file or a pipe, as
-/// letters.
+/// Prints a picture to standard output, in the best encoding that the terminal supports. If standard output is a file
+/// or a pipe, prints letters.
 ///
 /// # Errors
 ///
@@ -126,7 +126,7 @@ fn kitty(png: &[u8]) -> Vec<u8> {
 
 fn sixel(image: &Image) -> Vec<u8> {
     let mut palette = Palette::of(std::slice::from_ref(image));
-    // P2 = 1: pixels that are not set keep their color.
+    // The parameter P2 = 1 of the protocol: pixels that are not set keep their color.
     let mut text = format!("\x1bP0;1;0q\"1;1;{};{}", image.width, image.height);
     for (i, color) in palette.colors().iter().enumerate() {
         // In percent.
@@ -202,7 +202,8 @@ fn reduced(image: &Image, columns: u32) -> Image {
     }
 }
 
-/// Returns rows of pixel pairs, one above the other. Pixels with less than half opacity are `None`.
+/// Returns the rows of characters. Each character shows two pixels, one above the other. Pixels with less than half
+/// opacity are `None`.
 fn pairs(image: &Image) -> impl Iterator<Item = Vec<[Option<[u8; 3]>; 2]>> {
     let opaque = |[r, g, b, a]: [u8; 4]| (a >= 128).then_some([r, g, b]);
     let width = image.width as usize;

@@ -204,7 +204,7 @@ impl<'s> LineIndex<'s> {
 }
 
 /// Returns the start of the character that contains the byte at `offset`, or the end of the text if `offset` is beyond
-/// it.
+/// the end.
 fn char_start(source: &str, offset: usize) -> usize {
     let mut offset = offset.min(source.len());
     while !source.is_char_boundary(offset) {

@@ -13,12 +13,12 @@ pub(super) struct Contents {
     pub(super) fields: Vec<Field>,
     values: Vec<Value>,
     entries: Vec<(Value, Value)>,
-    /// Whether all items up to now could be read.
+    /// Whether all items so far could be read.
     complete: bool,
 }
 
 impl Contents {
-    /// Whether the group seems to be a tuple: up to now, it has values without names, and no fields.
+    /// Whether the group seems to be a tuple: so far, it has values without names, and no fields.
     pub(super) fn is_tuple(&self) -> bool {
         self.bracket == Bracket::Round && self.fields.is_empty() && !self.values.is_empty()
     }
@@ -236,7 +236,7 @@ impl Parser<'_> {
                     if !pairs || !starts_value(self.current.kind) {
                         return;
                     }
-                    // In `[a: 1]`, only the colon is reported: the 1 is not another item without a comma.
+                    // In `[a: 1]`, only the colon is an error: the missing comma before the 1 is not reported too.
                     self.value("a value");
                 }
                 _ => return self.missing("`,`"),

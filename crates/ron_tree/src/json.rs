@@ -4,7 +4,7 @@ use super::literal::Number;
 use super::tree::{Value, ValueKind};
 use serde_json::{Map, Value as Json};
 
-/// Returns the value as JSON, as serde writes the same Rust data, with externally tagged enumerations.
+/// Returns the value as the JSON that serde writes for the same Rust data. Enumerations are externally tagged.
 ///
 /// ```text
 /// Area          "Area"                 (a: 1)   {"a": 1}      None      null

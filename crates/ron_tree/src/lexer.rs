@@ -112,7 +112,7 @@ pub struct Lexer<'s> {
     at: usize,
     /// Whether a `"` string must end in the line in which it starts.
     lines_end_strings: bool,
-    /// No raw string with this number of hashes or more ends in the rest of the text.
+    /// The rest of the text does not contain the end of a raw string with this number of hashes or more.
     unclosed_hashes: usize,
 }
 

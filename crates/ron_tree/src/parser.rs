@@ -66,11 +66,11 @@ pub(super) struct Lexeme {
     /// `None` at the end of the text.
     pub(super) kind: Option<TokenKind>,
     pub(super) span: Span,
-    /// The number of line feeds before it.
+    /// The number of line feeds before the token.
     pub(super) line: usize,
-    /// Whether it is the first token of its line.
+    /// Whether the token is the first of its line.
     pub(super) starts_line: bool,
-    /// Whether invalid characters before it were reported and skipped.
+    /// Whether invalid characters before the token were reported and skipped.
     after_invalid: bool,
 }
 
@@ -185,7 +185,7 @@ impl<'s> Parser<'s> {
         }
     }
 
-    /// Reports an error about `current`, unless an error about it was already reported.
+    /// Reports an error about `current`, unless an error about `current` was already reported.
     pub(super) fn complain(&mut self, diagnostic: Diagnostic) {
         let start = self.current.span.start;
         // These tokens are errors by themselves, and `value` reports them.

@@ -20,22 +20,22 @@ use crate::diagnostic::Span;
 pub(super) struct OpenBracket {
     pub(super) bracket: Bracket,
     pub(super) span: Span,
-    /// Whether a name precedes it, as in `Name(`.
+    /// Whether a name precedes the bracket, as in `Name(`.
     pub(super) has_name: bool,
-    /// The number of line feeds before it.
+    /// The number of line feeds before the bracket.
     pub(super) line: usize,
 }
 
 /// How a closing bracket relates to the innermost open bracket.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Closing {
-    /// It closes the innermost bracket.
+    /// The closing bracket matches the innermost open bracket.
     Matching,
-    /// It was typed in place of the bracket that closes the innermost one.
+    /// The closing bracket was typed in place of the one that closes the innermost open bracket.
     Mistyped,
-    /// It closes an outer bracket: the closing bracket of the innermost one is missing.
+    /// The closing bracket matches an outer open bracket: the one that closes the innermost open bracket is missing.
     Missing,
-    /// It has no matching open bracket.
+    /// The closing bracket has no matching open bracket.
     Stray,
 }
 

@@ -101,7 +101,7 @@ pub(crate) struct BatchArgs {
     /// Also write the results as JUnit XML, with a test case for each input file
     #[arg(long, value_name = "FILE")]
     pub(crate) junit: Option<PathBuf>,
-    /// Process only part I of N of the input files; the part depends only on the file's path
+    /// Process only part I of N of the input files; the path of a file alone determines its part
     #[arg(long, value_name = "I/N")]
     pub(crate) shard: Option<Shard>,
     /// Retry files that failed in an earlier run

@@ -105,7 +105,7 @@ pub(crate) struct ReproduceArgs {
     /// Output files of recipes
     #[arg(required = true)]
     pub(crate) files: Vec<PathBuf>,
-    /// The recipe that wrote them; by default it is searched for
+    /// The recipe that wrote the files; if omitted, the program searches for it
     #[arg(long, value_name = "RECIPE")]
     pub(crate) recipe: Option<PathBuf>,
     /// Memory budget for meshes, such as 512MiB or 8GiB

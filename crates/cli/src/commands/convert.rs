@@ -28,7 +28,8 @@ pub(crate) fn run(args: &ConvertArgs) -> anyhow::Result<bool> {
     };
     let (scene, mut notes) = read_file_or_input(&args.input, &input, &options)?;
     if mesh_io::keeps_vertices(&output) {
-        // The file is written with the vertices and edges that were read.
+        // In this format, the written file has the same vertices and edges as the input file, so splits are not
+        // reported.
         notes.retain(|note| !matches!(note.code, "edges-split" | "vertices-split"));
     }
     let human = args.format == Format::Human;

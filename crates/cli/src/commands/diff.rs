@@ -111,9 +111,9 @@ fn mesh_text(mesh: &MeshDifference, files: &[String; 2]) -> String {
             Some(m) => {
                 let [n, all] = [m.count, mesh.counts[0].vertices].map(|n| group_digits(n as u64));
                 format!(
-                    "{n} of {all} differ, most at {} by {}",
-                    m.vertex,
-                    number(m.by)
+                    "{n} of {all} differ, at most by {} at {}",
+                    number(m.by),
+                    m.vertex
                 )
             }
         };
@@ -177,7 +177,7 @@ fn column_text(attribute: &AttributeDifference, files: &[String; 2]) -> String {
         ColumnDifference::Unknown => "in both, but on different elements".to_owned(),
         ColumnDifference::Values { count, by, element } => {
             let n = group_digits(*count as u64);
-            format!("{n} values differ, most at {element} by {}", number(*by))
+            format!("{n} values differ, at most by {} at {element}", number(*by))
         }
     }
 }

@@ -22,7 +22,7 @@ pub(crate) fn run(args: &InfoArgs) -> anyhow::Result<bool> {
     let path = &pipes::mesh_name(&args.file, args.from.as_deref(), "stdin", "--from")?;
     let (scene, notes) = read_file_or_input(&args.file, path, &args.read.options())?;
     let pictures = args.picture_errors.of(path, BUDGET);
-    // The places of notes are in the space of each object.
+    // The places of notes have coordinates in the space of their object.
     let mut unplaced = Scene::new();
     unplaced.append(scene.objects().to_vec(), Graph::default())?;
     for note in &notes {
@@ -139,7 +139,7 @@ fn duration(graph: &Graph, animation: &Animation) -> f64 {
     })
 }
 
-/// Returns the number of joints with weights, and the largest number of them at a vertex.
+/// Returns the number of joints with weights, and the largest number of these joints at one vertex.
 fn joint_counts(mesh: &Mesh) -> (usize, usize) {
     let joints = mesh.attributes().joints();
     let at = |v: usize| {

@@ -98,8 +98,8 @@ pub(crate) fn parameters(
     Ok(picture)
 }
 
-/// Makes a path absolute. On the command line, paths are relative to the working directory, but in a step, to the
-/// folder of the recipe.
+/// Makes a path absolute. Paths on the command line are relative to the working directory, but paths in a step are
+/// relative to the folder of the recipe.
 fn absolute_path(path: &str) -> anyhow::Result<String> {
     let full = std::path::absolute(path)
         .with_context(|| format!("cannot make the path {path} absolute"))?;
@@ -194,8 +194,8 @@ fn draw(
     draw_scenes(&picture, path, &scenes_at_steps, &args.draw.on)
 }
 
-/// Tags the faces in which two scenes differ, and returns a selection of them. Returns `None` if no faces differ, or
-/// most of them, as after a subdivision.
+/// Tags the faces in which two scenes differ, and returns a selection of them. Returns `None` if no faces differ, or if
+/// most faces differ, as after a subdivision.
 fn highlight_changes(before: &mut Scene, after: &mut Scene) -> Option<Elements> {
     const TAG: &str = "changed by the step";
     let tag = TagName::try_from(TAG.to_owned()).ok()?;

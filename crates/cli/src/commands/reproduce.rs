@@ -51,7 +51,7 @@ fn recipe_of(
     let stamp = stamp.with_context(|| {
         format!("{shown} does not record which recipe wrote it: name the recipe with --recipe")
     })?;
-    // The recipe may have been renamed, and a different recipe may have its name: the digest decides.
+    // The recipe may have been renamed, and a different recipe may have its name, so it is identified by its digest.
     let mut candidates = recipes_here();
     let is_named = |path: &PathBuf| {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -130,7 +130,8 @@ impl Rerun {
             print_diagnostics(&loaded, &loaded.diagnostics);
             anyhow::bail!("{} cannot be run", loaded.path);
         }
-        // Expectations may only hold for other parameter values, and only the bytes are compared here.
+        // The expectations are not checked: they may not hold for these parameter values, and only the bytes matter
+        // here.
         loaded.recipe.expectations.clear();
         let run_again = engine::Run {
             keep_outputs: true,
@@ -155,7 +156,7 @@ impl Rerun {
         self.source == *source && self.run == *run
     }
 
-    /// Prints whether the run has written the same bytes as those of `file`.
+    /// Prints whether the run has written the same bytes as `file` contains.
     fn compare(&self, file: &Path, stamp: Option<&Stamp>) -> anyhow::Result<bool> {
         let (shown, recipe) = (file.display(), &self.loaded.path);
         let bytes = fs::read(file).with_context(|| format!("cannot read {shown}"))?;

@@ -144,7 +144,7 @@ pub(crate) fn print_outcome(
         let is_set = parameters.iter().any(recipe::Parameter::is_set);
         if is_set && outcome.steps.len() == loaded.recipe.steps.len() {
             print_error(
-                "the expectations may only hold for the default values of parameters: use --no-expect to skip them\n",
+                "the expectations may hold only for the default values of parameters: use --no-expect to skip them\n",
             );
         }
     }

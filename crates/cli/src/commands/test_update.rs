@@ -8,15 +8,15 @@ use recipe::update::update;
 use crate::output::write_temporary;
 use engine::Loaded;
 
-/// Replaces recorded values that differ from those of the run. Returns a line for each change. Failures that this fixes
-/// are removed from `outcome`.
+/// Replaces recorded values that differ from those of the run. Returns a line for each change. Failures that the update
+/// fixes are removed from `outcome`.
 pub(crate) fn update_recorded_values(
     path: &Path,
     loaded: &Loaded,
     outcome: &mut Outcome,
 ) -> anyhow::Result<Vec<String>> {
     let update = update(&loaded.recipe, outcome);
-    // Reference files first: if one cannot be written, the recipe stays unchanged.
+    // Reference files are written first: if one cannot be written, the recipe stays unchanged.
     let files = update
         .files
         .iter()

@@ -151,7 +151,8 @@ impl FolderWatcher {
         };
         for file in self.disk.files() {
             if !is_temporary(&file) && !lock(&self.ignored).contains(&file) {
-                // The run has read the file; if its folder cannot be watched, the others still are.
+                // The run has already read the file. If its folder cannot be watched, the other folders are still
+                // watched.
                 let _ = self.follow(folder_of(&file));
             }
         }

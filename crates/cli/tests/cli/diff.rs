@@ -27,7 +27,7 @@ fn the_exit_code_is_0_for_equal_and_1_for_different_files() {
         "vertices",
         "area",
         "connectivity   the same\n",
-        "positions      1 of 4 differ, most at v2 by 0.25\n",
+        "positions      1 of 4 differ, at most by 0.25 at v2\n",
         "distance       ",
         "mean distance  ",
         "different\n",

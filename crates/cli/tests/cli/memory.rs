@@ -20,7 +20,8 @@ fn every_run_ends_under_a_limit_of_memory() {
             assert!(!ended.stderr.contains("internal error"), "{what}");
             match ended.code {
                 Some(0) => succeeded += 1,
-                // 127: the program cannot be loaded. None and 134: an allocation outside of the large arrays.
+                // 127: the program cannot be loaded. None (killed by a signal) and 134: an allocation outside of the
+                // large arrays failed.
                 Some(1 | 127 | 134) | None => {
                     refused += 1;
                     let sentence = ["memory", "Resource temporarily unavailable", "cannot"];

@@ -28,8 +28,8 @@ impl Input {
     }
 }
 
-/// Lists the files that the patterns match, without duplicates. The files of each pattern are sorted by path, and follow
-/// those of the pattern before.
+/// Lists the files that the patterns match, without duplicates. The files of each pattern are sorted by path, and
+/// follow the files of the previous pattern.
 pub(crate) fn list(patterns: &[String]) -> anyhow::Result<Vec<Input>> {
     let mut inputs = Vec::new();
     for pattern in patterns {

@@ -38,7 +38,7 @@ pub(super) fn run(args: &BatchArgs) -> anyhow::Result<bool> {
     Ok(header.failed == 0 && header.skipped == 0 && header.missing_shards.is_empty())
 }
 
-/// Returns the number of parts, as recorded in the first report that is of a part.
+/// Returns the number of parts, as recorded in the first report that covers only a part.
 fn n_parts(reports: &[(&Path, Report)]) -> Option<u32> {
     let shards = reports.iter().filter_map(|(_, r)| r.header.shard);
     shards.map(|shard| shard.of).next()

@@ -6,9 +6,10 @@
 //!                                                             +------ journal <-----+
 //! ```
 //!
-//! Prints a line for each processed file, in the order of the list, and a summary. [`row`] describes the reports,
-//! [`journal`] how an interrupted batch is resumed. Outputs, reports and failures are written to temporary files and
-//! renamed. If the disk is full, the current files fail. If the journal cannot be written, no further file is started.
+//! Prints a line for each processed file, in the order of the list, and a summary. [`row`] describes the reports, and
+//! [`journal`] describes how an interrupted batch is resumed. Outputs, reports and failures are written to temporary
+//! files and renamed. If the disk is full, the current files fail. If the journal cannot be written, no further file is
+//! started.
 
 mod failed;
 pub(crate) mod inputs;
@@ -67,7 +68,7 @@ pub(crate) fn run(args: &BatchArgs, engine: &Engine) -> anyhow::Result<bool> {
     Ok(header.failed == 0 && header.skipped == 0)
 }
 
-/// Returns the results as JUnit XML. The text of a failure is that of its file in the folder of failures.
+/// Returns the results as JUnit XML. The text of a failure is the content of its file in the folder of failures.
 fn junit_report(batch: &Batch, rows: &[Row]) -> String {
     let files = batch.files_of_part();
     let pairs = rows.iter().zip(files);
@@ -113,7 +114,7 @@ fn summary(report: &Report, kept: usize, args: &BatchArgs) -> String {
 
 /// What to do with an input file.
 enum Task {
-    /// Nothing: this is its row from an earlier run.
+    /// Keep this row from an earlier run.
     Keep(Row),
     /// Run the recipe, with this estimated peak memory in bytes.
     Run(Box<Loaded>, u64),

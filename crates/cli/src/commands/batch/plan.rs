@@ -64,8 +64,9 @@ impl<'a> Batch<'a> {
 
     /// Fails if two files would write the same output, or if an output would overwrite an input file.
     ///
-    /// Output paths depend on the input file only through placeholders, in this recipe and in the recipes that it calls.
-    /// So the recipe is planned once with a marker as the file name, which is then replaced by each name.
+    /// Output paths depend on the input file only through placeholders, in this recipe and in the recipes that it
+    /// calls. So the recipe is planned once with a marker as the file name, and the marker is then replaced by the name
+    /// of each file.
     fn check_outputs(&self) -> anyhow::Result<()> {
         let [stem, name] = ["\u{1}", "\u{1}.\u{2}"];
         let marked = self.load_at(name, &self.args.out)?;

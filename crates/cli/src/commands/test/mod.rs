@@ -208,7 +208,8 @@ impl<'a> Test<'a> {
             Ok(loaded) => loaded,
             Err(message) => return TestResult::failed(&[], Some(message.clone())),
         };
-        // A recipe that others call may need their objects, so errors of checking it alone are ignored.
+        // A recipe that other recipes call may need objects of its callers, so errors from checking the recipe alone
+        // are ignored.
         if loaded.is_read && (self.is_called || !expects(loaded)) {
             let state = if self.is_called {
                 State::Called

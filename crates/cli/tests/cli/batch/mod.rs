@@ -63,7 +63,7 @@ fn rows(report: &Json) -> &Vec<Json> {
     report["rows"].as_array().unwrap()
 }
 
-/// The inputs of a report with a text for each.
+/// The inputs of a report, each with its text in the column `name`.
 fn column<'r>(report: &'r Json, name: &str) -> Vec<(&'r str, &'r str)> {
     let text = |row: &'r Json, name: &str| row[name].as_str().unwrap_or("");
     rows(report)

@@ -23,12 +23,12 @@ use rayon::prelude::*;
 
 /// Cuts polygons into triangles.
 ///
-/// A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length (their squared lengths
-/// differ by at most 1e-12, relative), it is cut along the diagonal at its vertex with the lowest number. A diagonal
-/// that gives a triangle without area, or a triangle that is turned over relative to the normal of the face, is chosen
-/// only if the other diagonal is no better. A quadrilateral with a reflex corner is therefore cut at that corner. If a
-/// diagonal would join two vertices that are already joined by an edge or another diagonal, the other diagonal is
-/// chosen where possible. The remaining duplicate diagonals are counted.
+/// A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length (the relative difference
+/// of their squared lengths is at most 1e-12), it is cut along the diagonal at its vertex with the lowest number. A
+/// diagonal that gives a triangle without area, or a triangle that is turned over relative to the normal of the face,
+/// is chosen only if the other diagonal is no better. A quadrilateral with a reflex corner is therefore cut at that
+/// corner. If a diagonal would join two vertices that are already joined by an edge or another diagonal, the other
+/// diagonal is chosen where possible. The remaining duplicate diagonals are counted.
 ///
 /// A face with more corners is projected along its normal, cut by ear clipping, and improved by flipping diagonals
 /// until it is a constrained Delaunay triangulation. A face that cannot be cut this way, because it has no area or its

@@ -8,10 +8,10 @@
 //!    +-----+ +-----+            +-----+-----+
 //! ```
 //!
-//! Vertices at most `distance` apart are linked, and vertices that are connected by links are merged into one.
-//! Two vertices at 0.9 times the distance therefore always merge. Two vertices at 1.1 times the distance merge
-//! only if other vertices between them link them. The result depends neither on the order of the vertices nor on
-//! the number of threads.
+//! Vertices at most `distance` apart are linked, and vertices that are connected by links are merged into one. Two
+//! vertices that are 0.9 times `distance` apart therefore always merge. Two vertices that are 1.1 times `distance`
+//! apart merge only if a chain of other vertices links them. The result depends neither on the order of the vertices
+//! nor on the number of threads.
 
 use mesh::VERTEX_NORMAL;
 use op::prelude::*;

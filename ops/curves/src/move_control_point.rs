@@ -15,12 +15,14 @@ use scene::Geometry;
 
 /// Moves one control point of curves.
 ///
-/// The other control points do not move. The point of the curve at t moves in the same direction. The distance
-/// that it moves is the distance of the control point multiplied by the value of its Bernstein polynomial at t.
+/// The other control points do not move. The point of the curve at a parameter t moves in the same direction as the
+/// control point. It moves as far as the control point, multiplied by the value at t of the Bernstein polynomial of the
+/// control point.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MoveControlPoint {
-    /// The index of the control point, from 0. Every curve on which the step acts must have it.
+    /// The index of the control point, from 0. Every curve on which the step acts must have a control point with this
+    /// index.
     pub index: u32,
     /// The new position: `(x, y)` in the plane z = 0, in scene units.
     pub to: PlanePoint,

@@ -16,13 +16,14 @@ use crate::moved::{Stretch, moved, next};
 
 /// Bends an axis, and everything around it, into an arc of a circle.
 ///
-/// The plane at `from` stays. Between `from` and `to`, the axis becomes an arc that keeps its length and turns by `angle` in total. Beyond
-/// `to`, everything moves rigidly. Vertices between the axis and the center of the circle come closer together, and those on
-/// the other side move apart. The center is at the distance (to - from) / angle from the axis, with the angle in radians; what lies
-/// beyond it turns inside out: Barr, "Global and Local Deformations of Solid Primitives", 1984.
+/// The plane at `from` stays. Between `from` and `to`, the axis becomes an arc that keeps its length and turns by
+/// `angle` in total. Beyond `to`, everything moves rigidly. Vertices between the axis and the center of the circle come
+/// closer together, and vertices on the other side of the axis move apart. The center is at the distance (to - from) /
+/// angle from the axis, with the angle in radians. Parts of the mesh beyond the center turn inside out. Source: Barr,
+/// "Global and Local Deformations of Solid Primitives", 1984.
 ///
-/// Faces, numbers and attributes do not change, so textures stretch with the surface. Normals are dropped. Only vertices
-/// move: refine the mesh first if its faces are large.
+/// Faces, element numbers and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
+/// vertices move: refine the mesh first if its faces are large.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bend {
@@ -30,7 +31,7 @@ pub struct Bend {
     pub axis: Axis,
     /// The angle between the ends of the axis, in degrees. A negative angle bends to the other side.
     pub angle: Angle,
-    /// The axis towards which the upper end bends. If omitted, the next one in the order x, y, z, x.
+    /// The axis towards which the upper end bends. If omitted, the axis after `axis` in the order x, y, z, x.
     #[serde(default)]
     pub towards: Option<Axis>,
     /// A point on the axis. Its coordinate along the axis does not matter.

@@ -16,8 +16,9 @@ use crate::moved::moved;
 
 /// Moves vertices along their normals, by amounts that vary over the surface.
 ///
-/// Each vertex moves by `distance` times the value of `by` along its normal: the sum of the area vectors of its faces.
-/// Vertices without such a normal stay and are counted. Faces, numbers and attributes do not change. Normals are dropped.
+/// Each vertex moves along its normal by `distance` times the value of `by`. Its normal is the mean of the normals of
+/// its faces, weighted by their areas. Vertices without such a normal stay and are counted. Faces, element numbers and
+/// attributes do not change. Normals are dropped.
 ///
 /// The values are computed without functions that differ between machines, so the result is the same everywhere.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
@@ -36,8 +37,8 @@ pub struct Displace {
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum DisplaceBy {
-    /// Smooth noise from -1 to 1 (Perlin, "Improving Noise", 2002). The value depends on the place only, so that vertices at the same
-    /// place move by the same amount.
+    /// Smooth noise from -1 to 1 (Perlin, "Improving Noise", 2002). The value depends only on the position, so vertices
+    /// at the same position move by the same amount.
     Noise {
         /// The size of the waves, in scene units.
         scale: PositiveLength,

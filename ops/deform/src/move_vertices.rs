@@ -15,20 +15,20 @@ use crate::moved::moved;
 
 /// Moves vertices.
 ///
-/// Faces, numbers and attributes do not change, so textures stretch with the surface. Normals are dropped.
+/// Faces, element numbers and attributes do not change, so textures stretch with the surface. Normals are dropped.
 ///
-/// With `falloff: r`, a vertex at the distance d from the nearest selected vertex moves along, multiplied by the weight
-/// (1 - (d/r)²)². The weight is 1 at selected vertices and falls smoothly to 0 at the distance r. Distances are
-/// straight, not along the surface.
+/// With `falloff: r`, vertices near the selected vertices move along. At the distance d from the nearest selected
+/// vertex, the movement is multiplied by the weight (1 - (d/r)²)². The weight is 1 at selected vertices and falls
+/// smoothly to 0 at the distance r. Distances are straight, not along the surface.
 ///
-/// With `by: Distance(..)`, each vertex moves along its own normal: the sum of the area vectors of its faces. Vertices
-/// without such a normal stay and are counted.
+/// With `by: Distance(..)`, each vertex moves along its own normal: the mean of the normals of its faces, weighted by
+/// their areas. Vertices without such a normal stay and are counted.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MoveVertices {
     /// The vertices to move.
     pub vertices: VertexSelection,
-    /// How they move.
+    /// How the vertices move.
     pub by: MoveBy,
     /// The distance from the selected vertices at which the movement has fallen to 0, in scene units. If omitted, only the
     /// selected vertices move.

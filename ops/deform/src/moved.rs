@@ -1,4 +1,4 @@
-//! What the operations of this group share: coordinates along an axis, and moving vertices in parallel.
+//! Code shared by the operations of this group: coordinates along an axis, and moving vertices in parallel.
 
 use geometry::deform::Frame;
 use mesh::{DVec3, VertexId};
@@ -84,8 +84,8 @@ impl Stretch {
         }
     }
 
-    /// Returns the coordinates with the unit vectors `towards`, axis × `towards`, and axis. Missing ends are the ends of the
-    /// bounding box.
+    /// Returns the coordinate frame with the unit vectors `towards`, axis × `towards`, and axis. A missing end of the
+    /// range becomes the end of the bounding box.
     pub(crate) fn frame(&self, mesh: &Mesh, towards: Axis) -> Result<Frame, OpError> {
         let axis = unit(self.axis);
         let [min, max] = geometry::bounds(mesh).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Taper: scales around an axis, the further the higher.
+//! Taper: scales around an axis, by a factor that changes along the axis.
 //!
 //! ```text
 //!    to    +-----+                 +---+         A vertex at the height h is scaled by
@@ -14,13 +14,13 @@ use op::prelude::*;
 
 use crate::moved::{Stretch, moved, next};
 
-/// Scales vertices towards or away from an axis, the further the higher.
+/// Scales vertices towards or away from an axis, by a factor that changes along the axis.
 ///
-/// The factor changes linearly from 1 at `from` to `factor` at `to`. Below and above, the factor of the nearer end applies. Heights
-/// do not change: Barr, "Global and Local Deformations of Solid Primitives", 1984.
+/// The factor changes linearly from 1 at `from` to `factor` at `to`. Below `from` and above `to`, the factor of the
+/// nearer end applies. Heights do not change. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
 ///
-/// Faces, numbers and attributes do not change, so textures stretch with the surface. Normals are dropped. Only vertices
-/// move: refine the mesh first if its faces are large.
+/// Faces, element numbers and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
+/// vertices move: refine the mesh first if its faces are large.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Taper {
@@ -51,7 +51,8 @@ impl Taper {
 
 impl MeshOperation for Taper {
     const NAME: &'static str = "Taper";
-    const SUMMARY: &'static str = "Scale vertices around an axis, the further the higher";
+    const SUMMARY: &'static str =
+        "Scale vertices around an axis, by a factor that changes along the axis";
     const EXAMPLE: &'static str = "Taper(axis: Z, factor: 0.5)";
     const WORDS: &'static [&'static str] = &["cone", "narrow", "scale", "deform"];
 

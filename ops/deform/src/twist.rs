@@ -1,4 +1,4 @@
-//! Twist: rotates around an axis, the further the higher.
+//! Twist: rotates around an axis, by an angle that grows along the axis.
 //!
 //! ```text
 //!    to    +-----+                \---\         A vertex at the height h rotates by
@@ -14,14 +14,14 @@ use op::prelude::*;
 
 use crate::moved::{Stretch, moved, next};
 
-/// Rotates vertices around an axis, the further the higher.
+/// Rotates vertices around an axis, by an angle that grows along the axis.
 ///
-/// The angle grows linearly from 0 at `from` to `angle` at `to`. Below and above, vertices rotate by the angle of the nearer end.
-/// The formulas keep volumes, and the opposite angle is the inverse: Barr, "Global and Local Deformations of Solid Primitives",
-/// 1984.
+/// The angle grows linearly from 0 at `from` to `angle` at `to`. Below `from` and above `to`, vertices rotate by the
+/// angle of the nearer end. A twist keeps volumes, and a twist by the opposite angle undoes it. Source: Barr, "Global
+/// and Local Deformations of Solid Primitives", 1984.
 ///
-/// Faces, numbers and attributes do not change, so textures stretch with the surface. Normals are dropped. Only vertices
-/// move: refine the mesh first if its faces are large.
+/// Faces, element numbers and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
+/// vertices move: refine the mesh first if its faces are large.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Twist {
@@ -52,7 +52,8 @@ impl Twist {
 
 impl MeshOperation for Twist {
     const NAME: &'static str = "Twist";
-    const SUMMARY: &'static str = "Rotate vertices around an axis, the further the higher";
+    const SUMMARY: &'static str =
+        "Rotate vertices around an axis, by an angle that grows along the axis";
     const EXAMPLE: &'static str = "Twist(axis: Z, angle: 90)";
     const WORDS: &'static [&'static str] = &["screw", "turn", "deform"];
 

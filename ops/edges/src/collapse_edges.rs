@@ -29,7 +29,8 @@ use op::prelude::*;
 /// - `SameOpposite`: the two triangles beside the edge share another edge.
 ///
 /// Values at the remaining vertex and its corners are interpolated between the ends, on each side of a seam separately.
-/// When two edges become one, it has the larger crease of the two, and the tags of both. Normals are dropped.
+/// When two edges become one, the remaining edge has the larger crease of the two, and the tags of both. Normals are
+/// dropped.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CollapseEdges {

@@ -25,8 +25,8 @@ use goal::Goal;
 /// refused if the edge is on the boundary, if a face beside it is not a triangle, or if the opposite corners of the two
 /// triangles are already joined by an edge or are the same vertex. At a seam, a flip is refused unless `seams` is
 /// `Drop`. All elements keep their numbers, and no vertex moves. Vertices, edges and faces keep their values. Each
-/// triangle gets one new corner. It takes the values that the other triangle has at the same vertex; all other corners
-/// keep their values.
+/// triangle gets one new corner. The new corner takes the values that the other triangle has at the same vertex; all
+/// other corners keep their values.
 ///
 /// With `until: Delaunay` or `until: Valence`, an edge is flipped only if that improves the mesh. Edges are checked
 /// again, pass after pass, until no edge is flipped. These flips neither fold the surface nor create triangles without

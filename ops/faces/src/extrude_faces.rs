@@ -31,14 +31,14 @@ use region::Region;
 ///
 /// The faces keep their numbers, so the same selection can be extruded again in later steps, for example to grow an arm
 /// out of a body. Vertices and edges inside a region also keep their numbers. The vertices and edges of the old rim do
-/// not move, and the moved faces get new ones. New side faces are numbered last: by region, in order of the lowest face
-/// number in each region, then in order of the faces, then counter-clockwise around each face from its first corner.
-/// New vertices are in the same order: each is the copy of the first vertex of its side face.
+/// not move, and the moved faces get a new rim. New side faces are numbered last: by region, in order of the lowest
+/// face number in each region, then in order of the faces, then counter-clockwise around each face from its first
+/// corner. New vertices are in the same order: each is the copy of the first vertex of its side face.
 ///
 /// A side face has the values of the adjacent moved face (material, tags). Its corners have the values of the corners
-/// of that face, so textures have no seam there, but each side face only shows the line of the texture along its edge.
-/// The new edges of the rim have the values of the old ones (creases, tags), and the edges between the old and the new
-/// rim have zero values (no crease, no tags). Normals are dropped.
+/// of that face, so textures have no seam there. But each side face shows only one line of the texture, the line along
+/// its edge, stretched over the face. The new edges of the rim have the values of the old ones (creases, tags), and the
+/// edges between the old and the new rim have zero values (no crease, no tags). Normals are dropped.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExtrudeFaces {

@@ -10,13 +10,14 @@ use op::{Loss, Operation, ReadingChange, ReadingElements};
 
 /// Reads the objects of a file into the scene.
 ///
-/// Formats: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl`, `.off`, `.dae`, `.bez` (Bezier patches), `.bzc` (a Bezier
-/// curve) and `.mws` (a complete scene); `.gz` after these names, except `.glb` and `.mws`, means compressed by
-/// gzip. An OBJ file becomes one object, and its objects (`o`) and groups (`g`)
-/// become face tags. A glTF file gives an object for each mesh, named after its node if there is only one, and keeps the
-/// nodes, cameras, lights, skins, morph targets and animations. A COLLADA file gives an object for each node with a mesh. Content that the scene
-/// cannot hold is counted and listed. Images of materials are read from files next to the model. A corner that repeats the corner before it is removed, and a face that still
-/// visits a vertex twice is left out.
+/// Formats: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl`, `.off`, `.dae`, `.bez` (Bezier patches), `.bzc` (a Bezier curve)
+/// and `.mws` (a complete scene). A file compressed by gzip has `.gz` after its extension, as in `.obj.gz`; `.glb` and
+/// `.mws` files cannot be compressed this way. An OBJ file becomes one object, and its objects (`o`) and groups (`g`)
+/// become face tags. A glTF file gives an object for each mesh, named after its node if it has only one node, and keeps
+/// the nodes, cameras, lights, skins, morph targets and animations. A COLLADA file gives an object for each node with a
+/// mesh. Content that the scene cannot hold is counted and listed. Images of materials are read from files next to the
+/// model. A corner that repeats the corner before it is removed, and a face that still visits a vertex twice is left
+/// out.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
@@ -157,7 +158,7 @@ impl Load {
     }
 }
 
-/// What a file loses when it is read.
+/// Converts a note to a loss: content of the file that was left out.
 fn loss(note: &Note) -> Loss {
     Loss::reading(
         &note.path.display().to_string(),
@@ -166,7 +167,7 @@ fn loss(note: &Note) -> Loss {
     )
 }
 
-/// What reading a file changed.
+/// Converts a note to a change that was made while the file was read.
 fn change(note: &Note) -> ReadingChange {
     let vertex = |v: &VertexId| v.index() as u64;
     let elements = note.elements.as_ref().map(|elements| match elements {

@@ -20,9 +20,9 @@ pub struct Save {
     /// The file. The path is relative to the output folder. `{name.stem}` is replaced by the name, without
     /// extension, of the file in the recipe parameter `name`.
     pub path: String,
-    /// What to do with the images of materials. If omitted, `.glb` files embed them, and images next to the model
-    /// that they come from are copied next to `.gltf` and `.obj` files. OBJ cannot embed images, so embedded ones are
-    /// written to files too.
+    /// What to do with the images of materials. If omitted, `.glb` files embed the images, and for `.gltf` and `.obj`
+    /// files, images that are next to their original model are copied next to the written file. OBJ cannot embed
+    /// images, so embedded images are written to files too.
     #[serde(default)]
     pub images: Option<Images>,
     /// How to compress the geometry of `.glb` and `.gltf` files without loss. If omitted, it is not compressed.
@@ -33,7 +33,7 @@ pub struct Save {
     #[serde(default)]
     pub quantize: Option<Quantization>,
     /// For `.gltf` and `.glb`, the number of sets of four joints that are written for each vertex of a skinned mesh. If
-    /// omitted, as many as in the file that the mesh comes from, and otherwise 1.
+    /// omitted, the number of sets in the file that the mesh comes from, or 1 if it does not come from such a file.
     #[serde(default)]
     pub weight_sets: Option<Count<1, 8>>,
     /// For `.csv`, the elements that have a row each. If omitted, vertices.

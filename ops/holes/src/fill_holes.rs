@@ -14,8 +14,8 @@ use op::prelude::*;
 /// Covers holes with faces.
 ///
 /// A hole is a boundary loop: a loop of edges with a face on one side only. The outer rim of an open sheet is also a
-/// boundary loop; use `around` or `max_edges` to exclude it. No vertices are added and no number changes. A hole with n
-/// edges gets 1 face with n corners, or n - 2 triangles and n - 3 edges.
+/// boundary loop; use `around` or `max_edges` to exclude it. No vertices are added, and existing elements keep their
+/// numbers. A hole with n edges gets 1 face with n corners, or n - 2 triangles and n - 3 edges.
 ///
 /// For holes with up to 500 edges, the triangles have the smallest total area. Larger holes are filled by cutting off
 /// one corner after the other: always the corner whose two neighbors are closest to each other. If the hole is far from

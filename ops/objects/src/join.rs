@@ -185,7 +185,7 @@ impl Join {
         Ok((object, report))
     }
 
-    /// Returns the plan of the result. Each part has its number of instances.
+    /// Returns the plan of the result. Each part is given with its number of instances.
     fn joined_plan(&self, parts: &[(MeshPlan, Range)]) -> MeshPlan {
         let mut joined = parts[0].0.clone();
         let none = Range::exactly(0);

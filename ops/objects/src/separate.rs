@@ -20,7 +20,7 @@ use scene::{Geometry, Graph, Object};
 /// parts are added after all other objects. Elements keep their order and their values, and every part has all
 /// materials. Vertices without a face are dropped and counted. A mesh without faces is refused.
 ///
-/// If nodes place the object, the first part takes its place, and each of these nodes gets children that place the other
+/// If nodes place the object, they now place the first part, and each of these nodes gets children that place the other
 /// parts.
 ///
 /// If parts of one component are separated, the edges and vertices between them are copied to both parts. If the faces
@@ -169,7 +169,7 @@ impl Separate {
     /// Returns the plan of each part.
     fn part_of(&self, whole: &MeshPlan) -> MeshPlan {
         let mut part = whole.clone();
-        // Fans that meet at a vertex get copies of it, at most one for each edge.
+        // Fans that meet at a vertex get copies of the vertex, at most one for each edge.
         part.vertices = whole.vertices.plus(whole.edges).or_less();
         part.edges = whole.edges.or_less();
         part.faces = whole.faces.or_less();

@@ -80,8 +80,8 @@ pub enum About {
     /// The origin.
     #[default]
     Origin,
-    /// The center of the bounding box of each object, with all its instances: of its vertices, control points or points of
-    /// polylines.
+    /// The center of the bounding box of each object with all its instances. The box contains the vertices, control
+    /// points or points of polylines.
     Center,
     /// A point with the coordinates x, y, z.
     Point(f64, f64, f64),

@@ -23,10 +23,10 @@ use crate::figure_file;
 
 /// Draws Bezier curves, and de Casteljau's construction of their points, into an image file.
 ///
-/// The figure has a panel for each curve and each `t`, or with `by_level` for each of its levels. A panel shows the control polygon, every level of de Casteljau's
-/// algorithm in a different color, the point, and the curve, with the same scale in both axes. The extension of the
-/// file determines the format: `.svg` or `.png`. The file is written only if the whole recipe succeeds. The scene does
-/// not change.
+/// The figure has a panel for each curve and each `t`. With `by_level`, each of these panels is replaced by one panel
+/// for each level. A panel shows the control polygon, every level of de Casteljau's algorithm in a different color, the
+/// point, and the curve, with the same scale in both axes. The extension of the file determines the format: `.svg` or
+/// `.png`. The file is written only if the whole recipe succeeds. The scene does not change.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CurveFigure {
@@ -47,8 +47,8 @@ pub struct CurveFigure {
     /// The width of the figure in SVG pixels. The font size is 12 to 19 pixels.
     #[serde(default = "width")]
     pub width: Count<80, 8192>,
-    /// The number of panels in a row. If omitted, the number of values of `t`, or with `by_level`
-    /// of levels, but at most 4.
+    /// The number of panels in a row. If omitted, the number of values of `t` (with `by_level`, the number of levels),
+    /// but at most 4.
     #[serde(default)]
     pub columns: Option<Count<1, 256>>,
     /// The number of PNG pixels per SVG pixel. Has no effect on `.svg` files.

@@ -8,14 +8,14 @@ use crate::figure_file;
 
 /// Draws the half-edges of some faces of a mesh into an image file.
 ///
-/// Each half-edge is an arrow beside its edge, inside its face, with its name. A thin curve leads from its head to the
-/// next half-edge of the face. Its twin is on the other side of the edge. Half-edges on the boundary have no face and are
-/// gray. The faces are seen along their mean normal; those that face away are left out and reported. The extension of the
-/// file determines the format: `.svg` or `.png`. The file is written only if the whole recipe succeeds. The scene does not
-/// change.
+/// Each half-edge is an arrow beside its edge, inside its face, with its name. A thin curve leads from the head of the
+/// arrow to the next half-edge of the face. The twin of a half-edge is on the other side of the edge. Half-edges on the
+/// boundary have no face and are gray. The faces are seen along their mean normal. Faces that face away from the viewer
+/// are left out and reported. The extension of the file determines the format: `.svg` or `.png`. The file is written
+/// only if the whole recipe succeeds. The scene does not change.
 ///
-/// The names have the numbers of the elements: `v` vertices, `h` half-edges, `f` faces. Half-edges `2e` and `2e + 1`
-/// belong to edge `e`.
+/// A name is a letter and the number of the element: `v` for vertices, `h` for half-edges, `f` for faces. Half-edges
+/// `2e` and `2e + 1` belong to edge `e`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct HalfEdgeFigure {

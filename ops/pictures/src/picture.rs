@@ -193,8 +193,8 @@ impl Picture {
     /// Draws scenes side by side at the same scale, each with its caption, which can be empty. Returns one image, or
     /// the images of a turntable, and notes on parts that are not drawn.
     ///
-    /// If `within` is given, [`Camera::Fit`] shows all of it, and colors of numbers have its range. There is no legend
-    /// then, because the scenes have a [common legend](Extent::legend).
+    /// If `within` is given, [`Camera::Fit`] shows all of this extent, and the colors of numbers use its range. The
+    /// images then have no legend, because the scenes have a [common legend](Extent::legend).
     ///
     /// # Errors
     ///

@@ -25,7 +25,8 @@ use op::prelude::*;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cube {
-    /// The name of the new object. Defaults to the name of the operation in lower case, numbered if it is taken.
+    /// The name of the new object. Defaults to the name of the operation in lower case, with a number if this name is
+    /// taken.
     #[serde(default)]
     pub name: Option<String>,
     /// The length of the edges, in scene units. More than 0.

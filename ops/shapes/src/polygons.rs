@@ -22,7 +22,8 @@ use op::prelude::*;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Polygons {
-    /// The name of the new object. Defaults to the name of the operation in lower case, numbered if it is taken.
+    /// The name of the new object. Defaults to the name of the operation in lower case, with a number if this name is
+    /// taken.
     #[serde(default)]
     pub name: Option<String>,
     /// The points: `(x, y, z)`, in scene units. Points that no face uses become isolated vertices.

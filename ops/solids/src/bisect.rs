@@ -15,9 +15,9 @@ use op::prelude::*;
 ///
 /// Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along it. A
 /// concave face can be cut several times. A vertex closer to the plane than 1e-9 of the largest extent of the mesh
-/// counts as on the plane and is not moved. The part of an edge at the end with the lower number keeps the number of
-/// the edge, and the part of a face with the first corner keeps the number of the face. New elements are numbered last.
-/// Attributes are interpolated at the crossings, separately on each side of a seam.
+/// counts as on the plane and is not moved. When an edge is cut, the part at the end with the lower number keeps the
+/// number of the edge. When a face is cut, the part with the first corner keeps the number of the face. New elements
+/// are numbered last. Attributes are interpolated at the crossings, separately on each side of a seam.
 ///
 /// With `keep: Front` or `keep: Back`, the other side of the plane is removed. A face in the plane belongs to the back
 /// if its normal points to the front, because it closes the solid behind it. Vertices left without a face are removed.
@@ -60,14 +60,15 @@ impl MeshOperation for Bisect {
     const WORDS: &'static [&'static str] = &["slice", "clip", "plane"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // The plane crosses each side of a face at most once, and cuts the face along half as many lines as crossings.
+        // The plane crosses each side of a face at most once, and the number of cuts through the face is half the
+        // number of crossings.
         let per_face = plan.degrees.max / 2;
         let crossings = plan.edges.or_less();
         let cuts = plan.faces.by(per_face).capped(crossings.max).or_less();
         plan.grow(crossings, crossings.plus(cuts), cuts);
         plan.degrees = Range::between(3, plan.degrees.max.saturating_add(per_face));
         if self.keep != Keep::Both {
-            // Fans that meet at a vertex get copies of it, at most one for each edge.
+            // Fans that meet at a vertex get copies of the vertex, at most one for each edge.
             plan.vertices = plan.vertices.plus(plan.edges).or_less();
             plan.edges = plan.edges.or_less();
             plan.faces = plan.faces.or_less();

@@ -12,15 +12,15 @@
 //!     both ends regular      one extraordinary end       on the boundary
 //! ```
 //!
-//! Each level adds a vertex on every edge and connects the three new vertices of each triangle. Old vertices do
-//! not move, so the surface passes through all of them. An inner vertex is extraordinary if its valence n is
-//! not 6. In the mask for a new vertex on one of its edges, its neighbor number j has the weight
-//! (1/4 + cos(2πj/n) + cos(4πj/n)/2)/n; for n = 3 and n = 4, the weights are different. If both ends of an edge are
-//! extraordinary, the new vertex is the mean of the results of both masks. This is the
-//! modified scheme of Zorin, Schröder and Sweldens, "Interpolating Subdivision for Meshes with Arbitrary
-//! Topology", 1996, after Dyn, Levin and Gregory, "A Butterfly Subdivision Scheme for Surface Interpolation
-//! with Tension Control", 1990. The limit surface has a continuous tangent plane. It can ripple where a coarse
-//! mesh bends sharply, and it can leave the convex hull of the mesh.
+//! Each level adds a vertex on every edge and connects the three new vertices of each triangle. Old vertices do not
+//! move, so the surface passes through all of them. An inner vertex is extraordinary if its valence n is not 6. In the
+//! mask for a new vertex on an edge of an extraordinary vertex, neighbor number j of the extraordinary vertex has the
+//! weight (1/4 + cos(2πj/n) + cos(4πj/n)/2)/n; for n = 3 and n = 4, the weights are different. If both ends of an edge
+//! are extraordinary, the new vertex is the mean of the results of both masks. This is the modified scheme of Zorin,
+//! Schröder and Sweldens, "Interpolating Subdivision for Meshes with Arbitrary Topology", 1996, after Dyn, Levin and
+//! Gregory, "A Butterfly Subdivision Scheme for Surface Interpolation with Tension Control", 1990. The limit surface
+//! has a continuous tangent plane. It can ripple where a coarse mesh bends sharply, and it can leave the convex hull of
+//! the mesh.
 //!
 //! The crate `subdivision` implements all schemes.
 
@@ -35,8 +35,8 @@ use crate::step::{Step, Until};
 /// V - E + F does not change. Old vertices keep their ids, the vertex on edge e has the id V + e, edge e becomes
 /// edges 2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
 ///
-/// Vertex attributes are interpolated with the weights of the positions, and corner values linearly within one
-/// old triangle. Parts of an edge or a triangle copy the values of the old edge or triangle. Normals are
+/// Vertex attributes are interpolated with the weights of the positions, and corner values are interpolated linearly
+/// within one old triangle. Parts of an edge or a triangle copy the values of the old edge or triangle. Normals are
 /// dropped, because they would be wrong. Sharpness has no effect and is copied unchanged.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]

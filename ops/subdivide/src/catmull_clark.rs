@@ -70,8 +70,8 @@ pub struct CatmullClark {
     /// tangents.
     #[serde(default)]
     pub to_limit: bool,
-    /// The faces to refine. If omitted, all faces. Faces next to them get the new vertices on common edges as
-    /// corners, and the surface outside of the refined faces does not move. For the ids of new elements see
+    /// The faces to refine. If omitted, all faces. Faces next to the refined faces get the new vertices on common edges
+    /// as corners, and the surface outside of the refined faces does not move. For the ids of new elements see
     /// `subdivision::refine_faces`.
     #[serde(default)]
     pub faces: Option<FaceSelection>,

@@ -44,9 +44,9 @@ use crate::step::{Step, Until};
 ///
 /// Vertex attributes are smoothed with the weights of the positions. Corner values are smoothed within one old face.
 /// The new faces of edges and vertices have corner values of several old faces; at a seam, this distorts textures. A
-/// face inside an old face copies its values; the face of an edge or a vertex copies those of an adjacent face. The two
-/// edges along an old edge copy its values; other edges have zero values (no crease, no tags). Normals are dropped,
-/// because they would be wrong.
+/// face inside an old face copies the values of the old face; the face of an edge or a vertex copies the values of an
+/// adjacent face. The two edges along an old edge copy its values; other edges have zero values (no crease, no tags).
+/// Normals are dropped, because they would be wrong.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DooSabin {

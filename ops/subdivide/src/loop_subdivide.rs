@@ -71,9 +71,9 @@ pub struct LoopSubdivide {
     /// tangents.
     #[serde(default)]
     pub to_limit: bool,
-    /// The faces to refine. If omitted, all faces. Triangles next to them are cut in two or four, so that no
-    /// vertex lies inside an edge, and the surface outside of the refined faces does not move. For the ids of
-    /// new elements see `subdivision::refine_faces`.
+    /// The faces to refine. If omitted, all faces. Triangles next to the refined faces are cut in two or four, so that
+    /// no vertex lies inside an edge, and the surface outside of the refined faces does not move. For the ids of new
+    /// elements see `subdivision::refine_faces`.
     #[serde(default)]
     pub faces: Option<FaceSelection>,
 }

@@ -46,9 +46,9 @@ pub struct Midpoint {
     /// How faces are split.
     #[serde(default)]
     pub into: Split,
-    /// The faces to refine. If omitted, all faces. With `into: Triangles`, triangles next to them are cut in
-    /// two or four; with `into: Quads`, faces next to them get the new vertices on common edges as corners. For
-    /// the ids of new elements see `subdivision::refine_faces`.
+    /// The faces to refine. If omitted, all faces. With `into: Triangles`, triangles next to the refined faces are cut
+    /// in two or four. With `into: Quads`, faces next to the refined faces get the new vertices on common edges as
+    /// corners. For the ids of new elements see `subdivision::refine_faces`.
     #[serde(default)]
     pub faces: Option<FaceSelection>,
 }

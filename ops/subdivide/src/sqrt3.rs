@@ -45,11 +45,11 @@ use crate::step::{Step, Until};
 /// must be triangles. Levels are counted from the start of the step: one step of two levels cuts the boundary
 /// edges, but two steps of one level leave the boundary unchanged.
 ///
-/// Vertex attributes are smoothed with the weights of the positions. Corner values are linear within one old triangle.
-/// A triangle at a flipped edge lies in two old triangles. If the old edge was a seam, the triangle has texture
-/// coordinates of both sides, which distorts textures. New triangles copy the values of their old triangle. Parts of a
-/// boundary edge copy the values of the edge; other edges have zero values (no crease, no tags). Normals are dropped,
-/// because they would be wrong.
+/// Vertex attributes are smoothed with the weights of the positions. Corner values are interpolated linearly within one
+/// old triangle. A triangle at a flipped edge lies in two old triangles. If the old edge was a seam, the triangle has
+/// texture coordinates of both sides, which distorts textures. New triangles copy the values of their old triangle.
+/// Parts of a boundary edge copy the values of the edge; other edges have zero values (no crease, no tags). Normals are
+/// dropped, because they would be wrong.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sqrt3 {

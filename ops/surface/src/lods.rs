@@ -15,15 +15,16 @@ use crate::simplify::{error, part, plan_goal, triangles_problem, unreached};
 
 /// Makes simplified copies of an object: its levels of detail.
 ///
-/// The copies are named after the object, for example `rock_lod1`, `rock_lod2` and so on. Each is made from the one
-/// before, as by `Simplify`, and keeps attributes, materials and lines as `Simplify` does. If nodes place the object, each
-/// of them gets a node beside it for each copy.
+/// The copies are named after the object, for example `rock_lod1`, `rock_lod2` and so on. Each copy is made from the
+/// previous one, as by `Simplify`, and keeps attributes, materials and lines as `Simplify` does. If nodes place the
+/// object, a node for each copy is added beside each of these nodes.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Lods {
     /// The name of the object.
     pub from: String,
-    /// The number of faces of each copy, as a part of the faces of the object. Each must be smaller than the one before.
+    /// The number of faces of each copy, as a fraction of the number of faces of the object. Each fraction must be
+    /// smaller than the previous one.
     pub ratios: Vec<Fraction>,
     /// The names of the copies without their numbers. If omitted, the name of the object and `_lod`.
     #[serde(default)]
@@ -51,7 +52,7 @@ impl Lods {
         match self.ratios.as_slice() {
             [] => problem("Lods needs at least one ratio"),
             ratios if ratios.windows(2).any(|pair| pair[1].get() >= pair[0].get()) => {
-                problem("each ratio must be smaller than the one before")
+                problem("each ratio must be smaller than the previous one")
             }
             _ => None,
         }

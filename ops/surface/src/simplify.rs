@@ -39,15 +39,15 @@ pub struct Simplify {
     /// faces stays as it is.
     #[serde(default)]
     pub faces: Option<Count<0>>,
-    /// The number of faces to reach, as a part of the faces of each mesh.
+    /// The number of faces to reach, as a fraction of the number of faces of each mesh.
     #[serde(default)]
     pub ratio: Option<Fraction>,
-    /// The largest allowed distance between the old and the new surface, in scene units: the Hausdorff distance. It is
-    /// guaranteed: each collapse adds a bound of how far it moves the surface. The true distance is therefore usually
-    /// much smaller. If omitted, there is no limit.
+    /// The largest allowed distance between the old and the new surface, in scene units: the Hausdorff distance. The
+    /// limit is guaranteed: the step adds up an upper bound of how far each collapse moves the surface. The true
+    /// distance is therefore usually much smaller. If omitted, there is no limit.
     #[serde(default)]
     pub error: Option<PositiveLength>,
-    /// Edges that are kept as lines, for example `Sharp(above: 30)`. If omitted, none in addition to those above.
+    /// Edges that are kept as lines, for example `Sharp(above: 30)`. If omitted, only the lines that are always kept.
     #[serde(default)]
     pub features: Option<EdgeSelection>,
     /// Vertices that keep their exact positions, for example `Boundary`. If omitted, none.
@@ -69,7 +69,7 @@ impl Simplify {
     }
 }
 
-/// Returns a part of a number of faces, rounded up.
+/// Returns a fraction of a number of faces, rounded up.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

@@ -15,8 +15,8 @@ use op::prelude::*;
 /// Moves vertices so that noise disappears.
 ///
 /// Only vertices in `vertices` move, except those in `pin`. Vertices without faces stay. All other vertices keep their
-/// exact positions. Faces can have any number of corners, and degenerate faces are allowed. No number changes. Attributes
-/// are kept, so textures stretch with the surface, but normals are dropped.
+/// exact positions. Faces can have any number of corners, and degenerate faces are allowed. All elements keep their
+/// numbers. Attributes are kept, so textures stretch with the surface, but normals are dropped.
 ///
 /// | `by` | use | size |
 /// | --- | --- | --- |
@@ -31,8 +31,8 @@ use op::prelude::*;
 pub struct Smooth {
     /// The method.
     pub by: SmoothBy,
-    /// How many times. If omitted, 1 for `Implicit` and 10 for the other methods. For `Denoise`, the passes over the normals. At
-    /// most 10000.
+    /// The number of passes. If omitted, 1 for `Implicit` and 10 for the other methods. For `Denoise`, the number of
+    /// passes over the normals. At most 10000.
     #[serde(default)]
     pub passes: Option<Count<1, 10_000>>,
     /// The vertices to move. If omitted, all vertices.
@@ -41,7 +41,7 @@ pub struct Smooth {
     /// Vertices that stay. If omitted, none.
     #[serde(default)]
     pub pin: Option<VertexSelection>,
-    /// What vertices on the boundary do.
+    /// How vertices on the boundary move.
     #[serde(default)]
     pub boundary: SmoothBoundary,
     /// Whether the moved vertices are finally shifted along their normals, all by the same distance, until the mesh has the
@@ -69,15 +69,15 @@ pub enum SmoothBy {
         /// The weights of the neighbors.
         #[serde(default)]
         weights: SmoothWeights,
-        /// The part of the way to the mean in the first step. From 0 to 1, exclusive; the step back amplifies noise if
-        /// it is above about 0.65. Defaults to 0.33.
+        /// The part of the way to the mean in the first step. From 0 to 1, exclusive; above about 0.65, the step back
+        /// amplifies noise. Defaults to 0.33.
         #[serde(default = "taubin_factor")]
         factor: Fraction,
         /// The frequency below which shapes are kept. A lower value smooths more. From 0 to 1, exclusive. Defaults to 0.05.
         #[serde(default = "pass_band")]
         pass_band: Fraction,
     },
-    /// Lets the surface flow towards its mean curvature for a time, in one stable step. Details smaller than the square
+    /// Moves the surface by mean curvature flow for the given time, in one stable step. Details smaller than the square
     /// root of the time disappear, in any density of the mesh.
     Implicit {
         /// The time, in squares of the scene unit.
@@ -86,8 +86,8 @@ pub enum SmoothBy {
     /// Filters the normals of the faces, so that similar normals become equal, then moves the vertices to fit the
     /// normals.
     Denoise {
-        /// Normals at a larger angle hardly affect each other, so that sharper edges stay. From 0 to 180 degrees. Defaults to
-        /// 30.
+        /// Normals that differ by more than this angle hardly affect each other, so that sharper edges stay. From 0 to
+        /// 180 degrees. Defaults to 30.
         #[serde(default = "thirty")]
         angle: AngleBetween,
     },
@@ -104,15 +104,15 @@ pub enum SmoothWeights {
     Cotangent,
 }
 
-/// What vertices on the boundary do.
+/// How vertices on the boundary move.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum SmoothBoundary {
-    /// They stay.
+    /// The vertices stay.
     #[default]
     Fixed,
-    /// They are smoothed as curves: only their neighbors along the boundary affect them. With `Denoise`, they move like
-    /// all other vertices.
+    /// The vertices are smoothed as curves: only their neighbors along the boundary affect them. With `Denoise`, they
+    /// move like all other vertices.
     Free,
 }
 

@@ -13,7 +13,7 @@ use op::prelude::*;
 /// Removes vertices and merges the faces around them.
 ///
 /// Vertices are removed in order of their numbers. Each removal is checked against the mesh as edited so far. All faces
-/// around the vertex become one face. It has the number and the values of the face with the lowest number. If the
+/// around the vertex become one face, which has the number and the values of the face with the lowest number. If the
 /// vertex is on the boundary, its two boundary edges become one. If the vertex has only two edges, they become one
 /// edge, and the faces beside it lose a corner. When two edges become one, the edge with the lower number is kept, with
 /// its values. The remaining elements keep their order and their values but are renumbered. Normals are dropped.

@@ -6,8 +6,8 @@
 //!    a ---- b             along b-d, it is a tetrahedron.
 //! ```
 //!
-//! A half-edge mesh can represent duplicate edges, but a file of triangles cannot: the mesh that is read from the file
-//! is split there.
+//! A half-edge mesh can represent duplicate edges, but a file of triangles cannot: a mesh that is read from the file is
+//! split at these edges.
 
 use geometry::triangulate::Cut;
 use mesh::{FaceId, Mesh, VertexId};

@@ -6,23 +6,24 @@
 //!    cot(a) + cot(b) + cot(c) = (|ab|² + |bc|² + |ca|²) / (4 area)
 //! ```
 //!
-//! It is lowest for the equilateral triangle and grows without bound as the area approaches 0. A flip is an improvement
-//! if the energy of the two new triangles is lower than the energy of the two old ones. The sum over a mesh is the
-//! trace of its cotangent Laplacian (Pinkall and Polthier, "Computing Discrete Minimal Surfaces and Their Conjugates",
-//! 1993): the sum, over all vertices, of the Dirichlet energy of the function that is 1 at the vertex and 0 at all
-//! other vertices. In the plane, a flip does not change the Dirichlet energy of linear functions. For all other
-//! functions, it changes the Dirichlet energy by a quadratic form of rank one. The sign of this form depends on whether
-//! the fourth corner is inside the circle through the other three corners (Rippa, "Minimal Roughness Property of the
-//! Delaunay Triangulation", 1990). So in the plane a flip reduces the energy exactly if the edge is not Delaunay, and
-//! flipping these edges ends with the Delaunay triangulation (Lawson, "Software for C1 Surface Interpolation", 1977).
-//! Four times the sum is the harmonic index of Musin, "Properties of the Delaunay Triangulation", 1997. The energy is
-//! also defined for surfaces in space.
+//! The energy is lowest for the equilateral triangle and grows without bound as the area approaches 0. A flip is an
+//! improvement if the energy of the two new triangles is lower than the energy of the two old ones. The sum over a mesh
+//! is the trace of its cotangent Laplacian (Pinkall and Polthier, "Computing Discrete Minimal Surfaces and Their
+//! Conjugates", 1993): the sum, over all vertices, of the Dirichlet energy of the function that is 1 at the vertex and
+//! 0 at all other vertices. In the plane, a flip does not change the Dirichlet energy of linear functions. For all
+//! other functions, it changes the Dirichlet energy by a quadratic form of rank one. The sign of this form depends on
+//! whether the fourth corner is inside the circle through the other three corners (Rippa, "Minimal Roughness Property
+//! of the Delaunay Triangulation", 1990). So in the plane a flip reduces the energy exactly if the edge is not
+//! Delaunay, and flipping these edges ends with the Delaunay triangulation (Lawson, "Software for C1 Surface
+//! Interpolation", 1977). Four times the sum is the harmonic index of Musin, "Properties of the Delaunay
+//! Triangulation", 1997. The energy is also defined for surfaces in space.
 //!
 //! A flip that reduces the number of triangles without area is an improvement. If all four corners are collinear, both
 //! diagonals give triangles without area, and the shorter diagonal is better: this resolves groups of these triangles.
 //!
-//! **Valence.** The sum over all vertices of (valence - target)², where the target is 6 inside and 4 on the boundary:
-//! Botsch and Kobbelt, "A Remeshing Approach to Multiresolution Modeling", 2004.
+//! **Valence.** A flip is an improvement if it reduces the sum over all vertices of (valence - target)², where the
+//! target is 6 inside and 4 on the boundary. Source: Botsch and Kobbelt, "A Remeshing Approach to Multiresolution
+//! Modeling", 2004.
 
 use std::ops::Range;
 
@@ -71,8 +72,9 @@ impl Goal {
     ///
     /// For both goals, the sequence of improving flips is finite, regardless of rounding. For `Valence`, the sum of
     /// squares is an integer that decreases. For `Delaunay`, the computed energy of a triangle depends only on its
-    /// three vertices. Each flip reduces the number of triangles without area, or keeps it and reduces the exact sum of
-    /// the other energies, or keeps both and reduces the sum of the squared lengths of all edges.
+    /// three vertices. Each flip reduces the number of triangles without area. If this number stays the same, the flip
+    /// reduces the exact sum of the other energies. If the sum also stays the same, the flip reduces the sum of the
+    /// squared lengths of all edges.
     pub(crate) fn is_improvement(&self, mesh: &Mesh, quad: &Quad) -> bool {
         match self {
             Self::Delaunay => {
@@ -154,7 +156,8 @@ impl Quad {
     }
 
     /// Whether the normals of both new triangles point to the same side as the old pair. The sum of the two area
-    /// vectors is the same before and after a flip. In the plane, this is true exactly if the quad is convex.
+    /// vectors (normals multiplied by areas) is the same before and after a flip. In the plane, this is true exactly if
+    /// the quad is convex.
     fn flips_without_fold(&self, mesh: &Mesh) -> bool {
         let [a, b, c, d] = [self.a, self.b, self.c, self.d].map(|v| mesh.position(v));
         let (left, right) = ((c - d).cross(a - d), (d - c).cross(b - c));
@@ -163,8 +166,8 @@ impl Quad {
     }
 }
 
-/// Returns the sum of the cotangents of the angles of a triangle. It is infinite if the triangle has no area, and NaN
-/// if the triangle is too small or too large to compute; a flip with NaN is never an improvement.
+/// Returns the sum of the cotangents of the angles of a triangle. The sum is infinite if the triangle has no area, and
+/// NaN if the triangle is too small or too large to compute. A flip with an energy of NaN is never an improvement.
 ///
 /// The corners are sorted by their numbers, so the result for the same three vertices is always exactly the same.
 fn energy(mesh: &Mesh, mut corners: [VertexId; 3]) -> f64 {

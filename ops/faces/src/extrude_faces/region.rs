@@ -34,8 +34,8 @@ impl Region {
         regions
     }
 
-    /// Returns the unit vector along the sum of the area vectors of the faces. Returns `None` if they cancel out up to
-    /// rounding, as in a closed region.
+    /// Returns the unit vector along the sum of the area vectors of the faces. Returns `None` if the area vectors
+    /// cancel out up to rounding, as in a closed region.
     pub(crate) fn normal(&self, mesh: &Mesh) -> Option<DVec3> {
         let (mut sum, mut area) = (DVec3::ZERO, 0.0);
         for vector in self.faces.iter().map(|&f| mesh.area_vector(f)) {

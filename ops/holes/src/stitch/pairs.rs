@@ -86,8 +86,8 @@ fn sorted_rims(
         ends: ends(h),
     };
     let mut rims: Vec<Rim> = outer.iter().enumerate().map(rim).collect();
-    // Sorts short parts and merges them, so that progress is reported and the run can be cancelled in between. Sorting
-    // two sorted parts merges them.
+    // Short parts are sorted and then merged, so that progress is reported and the run can be canceled in between. Two
+    // sorted parts are merged by sorting them together.
     let mut width = 1 << 16;
     loop {
         for (i, part) in rims.chunks_mut(width).enumerate() {
@@ -112,8 +112,8 @@ fn cell(place: DVec3) -> [i64; 3] {
     place.to_array().map(|x| x.floor().min(1e12) as i64)
 }
 
-/// Returns the boundary half-edges that coincide with `rim`, by their numbers. `begins` are the places where the rows of
-/// cells around an earlier edge, in the order of the cells, begin.
+/// Returns the boundary half-edges that coincide with `rim`, by their numbers. `begins` are the places where the rows
+/// of cells around the previous edge begin.
 fn matches_of(rims: &[Rim], rim: &Rim, begins: &mut [usize; 9], distance: f64) -> Matches {
     let mut matches = Matches::None;
     let [x, y, z] = rim.cell;

@@ -1,8 +1,8 @@
 //! Joining skinned meshes.
 //!
-//! If all skinned parts have the same skin, the joined mesh keeps it. The other parts follow the first joint: their points
-//! are mapped by the inverse of the map of this joint, so that they are shown where they were. Otherwise the parts are
-//! joined in the pose of their joints, and the skins are lost.
+//! If all skinned parts have the same skin, the joined mesh keeps it. The other parts follow the first joint: their
+//! points are mapped by the inverse of the map of this joint, so that they stay where they were. Otherwise the parts
+//! are joined in the pose of their joints, and the skins are lost.
 
 use std::sync::Arc;
 

@@ -41,7 +41,7 @@ impl Map {
     }
 
     /// Returns the image of a unit normal; a zero vector stays zero. A mirror negates the normal, because it also turns
-    /// the faces over. Reversing the mesh afterwards negates it again.
+    /// the faces over. When the mesh is then reversed, the normal is negated again.
     ///
     /// Normals are transformed by the inverse transpose of R S, which is R S^-1 (Turkowski, "Properties of Surface-Normal
     /// Transformations", 1990). Only the direction of the result matters, so S^-1 is multiplied by the smallest factor of
@@ -58,7 +58,7 @@ impl Map {
         (image / image.abs().max_element()).normalize()
     }
 
-    /// Returns the map with a fixed point of scaling and rotation.
+    /// Returns the affine map whose fixed point of scaling and rotation is `center`.
     pub(crate) fn affine(&self, center: DVec3) -> DAffine3 {
         DAffine3 {
             matrix3: self.linear,

@@ -4,8 +4,9 @@
 //!   scene <-- P -- parent <-- L -- node <-- points of the object
 //! ```
 //!
-//! A map M of the scene moves a point from P L p to M P L p. So the new placement of the node is P'^-1 M P L, where P'
-//! places the parent after the move. If the parent has moved by M itself, P' = M P, and the placement does not change.
+//! L places the node in its parent, and P places the parent in the scene. A map M of the scene moves a point from P L p
+//! to M P L p. So the new placement of the node is P'^-1 M P L, where P' places the parent after the move. If the
+//! parent has moved by M itself, P' = M P, and the placement does not change.
 
 use glam::{DAffine3, DVec3};
 use op::{Context, OpError, Report};
@@ -49,7 +50,7 @@ impl Transform {
             for &i in nodes {
                 maps[i] = Some(map.affine(center));
             }
-            // The placements of their joints place skinned meshes.
+            // Skinned meshes are placed by their joints, so the nodes of the joints move.
             let skinned = instances.iter().zip(nodes);
             let skinned = skinned.filter(|(instance, _)| instance.pose.joints.is_some());
             for skin in skinned.filter_map(|(_, &i)| graph.nodes()[i].skin) {
@@ -98,7 +99,7 @@ fn insert_parents(scene: &mut Scene, maps: &mut Vec<Option<DAffine3>>) -> usize 
     maps.len() - before
 }
 
-/// Moves each node by its map of the scene. A node without a map moves along with its parent. `only_moves` says that
+/// Moves each node by its map of the scene. A node without a map moves along with its parent. If `only_moves` is set,
 /// the maps neither scale nor rotate.
 fn move_by(scene: &mut Scene, maps: &[Option<DAffine3>], only_moves: bool) -> Result<(), OpError> {
     let old = scene.graph().to_scene();
@@ -116,7 +117,7 @@ fn move_by(scene: &mut Scene, maps: &[Option<DAffine3>], only_moves: bool) -> Re
             }
             let parent = node.parent.map_or(DAffine3::IDENTITY, |parent| new[parent]);
             let placed = if only_moves && of_parent.is_none() {
-                // The scale and the rotation keep their exact numbers.
+                // The numbers of the scale and the rotation stay exactly the same.
                 let shift = parent.matrix3.inverse() * map.translation;
                 shift
                     .is_finite()

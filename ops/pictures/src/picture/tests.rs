@@ -225,7 +225,7 @@ fn highlights_in_a_scene_without_meshes_give_a_note() {
     assert_eq!(notes(highlighted, &scene), [""; 0]);
 }
 
-/// Cancels when the stage of this name is half done.
+/// Cancels when the work with this name is half done.
 struct Halfway(&'static str);
 
 impl op::Progress for Halfway {
@@ -277,7 +277,7 @@ fn scenes_drawn_separately_within_an_extent_look_as_if_drawn_together() {
             .draw(&[(&cube, "")], Some(&extent), &mut cx())
             .unwrap()
             .0;
-        // If the camera fits, the cube is drawn smaller within the extent of the torus than alone.
+        // With the camera `Fit`, the cube is drawn smaller within the extent of the torus than alone.
         let alone = picture.draw(&[(&cube, "")], None, &mut cx()).unwrap().0;
         assert_eq!(one != alone, !fields.contains("LookAt"), "{fields}");
         if picture.views.is_empty() && picture.color_by.is_none() {

@@ -75,7 +75,8 @@ fn summed(mesh: &Mesh, v: VertexId, face_vectors: &[DVec3]) -> DVec3 {
 fn summed_by_angle(mesh: &Mesh, v: VertexId, face_vectors: &[DVec3], scale: f64) -> DVec3 {
     let p = scale * mesh.position(v);
     let side = |w| scale * mesh.position(w) - p;
-    // The order is clockwise, so the corner of a half-edge's face lies between it and the half-edge before it.
+    // The order is clockwise, so the corner of the face of a half-edge lies between this half-edge and the previous
+    // one.
     let last = mesh.vertex_neighbors(v).last().map_or(DVec3::ZERO, side);
     let (sum, _) = mesh
         .vertex_half_edges(v)
@@ -105,8 +106,8 @@ fn area_vector(mesh: &Mesh, f: FaceId, scale: f64) -> DVec3 {
     0.5 * sum
 }
 
-/// Returns a power of two that scales the extent of the mesh to about 1. Multiplying by it is exact, so the normals do
-/// not change, and products of lengths neither overflow nor underflow.
+/// Returns a power of two that scales the extent of the mesh to about 1. Multiplying by a power of two is exact, so the
+/// normals do not change, and products of lengths neither overflow nor underflow.
 fn scale(mesh: &Mesh) -> f64 {
     let [min, max] = geometry::bounds(mesh).unwrap_or_default();
     // Halve before subtracting: the difference of two finite numbers can be infinite.

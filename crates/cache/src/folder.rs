@@ -146,7 +146,7 @@ impl Folder {
         key
     }
 
-    /// Returns the key of this cache. If it does not exist, creates it. `None` if it cannot be written.
+    /// Returns the key of this cache. If there is no key yet, creates one. `None` if the key cannot be written.
     pub(crate) fn key_or_new(&self) -> Option<Hash> {
         if let Ok(key) = self.key() {
             return Some(key);
@@ -218,7 +218,8 @@ pub(crate) fn unreadable(error: io::Error) -> Unusable {
     }
 }
 
-/// Returns random bytes. They come from the hash keys of the standard library, which the operating system generates.
+/// Returns random bytes. The bytes come from the hash keys of the standard library, which the operating system
+/// generates.
 fn random() -> Hash {
     let mut hasher = blake3::Hasher::new();
     for i in 0..4 {

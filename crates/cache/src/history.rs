@@ -1,4 +1,5 @@
-//! The steps of the last run of a recipe. They are used to explain why a step runs again.
+//! The steps of the last run of a recipe. The cache compares them with the current steps to explain why a step runs
+//! again.
 
 use std::path::PathBuf;
 

@@ -47,7 +47,7 @@ impl Inputs {
     }
 }
 
-/// Checks files for changes. Keeps their digests, so that most files are read only once per run.
+/// Checks files for changes. Keeps the digests of the files, so that most files are read only once per run.
 #[derive(Debug)]
 pub(crate) struct FileChecker {
     run_start: SystemTime,

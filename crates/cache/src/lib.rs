@@ -12,15 +12,15 @@
 //! **Keys.** The key of a step is the digest of everything that determines its result before it runs: the program, the
 //! operation with its version and parameters, the objects in `on`, the label that seeds random choices, the expected
 //! refusal, the memory budget, and the state before the step. The state after a step is the digest of its key and of
-//! the contents of the files that it read. These files are known only after the step has run; their contents are
-//! compared again before a cached result is used. Modification times are not used for this.
+//! the contents of the files that it read. The files that a step reads are known only after the step has run. Before a
+//! cached result is used, the contents of these files are compared again. Modification times are not used for this.
 //!
 //! **Integrity.** Only regular files are read, never links, and never more bytes than were stored. Every blob must
-//! match the digest in its name, and every record its digest, which depends on the secret key of the cache. Only the
-//! user can read that key, so an edited record is rejected even if its digest was computed again. The arrays of a scene
-//! are validated. A damaged file is removed and treated as missing. Files are written under a temporary name and then
-//! renamed, so that neither concurrent nor killed processes leave incomplete files; no locks are needed. If the folder
-//! cannot be written, this is reported once, and the run continues without storing anything.
+//! match the digest in its name. Every record must match its digest, which depends on the secret key of the cache. Only
+//! the user can read that key, so an edited record is rejected even if its digest was computed again. The arrays of a
+//! scene are validated. A damaged file is removed and treated as missing. Files are written under a temporary name and
+//! then renamed, so that neither concurrent nor killed processes leave incomplete files; no locks are needed. If the
+//! folder cannot be written, this is reported once, and the run continues without storing anything.
 //!
 //! **What is stored.** Records are always stored. Scenes and files of fewer than [`ALWAYS_STORED`] bytes are always
 //! stored too. A larger scene is stored if the computation since the last stored scene took longer than storing the
@@ -57,7 +57,7 @@ pub const BYTES_PER_SECOND: f64 = 1e9;
 /// The default size limit of a cache, in bytes.
 pub const DEFAULT_LIMIT: u64 = 4 << 30;
 
-/// A folder that stores the results of steps. Any number of runs can use it at the same time.
+/// A folder that stores the results of steps. Any number of runs can use the folder at the same time.
 #[derive(Debug)]
 pub struct Cache {
     folder: Folder,
@@ -96,8 +96,8 @@ impl StepCache for Caching<'_> {
 }
 
 impl Cache {
-    /// Returns the cache in `folder`, which is created when something is stored. Its size is kept below `limit` bytes.
-    /// `program` identifies the program and its version: results of other programs are not used.
+    /// Returns the cache in `folder`, which is created when something is stored. The size of the cache is kept below
+    /// `limit` bytes. `program` identifies the program and its version: results of other programs are not used.
     pub fn new(folder: impl Into<PathBuf>, limit: u64, program: impl Into<String>) -> Self {
         Self {
             folder: Folder::new(folder.into()),

@@ -17,7 +17,7 @@ use crate::key::Key;
 const MAGIC: &[u8] = b"meshwright cache\n";
 /// The maximum size of a file with records or with a history, in bytes.
 const MAX_BYTES: u64 = 1 << 26;
-/// The maximum number of records for one key. They differ in the contents of the input files.
+/// The maximum number of records for one key. Records for the same key differ in the contents of the input files.
 const MAX_RECORDS: usize = 4;
 
 /// The record of a step.
@@ -79,7 +79,7 @@ pub(crate) fn load(folder: &Folder, key: Key) -> Result<Vec<Record>, Unusable> {
     load_data(folder, Kind::Step, &key.0)
 }
 
-/// Adds a record to those for its key.
+/// Adds a record to the records for its key.
 pub(crate) fn store(folder: &Folder, key: Key, record: Record) {
     let mut records = load(folder, key).unwrap_or_default();
     records.retain(|known| !known.is_replaced_by(&record));

@@ -193,7 +193,7 @@ impl Listener for Events<'_> {
     }
 }
 
-/// Converts a change to JSON. The field `text` contains only some of the elements; the list contains all of them.
+/// Converts a change to JSON. The field `text` names only some of the elements, but the list contains all of them.
 fn change_json(change: &ReadingChange) -> Json {
     let mut json = json!({
         "code": change.code, "count": change.count, "text": change.message,

@@ -4,7 +4,7 @@ use std::path::Path;
 
 /// A recipe or an input file, with its result.
 pub(crate) struct Case<'a> {
-    /// The path. It is the name of the case, and its folder is the class of the case.
+    /// The path. The path is the name of the case, and the folder of the path is the class of the case.
     pub(crate) path: &'a Path,
     /// In seconds.
     pub(crate) time: f64,

@@ -8,7 +8,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use op::Progress;
 use recipe::{Listener, StepDone};
 
-/// Set by Ctrl-C. Every long loop checks it. Also serves as a listener that shows nothing, for simultaneous runs.
+/// Set by Ctrl-C. Every long loop checks whether `INTERRUPT` is set. Also serves as a listener that shows nothing, for
+/// simultaneous runs.
 pub(crate) static INTERRUPT: Cancel = Cancel::new();
 
 /// Makes the first Ctrl-C cancel the run cleanly and the second end the program immediately.

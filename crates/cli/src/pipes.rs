@@ -32,7 +32,7 @@ pub(crate) fn recipe_name(path: &Path) -> &Path {
     }
 }
 
-/// Reads a recipe from standard input. Paths in it are relative to the working directory.
+/// Reads a recipe from standard input. Paths in the recipe are relative to the working directory.
 pub(crate) fn read_recipe() -> anyhow::Result<Source> {
     let name = recipe_name(Path::new("-"));
     let mut bytes = Vec::new();
@@ -94,7 +94,7 @@ pub(crate) fn read_mesh(name: &Path, options: &ReadOptions) -> anyhow::Result<me
 ///
 /// # Errors
 ///
-/// The errors of the stream, or if it has more than `most` bytes.
+/// The errors of the stream, or an error if the stream has more than `most` bytes.
 fn read_up_to(stream: impl Read, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     stream.take(most + 1).read_to_end(&mut bytes)?;

@@ -58,7 +58,7 @@ pub(crate) fn load_scene(
     })
 }
 
-/// Reads a mesh file. Returns its objects as a scene, and notes on what was left out or changed.
+/// Reads a mesh file. Returns the objects of the file as a scene, and notes on content that was left out or changed.
 pub(crate) fn read_file(path: &Path, options: &ReadOptions) -> anyhow::Result<(Scene, Vec<Note>)> {
     expect_kind(path, FileKind::Mesh)?;
     let loaded = mesh_io::read(&Disk, path, options);

@@ -16,7 +16,7 @@ impl Cancel {
         Self(AtomicBool::new(false))
     }
 
-    /// Cancels the runs. Returns whether they were already canceled.
+    /// Cancels the runs. Returns whether the runs were already canceled.
     pub fn set(&self) -> bool {
         self.0.swap(true, Ordering::Relaxed)
     }

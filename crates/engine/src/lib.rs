@@ -5,7 +5,7 @@
 //!                                      ^ `--run_from(step, scene)--> Outcome
 //! ```
 //!
-//! A [`Listener`] receives the scene after each step if it wants scenes. To cancel the run, return false from
+//! A [`Listener`] receives the scene after each step if the listener wants scenes. To cancel the run, return false from
 //! [`advance`](op::Progress::advance), or use [`Cancel`] from another thread.
 //!
 //! # Examples

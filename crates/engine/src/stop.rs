@@ -4,7 +4,8 @@ use recipe::{RecipeStep, did_you_mean};
 
 use crate::Loaded;
 
-/// Where a recipe stops. By default, the recipe runs to the end. If both places are given, it stops at `before`.
+/// Where a recipe stops. By default, the recipe runs to the end. If both places are given, the recipe stops at
+/// `before`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Stop<'a> {
     /// Stop after the step or call with this id or label. If the step or call is repeated, stop after its last

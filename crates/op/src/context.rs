@@ -45,8 +45,8 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// Reports that `done` of `total` parts of the work are done. Every operation calls this before its
-    /// first change and at least every few milliseconds.
+    /// Reports that `done` of `total` parts of the work are done. Every operation calls this method before its first
+    /// change and at least every few milliseconds.
     ///
     /// # Errors
     ///

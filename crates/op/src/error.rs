@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::ErrorLocation;
 
-/// The reasons for refusing an edit or a selection. Recipes name them in `refused:`.
+/// The reasons for refusing an edit or a selection. Recipes name these reasons in `refused:`.
 #[derive(
     Clone, Copy, Debug, Deserialize, Eq, JsonSchema, Ord, PartialEq, PartialOrd, Serialize,
 )]
@@ -157,8 +157,8 @@ impl OpError {
         ))
     }
 
-    /// Creates the error for a refused edit of the elements `edited`. Its message names edges as recipes do, by
-    /// their vertices.
+    /// Creates the error for a refused edit of the elements `edited`. The message of the error names edges as recipes
+    /// do, by their vertices.
     pub fn refused_edit(refusal: EditError, mesh: &Mesh, edited: &[Element]) -> Self {
         let between = |element: Element| {
             let Element::Edge(e) = element else {

@@ -14,7 +14,7 @@ use crate::{
     Report, TargetKind, target_names,
 };
 
-/// An operation that changes one mesh. In a scene it acts on every mesh, or on the meshes named in `on:`.
+/// An operation that changes one mesh. In a scene, the operation acts on every mesh, or on the meshes named in `on:`.
 pub trait MeshOperation:
     Debug + Send + Sync + Serialize + DeserializeOwned + JsonSchema + 'static
 {
@@ -169,8 +169,8 @@ impl<T: MeshOperation> Operation for T {
             }
         }
         for (name, change) in changes {
-            // The change can contain a whole mesh. It is dropped here so that its memory is free before compacting
-            // allocates.
+            // The change can contain a whole mesh. The change is dropped here so that its memory is free before
+            // compacting allocates.
             drop(change);
             mesh_mut(scene, name)?.compact();
         }

@@ -98,8 +98,7 @@ impl Entry {
         }
     }
 
-    /// Reads parameters `(levels: 2)` with the crate `ron`. Tests compare its result with that of
-    /// [`parse`](Self::parse).
+    /// Reads parameters `(levels: 2)` with the crate `ron`. Tests compare this method with [`parse`](Self::parse).
     ///
     /// # Errors
     ///

@@ -62,11 +62,11 @@ pub struct Refused {
 pub struct Loss {
     /// The object or the file that lost the data. Empty if the loss concerns the whole scene, such as its cameras.
     pub object: String,
-    /// The name of the lost data, such as the name of an attribute. Recipes use it to allow the loss.
+    /// The name of the lost data, such as the name of an attribute. Recipes use this name to allow the loss.
     pub name: String,
     /// The lost data in words.
     pub what: String,
-    /// Why it was lost. If it is empty, `what` is the whole message.
+    /// Why the data was lost. If the reason is empty, `what` is the whole message.
     pub reason: String,
 }
 

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Context, OpError, Select};
 
-/// The name of a tag. It must not be empty and must not start or end with whitespace.
+/// The name of a tag. The name must not be empty and must not start or end with whitespace.
 #[derive(Clone, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(try_from = "String", into = "String")]
 #[schemars(inline)]

@@ -22,8 +22,8 @@ use ron_tree::{Value, ValueKind, string_literal};
 /// The file name of the scene in a capsule.
 pub const BEFORE: &str = "before.mws";
 
-/// Returns the text of the recipe for a capsule in `folder`. It contains the steps of `recipe` from the index `from`
-/// on. The step at this index failed with `message`. `inputs` are the files that `recipe` reads.
+/// Returns the text of the recipe for a capsule in `folder`. The text contains the steps of `recipe` from the index
+/// `from` on. The step at this index failed with `message`. `inputs` are the files that `recipe` reads.
 pub fn capsule(
     recipe: &Recipe,
     from: usize,

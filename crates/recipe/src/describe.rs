@@ -9,13 +9,13 @@ use crate::shape::Schema;
 pub struct FieldDoc {
     /// The name of the parameter.
     pub name: String,
-    /// The kind of value that it takes, with its range.
+    /// The kind of value that the parameter takes, with its range.
     pub kind: String,
     /// The default as RON. `None` if the parameter is required.
     pub default: Option<String>,
     /// The description of the parameter.
     pub doc: String,
-    /// The variants of its type, if it is an enumeration.
+    /// The variants of the parameter's type, if the type is an enumeration.
     pub variants: Vec<VariantDoc>,
 }
 
@@ -37,8 +37,8 @@ pub fn fields(schema: &Json) -> Vec<FieldDoc> {
     fields_of(&Schema::root(schema), true)
 }
 
-/// Returns the fields of a schema. The variants of their types are included only if `with_variants` is set. They cannot
-/// be included at every level, because selections contain selections.
+/// Returns the fields of a schema. The variants of their types are included only if `with_variants` is set. Variants
+/// cannot be included at every level, because selections contain selections.
 fn fields_of(schema: &Schema, with_variants: bool) -> Vec<FieldDoc> {
     let required: Vec<&str> = schema.required().collect();
     let described = |name: &str| {
@@ -67,9 +67,9 @@ pub struct TypeDoc {
     pub name: String,
     /// The description of the type.
     pub doc: String,
-    /// Its fields, if it is a struct, written `(a: .., b: ..)`.
+    /// The fields of the type, if the type is a struct, written `(a: .., b: ..)`.
     pub fields: Vec<FieldDoc>,
-    /// Its variants, if it is an enumeration.
+    /// The variants of the type, if the type is an enumeration.
     pub variants: Vec<VariantDoc>,
 }
 

@@ -71,7 +71,7 @@ impl<B, S, W> Jobs<B, S, W> {
     /// Jobs start in their order. A job starts when its bytes and the bytes of the running jobs together are within the
     /// budget. A job that exceeds the budget by itself runs alone. A panic ends only the job that panicked.
     ///
-    /// Must not be called from a thread of a rayon pool, because it blocks.
+    /// This method blocks, so it must not be called from a thread of a rayon pool.
     ///
     /// # Errors
     ///
@@ -282,8 +282,8 @@ const BYTES_FOR_EACH_BYTE_READ: u64 = 8;
 
 impl Forecast {
     /// Returns the estimated peak memory of the run, in bytes. If the forecast has an upper limit for the meshes of
-    /// every step, the estimate is the size of the input files plus the largest of these limits. Otherwise it is eight
-    /// times the size of the input files, but at least the largest lower limit.
+    /// every step, the estimate is the size of the input files plus the largest of these limits. Otherwise the estimate
+    /// is eight times the size of the input files, but at least the largest lower limit.
     pub fn peak_bytes(&self) -> u64 {
         let size = |path: &std::path::PathBuf| Path::metadata(path).map_or(0, |m| m.len());
         let read: u64 = self.inputs.iter().map(size).sum();

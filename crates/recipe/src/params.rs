@@ -1,4 +1,5 @@
-//! The parameters of a recipe. They are declared with a type and a default, and can be set on the command line.
+//! The parameters of a recipe. A recipe declares its parameters with a type and a default, and they can be set on the
+//! command line.
 
 use std::fmt::Display;
 use std::path::Path;

@@ -15,7 +15,7 @@ use ron_tree::{Diagnostic, Span, Value};
 /// The maximum number of steps, after calls and repetitions are replaced by their steps.
 pub const MAX_STEPS: usize = 100_000;
 
-/// A recipe that was read. If it has errors, it contains the parts that could be read.
+/// A recipe that was read. If the recipe has errors, this value contains the parts that could be read.
 #[derive(Debug)]
 pub struct Recipe {
     /// The description of the recipe.
@@ -140,9 +140,9 @@ pub struct RecipeStep {
     pub id: Option<String>,
     /// The current name of its operation. If the operation is unknown, the name as written.
     pub name: String,
-    /// The label, which is shown to users and seeds random choices. It is the id or, if the step has none, the name of
-    /// the operation. The names of the calls around the step are added before it, and the numbers of the repetitions
-    /// around the step after it, as in `clean/Weld#2`.
+    /// The label, which is shown to users and seeds random choices. The label is the id or, if the step has no id, the
+    /// name of the operation. The names of the calls around the step are put in front, and the numbers of the
+    /// repetitions around the step at the end, as in `clean/Weld#2`.
     pub label: String,
     /// The operation. `None` if the step could not be read.
     pub step: Option<Arc<dyn Step>>,
@@ -152,7 +152,7 @@ pub struct RecipeStep {
     pub refused: Option<Refusal>,
     /// Which losses the step may cause.
     pub on_loss: OnLoss,
-    /// The comment on the step. Programs show it to people; it has no effect.
+    /// The comment on the step. Programs show the comment to people. The comment has no effect on the run.
     pub note: Option<String>,
     /// The index of its scope in [`Recipe::scopes`].
     pub scope: usize,
@@ -191,9 +191,9 @@ impl RecipeStep {
 /// An expectation, with the place in the recipe where it is checked.
 #[derive(Clone, Debug)]
 pub struct RecipeExpectation {
-    /// The index of the step after which it is checked. If `None`, it is checked at the end.
+    /// The index of the step after which the expectation is checked. If `None`, the expectation is checked at the end.
     pub after: Option<usize>,
-    /// The names of the objects that it is checked for. If `None`, all objects.
+    /// The names of the objects that the expectation is checked for. If `None`, all objects.
     pub on: Option<Vec<String>>,
     /// The expectation.
     pub that: Expectation,

@@ -58,8 +58,8 @@ pub fn run(recipe: &Recipe, settings: Settings, listener: &dyn Listener) -> Outc
 /// run again.
 ///
 /// Expectations after earlier steps are not checked again, and earlier steps do not write their files again. If `first`
-/// is not 0, the cache is not used: it identifies a scene by the steps before it, and whether these steps produced
-/// `scene` is not known.
+/// is not 0, the cache is not used: the cache identifies a scene by the steps that produced the scene, and whether the
+/// earlier steps produced `scene` is not known.
 pub fn run_from(
     recipe: &Recipe,
     first: usize,

@@ -147,7 +147,7 @@ pub(crate) fn expectation_envelope() -> Json {
 /// Returns the schema of whole recipes with the operations of `registry`, for the JSON form of RON: `Name(a: 1)`
 /// is `{"Name": {"a": 1}}`, and a name without parameters is a string.
 pub fn schema(registry: &Registry) -> Json {
-    // A step can contain steps, so its schema needs a name to refer to.
+    // A step can contain steps, so the schema of a step refers to itself by a name.
     let step_reference = json!({ "$ref": "#/$defs/Step" });
     let mut step = Json::Null;
     let mut schema = with_definitions(|defined| {

@@ -47,7 +47,7 @@ pub struct Run {
 pub type Pairs = std::collections::BTreeMap<String, String>;
 
 impl Stamp {
-    /// Returns the stamp for the files that a run of `recipe` writes. `inputs` are the files that it reads.
+    /// Returns the stamp for the files that a run of `recipe` writes. `inputs` are the files that the recipe reads.
     pub fn new(recipe: &Recipe, inputs: &[impl AsRef<Path>], store: &dyn Store) -> Self {
         let mut run = Run::default();
         if let Some(source) = recipe.sources.first() {

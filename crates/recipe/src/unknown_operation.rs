@@ -8,8 +8,8 @@ use crate::shape::{listed, nearest};
 /// Returns the help text of an error about an unknown operation. The text suggests at most three operations: first
 /// operations with a similar name, then operations whose list of words contains a word of the name. If there are
 /// operations of the second kind, only one operation with a similar name is suggested. If there are operations of
-/// neither kind, the text suggests operations whose names share a word with the name. If there are none, the text names
-/// the command that lists all operations.
+/// neither kind, the text suggests operations whose names share a word with the name. If there are no such operations
+/// either, the text names the command that lists all operations.
 pub fn suggest_operations(name: &str, registry: &Registry) -> String {
     let entries = registry.entries();
     let known = entries.iter().map(|entry| entry.name);

@@ -5,7 +5,7 @@ use std::ops::Range;
 /// An error or a warning about a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// Whether it is an error or a warning.
+    /// Whether the diagnostic is an error or a warning.
     pub severity: Severity,
     /// The message: one line that starts in lower case and has no final period.
     pub message: String,

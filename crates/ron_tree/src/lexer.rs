@@ -56,7 +56,7 @@ pub enum TokenKind {
     BadChar,
     /// A string without a closing quote.
     UnclosedString,
-    /// A block comment without `*/`. It extends to the end of the text.
+    /// A block comment without `*/`. The token extends to the end of the text.
     UnclosedComment,
     /// Characters that are not valid in RON.
     Unknown,
@@ -367,7 +367,8 @@ fn after(prefix: usize, (kind, length): (TokenKind, usize)) -> (TokenKind, usize
     (kind, prefix + length)
 }
 
-/// Whether a raw string follows the `r`: `"`, `#"` or `##`. This is how `ron` distinguishes it from `r#name`.
+/// Whether a raw string follows the `r`: `"`, `#"` or `##`. `ron` distinguishes raw strings from names such as `r#name`
+/// in this way.
 fn is_raw_string(rest: &str) -> bool {
     rest.starts_with('"') || rest.starts_with("#\"") || rest.starts_with("##")
 }

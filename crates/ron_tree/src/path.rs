@@ -5,8 +5,8 @@ use crate::diagnostic::Span;
 
 /// Returns the span of the value at `path` in `value`.
 ///
-/// The path starts at the outermost value. It consists of the names of fields, variants and keys, and of the indices of
-/// items (counted from 0), as in the JSON form: `["edges", "Random", "count"]` leads to the 24 in
+/// The path starts at the outermost value. The path consists of the names of fields, variants and keys, and of the
+/// indices of items (counted from 0), as in the JSON form: `["edges", "Random", "count"]` leads to the 24 in
 /// `FlipEdges(edges: Random(count: 24))`. The path can omit the name of the outermost call, `Some(..)`, and the
 /// parentheses of a variant with one value. If the value at `path` does not exist, returns the span of the deepest
 /// existing value on the path.

@@ -16,8 +16,8 @@ use scene::Geometry;
 /// Moves one control point of curves.
 ///
 /// The other control points do not move. The point of the curve at a parameter t moves in the same direction as the
-/// control point. It moves as far as the control point, multiplied by the value at t of the Bernstein polynomial of the
-/// control point.
+/// control point. The point of the curve moves as far as the control point, multiplied by the value at t of the
+/// Bernstein polynomial of the control point.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MoveControlPoint {

@@ -34,7 +34,7 @@ pub struct Bend {
     /// The axis towards which the upper end bends. If omitted, the axis after `axis` in the order x, y, z, x.
     #[serde(default)]
     pub towards: Option<Axis>,
-    /// A point on the axis. Its coordinate along the axis does not matter.
+    /// A point on the axis. The coordinate of the point along the axis does not matter.
     #[serde(default)]
     pub about: Vector,
     /// The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate of the mesh.

@@ -16,9 +16,9 @@ use crate::moved::moved;
 
 /// Moves vertices along their normals, by amounts that vary over the surface.
 ///
-/// Each vertex moves along its normal by `distance` times the value of `by`. Its normal is the mean of the normals of
-/// its faces, weighted by their areas. Vertices without such a normal stay and are counted. Faces, element numbers and
-/// attributes do not change. Normals are dropped.
+/// Each vertex moves along its normal by `distance` times the value of `by`. The normal of a vertex is the mean of the
+/// normals of its faces, weighted by their areas. Vertices without such a normal stay and are counted. Faces, element
+/// numbers and attributes do not change. Normals are dropped.
 ///
 /// The values are computed without functions that differ between machines, so the result is the same everywhere.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]

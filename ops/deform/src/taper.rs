@@ -28,7 +28,7 @@ pub struct Taper {
     pub axis: Axis,
     /// The factor at `to`. More than 0: a factor below 1 makes the upper end narrower.
     pub factor: PositiveFactor,
-    /// A point on the axis. Its coordinate along the axis does not matter.
+    /// A point on the axis. The coordinate of the point along the axis does not matter.
     #[serde(default)]
     pub about: Vector,
     /// The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate of the mesh.

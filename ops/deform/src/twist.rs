@@ -29,7 +29,7 @@ pub struct Twist {
     pub axis: Axis,
     /// The angle at `to`, in degrees, counter-clockwise if the axis points to the viewer.
     pub angle: Angle,
-    /// A point on the axis. Its coordinate along the axis does not matter.
+    /// A point on the axis. The coordinate of the point along the axis does not matter.
     #[serde(default)]
     pub about: Vector,
     /// The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate of the mesh.

@@ -29,17 +29,17 @@ use goal::Goal;
 /// other corners keep their values.
 ///
 /// With `until: Delaunay` or `until: Valence`, an edge is flipped only if that improves the mesh. Edges are checked
-/// again, pass after pass, until no edge is flipped. These flips neither fold the surface nor create triangles without
-/// area. If a flip that would improve the mesh is refused, the step does not fail: the edge is left unchanged, and the
-/// report counts the refusal by reason. The report also contains the number of passes, and whether the step stopped
-/// because `passes` was reached.
+/// again, pass after pass, until no edge is flipped. Flips with one of these goals neither fold the surface nor create
+/// triangles without area. If a flip that would improve the mesh is refused, the step does not fail: the edge is left
+/// unchanged, and the report counts the refusal by reason. The report also contains the number of passes, and whether
+/// the step stopped because `passes` was reached.
 ///
 /// On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from `edges`,
 /// for example with `Flat(below: 30)` or `Not(Tagged("keep"))`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct FlipEdges {
-    /// The edges to flip. They are selected before the first flip. An edge keeps its number when it is flipped.
+    /// The edges to flip. The edges are selected before the first flip. An edge keeps its number when it is flipped.
     pub edges: EdgeSelection,
     /// Which edges are flipped, and when to stop.
     #[serde(default)]
@@ -62,8 +62,8 @@ pub enum Until {
     /// Flip each edge once.
     #[default]
     Once,
-    /// Flip edges until no flip reduces the sum of the cotangents of all angles of all triangles. This avoids very
-    /// small and very large angles. On a flat mesh, the result is the Delaunay triangulation.
+    /// Flip edges until no flip reduces the sum of the cotangents of all angles of all triangles. The result has fewer
+    /// very small and very large angles. On a flat mesh, the result is the Delaunay triangulation.
     Delaunay,
     /// Flip edges until no flip brings the valences of the vertices closer to 6, or to 4 on the boundary. Each flip
     /// reduces the sum of the squared differences.

@@ -43,8 +43,8 @@ impl MeshOperation for SplitEdges {
     const DONE: &'static str = "split";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // A split cuts at most two faces. It cuts fewer at boundary edges and beside faces with more than three
-        // corners.
+        // A split cuts at most two faces. A split cuts fewer faces at boundary edges and beside faces with more than
+        // three corners.
         let n = self.edges.count(plan);
         let cuts = n.times(Range::between(u64::from(plan.is_triangles()), 2));
         plan.grow(n, n.plus(cuts), cuts);

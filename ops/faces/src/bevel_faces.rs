@@ -31,7 +31,8 @@ pub struct BevelFaces {
     #[serde(alias = "inset")]
     #[schemars(extend("aliases" = ["inset"]))]
     pub fraction: Fraction,
-    /// The distance by which the inner face moves along its normal, in scene units. A negative distance moves it inwards.
+    /// The distance by which the inner face moves along its normal, in scene units. A negative distance moves the inner
+    /// face inwards.
     #[serde(alias = "height")]
     #[schemars(extend("aliases" = ["height"]))]
     pub distance: Distance,

@@ -35,10 +35,11 @@ use region::Region;
 /// face number in each region, then in order of the faces, then counter-clockwise around each face from its first
 /// corner. New vertices are in the same order: each is the copy of the first vertex of its side face.
 ///
-/// A side face has the values of the adjacent moved face (material, tags). Its corners have the values of the corners
-/// of that face, so textures have no seam there. But each side face shows only one line of the texture, the line along
-/// its edge, stretched over the face. The new edges of the rim have the values of the old ones (creases, tags), and the
-/// edges between the old and the new rim have zero values (no crease, no tags). Normals are dropped.
+/// A side face has the values of the adjacent moved face (material, tags). The corners of a side face have the values
+/// of the corners of the moved face, so textures have no seam there. But each side face shows only one line of the
+/// texture, the line along its edge, stretched over the face. The new edges of the rim have the values of the old ones
+/// (creases, tags), and the edges between the old and the new rim have zero values (no crease, no tags). Normals are
+/// dropped.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExtrudeFaces {

@@ -12,11 +12,12 @@ use op::prelude::*;
 
 /// Inserts a vertex at the center of faces and joins it to their corners.
 ///
-/// A face with n corners becomes n triangles. This adds 1 vertex, n edges and n - 1 faces. The first triangle keeps the
-/// number of the face; the other triangles and the new vertices and edges are numbered last, in order of the faces. The
-/// vertex is at the mean of the corners, moved along the normal of the face by `distance`. Its vertex and corner values
-/// are also means where the type of the attribute allows it. The triangles have the values of their face, and the new
-/// edges have zero values (no crease, no tags). If `distance` is not 0, normals are dropped.
+/// A face with n corners becomes n triangles. Each poked face adds 1 vertex, n edges and n - 1 faces. The first
+/// triangle keeps the number of the face; the other triangles and the new vertices and edges are numbered last, in
+/// order of the faces. The vertex is at the mean of the corners, moved along the normal of the face by `distance`. The
+/// vertex and corner values of the new vertex are also means, if the type of the attribute allows means. The triangles
+/// have the values of their face, and the new edges have zero values (no crease, no tags). If `distance` is not 0,
+/// normals are dropped.
 ///
 /// A face is refused only if the position of the new vertex would not be finite, or if the mesh already has the largest
 /// supported number of elements.
@@ -26,8 +27,8 @@ pub struct PokeFaces {
     /// The faces to poke.
     #[serde(default)]
     pub faces: FaceSelection,
-    /// The distance of the vertex from the center along the normal of the face, in scene units. A negative distance moves
-    /// it inwards.
+    /// The distance of the vertex from the center along the normal of the face, in scene units. A negative distance
+    /// moves the vertex inwards.
     ///
     /// A face without area has no normal: its vertex is at the center.
     #[serde(default, alias = "offset")]

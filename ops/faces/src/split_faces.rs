@@ -14,10 +14,10 @@ use op::prelude::*;
 /// Cuts faces in two with edges between their corners.
 ///
 /// Each pair (v, w) of vertices cuts the face that has both vertices as corners. The new edge joins the two vertices.
-/// This adds 1 edge and 1 face. Cuts are made in the order of the list, so a face can be cut several times. The part of
-/// the face to the right of the line from v to w is the new face, and the other part keeps the number. New edges and
-/// faces are numbered last. Corners keep their values, the new face has the values of the old one, and the new edge has
-/// zero values (no crease, no tags).
+/// Each cut adds 1 edge and 1 face. Cuts are made in the order of the list, so a face can be cut several times. The
+/// part of the face to the right of the line from v to w is the new face, and the other part keeps the number. New
+/// edges and faces are numbered last. Corners keep their values, the new face has the values of the old one, and the
+/// new edge has zero values (no crease, no tags).
 ///
 /// A cut is refused if the two vertices are the same, if they are already joined by an edge, if no face has both as
 /// corners, or if several faces have both as corners, because the cut would be ambiguous.

@@ -16,10 +16,10 @@ use op::prelude::*;
 
 /// Joins two holes with a band of faces.
 ///
-/// Each hole is given by one of its vertices. An edge joins these two vertices, and the band goes around both holes from
-/// there. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and n - m evenly spread
-/// triangles. This adds n edges and no vertices. The holes may be in one part of the mesh, which then gets a tunnel or a
-/// handle, or in two parts of one object. (`Join` joins two objects into one.)
+/// Each hole is given by one of its vertices. An edge joins these two vertices, and the band goes around both holes
+/// from there. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and n - m evenly spread
+/// triangles. The step adds n edges and no vertices. The holes may be in one part of the mesh, which then gets a tunnel
+/// or a handle, or in two parts of one object. (`Join` joins two objects into one.)
 ///
 /// New faces have the values of the adjacent faces at the longer hole. New corners have the values of the corners at the
 /// same vertices in the adjacent faces. Normals are dropped.

@@ -36,7 +36,7 @@ use crate::join::skin::KeptSkin;
 pub struct Join {
     /// The names of the meshes. At least one, without duplicates.
     pub objects: Vec<String>,
-    /// The name of the result. It may be the name of one of the meshes.
+    /// The name of the result. This name may be the name of one of the meshes.
     pub name: String,
     /// Whether to tag the faces of each part with the name of the part, so that `Tagged("head")` selects them in later
     /// steps.

@@ -29,10 +29,10 @@ use crate::transform::map::Map;
 /// Scales, rotates and moves objects.
 ///
 /// Points are first scaled, then rotated, then moved. The points of meshes, patches, curves and polylines are changed,
-/// unless nodes of a glTF file place the object. Such an object is moved by changing the placements of its nodes, and
-/// everything below these nodes moves along. A skinned mesh is moved with its joints. A node whose placement is animated gets a
-/// parent, which is moved instead. Without `on:`, root nodes with cameras and lights move too, unless `about`
-/// is `Center`. A curve must stay in the plane z = 0.
+/// unless nodes of a glTF file place the object. An object that nodes place is moved by changing the placements of its
+/// nodes, and everything below these nodes moves along. A skinned mesh is moved with its joints. A node whose placement
+/// is animated gets a parent, which is moved instead. Without `on:`, root nodes with cameras and lights move too,
+/// unless `about` is `Center`. A curve must stay in the plane z = 0.
 ///
 /// Ids do not change. Normals and the deltas of morph targets are transformed; other attributes do not change. A mirror (one or three negative factors in
 /// `scale`) also reverses the faces, so that they are counter-clockwise seen from outside: the first corner of a face

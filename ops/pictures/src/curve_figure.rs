@@ -40,8 +40,8 @@ pub struct CurveFigure {
     /// Draws a panel for each level of the algorithm, in place of one panel with all levels.
     #[serde(default)]
     pub by_level: bool,
-    /// The name of a curve that shows an earlier state of the other curves. It is drawn faintly behind them, with
-    /// arrows to the control points that moved.
+    /// The name of a curve that shows an earlier state of the other curves. This curve is drawn faintly behind the
+    /// other curves, with arrows to the control points that moved.
     #[serde(default)]
     pub before: Option<String>,
     /// The width of the figure in SVG pixels. The font size is 12 to 19 pixels.

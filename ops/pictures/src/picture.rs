@@ -41,7 +41,7 @@ pub struct Picture {
     /// The camera.
     #[serde(default)]
     pub camera: Camera,
-    /// Several cameras, in place of `camera`. Their views are placed side by side.
+    /// Several cameras, in place of `camera`. The views of the cameras are placed side by side.
     #[serde(default)]
     pub views: Vec<Camera>,
     /// The number of views in a row. If omitted, the number of views, but at most 4.
@@ -55,7 +55,7 @@ pub struct Picture {
     pub highlight: Option<Elements>,
     /// The width of highlighted edges and the diameter of highlighted vertices, in pixels. If omitted, 2.8 and 7.5 in
     /// pictures that are 240 pixels high, 3.4 and 10 at 480, 4 and 13 at 960, 8 and 26 at 1920. If there are many
-    /// vertices, they are smaller. Hidden edges are faint, and hidden vertices are rings.
+    /// highlighted vertices, they are drawn smaller. Hidden edges are faint, and hidden vertices are rings.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub highlight_width: Option<f64>,

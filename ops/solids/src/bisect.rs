@@ -20,16 +20,16 @@ use op::prelude::*;
 /// are numbered last. Attributes are interpolated at the crossings, separately on each side of a seam.
 ///
 /// With `keep: Front` or `keep: Back`, the other side of the plane is removed. A face in the plane belongs to the back
-/// if its normal points to the front, because it closes the solid behind it. Vertices left without a face are removed.
-/// If the remaining faces around a vertex form several fans, each fan gets a separate copy of the vertex. The cut is
-/// not closed with faces.
+/// if its normal points to the front, because such a face closes the solid behind the plane. Vertices left without a
+/// face are removed. If the remaining faces around a vertex form several fans, each fan gets a separate copy of the
+/// vertex. The cut is not closed with faces.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bisect {
     /// A point on the plane.
     #[serde(default)]
     pub point: Vector,
-    /// The normal of the plane, which points to the front. Its length does not matter but must not be 0.
+    /// The normal of the plane, which points to the front. The length of the normal does not matter but must not be 0.
     pub normal: Direction,
     /// The side to keep.
     #[serde(default)]

@@ -24,10 +24,10 @@
 //!        new, inside       old, inside, valence n         new, boundary       old, boundary
 //! ```
 //!
-//! Source: Catmull and Clark, "Recursively generated B-spline surfaces on arbitrary topological meshes", 1978.
-//! On a grid of quads the limit surface is the bicubic B-spline of the vertices. It has continuous curvature
-//! except at old vertices whose valence is not 4 and at the centers of faces that are not quads. The boundary
-//! is a cubic B-spline curve that depends on boundary vertices only.
+//! Source: Catmull and Clark, "Recursively generated B-spline surfaces on arbitrary topological meshes", 1978. On a
+//! grid of quads the limit surface is the bicubic B-spline of the vertices. The limit surface has continuous curvature
+//! except at old vertices whose valence is not 4 and at the centers of faces that are not quads. The boundary is a
+//! cubic B-spline curve that depends on boundary vertices only.
 //!
 //! The crate `subdivision` implements all schemes.
 
@@ -38,10 +38,10 @@ use crate::step::{Step, Until};
 
 /// Splits every face into quads and smooths the surface, for a number of levels.
 ///
-/// A level creates a quad at each corner of each face. It turns V vertices, E edges and F faces with C corners in
-/// total into V + E + F vertices, 2 E + C edges and C quads, so V - E + F does not change. Old vertices keep
-/// their ids, the vertex on edge e has the id V + e, the vertex at the center of face f has the id V + E + f, and
-/// edge e becomes edges 2e and 2e + 1. Quads are numbered face by face, in order of the corners.
+/// A level creates a quad at each corner of each face. A level turns V vertices, E edges and F faces with C corners in
+/// total into V + E + F vertices, 2 E + C edges and C quads, so V - E + F does not change. Old vertices keep their ids,
+/// the vertex on edge e has the id V + e, the vertex at the center of face f has the id V + E + f, and edge e becomes
+/// edges 2e and 2e + 1. Quads are numbered face by face, in order of the corners.
 ///
 /// Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner
 /// values are smoothed as `face_varying` says, and seams are kept. Parts of an edge or a face copy the values

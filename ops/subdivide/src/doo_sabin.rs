@@ -22,10 +22,10 @@
 //! ```
 //!
 //! In a face with n corners, the vertex of a corner has the weight (n + 5)/(4n) at that corner and (3 + 2
-//! cos(2πj/n))/(4n) at the j-th corner from there. Source: Doo and Sabin, "Behaviour of recursive division
-//! surfaces near extraordinary points", 1978. On a grid of quads the limit surface is the biquadratic B-spline
-//! of the vertices. It touches every face at the mean of its corners and has a continuous tangent plane. The
-//! boundary is a quadratic B-spline curve (Chaikin, "An algorithm for high-speed curve generation", 1974).
+//! cos(2πj/n))/(4n) at the j-th corner from there. Source: Doo and Sabin, "Behaviour of recursive division surfaces
+//! near extraordinary points", 1978. On a grid of quads the limit surface is the biquadratic B-spline of the vertices.
+//! The limit surface touches every face at the mean of its corners and has a continuous tangent plane. The boundary is
+//! a quadratic B-spline curve (Chaikin, "An algorithm for high-speed curve generation", 1974).
 //!
 //! The crate `subdivision` implements all schemes.
 
@@ -36,11 +36,10 @@ use crate::step::{Step, Until};
 
 /// Replaces every edge and vertex by a face and shrinks the old faces, for a number of levels.
 ///
-/// A level turns a closed mesh with V vertices, E edges and F faces into a mesh with 2 E vertices, 4 E edges and
-/// F + E + V faces. If the mesh has a boundary, these numbers are larger. V - E + F does not change. The face
-/// inside old face f has the id f, the face of edge e has the id F + e, and the faces of vertices follow. Isolated
-/// vertices are kept, after all other vertices. They do not become faces, and neither do inner vertices of
-/// valence 2.
+/// A level turns a closed mesh with V vertices, E edges and F faces into a mesh with 2 E vertices, 4 E edges and F + E
+/// + V faces. If the mesh has a boundary, these numbers are larger. V - E + F does not change. The face inside old face
+/// f has the id f, the face of edge e has the id F + e, and the faces of vertices follow. Isolated vertices are kept,
+/// after all other vertices. Isolated vertices and inner vertices of valence 2 do not become faces.
 ///
 /// Vertex attributes are smoothed with the weights of the positions. Corner values are smoothed within one old face.
 /// The new faces of edges and vertices have corner values of several old faces; at a seam, this distorts textures. A

@@ -19,7 +19,7 @@ use op::prelude::*;
 /// or `ratio` is reached, or when every other collapse could exceed `error`. At least one of the three must be given.
 /// All faces must be triangles.
 ///
-/// These are kept:
+/// The following properties are kept:
 ///
 /// - Topology: holes, handles and separate parts stay.
 /// - Lines: the boundary, seams of texture coordinates and normals, borders between face tags or materials, edges with
@@ -35,8 +35,8 @@ use op::prelude::*;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Simplify {
-    /// The number of faces to reach, for each mesh. The result can have one face fewer. A mesh that has no more
-    /// faces stays as it is.
+    /// The number of faces to reach, for each mesh. The result can have one face fewer. A mesh that already has at most
+    /// this number of faces does not change.
     #[serde(default)]
     pub faces: Option<Count<0>>,
     /// The number of faces to reach, as a fraction of the number of faces of each mesh.

@@ -64,7 +64,7 @@ pub enum SmoothBy {
         factor: ClosedFraction,
     },
     /// Moves each vertex towards the mean of its neighbors, then a little further back. Removes noise, and keeps larger
-    /// shapes and the volume nearly unchanged. One pass is both steps.
+    /// shapes and the volume nearly unchanged. One pass consists of both steps.
     Taubin {
         /// The weights of the neighbors.
         #[serde(default)]

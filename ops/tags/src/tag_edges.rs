@@ -12,7 +12,7 @@ use op::prelude::*;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct TagEdges {
-    /// The name of the tag. It must not be empty and must not start or end with whitespace.
+    /// The name of the tag. The name must not be empty and must not start or end with whitespace.
     pub name: TagName,
     /// The edges to tag. An empty selection gives an empty tag.
     pub edges: EdgeSelection,

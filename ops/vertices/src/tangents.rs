@@ -8,9 +8,9 @@ use op::prelude::*;
 ///
 /// The mesh needs texture coordinates and normals, such as those of `VertexNormals`. The tangents are written to the
 /// corner attribute `tangent`, which is replaced if it exists: a unit vector perpendicular to the normal and, as the
-/// fourth number, the sign of the bitangent. `.glb` and `.gltf` files store it as `TANGENT`. Polygons are triangulated
-/// as for these files. Steps that change the shape or the faces remove the tangents. Corners at which the texture
-/// coordinates define no direction get an arbitrary tangent and are counted.
+/// fourth number, the sign of the bitangent. `.glb` and `.gltf` files store the attribute as `TANGENT`. Polygons are
+/// triangulated as for these files. Steps that change the shape or the faces remove the tangents. Corners at which the
+/// texture coordinates define no direction get an arbitrary tangent and are counted.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tangents {
@@ -48,7 +48,7 @@ impl MeshOperation for Tangents {
             }
         }
         plan.provide(Domain::Corner, CORNER_TANGENT.name);
-        // A step that changes connectivity drops them.
+        // A step that changes connectivity drops the tangents.
         if let Some(tangents) = plan.attributes.last_mut() {
             tangents.certain = false;
         }

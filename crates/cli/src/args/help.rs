@@ -93,7 +93,7 @@ fn in_any_case(argument: Arg) -> Arg {
     argument.ignore_case(takes_values)
 }
 
-/// Parses the command line. If it is invalid, prints a message and exits.
+/// Parses the command line. If the command line is invalid, prints a message and exits.
 pub(crate) fn parse() -> Args {
     let matches = command().get_matches();
     Args::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())

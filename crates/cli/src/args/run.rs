@@ -26,7 +26,7 @@ impl ValueArgs {
 /// Arguments of the commands that read one recipe.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct RecipeArgs {
-    /// The recipe; `-` reads it from standard input, with paths relative to the working directory
+    /// The recipe; `-` reads the recipe from standard input, with paths relative to the working directory
     pub(crate) recipe: PathBuf,
     #[command(flatten)]
     pub(crate) values: ValueArgs,

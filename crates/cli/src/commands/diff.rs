@@ -157,7 +157,7 @@ const FACTS: [(&str, Show); 8] = [
     }),
 ];
 
-/// Formats the largest distance. It is a lower bound if `at_most` exceeds it.
+/// Formats the largest distance. If `at_most` exceeds the distance, the distance is only a lower bound.
 fn largest(distance: &Distance) -> String {
     let (largest, most) = (distance.largest(), distance.at_most());
     if most > largest {

@@ -178,7 +178,7 @@ fn show(path: &Path, scene: Scene) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Converts a note to JSON. The field `text` contains only some of the elements; the list contains all of them.
+/// Converts a note to JSON. The field `text` names only some of the elements, but the list contains all of them.
 pub(crate) fn note_json(note: &Note) -> serde_json::Value {
     let places = (note.places.iter()).map(|points| points.iter().map(DVec3::to_array).collect());
     let places: Vec<Vec<_>> = places.collect();

@@ -1,4 +1,4 @@
-//! The commands, one per file or folder. Each returns whether it succeeded.
+//! The commands, one per file or folder. Each command returns whether it succeeded.
 
 pub(crate) mod batch;
 pub(crate) mod cache;

@@ -240,7 +240,7 @@ pub(crate) fn check_names(on: &[String], scenes: &[&Scene]) -> anyhow::Result<()
     Ok(())
 }
 
-/// Draws scenes of a file, each with a caption. Draws only the objects named in `on`, or all if it is empty.
+/// Draws scenes of a file, each with a caption. Draws only the objects named in `on`, or all objects if `on` is empty.
 pub(crate) fn draw_scenes(
     picture: &Picture,
     path: &Path,

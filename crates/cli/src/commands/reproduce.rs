@@ -35,7 +35,7 @@ pub(crate) fn run(args: &ReproduceArgs, engine: &Engine) -> anyhow::Result<bool>
     Ok(all_equal)
 }
 
-/// Finds the recipe that wrote a file. Returns its text, and the recorded parameters and inputs.
+/// Finds the recipe that wrote a file. Returns the text of the recipe, and the recorded parameters and inputs.
 fn recipe_of(
     file: &Path,
     stamp: Option<&Stamp>,

@@ -9,7 +9,7 @@ use tempfile::TempDir;
 /// The program that is tested.
 pub(crate) const PROGRAM: &str = env!("CARGO_BIN_EXE_meshwright");
 
-/// A temporary working folder, and one for the cache. Both are removed after the test.
+/// A temporary working folder, and a temporary folder for the cache. Both folders are removed after the test.
 pub(crate) struct Folder(TempDir, TempDir);
 
 /// How the program ended.

@@ -113,7 +113,7 @@ fn only_files_that_the_recipe_reads_start_a_run() {
     for is_cached in [false, true] {
         let watching = Watching::start(&folder, &arguments);
         watching.wait_for("watching one folder");
-        // Neither other files nor the output start a run.
+        // Saving other files, or writing outputs, does not start a run.
         std::fs::write(folder.path("notes.txt"), "1").unwrap();
         std::fs::write(folder.path("b.obj"), TRIANGLE).unwrap();
         std::fs::write(folder.path("b.mtl"), "newmtl blue\n").unwrap();

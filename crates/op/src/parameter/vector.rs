@@ -95,7 +95,7 @@ vectors! {
     /// A point or a direction: `(x, y, z)`, in scene units.
     #[derive(Default)]
     Vector(x, y, z): true, "coordinates";
-    /// A direction `(x, y, z)`. Its length does not matter but must not be 0.
+    /// A direction `(x, y, z)`. The length of the vector does not matter but must not be 0.
     Direction(x, y, z): x != 0.0 || y != 0.0 || z != 0.0, "coordinates that are not all 0";
     /// Scale factors along x, y and z. No factor may be 0; a negative factor mirrors.
     Factors(x, y, z): x != 0.0 && y != 0.0 && z != 0.0, "factors that are not 0";

@@ -32,7 +32,7 @@ selection! {
         FacesBeside(Box<EdgeSelection>),
         /// Faces whose normals differ from a direction by at most the angle `within`.
         Facing {
-            /// The direction. Its length does not matter; a zero vector selects no faces.
+            /// The direction. The length of the direction does not matter; a zero vector selects no faces.
             direction: Vector,
             /// The largest angle between the normal and the direction, in degrees.
             within: AngleBetween,

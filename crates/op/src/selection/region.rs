@@ -28,7 +28,7 @@ pub enum Region {
     HalfSpace {
         /// A point on the plane.
         point: Vector,
-        /// The normal of the plane, which points into the region. Its length does not matter.
+        /// The normal of the plane, which points into the region. The length of the normal does not matter.
         normal: Vector,
     },
 }

@@ -30,7 +30,7 @@ struct DroppedAttribute {
     step: String,
 }
 
-/// For each mesh, its name and the attributes that it certainly has.
+/// For each mesh, the name of the mesh and the attributes that the mesh certainly has.
 pub(super) type CertainAttributes = Vec<(String, Vec<PlannedAttribute>)>;
 
 fn key(attribute: &PlannedAttribute) -> (Domain, &str) {

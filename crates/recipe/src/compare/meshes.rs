@@ -15,7 +15,7 @@ pub struct MeshDifference {
     pub counts: [Counts; 2],
     /// Whether the faces join the same vertices.
     pub connectivity: Connectivity,
-    /// The vertices that moved. `None` if none moved or the connectivity differs.
+    /// The vertices that moved. `None` if no vertex moved or the connectivity differs.
     pub moved: Option<Moved>,
     /// The attributes of both meshes. For each domain, the attributes of the first mesh come first, then the attributes
     /// that only the second mesh has.

@@ -409,7 +409,8 @@ const fn yes() -> bool {
 }
 
 impl Expectation {
-    /// Returns the error in the expectation itself, if it has one. An expectation that can never fail is an error.
+    /// Returns the error in the expectation itself, if there is an error. An expectation that can never fail is an
+    /// error.
     pub fn problem(&self) -> Option<&'static str> {
         let needs_bound = match self {
             Self::Objects { eq, min, max }

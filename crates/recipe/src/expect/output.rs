@@ -127,8 +127,8 @@ fn with_written_file(
 }
 
 /// Whether a copy of the written file would be read as the same objects if it had the name of the reference file and
-/// were alone in a folder. This is not the case for an OBJ file with a material library. True if the written file
-/// cannot be read as objects.
+/// were alone in a folder. For an OBJ file with a material library, the answer is no. True if the written file cannot
+/// be read as objects.
 fn stands_alone(written: &Path, golden: &Path, bytes: &[u8], subject: Subject) -> bool {
     let Ok(scene) = subject.reader.scene(written, subject.files) else {
         return true;

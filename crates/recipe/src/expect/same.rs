@@ -5,7 +5,8 @@ use mesh::{DVec3, Mesh, VertexId};
 use super::subject::counted;
 
 /// The vertices of a mesh, for searches by position. The list is a k-d tree: the vertex in the middle of the list
-/// splits the other vertices by the coordinate in which they extend most. Both halves are split in the same way.
+/// splits the other vertices by the coordinate in which they extend most. Both halves of the list are split in the same
+/// way.
 pub(super) struct PositionIndex<'m> {
     mesh: &'m Mesh,
     tree: Vec<(VertexId, u8)>,

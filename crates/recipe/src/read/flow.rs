@@ -7,8 +7,8 @@
 //! ```
 //!
 //! Such a step is replaced by its inner steps while the recipe is read. A called recipe works on the current scene,
-//! reads files from its own folder, and can use only its own parameters and ids. Its expectations are checked after its
-//! steps.
+//! reads files from its own folder, and can use only its own parameters and ids. The expectations of a called recipe
+//! are checked after its steps.
 
 use std::path::Path;
 
@@ -45,8 +45,8 @@ impl Reader<'_, '_> {
     /// Replaces a step that contains steps by the inner steps.
     pub(super) fn flow(&mut self, kind: Kind, mut value: Value) -> Vec<Draft> {
         let is_envelope = matches!(value.kind, ValueKind::Struct(_));
-        // The inner steps are taken out of `value`. They are read later like all steps, and their parameters are
-        // substituted then.
+        // The inner steps are taken out of `value`. The inner steps are read later like all steps, and their parameters
+        // are substituted then.
         let bodies = ["steps", "otherwise"].map(|field| {
             let run = if is_envelope {
                 value.field_mut("run")
@@ -268,7 +268,7 @@ impl Reader<'_, '_> {
     }
 }
 
-/// Returns a suggestion of similar file names in the folder of a missing recipe. Empty if there is none.
+/// Returns a suggestion of similar file names in the folder of a missing recipe. Empty if no file name is similar.
 fn similar_files(store: &dyn Store, path: &Path) -> String {
     let folder = path.parent().filter(|_| !store.exists(path));
     let siblings = folder.and_then(|folder| store.list(folder).ok());

@@ -118,8 +118,8 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Returns a placeholder for a step that could not be read. It keeps the indices of the other steps and the id of
-    /// the step.
+    /// Returns a placeholder for a step that could not be read. With the placeholder, the indices of the other steps
+    /// and the id of the step stay the same.
     pub(super) fn broken_step(&mut self, written: Value) -> Draft {
         let run = written.field("run").unwrap_or(&written);
         let (name, span) = run.name().unwrap_or(("?", written.span));

@@ -62,8 +62,8 @@ impl Checker {
         }
     }
 
-    /// Reports an unknown field. If it is likely to be one of the `missing` fields under a wrong name, removes that field
-    /// from `missing`.
+    /// Reports an unknown field. If the unknown field is likely to be one of the `missing` fields under a wrong name,
+    /// removes that field from `missing`.
     fn unknown_field(
         &mut self,
         value: &Value,

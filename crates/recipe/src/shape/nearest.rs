@@ -2,8 +2,8 @@
 
 use super::listed;
 
-/// Returns the candidates that are most similar to `name`, the most similar first. At most three; none if no candidate
-/// is similar.
+/// Returns the candidates that are most similar to `name`, the most similar first. Returns at most three candidates,
+/// and no candidates if none is similar.
 ///
 /// Case and underscores are ignored: `loop_subdivide` equals `LoopSubdivide`.
 ///

@@ -7,7 +7,7 @@ use serde_json::{Map, Value as Json};
 #[derive(Clone, Debug)]
 pub(crate) struct Schema<'s> {
     root: &'s Json,
-    /// The schema and those that it includes by `$ref` and `allOf`. A value must fit all of them.
+    /// The schema and those that it includes by `$ref` and `allOf`. A value must fit all layers.
     layers: Vec<&'s Map<String, Json>>,
     /// The name of the type, if it has one.
     name: Option<&'s str>,
@@ -20,7 +20,7 @@ pub(crate) struct Schema<'s> {
 pub(super) struct Choice<'s> {
     /// Variants without content.
     pub(super) units: Vec<&'s str>,
-    /// Variants with content. Their schemas are read only when needed.
+    /// Variants with content. The schemas of these variants are read only when needed.
     variants: Vec<(&'s str, &'s Json)>,
     root: Option<&'s Json>,
     /// Other schemas except null, such as the type inside an option.
@@ -101,7 +101,7 @@ impl<'s> Schema<'s> {
         self.layers.first()?.get(keyword)
     }
 
-    /// Returns the description of the schema itself. Empty if it has none.
+    /// Returns the description of the schema itself. Empty if the schema has no description.
     pub(crate) fn doc(&self) -> String {
         let doc = self.own("description").and_then(Json::as_str);
         doc.unwrap_or_default().to_owned()
@@ -139,7 +139,8 @@ impl<'s> Schema<'s> {
             .map(|json| Self::new(self.root, json))
     }
 
-    /// Returns the allowed types. `null` is included only if it is the only one. Empty if every type is allowed.
+    /// Returns the allowed types. `null` is included only if it is the only allowed type. Empty if every type is
+    /// allowed.
     pub(crate) fn types(&self) -> Vec<&'s str> {
         let mut types: Vec<&str> = match self.all("type").next() {
             Some(Json::String(name)) => vec![name],

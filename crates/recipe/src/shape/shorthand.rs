@@ -1,5 +1,5 @@
-//! Checks enumerations in which the outer name can be omitted if the content fits only one variant. Their schema has
-//! the keyword `x-shorthand`. An example is [`op::Elements`].
+//! Checks enumerations in which the outer name can be omitted if the content fits only one variant. The schema of these
+//! enumerations has the keyword `x-shorthand`. An example is [`op::Elements`].
 //!
 //! ```text
 //! Sharp(above: 30)   exists only for edges                ---> Edges(Sharp(above: 30))
@@ -93,7 +93,8 @@ impl Checker {
             );
         }
         // The best variant is the one that knows most of the names. If several variants know equally many names, the
-        // one with the fewest errors is best. If they also have equally many errors, the first one is best.
+        // one with the fewest errors is best. If several variants also have equally many errors, the first of these
+        // variants is best.
         let fit = |((_, _, trial), names): &((&str, Schema, Self), Vec<String>)| {
             (n_known(value, names), Reverse(trial.diagnostics.len()))
         };

@@ -11,7 +11,7 @@ use crate::expect::{self, OtherMesh, PlacedSubject, Reader, Subject};
 use crate::run::Outcome;
 use geometry::distance::Distance;
 
-/// A value that a sweep records of each run. It is measured at the end of the run, for all meshes together.
+/// A value that a sweep records of each run. The value is measured at the end of the run, for all meshes together.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Metric {

@@ -14,9 +14,9 @@
 //! ```
 //!
 //! [`read_sweep`] reads the text, and [`Sweep::grid`] checks its values against the parameters that the recipe
-//! declares. Both report all errors at once. The cells are all combinations of the lists of `over`, in the order of the
-//! text; the last list changes fastest. The lists of `zip` are combined value by value, and change faster than the
-//! lists of `over`.
+//! declares. Both functions report all errors at once. The cells are all combinations of the lists of `over`, in the
+//! order of the text; the last list changes fastest. The lists of `zip` are combined value by value, and change faster
+//! than the lists of `over`.
 
 mod metric;
 mod values;
@@ -40,7 +40,7 @@ pub const SWEEP_VERSION: i128 = 1;
 /// The maximum number of cells of a sweep.
 pub const MAX_CELLS: usize = 10_000;
 
-/// A sweep that was read. Its values are not yet checked against the recipe.
+/// A sweep that was read. The values of the sweep are not yet checked against the recipe.
 #[derive(Clone, Debug)]
 pub struct Sweep {
     /// The path of the recipe, relative to the folder of the sweep.
@@ -105,7 +105,7 @@ impl Setting {
 /// A sweep with its errors and warnings.
 #[derive(Clone, Debug)]
 pub struct SweepReading {
-    /// The sweep. `None` if the errors make it impossible to read its parts.
+    /// The sweep. `None` if the errors make it impossible to read the parts of the sweep.
     pub sweep: Option<Sweep>,
     /// The errors and warnings.
     pub diagnostics: Vec<Diagnostic>,

@@ -226,6 +226,6 @@ fn unchanged_objects_are_not_visited_again() {
     let forecast = crate::check(&recipe, &op::Files::default(), u64::MAX);
     assert!(!forecast.has_errors());
     assert_eq!(forecast.steps[1999].faces, Range::exactly(2000));
-    // If each step visited all objects, there would be two million visits.
+    // If each step visited all objects, the number of visits would be two million.
     assert_eq!(VISITED.get(), 2000);
 }

@@ -11,9 +11,9 @@
 //! is the trace of its cotangent Laplacian (Pinkall and Polthier, "Computing Discrete Minimal Surfaces and Their
 //! Conjugates", 1993): the sum, over all vertices, of the Dirichlet energy of the function that is 1 at the vertex and
 //! 0 at all other vertices. In the plane, a flip does not change the Dirichlet energy of linear functions. For all
-//! other functions, it changes the Dirichlet energy by a quadratic form of rank one. The sign of this form depends on
-//! whether the fourth corner is inside the circle through the other three corners (Rippa, "Minimal Roughness Property
-//! of the Delaunay Triangulation", 1990). So in the plane a flip reduces the energy exactly if the edge is not
+//! other functions, a flip changes the Dirichlet energy by a quadratic form of rank one. The sign of this form depends
+//! on whether the fourth corner is inside the circle through the other three corners (Rippa, "Minimal Roughness
+//! Property of the Delaunay Triangulation", 1990). So in the plane a flip reduces the energy exactly if the edge is not
 //! Delaunay, and flipping these edges ends with the Delaunay triangulation (Lawson, "Software for C1 Surface
 //! Interpolation", 1977). Four times the sum is the harmonic index of Musin, "Properties of the Delaunay
 //! Triangulation", 1997. The energy is also defined for surfaces in space.

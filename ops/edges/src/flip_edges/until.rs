@@ -2,9 +2,9 @@
 //!
 //! A pass checks edges in order of their numbers. The first pass checks all edges. Each later pass checks only edges
 //! near vertices whose edges changed: the result of the check cannot be different at other edges. (A flip is refused if
-//! an edge already joins the two opposite corners. If this edge is flipped away, the edges of both corners change.) A
-//! pass without a flip is the last. Refused edges are checked again in every pass, so the refusals of the last pass are
-//! complete.
+//! an edge already joins the two opposite corners. If the joining edge is flipped away, the edges of both corners
+//! change.) A pass without a flip is the last. Refused edges are checked again in every pass, so the refusals of the
+//! last pass are complete.
 
 use mesh::{EdgeId, EditError, FaceId, Mesh, VertexId};
 use op::{Context, OpError, Report};

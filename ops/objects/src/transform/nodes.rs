@@ -25,7 +25,7 @@ impl Transform {
         cx: &Context,
     ) -> Result<Report, OpError> {
         let graph = scene.graph();
-        // For each node, the map of the scene that it must move by.
+        // For each node, the map of the scene that the node must move by.
         let mut maps: Vec<Option<DAffine3>> = vec![None; graph.nodes().len()];
         let mut n_points = 0;
         let nodes_of = graph.nodes_of_objects();

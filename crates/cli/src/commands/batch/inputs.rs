@@ -18,8 +18,8 @@ pub(crate) struct Input {
 }
 
 impl Input {
-    /// Whether the file belongs to this part. This depends only on the path, so that adding a file does not move other
-    /// files to different parts.
+    /// Whether the file belongs to this part. The part of a file depends only on its path, so that adding a file does
+    /// not move other files to different parts.
     pub(crate) fn is_in(&self, shard: Shard) -> bool {
         let hash = blake3::hash(self.path.as_bytes());
         let mut first = [0; 8];

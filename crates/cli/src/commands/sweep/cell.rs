@@ -111,7 +111,7 @@ impl Cells<'_> {
         Ok(loaded)
     }
 
-    /// Runs a cell. Errors are those of [`outcome`](Self::outcome).
+    /// Runs a cell. The errors are the same as for [`outcome`](Self::outcome).
     pub(super) fn run(&self, task: &Task) -> JobResult<CellResult> {
         let loaded = task.0.as_ref().map_err(|error| Some(error.clone()))?;
         if loaded.has_errors() {
@@ -132,8 +132,8 @@ impl Cells<'_> {
         })
     }
 
-    /// Runs a checked cell and returns its outcome. If the run fails, returns its first error; if Ctrl-C cancels it,
-    /// `None`.
+    /// Runs a checked cell and returns its outcome. If the run fails, returns its first error. If Ctrl-C cancels the
+    /// run, returns `None`.
     fn outcome(&self, loaded: &Loaded, keeps: bool) -> JobResult<Outcome> {
         let cache = self.cache.map(|cache| Caching {
             cache,

@@ -110,7 +110,7 @@ pub(crate) fn run(args: &SweepArgs, engine: &Engine) -> anyhow::Result<bool> {
     Ok(finish(args, &plan, &results)? && sheet_is_written)
 }
 
-/// Draws and writes the sheet. Returns whether it shows every cell that succeeded.
+/// Draws and writes the sheet. Returns whether the sheet shows every cell that succeeded.
 fn write_sheet(
     sheet: &Sheet,
     plan: &Plan,

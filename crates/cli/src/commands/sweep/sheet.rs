@@ -223,7 +223,7 @@ impl<'a> Sheet<'a> {
         })
     }
 
-    /// Draws a cell. Returns its image, and notes on what it does not show.
+    /// Draws a cell. Returns the image of the cell, and notes on parts of the scene that the image does not show.
     fn image(
         &self,
         cells: &Cells,
@@ -291,7 +291,7 @@ struct Layout {
     heads: [Vec<String>; 2],
 }
 
-/// Up to this number, cells are placed in one row.
+/// The maximum number of cells that are placed in one row.
 const MAX_SINGLE_ROW: usize = 6;
 
 impl Layout {

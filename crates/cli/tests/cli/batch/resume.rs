@@ -17,7 +17,7 @@ fn finished_files_are_not_processed_again_until_something_changes() {
     // An input was changed.
     fs::write(folder.path("models/m002.obj"), tetrahedron(9)).unwrap();
     assert_eq!(again(""), 1);
-    // One output was removed, and one was changed.
+    // One output file was removed, and another one was changed.
     fs::remove_file(folder.path("out/m001.obj")).unwrap();
     fs::write(folder.path("out/m004.obj"), "").unwrap();
     assert_eq!(again(""), 2);

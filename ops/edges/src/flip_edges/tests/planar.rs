@@ -12,7 +12,7 @@ const SIDE: i64 = 12;
 
 type Point = [i64; 2];
 
-/// Returns twice the signed area of a triangle. It is positive if the triangle is counter-clockwise.
+/// Returns twice the signed area of a triangle. The result is positive if the triangle is counter-clockwise.
 fn turn([a, b, c]: [Point; 3]) -> i64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }

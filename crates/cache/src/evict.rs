@@ -220,7 +220,7 @@ mod tests {
         let (_temporary, folder) = filled(3);
         after_run(&folder, 10_000);
         assert_eq!(fs::read(sizes(&folder)).unwrap(), 3000_u64.to_le_bytes());
-        // No run recorded these files, so the recorded total does not include them.
+        // No run recorded the new files, so the recorded total does not include them.
         for i in 100..120 {
             let path = folder.path(Kind::Blob, &[i; 32]);
             fs::create_dir_all(path.parent().unwrap()).unwrap();

@@ -115,8 +115,8 @@ impl Folder {
                 true
             }
             Err(error) => {
-                // The message ends with the path of the temporary file. This path does not help the user, so it is
-                // removed.
+                // The message ends with the path of the temporary file. The path of the temporary file does not help
+                // the user, so it is removed.
                 let error = error.to_string();
                 let error = error.split(" at path ").next().unwrap_or_default();
                 let root = self.root.display();
@@ -161,7 +161,9 @@ impl Folder {
     pub(crate) fn read(path: &Path, max: u64) -> Result<Vec<u8>, Unusable> {
         let (file, len) = open_cache_file(path)?;
         if len > max {
-            return Err(Unusable::Damaged(format!("it is too large: {len} bytes")));
+            return Err(Unusable::Damaged(format!(
+                "the file is too large: {len} bytes"
+            )));
         }
         let mut bytes = Vec::new();
         file.take(max).read_to_end(&mut bytes).map_err(unreadable)?;
@@ -276,7 +278,7 @@ pub(crate) fn copy_hashed(
             sink(&full)?;
             update(&mut hasher, &full);
             full.clear();
-            // A short piece need not be the last one. Only an empty piece means that the file has ended.
+            // A short piece need not be the last piece of the file. Only an empty piece means that the file has ended.
             read_piece(from, &mut full)?;
             continue;
         }

@@ -142,7 +142,7 @@ fn parameter_changes(from: &str, to: &str) -> String {
         if from == to {
             None
         } else if from_short == to_short {
-            // Both values are the same after shortening, so only the name is shown.
+            // The old and the new value look the same after shortening, so only the name is shown.
             Some(name.clone())
         } else {
             Some(format!("{name} {from_short} -> {to_short}"))

@@ -117,7 +117,7 @@ pub(crate) fn load_data<T: DeserializeOwned>(
 
 /// Stores serialized data.
 pub(crate) fn store_data(folder: &Folder, kind: Kind, id: &Hash, data: &impl Serialize) {
-    // Serialization fails for paths that are not valid Unicode; these are not stored.
+    // Serialization fails for paths that are not valid Unicode. Such data is not stored.
     if let Ok(data) = postcard::to_stdvec(data)
         && (data.len() as u64) < MAX_BYTES / 2
         && let Some(key) = folder.key_or_new()

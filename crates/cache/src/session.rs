@@ -336,7 +336,7 @@ impl<'a> Session<'a> {
         }
         let Some(stage) = stage else { return Ok(()) };
         let written = outputs.files.as_ref().ok_or(RerunReason::NotKept)?;
-        // Restore all files under temporary names first: if one is damaged, the files in the stage stay as they are.
+        // All files are restored under temporary names first: if one is damaged, the files in the stage stay unchanged.
         let part = |i: usize| stage.join(format!(".part-{i}"));
         let mut restored = written.iter().enumerate().try_for_each(|(i, file)| {
             if !is_below(&file.path) {

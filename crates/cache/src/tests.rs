@@ -351,7 +351,7 @@ fn a_step_that_does_not_report_what_it_reads_runs_every_time() {
     );
     place.write("n.txt", "4");
     assert_eq!(place.numbers(&text), [1, 2, 3]);
-    // Both texts give the same scene, and later steps depend only on the scene.
+    // Both contents of `n.txt` give the same scene, and later steps depend only on the scene.
     place.write("n.txt", " 3");
     assert_eq!(place.numbers(&text), [1]);
 }
@@ -394,7 +394,7 @@ fn outputs_come_from_the_cache_with_the_same_bytes() {
     fs::remove_dir_all(place.path("out")).unwrap();
     place.runs_nothing(&text);
     assert_eq!(fs::read(place.path("out/deep/a.txt")).unwrap(), b"sheet");
-    // The provenance has changed. The output files may contain it, so they are written again.
+    // The provenance has changed. The output files may contain the provenance, so they are written again.
     let edited = text.replace("by: 1", "by: 2");
     let ran = place.ran(&edited);
     assert_eq!(ran[0], (2, RerunReason::Provenance.to_string()));
@@ -465,7 +465,8 @@ fn a_large_scene_that_is_fast_to_compute_may_be_computed_again() {
     let place = Place::new();
     let text = steps("Sheet(columns: 60000), Write(path: \"a.txt\")");
     place.run(&text);
-    // Whether the scene is stored depends on the speed of the machine. The outcome is the same in both cases.
+    // Whether the scene is stored depends on the speed of the machine. The outcome does not depend on whether the scene
+    // is stored.
     let more = text.replace("])", ", Sheet(columns: 1, name: \"b\")])");
     let outcome = place.run(&more);
     assert_eq!(outcome.steps.len(), 3);

@@ -69,7 +69,7 @@ fn escaped(text: &str) -> String {
             '<' => xml += "&lt;",
             '>' => xml += "&gt;",
             '"' => xml += "&quot;",
-            // In attributes, XML parsers replace these characters by spaces.
+            // In attributes, XML parsers replace unescaped tabs and line breaks by spaces.
             '\t' | '\n' | '\r' => xml += &format!("&#{};", u32::from(c)),
             '\0'..='\x1f' | '\u{fffe}' | '\u{ffff}' => {}
             c => xml.push(c),

@@ -71,7 +71,8 @@ pub fn run(registry: Registry) -> ExitCode {
         Command::Picture(args) => commands::picture::run(&args, &engine),
         Command::Select(args) => commands::select::run(&args, &engine),
         Command::Diff(args) => {
-            // As in Unix `diff`: the exit code 1 means that the files differ, so errors need another code.
+            // As in Unix `diff`, the exit code 1 of the command `diff` means that the files differ, so errors need
+            // another code.
             code_of_errors.set(2);
             commands::diff::run(&args, &engine)
         }

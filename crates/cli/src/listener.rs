@@ -46,7 +46,7 @@ impl<'a> Terminal<'a> {
 
     /// Creates a listener for work that ends on Ctrl-C or as soon as `go_on` returns false.
     pub(crate) fn until(go_on: &'a (dyn Fn() -> bool + Sync)) -> Self {
-        // Draws on standard error, and only if it is a terminal that can move its cursor.
+        // The bar is drawn on standard error, and only if standard error is a terminal that can move its cursor.
         let bar = ProgressBar::new(0);
         if std::env::var_os("TERM").is_some_and(|term| term == "dumb") {
             bar.set_draw_target(ProgressDrawTarget::hidden());

@@ -67,10 +67,10 @@ pub(crate) fn mesh_name(
     let message = match (is_pipe(path), format) {
         (false, None) => return Ok(path.to_owned()),
         (false, Some(_)) => format!(
-            "{option} is for `-`: the extension of {} determines its format",
+            "{option} applies only to `-`: the extension of {} determines its format",
             path.display()
         ),
-        (true, None) => format!("`-` needs the format: add {option}, such as {option} obj"),
+        (true, None) => format!("`-` needs a format: add {option}, such as {option} obj"),
         (true, Some(format)) => {
             let extension = format.trim_start_matches('.').to_ascii_lowercase();
             let name = PathBuf::from(format!("{pipe}.{extension}"));

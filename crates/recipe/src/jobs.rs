@@ -188,7 +188,8 @@ where
             state.running -= 1;
             state.used -= started.bytes;
             drop(state);
-            // Sending fails only if the calling thread has panicked. In that case, the result is not needed.
+            // Sending fails only if the calling thread has panicked. After a panic of the calling thread, the result is
+            // not needed.
             let _ = self.sender.send((started.job, end));
         }
     }

@@ -173,7 +173,8 @@ impl Param {
             }
             (Self::Choice { of, .. }, ValueKind::String(text) | ValueKind::Name(text)) => {
                 let word = text.chars().all(|c| c.is_alphanumeric() || c == '_');
-                // The command line gives words as texts, in which the case does not matter.
+                // Words from the command line arrive as texts. In these texts, upper and lower case are not
+                // distinguished.
                 let is_text = matches!(written.kind, ValueKind::String(_));
                 let same = |choice: &&String| ***choice == **text;
                 let similar = |choice: &&String| is_text && choice.eq_ignore_ascii_case(text);

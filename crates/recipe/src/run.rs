@@ -91,7 +91,7 @@ pub fn run_from(
     match staging(&settings) {
         Ok(stage) => {
             let mut files = settings.files.clone();
-            // A new log, which has only the file accesses of this run.
+            // The files get a new log, which has only the file accesses of this run.
             files.log.clone_from(&runner.log);
             if let Some(stage) = &stage {
                 stage.path().clone_into(&mut files.output);

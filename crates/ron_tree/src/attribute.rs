@@ -31,7 +31,7 @@ impl Parser<'_> {
             "type" | "schema" if has_text && is_start => return,
             "type" | "schema" if has_text => (
                 "attributes must be at the start of the text",
-                "move it to the first line",
+                "move the attribute to the first line",
             ),
             "enable" => (
                 "recipes cannot enable extensions of RON",

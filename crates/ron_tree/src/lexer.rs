@@ -173,7 +173,7 @@ impl<'s> Lexer<'s> {
                 K::Ident,
                 2 + length_while(&rest[2..], is_raw_ident_character),
             ),
-            // A byte order mark, which some editors write.
+            // A byte order mark at the start of the text, which some editors write, counts as whitespace.
             '\u{FEFF}' if self.at == 0 => (K::Whitespace, first.len_utf8()),
             _ if is_whitespace(first) => (K::Whitespace, length_while(rest, is_whitespace)),
             _ if starts_ident(first) => (K::Ident, length_while(rest, continues_ident)),
@@ -192,7 +192,7 @@ impl<'s> Lexer<'s> {
                 Some(b'\n') if self.lines_end_strings => break,
                 Some(b'"') => {
                     let length = at + 1;
-                    // In `"a.bez, name: "b"`, this quote is the opening quote of the next string.
+                    // In `"a.bez, name: "b"`, the second quote is the opening quote of the next string.
                     let opens_next =
                         self.lines_end_strings && text[length..].starts_with(char::is_alphanumeric);
                     if let (true, Some(end)) = (opens_next, next_field(&text[..at])) {
@@ -208,7 +208,7 @@ impl<'s> Lexer<'s> {
         if !self.lines_end_strings {
             return (TokenKind::UnclosedString, line.len());
         }
-        // End the string where its closing quote is probably missing: before the next field, or before trailing
+        // The string ends where its closing quote is probably missing: before the next field, or before trailing
         // brackets.
         let end = next_field(line).unwrap_or_else(|| {
             line.trim_end_matches([')', ']', '}', ',', ' ', '\t', '\r'])

@@ -88,7 +88,7 @@ impl MeshOperation for Displace {
         let report = moved(mesh, &mask, Self::NAME, "distance and by", |v, p| {
             p + self.distance.get() * value(v, p) * normals[v.index()]
         })?;
-        Ok(report.count("vertices without a normal, which stay", without))
+        Ok(report.count("vertices without a normal, not moved", without))
     }
 }
 

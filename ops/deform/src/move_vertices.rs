@@ -90,7 +90,7 @@ impl MeshOperation for MoveVertices {
             let report = moved(mesh, &mask, Self::NAME, "by", |v, p| {
                 p + weight(v) * distance.get() * normals[v.index()]
             })?;
-            return Ok(report.count("vertices without a normal, which stay", without));
+            return Ok(report.count("vertices without a normal, not moved", without));
         };
         moved(mesh, &mask, Self::NAME, "by", |v, p| p + weight(v) * offset)
     }
@@ -184,7 +184,7 @@ mod tests {
         let (after, report) =
             try_applied(&parse("(vertices: All, by: Distance(1))"), mesh).unwrap();
         assert_eq!(after.positions()[0], DVec3::ONE);
-        assert_eq!(report.notes, ["vertices without a normal, which stay: 8"]);
+        assert_eq!(report.notes, ["vertices without a normal, not moved: 8"]);
     }
 
     #[test]

@@ -94,7 +94,7 @@ mod tests {
             refused("(edges: Boundary)", shapes::square()),
             Refusal::Boundary
         );
-        // After two of the four edges at the middle vertex are removed, it has only two edges.
+        // After two of the four edges at the middle vertex are removed, this vertex has only two edges.
         let around = "(edges: Between(1, 4))";
         let mut mesh = applied(&parse(around), shapes::grid(2, 2));
         mesh = applied(&parse("(edges: Between(3, 4))"), mesh);

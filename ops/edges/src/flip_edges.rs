@@ -136,7 +136,7 @@ struct Flips {
 
 impl Flips {
     fn flip(&mut self, mesh: &mut Mesh, e: EdgeId) -> Result<(), EditError> {
-        // Checked before the flip, which removes the seam from the edge.
+        // The seam is checked before the flip, because the flip removes the seam from the edge.
         let is_seam = self.seams == Seams::Drop && mesh.is_seam(e);
         mesh.flip_edge_with(e, self.seams.into())?;
         self.crossed += u64::from(is_seam);

@@ -49,7 +49,7 @@ impl MeshOperation for SplitEdges {
         let cuts = n.times(Range::between(u64::from(plan.is_triangles()), 2));
         plan.grow(n, n.plus(cuts), cuts);
         if !plan.is_triangles() {
-            // A larger face gains one corner for each of its sides that is split.
+            // A face with more than three corners gains one corner for each of its sides that is split.
             plan.degrees.max = plan.degrees.max.saturating_mul(2);
         }
         Vec::new()
@@ -96,7 +96,7 @@ mod tests {
     fn otherwise_the_position_is_measured_from_the_lower_number() {
         let mesh = applied(&parse("(edges: All, at: 0.25)"), shapes::icosahedron());
         let before = shapes::icosahedron();
-        // New vertices are in the order of the edges, and each is closer to the end with the lower number.
+        // New vertices are in the order of the edges, and each new vertex is closer to the end with the lower number.
         for (e, m) in before.edges().zip(12..) {
             let [a, b] = before.edge_vertices(e);
             let (low, high) = (a.min(b), a.max(b));

@@ -215,7 +215,7 @@ fn planned(peek: &PeekMesh) -> MeshPlan {
     provide_uncertain(peek.normals, Domain::Corner, mesh::CORNER_NORMAL.name);
     provide_uncertain(peek.colors, Domain::Vertex, mesh::COLOR.name);
     provide_uncertain(peek.materials, Domain::Face, mesh::MATERIAL.name);
-    // Targets can be left out, and a joint has weights only if a vertex uses it.
+    // Morph targets can be left out, and a joint has weights only if a vertex uses the joint.
     let deformers = |n: u64, name: fn(usize) -> String| {
         let n = usize::try_from(n.min(MAX_PLANNED)).unwrap_or(0);
         (0..n).map(name)

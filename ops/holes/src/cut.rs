@@ -40,7 +40,7 @@ impl MeshOperation for Cut {
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let n = self.edges.count(plan);
         let cut = self.on_refusal.done(n);
-        // A vertex gets at most one copy for each cut that ends there.
+        // A vertex gets at most one copy for each cut edge that ends at the vertex.
         plan.grow(n.by(2).or_less(), cut, Range::exactly(0));
         Vec::new()
     }

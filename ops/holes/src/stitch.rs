@@ -66,7 +66,7 @@ impl MeshOperation for Stitch {
             return Ok(report.note("no pairs of coinciding boundary edges"));
         }
         let edit = |mesh: &mut Mesh, [h, g]: [HalfEdgeId; 2]| {
-            // This pair may already have been joined, as a result of joining neighboring pairs.
+            // The pair may already have been joined, as a result of joining neighboring pairs.
             if is_closed(mesh, h) && is_closed(mesh, g) {
                 return Ok(());
             }

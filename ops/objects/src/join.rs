@@ -120,7 +120,7 @@ impl Operation for Join {
             None => self.joined(&parts, cx)?,
         };
         if let Some(placed) = placed {
-            report = report.count("instances, whose placements were applied", placed.len());
+            report = report.count("instances whose placements were applied", placed.len());
         }
         let mut joined = joined;
         skin::report(scene, &parts, kept.as_ref(), &mut joined, &mut report);

@@ -209,7 +209,7 @@ impl Operation for Transform {
         let objects = plan.objects().iter();
         let objects: Vec<_> = objects.filter(|o| is_target(&o.name)).collect();
         if objects.is_empty() && !plan.incomplete {
-            problems.push(Problem::error("Transform finds no object to change"));
+            problems.push(Problem::error("Transform has no object to change"));
         }
         for object in objects {
             if let PlannedGeometry::Curve(_) = object.geometry {

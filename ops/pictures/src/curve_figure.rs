@@ -306,7 +306,7 @@ mod tests {
         for level in 1..=3 {
             assert_eq!(text.matches(&format!("level {level}<")).count(), 2);
         }
-        // The point c(t) is in the last panel of each row only.
+        // The constructed point c(t) is drawn only in the last panel of each row.
         assert_eq!(text.matches("#d52b1e\" stroke").count(), 2, "{text}");
     }
 

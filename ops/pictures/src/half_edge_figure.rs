@@ -88,7 +88,10 @@ impl Operation for HalfEdgeFigure {
         let (figure, n_hidden) = half_edges(mesh, &faces, f64::from(self.width.get()));
         figure_file::write(&self.path, &figure, self.scale, cx)?;
         cx.advance("draw", 1, 1)?;
-        Ok(Report::changed(0).count("faces that face away", n_hidden))
+        Ok(Report::changed(0).count(
+            "faces not drawn, because they face away from the viewer",
+            n_hidden,
+        ))
     }
 }
 

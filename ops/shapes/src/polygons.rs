@@ -52,7 +52,8 @@ impl Polygons {
             );
             return Err(Problem::error(message).at(["faces", &at_face]));
         }
-        // Corners sorted by their points. The sort is stable: corners with the same point keep their order.
+        // The corners of the face, sorted by their points. The sort is stable: corners with the same point keep their
+        // order.
         let mut sorted: Vec<usize> = (0..face.len()).collect();
         sorted.sort_by_key(|&i| face[i]);
         let n = self.points.len();

@@ -98,7 +98,7 @@ fn posing_and_midpoint_subdivision_commute() {
         assert!(posed_last.n_vertices() > 3 * mesh.n_vertices());
         assert!(largest_distance(&posed_last, &posed_first) < 1e-12);
     }
-    // The same holds for smooth schemes, which use the same masks for attributes and positions.
+    // Subdivision and posing also commute for smooth schemes, which use the same masks for attributes and positions.
     let mesh = character(true);
     let step: CatmullClark = read("(levels: 2)").unwrap();
     let posed_last = posed(&applied(&step, mesh.clone()), &joints(true));

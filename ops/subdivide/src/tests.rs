@@ -123,7 +123,7 @@ fn the_bytes_are_the_same_for_any_number_of_threads() {
     assert_eq!(one.n_faces(), 20 << 12);
     for threads in [2, 8] {
         let other = with(threads);
-        // Compares bits, because `==` treats -0 and 0 as equal.
+        // The test compares bits, because `==` treats -0 and 0 as equal.
         let bits = |m: &Mesh| -> Vec<[u64; 3]> {
             let bits = m.positions().iter().map(|p| p.to_array().map(f64::to_bits));
             bits.collect()

@@ -71,7 +71,7 @@ impl Operation for Lods {
         };
         let instances = object.instances;
         let PlannedGeometry::Mesh(mesh) = object.geometry.clone() else {
-            let message = format!("Lods needs a mesh, but \"{}\" is not one", self.from);
+            let message = format!("Lods needs a mesh, but \"{}\" is not a mesh", self.from);
             return vec![Problem::error(message).at(["from"])];
         };
         let mut problems = Vec::from_iter(self.problem());

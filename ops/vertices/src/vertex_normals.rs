@@ -213,7 +213,7 @@ mod tests {
     #[test]
     fn isolated_vertices_and_faces_that_cancel_get_zero_and_are_counted() {
         let points = vec![DVec3::ZERO, DVec3::X * 0.1, DVec3::Y * 0.3, DVec3::Z];
-        // Both sides of one triangle, and the isolated vertex 3.
+        // The mesh has both sides of one triangle, and the isolated vertex 3.
         let (mesh, _) = Mesh::from_polygons(points, &[[0, 1, 2], [0, 2, 1]]).unwrap();
         for weight in WEIGHTS {
             let (mesh, report) = try_applied(&VertexNormals { weight }, mesh.clone()).unwrap();

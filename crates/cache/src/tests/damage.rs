@@ -53,7 +53,7 @@ fn damage_to_any_file_is_noticed() {
         },
         |path, _| fs::write(path, "").unwrap(),
         |path, _| fs::remove_file(path).unwrap(),
-        // The content of another file, which is intact but has a different name.
+        // Replaces the file by the content of another file, which is intact but has a different name.
         |path, others| fs::write(path, &others[0]).unwrap(),
         |path, others| fs::write(path, others.last().unwrap()).unwrap(),
     ];
@@ -193,6 +193,6 @@ fn a_step_that_changes_one_array_stores_one_array() {
     place.run(&steps("Sheet(columns: 700)"));
     let before = place.cache.size().unwrap().blobs;
     place.run(&steps("Sheet(columns: 700), Lift(by: 1)"));
-    // Only the positions were added.
+    // Only the array of positions was added to the cache.
     assert_eq!(place.cache.size().unwrap().blobs, before + 1);
 }

@@ -94,7 +94,7 @@ impl Run {
                     has_end = true;
                     run.end.push(event);
                 }
-                // Progress, and unknown events of newer versions.
+                // Progress events and unknown events of newer versions are ignored.
                 _ => {}
             }
         }

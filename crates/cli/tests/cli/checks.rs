@@ -47,7 +47,8 @@ fn numbers_of_elements_that_do_not_exist() {
         "Cube(), Picture(path: \"a.png\", highlight: Faces([6]))",
         &["face 6 does not exist"],
     );
-    // Of several meshes, the first that lacks the element is reported, and `on:` chooses the meshes.
+    // If several meshes lack the element, the first of these meshes is reported. `on:` chooses the meshes that are
+    // checked.
     let two = "Cube(), Torus(name: \"t\")";
     refuses(
         &folder,

@@ -168,7 +168,7 @@ fn a_conversion_changes_no_face_and_no_vertex() {
         let lines = lines.join("\n") + "\n";
         assert_eq!(lines, UNCLEAN, "{to}");
     }
-    // Repairs are made on request, and named.
+    // Repairs are made on request, and the output names them.
     let ended = folder
         .run("convert a.obj c.obj --orientation Orient")
         .with_code(0);

@@ -49,7 +49,7 @@ fn run(folder: &Folder, commands: &str) -> Ended {
 fn every_job_of_the_book_does_what_it_says() {
     let chapter = chapter();
     let folder = folder(&chapter);
-    // The files that each job writes, and a part of what it prints.
+    // For each job, the files that the job writes and a part of its output.
     let expected: [(&str, &[&str], &str); 10] = [
         ("Convert a compressed scan", &["scan.glb"], "wrote scan.glb"),
         (
@@ -83,7 +83,7 @@ fn every_job_of_the_book_does_what_it_says() {
         );
         let commands = block(job, "sh").expect(title);
         let ended = if commands.contains("watch") {
-            // The command waits for the next change until it is interrupted.
+            // The command `watch` waits for the next change until it is interrupted.
             let file = files[0];
             let ended = run(
                 &folder,

@@ -31,7 +31,7 @@ fn every_run_ends_under_a_limit_of_memory() {
                         None
                     );
                 }
-                // 137: killed because it did not end.
+                // 137: the program was killed because it did not end.
                 _ => panic!("{what}"),
             }
         }

@@ -138,7 +138,7 @@ fn a_new_crate_is_a_program_with_its_operation() {
             "next: cd ./inflate_faces && cargo test && cargo run -- run picture.ron\n",
         ]);
     let krate = folder.path("inflate_faces");
-    // The same versions as in the workspace, so that no crate has to be downloaded.
+    // The test uses the same versions as the workspace, so that no crate has to be downloaded.
     fs::copy(root.join("Cargo.lock"), krate.join("Cargo.lock")).unwrap();
     cargo(&krate, "test --offline --quiet");
     cargo(&krate, "build --offline --quiet");
@@ -166,7 +166,7 @@ fn a_new_crate_is_a_program_with_its_operation() {
     for picture in ["before.png", "after.png"] {
         assert!(krate.join("out").join(picture).is_file(), "{picture}");
     }
-    // Help and schema come from the same definition.
+    // The help and the schema are generated from the same definition.
     let help = run("ops InflateFaces");
     assert!(
         help.contains("The distance along each axis, in scene units"),
@@ -231,7 +231,7 @@ fn a_second_operation_with_the_same_name_is_refused_and_changes_no_files() {
         assert_eq!(again.stderr, format!("error: {path} already exists\n"));
         assert_eq!(content(&folder.path(".")), before);
     }
-    // In another group: the picture of the first operation has the same name.
+    // In another group, the operation is refused too, because the picture of the first operation has the same name.
     let folder = folder.with("ops/edges/src/lib.rs", GROUP);
     folder
         .run("new-op InflateFaces --in edges")

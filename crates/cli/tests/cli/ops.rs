@@ -15,7 +15,7 @@ fn operations_are_listed_with_their_summaries() {
         assert!(listed.stdout.contains(&line), "{line}");
     }
     let n = ops_all::registry().entries().len() + kinds.len();
-    // An empty line and a hint follow.
+    // An empty line and a hint follow the list.
     assert_eq!(listed.stdout.lines().count(), n + 2);
 }
 
@@ -44,7 +44,7 @@ fn selections_are_described_separately() {
     folder.run("ops --selections").with_code(0).prints(&[
         "EdgeSelection: ",
         "EdgeLoop(..)",
-        // A description of several lines is complete.
+        // A description of several lines is printed completely.
         "A loop goes\n",
         "A loop that starts at a boundary edge follows the boundary.",
         "VertexSelection: ",

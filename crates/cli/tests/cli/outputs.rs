@@ -127,7 +127,8 @@ fn provenance_is_not_compared_but_contents_are() {
 )"#;
     let folder = Folder::with_recipe(recipe).with("a.bzc", "3\n0 0\n1 2\n2 0\n");
     folder.run("test recipe.ron --update").with_code(0);
-    // A second run with the same result: the files record the set parameter, so their bytes differ.
+    // The second run has the same result, but its files record the parameter that was set, so the bytes of the files
+    // differ.
     folder.run("run recipe.ron --set size=1").with_code(0);
     for name in ["a.svg", "b.mws", "c.gif"] {
         let out = folder.read(&format!("out/{name}"));

@@ -150,7 +150,7 @@ fn a_selection_and_a_file_can_be_shown_beside_their_facts() {
         .with_code(0)
         .prints(&["12\n", "wrote sharp.png, 1280 x 960 pixels\n"]);
     assert_eq!(size(&folder, "sharp.png"), (1280, 960));
-    // A pipe gets ASCII characters.
+    // If standard output is a pipe, the picture consists of ASCII characters.
     let ended = folder.run("info cube.obj --picture").with_code(0);
     let after: Vec<&str> = ended
         .stdout
@@ -211,7 +211,7 @@ fn each_unmet_expectation_is_drawn() {
         .with_code(1)
         .prints(&["e/r-error-1.png", "e/r-error-2.png", "e/r-error-3.png"]);
 
-    // A count has no affected elements, so its picture has one view instead of two.
+    // An expectation about a count has no affected elements, so the picture of its failure has one view instead of two.
     let widths = [1, 2, 3].map(|i| size(&folder, &format!("e/r-error-{i}.png")).0);
     assert!(
         widths[1] < widths[0] && widths[0] == widths[2],

@@ -23,7 +23,7 @@ fn a_recipe_is_read_from_standard_input_with_paths_of_the_working_directory() {
         .run_with("run -", "(recipe: 1, steps: [Cubee()])")
         .with_code(1)
         .complains(&["stdin.ron:1:21"]);
-    // A failure is repeated from its capsule, without standard input.
+    // A failure can be reproduced from its capsule, without standard input.
     let failing = r"(recipe: 1, steps: [Cube(), SplitEdges(edges: Between(0, 6))])";
     folder
         .run_with("run - --capsule failing --picture-errors", failing)
@@ -147,12 +147,15 @@ fn the_format_of_a_pipe_must_be_named() {
     };
     refused(
         "info -",
-        "`-` needs the format: add --from, such as --from obj",
+        "`-` needs a format: add --from, such as --from obj",
     );
-    refused("convert in.obj -", "`-` needs the format: add --to");
+    refused("convert in.obj -", "`-` needs a format: add --to");
     refused("info - --from xyz", "--from xyz: expected one of obj, gltf");
-    refused("info in.obj --from obj", "--from is for `-`");
-    refused("convert in.obj out.ply --to ply", "--to is for `-`");
+    refused("info in.obj --from obj", "--from applies only to `-`");
+    refused(
+        "convert in.obj out.ply --to ply",
+        "--to applies only to `-`",
+    );
 }
 
 #[test]

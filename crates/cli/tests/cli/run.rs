@@ -138,7 +138,7 @@ fn changes_by_reading_are_data_in_json() {
     assert_eq!(change["code"], "edges-split");
     assert_eq!(change["count"], 1);
     assert_eq!(change["edges"], serde_json::json!([[0, 1]]));
-    // People read the same change in the list after the table.
+    // The list after the table shows people the same change.
     let text = change["text"].as_str().unwrap();
     folder.run("run recipe.ron").prints(&[text]);
 }

@@ -31,7 +31,7 @@ fn edges_are_shown_in_the_syntax_of_recipes() {
         .with_code(0)
         .prints(&["12 of 12 edges\n", "  Between(", ")\n"]);
     assert_eq!(ended.stdout.lines().count(), 13);
-    // A printed line is a valid selection.
+    // Each printed line is a valid selection.
     let line = ended.stdout.lines().nth(1).unwrap().trim();
     cube()
         .run_all(&["select", "cube.obj", line])

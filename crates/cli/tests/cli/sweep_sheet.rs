@@ -45,7 +45,7 @@ fn one_parameter_is_a_row_with_values_below() {
         "{ended:#?}"
     );
     let made = pixels(&folder, "s.png");
-    // A line for the value and one for the measure.
+    // Each caption has one line for the parameter value and one line for the measure.
     assert_eq!(made.size, [12 + 3 * 102, 12 + 40 + 49 + 12]);
     for i in 0..3 {
         assert!(drawn(&cell(&made, [0, 0], 89, [i, 0])) > 200);

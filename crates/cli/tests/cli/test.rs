@@ -177,7 +177,7 @@ fn folders_are_searched_except_assets_and_hidden_ones() {
         "2 passed, 0 failed\n",
     ]);
     assert_eq!(ended.stdout.lines().count(), 3);
-    // Recipes given by path are tested wherever they are, and each only once.
+    // Recipes given by path are tested in any folder, and each recipe is tested only once.
     folder
         .run("test scenes/assets/part.ron scenes/b.ron scenes")
         .with_code(1)

@@ -397,7 +397,7 @@ fn ends(text: &str, mesh: &Mesh) -> Vec<usize> {
 
 #[test]
 fn loops_and_rings_go_around_a_torus() {
-    // Vertex 5 i + j is number j of the 5 vertices around the tube at cross section i of 7.
+    // The torus has 7 cross sections of 5 vertices. Vertex j of cross section i has the number 5 i + j.
     let torus = shapes::torus(7, 5, 2.0, 1.0);
     let across: Vec<usize> = (0..5).collect();
     assert_eq!(ends("EdgeLoop(Between(0, 1))", &torus), across);
@@ -414,7 +414,7 @@ fn loops_and_rings_go_around_a_torus() {
 #[test]
 fn loops_end_at_vertices_without_four_edges() {
     let grid = shapes::grid(4, 3);
-    // From one side of the sheet to the opposite side.
+    // The edge loop goes from one side of the sheet to the opposite side.
     assert_eq!(ends("EdgeLoop(Between(6, 7))", &grid), [5, 6, 7, 8, 9]);
     assert_eq!(edges(&parse("EdgeLoop(Between(0, 1))"), &grid).len(), 14);
     assert_eq!(edges(&parse("EdgeRing(Between(0, 1))"), &grid).len(), 4);
@@ -440,7 +440,7 @@ fn a_path_is_the_shortest() {
     assert_eq!(ends("Path(from: 5, to: 8)", &grid), [5, 6, 7, 8]);
     assert_eq!(edges(&parse("Path(from: 0, to: 19)"), &grid).len(), 7);
     assert_eq!(edges(&parse("Path(from: 3, to: 3)"), &grid).len(), 0);
-    // Two long edges lead through vertex 7: a detour along more but shorter edges is shorter.
+    // The direct path has two long edges through vertex 7. A detour along more but shorter edges is shorter.
     let mut fans = shapes::fans(&grid);
     fans.positions_mut()[7] += DVec3::new(0.0, 0.0, 100.0);
     assert!(!ends("Path(from: 6, to: 8)", &fans).contains(&7));

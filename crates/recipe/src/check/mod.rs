@@ -73,7 +73,7 @@ pub fn check(recipe: &Recipe, files: &Files, budget: u64) -> Forecast {
     let mut over_budget = false;
     let mut written = HashSet::new();
     let files = recipe.files(files);
-    // Expectations are in the order of their steps; those for the end of the recipe come last.
+    // Expectations are in the order of their steps. Expectations for the end of the recipe come last.
     let mut expectations = recipe.expectations.iter().peekable();
     for (i, step) in recipe.steps.iter().enumerate() {
         let mut found = Vec::new();
@@ -166,7 +166,7 @@ fn plan_step(
     plan.incomplete |= problems.iter().any(|p| !p.is_warning);
     for problem in &problems {
         let span = field_span(&step.value, &problem.path);
-        // A problem with the whole step is shown at its name.
+        // A problem with the whole step is shown at the name of the step.
         let span = if span == step.value.span {
             step.span
         } else {
@@ -281,7 +281,7 @@ fn check_output(
             found.push(Diagnostic::error(span, message).with_help(help));
         }
         Ok(full) if !files.store.exists(&full) => {
-            // Not an error, because the recipe must run to create the file.
+            // A missing reference file is not an error, because the recipe must run to create the file.
             let message = format!("the file {} does not exist", full.display());
             let help = "run `meshwright test --update` to create it";
             found.push(Diagnostic::warning(span, message).with_help(help));

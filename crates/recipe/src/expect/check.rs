@@ -145,7 +145,7 @@ impl Expectation {
                 open.map_or(Ok(()), |e| {
                     let edge = EdgeByVertices(mesh, e);
                     Err(Violation::unmet(format!(
-                        "expected no boundary edges, but {edge} of \"{name}\" is one"
+                        "expected no boundary edges, but {edge} of \"{name}\" is a boundary edge"
                     )))
                 })
             }),

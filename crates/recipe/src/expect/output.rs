@@ -224,7 +224,7 @@ fn without_stamp(mut bytes: Vec<u8>) -> Vec<u8> {
     let is_gif = bytes.starts_with(b"GIF8");
     let is_comment = |w: &[u8]| w.starts_with(b"\x21\xfe") && w.ends_with(b"meshwright ");
     if is_gif && let Some(start) = bytes.windows(14).position(is_comment) {
-        // The comment is a list of blocks. Each starts with its length; a block of length 0 ends the list.
+        // The comment is a list of blocks. Each block starts with its length, and a block of length 0 ends the list.
         let mut end = start + 2;
         while let Some(&length) = bytes.get(end) {
             end += 1 + usize::from(length);
@@ -248,7 +248,7 @@ mod tests {
         let one = without_stamp(svg("<metadata>meshwright 1, recipe 0a</metadata>"));
         assert_eq!(one, without_stamp(svg("<metadata>meshwright 2</metadata>")));
         assert_eq!(one, svg(""));
-        // Metadata of other programs and metadata without an end tag stay.
+        // Metadata of other programs, and metadata without an end tag, are not removed.
         for other in ["<metadata>by hand</metadata>", "<metadata>meshwright 1"] {
             assert_eq!(without_stamp(svg(other)), svg(other));
         }

@@ -65,7 +65,7 @@ impl Reader<'_, '_> {
             for field in ["on", "refused", "on_loss"] {
                 if let Some(found) = value.field(field) {
                     let message = format!("{} does not take `{field}`", kind.name());
-                    let help = "set it on the inner steps";
+                    let help = format!("set `{field}` on the inner steps");
                     self.error(found.span, message, help);
                 }
             }

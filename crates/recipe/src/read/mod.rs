@@ -248,7 +248,7 @@ impl<'s, 'a> Reader<'s, 'a> {
             .parameters
             .clone_from(&self.parameters);
         let mut drafts = self.steps(take_items(root.field_mut("steps")));
-        // For each id, the index of its last step in each repetition. Empty if the id is in a branch that is not taken.
+        // For each id, the index of its last step in each repetition. An id in a branch that is not taken has no index.
         let mut ends: HashMap<String, Vec<usize>> = HashMap::new();
         for (i, draft) in drafts.iter().enumerate() {
             for id in &draft.ends {

@@ -146,7 +146,7 @@ impl Reader<'_, '_> {
     /// Replaces each `arg(..)` in a value by the value of its parameter. Returns whether all parameters have values.
     pub(super) fn fill(&mut self, value: &mut Value) -> bool {
         let mut used = Vec::new();
-        // Uses of parameters whose declarations have errors. The errors in these declarations were already reported.
+        // The uses of parameters whose declarations have errors. The errors in the declarations were already reported.
         let mut reported = Vec::new();
         let resolve = |name: &str, span: Span| {
             if !self.used.contains(name) {

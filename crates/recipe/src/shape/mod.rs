@@ -212,7 +212,7 @@ impl Checker {
 
     fn mismatch(&mut self, value: &Value, expected: &str, place: Place, help: Option<String>) {
         if value.has_errors() {
-            // The intended value is unknown.
+            // The value could not be read, so the intended value is unknown.
             return;
         }
         let message = format!(

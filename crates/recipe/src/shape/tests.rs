@@ -390,7 +390,7 @@ fn unknown_variants_are_errors() {
         "variants: `Area`, `Angle`, `Uniform`"
     );
     assert_eq!(help("edges: Random"), "write `Random(count: ..)`");
-    // The field that a value without a name belongs to.
+    // The help names the field that a value without a name belongs to.
     assert_eq!(help("edges: Random(3)"), "write `(count: 3)`");
     assert_eq!(help("nested: 1.5"), "write `(width: 1.5)`");
     assert_eq!(help("at: Up"), "write numbers, such as `(0.5, 0.5, 0.5)`");

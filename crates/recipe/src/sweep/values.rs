@@ -155,7 +155,7 @@ pub(super) fn setting(
     let checked = param
         .value_from(value, None)
         .map_err(|error| vec![Diagnostic::error(value.span, error.to_string())])?;
-    // As plain text: strings without their quotes, and all other values as RON.
+    // The plain text of a string has no quotes. All other values are written as RON.
     let text = match (param, value.as_str()) {
         (Param::Path { .. }, Some(path)) => folder.join(path).to_string_lossy().into_owned(),
         (_, Some(text)) => text.to_owned(),

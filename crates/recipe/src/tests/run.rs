@@ -168,7 +168,7 @@ fn all_unmet_expectations_are_reported_and_nothing_is_written() {
             ("Vertices(eq: 5)", "expected 5 vertices, found 6", ""),
             (
                 "Closed",
-                "expected no boundary edges, but the edge v0-v1 of \"sheet\" is one",
+                "expected no boundary edges, but the edge v0-v1 of \"sheet\" is a boundary edge",
                 ""
             ),
         ]
@@ -412,7 +412,7 @@ fn a_failing_step_reports_the_places_of_its_elements() {
     };
     assert_eq!(message, "v4 refuses");
     assert_eq!(*message, outcome.failures[0].message);
-    // The scene is the one before the step, but the vertex was already lifted when the step failed.
+    // The reported scene is the scene before the step, although the vertex was already lifted when the step failed.
     let scene = outcome.scene.unwrap();
     assert_eq!(*digest, scene.digest());
     let mesh = scene.objects()[0].as_mesh().unwrap();
@@ -442,6 +442,6 @@ fn unmet_expectations_report_the_elements_and_the_scene_after_their_step() {
     assert!(open.iter().map(|place| &place.name).eq(&names) && names.len() > 3);
     assert!(open.iter().all(|place| place.points.len() == 2));
     assert!(none.is_empty());
-    // The following step has changed the scene.
+    // The step after the failed expectation has changed the scene.
     assert!(first == second && *first != scene.digest());
 }

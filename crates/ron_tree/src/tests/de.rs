@@ -200,7 +200,8 @@ proptest! {
         let parsed = parse(&text);
         if parsed.diagnostics.is_empty() {
             let read = Shapes::deserialize(&parsed.value);
-            // `ron` reads the printed value instead of the text, because it does not accept whitespace in some places.
+            // `ron` reads the printed value instead of the text, because `ron` does not accept whitespace in some
+            // places.
             match by_ron::<Shapes>(&parsed.value.to_string()) {
                 Ok(shapes) => prop_assert_eq!(bits(&read.unwrap()), bits(&shapes)),
                 Err(error) => prop_assert!(read.is_err(), "{}\n{}", text, error),

@@ -125,7 +125,7 @@ fn equal_diagonals_are_decided_by_the_lowest_vertex() {
 
 #[test]
 fn a_quad_with_a_reflex_corner_is_cut_at_that_corner() {
-    // Two arrow heads. In the first, the diagonal inside is the longer one.
+    // Two arrow heads. In the first arrow head, the diagonal inside is the longer one.
     let arrow = [(0.0, 0.0), (1.0, -0.2), (8.0, 0.0), (1.0, 0.2)];
     let reflex = [(0.0, 0.0), (9.0, -0.1), (8.9, 0.0), (9.0, 0.1)];
     for (points, kept) in [(arrow, false), (reflex, true)] {
@@ -133,7 +133,7 @@ fn a_quad_with_a_reflex_corner_is_cut_at_that_corner() {
             let mut turned = points;
             turned.rotate_left(first);
             let cut = applied(&all(), polygon(&turned));
-            // The corners that had the numbers 0 and 2 before the rotation.
+            // `a` and `b` are the corners that had the numbers 0 and 2 before the rotation.
             let [a, b] = [(4 - first) % 4, (6 - first) % 4];
             assert_eq!(joined(&cut, a, b), kept, "{points:?} {first}");
         }

@@ -82,7 +82,7 @@ fn a_second_weld_changes_nothing() {
 
 #[test]
 fn a_mesh_without_close_vertices_keeps_every_number() {
-    // Building the mesh again from polygons could pair half-edges differently, so it must not be built again.
+    // Building the mesh again from polygons could pair half-edges differently, so the mesh must not be built again.
     let mesh = shapes::uv_sphere(6, 5);
     assert_eq!(applied(&weld(1e-6), mesh.clone()), mesh);
     assert_eq!(applied(&weld(1e-6), Mesh::default()), Mesh::default());

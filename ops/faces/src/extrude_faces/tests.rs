@@ -51,7 +51,7 @@ fn each_region_moves_along_its_normal_and_scales_about_its_center() {
 
 #[test]
 fn faces_that_share_an_edge_are_one_region_with_a_mean_normal() {
-    // The front face and the right face: the mean of the normals -y and +x.
+    // The faces are the front face and the right face, so the normal of the region is the mean of -y and +x.
     let (mesh, report) = try_applied(
         &parse("(faces: Faces([2, 3]), by: Distance(1))"),
         shapes::cube(),

@@ -77,7 +77,8 @@ fn sorted_rims(
     let midpoints = || outer.iter().map(|h| midpoint(ends(h)));
     let least = midpoints().reduce(DVec3::min).unwrap_or_default();
     let most = midpoints().reduce(DVec3::max).unwrap_or_default();
-    // Cells of twice the distance leave room for rounding. The second term limits the number of cells along an axis.
+    // Cells of twice the distance leave room for rounding. The second argument of `max` limits the number of cells
+    // along an axis.
     let size = (2.0 * distance).max(1e-9 * (most - least).max_element());
     let size = if size > 0.0 { size } else { 1.0 };
     let rim = |(number, h)| Rim {
@@ -108,7 +109,7 @@ fn sorted_rims(
 /// Returns the cell of a point, given in units of the size of a cell.
 #[expect(clippy::cast_possible_truncation, reason = "at most 1e12")]
 fn cell(place: DVec3) -> [i64; 3] {
-    // The limit applies only where the division overflows: all of these points are in the last cell.
+    // The limit applies only if the division overflows. All points for which it overflows are in the last cell.
     place.to_array().map(|x| x.floor().min(1e12) as i64)
 }
 
@@ -142,7 +143,7 @@ fn midpoint(ends: [DVec3; 2]) -> DVec3 {
 
 /// Whether corresponding ends are within `distance`. Matching half-edges have opposite directions.
 fn coincide(a: &Rim, b: &Rim, distance: f64) -> bool {
-    // Divides before squaring, so that squares neither overflow nor underflow.
+    // The distance is divided before it is squared, so that squares neither overflow nor underflow.
     let is_near = |p: DVec3, q: DVec3| {
         p == q || distance > 0.0 && ((p - q) / distance).length_squared() <= 1.0
     };

@@ -72,7 +72,7 @@ fn only_edges_within_the_distance_are_joined() {
 
 #[test]
 fn vertices_without_coinciding_edges_are_not_merged() {
-    // Two squares that meet at a corner. `Weld` would merge the vertices there.
+    // Two squares that meet at a corner. `Weld` would merge the two vertices at this corner.
     let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
     let positions = [0.0, 1.0]
         .iter()

@@ -107,7 +107,7 @@ fn placed_points_move_as_points_do() {
             camera(&scene).abs_diff_eq(map * camera(&car()), 1e-12),
             "{text}"
         );
-        // Placements below a moved node keep their numbers.
+        // The placements of nodes below a moved node do not change.
         assert_eq!(
             scene.graph().nodes()[1..4],
             car().graph().nodes()[1..4],
@@ -177,10 +177,7 @@ fn joining_applies_the_placements_of_all_instances() {
     let mut scene = car();
     let before = [points(&scene, "plain"), points(&scene, "wheel")].concat();
     let report = run::<Join>(&mut scene, r#"(objects: ["plain", "wheel"], name: "all")"#);
-    assert_eq!(
-        report.notes,
-        ["instances, whose placements were applied: 3"]
-    );
+    assert_eq!(report.notes, ["instances whose placements were applied: 3"]);
     assert_eq!(
         scene.object("all").unwrap().as_mesh().unwrap().positions(),
         before

@@ -286,7 +286,7 @@ fn scenes_drawn_separately_within_an_extent_look_as_if_drawn_together() {
             let left: Vec<[u8; 4]> = (0..24)
                 .flat_map(|y| both.pixels[y * 64..y * 64 + 32].to_vec())
                 .collect();
-            // The extent has only the extreme points, so that the view can differ in its last digits.
+            // The extent contains only the extreme points, so the view can differ in its last digits.
             let pairs = left.iter().zip(&one[0].pixels);
             let differences = pairs.flat_map(|(a, b)| (0..3).map(|i| a[i].abs_diff(b[i])));
             assert!(differences.max() <= Some(2), "{fields}");

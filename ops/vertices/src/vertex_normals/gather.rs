@@ -110,7 +110,7 @@ fn area_vector(mesh: &Mesh, f: FaceId, scale: f64) -> DVec3 {
 /// normals do not change, and products of lengths neither overflow nor underflow.
 fn scale(mesh: &Mesh) -> f64 {
     let [min, max] = geometry::bounds(mesh).unwrap_or_default();
-    // Halve before subtracting: the difference of two finite numbers can be infinite.
+    // The coordinates are halved before the subtraction, because the difference of two finite numbers can be infinite.
     let extent = (0.5 * max - 0.5 * min).max_element();
     if extent == 0.0 {
         return 1.0;

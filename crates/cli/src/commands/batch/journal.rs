@@ -67,7 +67,7 @@ impl Journal {
         let (file, bytes) =
             opened.with_context(|| format!("cannot open the journal {}", path.display()))?;
         let (mut known, mut processes) = (HashMap::new(), Vec::new());
-        // Lines of a different version cannot be parsed: their files are processed again.
+        // Lines written by a different version cannot be parsed, so the files of these lines are processed again.
         for line in bytes.split(|&b| b == b'\n') {
             if let Ok(entry) = serde_json::from_slice::<Entry>(line) {
                 known.insert(entry.row.input.clone(), entry);

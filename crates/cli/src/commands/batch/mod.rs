@@ -221,7 +221,8 @@ impl<'b> Chunk<'b> {
             Task::Keep(row) => return FileResult::unrecorded(row.clone()),
             Task::Fail(failed) => return failed.clone(),
         };
-        // Computed before the run: if an input changes during the run, the next batch processes the file again.
+        // The key is computed before the run: if an input changes during the run, the next batch processes the file
+        // again.
         let key = self.batch.key(self.files[i], loaded);
         let run = Run {
             keep_outputs: true,
@@ -338,7 +339,7 @@ fn row(path: &str, loaded: &Loaded, outcome: &Outcome) -> Row {
         row.losses
             .extend(losses.map(|loss| format!("{}: {loss}", step.label)));
     }
-    // If a step failed, the counts are those before the step.
+    // If a step failed, the counts are the counts before that step.
     let last = outcome.steps.last();
     row.vertices = last.map(|step| step.vertices);
     row.edges = last.map(|step| step.edges);

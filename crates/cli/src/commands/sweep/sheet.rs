@@ -312,7 +312,7 @@ impl Layout {
             }
             (None, [.., last]) if changing.len() > 2 && last.len <= 2 * MAX_SINGLE_ROW => last.len,
             _ => {
-                // A long list becomes nearly square, with rows of equal length.
+                // A long list of cells is arranged as a nearly square grid, with rows of equal length.
                 let widest = MAX_SINGLE_ROW.max(n.isqrt());
                 n.div_ceil(n.div_ceil(widest).max(1))
             }

@@ -24,7 +24,7 @@ fn unusual_file_names_are_processed() {
             folder.with(&format!("models/{name}.obj"), tetrahedron(1))
         });
     let ended = batch(&folder, "--report r.csv").with_code(0);
-    // One line per file, even if its name contains line breaks.
+    // The output has one line per file, even if the name of the file contains line breaks.
     assert_eq!(ended.stdout.lines().count(), names.len() + 1, "{ended:#?}");
     let bytes = folder.read("r.csv");
     let mut table = csv::Reader::from_reader(bytes.as_slice());

@@ -204,7 +204,7 @@ fn an_output_that_cannot_be_written_is_a_failure_and_leaves_no_file() {
         "{ended:#?}"
     );
     assert_eq!(folder.entries("out"), ["batch.jsonl", "failed"]);
-    // Without the limit, the batch succeeds.
+    // Without the limit on the size of files, the batch succeeds.
     batch(&folder, "--set levels=5 --retry-failed")
         .with_code(0)
         .prints(&["3 ok, 0 failed\n"]);
@@ -262,7 +262,7 @@ fn all_violations_and_the_counts_of_a_failure_are_in_the_reports() {
         "{text}"
     );
 
-    // A file that is no report is refused without names of Rust types.
+    // If a file is not a report, the error contains no names of Rust types.
     let folder = folder.with("no.json", "1").with("no.jsonl", "[]\n");
     for name in ["no.json", "no.jsonl"] {
         let ended = folder.run(&format!("batch --merge {name} --report all.json"));

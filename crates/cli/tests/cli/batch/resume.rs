@@ -69,7 +69,7 @@ fn a_batch_that_is_killed_is_resumed() {
             .count()
     };
     let mut killed_at = Vec::new();
-    // Killed three times, each time after a few more files.
+    // The batch is killed three times, each time after a few more files.
     for further in [1, 4, 5] {
         let before = n_recorded(&folder);
         let mut child = Command::new(crate::folder::PROGRAM)

@@ -193,7 +193,10 @@ fn a_closed_mesh_has_no_boundary() {
     assert_eq!(check(&cube(), "Closed"), Ok(()));
     assert_eq!(
         check(&scene([("sheet", shapes::square())]), "Closed"),
-        Err("expected no boundary edges, but the edge v0-v1 of \"sheet\" is one".to_owned())
+        Err(
+            "expected no boundary edges, but the edge v0-v1 of \"sheet\" is a boundary edge"
+                .to_owned()
+        )
     );
     assert_eq!(
         check(&lines(), "Closed"),

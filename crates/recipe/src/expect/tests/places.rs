@@ -147,7 +147,7 @@ fn vertices_with_an_unmatched_image_violate_a_symmetry() {
 
     let found = names(&scene, "SymmetricUnder(group: CubeRotations)");
 
-    // Every vertex has a rotation that maps it to the place that the moved vertex left.
+    // For every vertex, a rotation maps the vertex to the original position of the moved vertex.
     assert_eq!(found.len(), 8);
 }
 

@@ -143,7 +143,7 @@ fn the_diagonals_of_rotated_squares_are_not_flipped() {
 
 #[test]
 fn an_edge_through_a_vertex_is_flipped_to_end_at_the_vertex() {
-    // Vertex 2 is on the edge from 0 to 1, so their triangle has no area.
+    // Vertex 2 is on the edge from vertex 0 to vertex 1, so the triangle of these vertices has no area.
     let points = [[0, 0], [4, 0], [2, 0], [2, 3], [2, -3]];
     let mesh = mesh_of(&points, &[[0, 1, 2], [1, 3, 2], [3, 0, 2], [1, 0, 4]]);
     let e = EdgeId::new(0);

@@ -19,7 +19,7 @@ pub(crate) struct PastStep {
     pub(crate) unknown_input: Option<(PathBuf, String)>,
 }
 
-/// The steps of the last run of a recipe, and those of the current run.
+/// The steps of the last run of a recipe, and the steps of the current run.
 #[derive(Debug, Default)]
 pub(crate) struct History {
     id: Option<Hash>,

@@ -13,14 +13,15 @@
 //! operation with its version and parameters, the objects in `on`, the label that seeds random choices, the expected
 //! refusal, the memory budget, and the state before the step. The state after a step is the digest of its key and of
 //! the contents of the files that it read. The files that a step reads are known only after the step has run. Before a
-//! cached result is used, the contents of these files are compared again. Modification times are not used for this.
+//! cached result is used, the contents of these files are compared again. Modification times are not used to compare
+//! files.
 //!
 //! **Integrity.** Only regular files are read, never links, and never more bytes than were stored. Every blob must
 //! match the digest in its name. Every record must match its digest, which depends on the secret key of the cache. Only
 //! the user can read that key, so an edited record is rejected even if its digest was computed again. The arrays of a
 //! scene are validated. A damaged file is removed and treated as missing. Files are written under a temporary name and
 //! then renamed, so that neither concurrent nor killed processes leave incomplete files; no locks are needed. If the
-//! folder cannot be written, this is reported once, and the run continues without storing anything.
+//! folder cannot be written, the problem is reported once, and the run continues without storing anything.
 //!
 //! **What is stored.** Records are always stored. Scenes and files of fewer than [`ALWAYS_STORED`] bytes are always
 //! stored too. A larger scene is stored if the computation since the last stored scene took longer than storing the

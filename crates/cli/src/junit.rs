@@ -14,7 +14,7 @@ pub(crate) struct Case<'a> {
 /// The result of a case.
 pub(crate) enum CaseEnd {
     Passed,
-    /// Not run, for this reason.
+    /// The case was not run, for this reason.
     Skipped(&'static str),
     Failed {
         /// One line.

@@ -70,7 +70,7 @@ impl Loaded {
         recipe::run_from(&self.recipe, first, scene, settings, listener)
     }
 
-    /// Runs the steps before the step with this index and returns the scene. `None` if one of them fails.
+    /// Runs the steps before the step with this index and returns the scene. `None` if one of these steps fails.
     pub fn scene_before(&mut self, step: usize, listener: &dyn Listener) -> Option<Scene> {
         let later = self.recipe.steps.split_off(step);
         let expectations = std::mem::take(&mut self.recipe.expectations);
@@ -81,7 +81,7 @@ impl Loaded {
         outcome.scene.filter(|_| succeeded)
     }
 
-    /// Renders diagnostics as text with excerpts of the recipe, like those of a compiler.
+    /// Renders diagnostics as text with excerpts of the recipe, as compilers do.
     pub fn render(&self, diagnostics: &[Diagnostic], colours: bool) -> String {
         recipe::render(&self.recipe.sources, diagnostics, colours)
     }

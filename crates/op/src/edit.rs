@@ -18,8 +18,8 @@ pub enum OnRefusal {
 }
 
 impl OnRefusal {
-    /// Returns the planned number of edited elements: all `selected` elements, or any number of them if refusals are
-    /// skipped.
+    /// Returns the planned number of edited elements: all `selected` elements, or any number of these elements if
+    /// refusals are skipped.
     #[must_use]
     pub fn done(self, selected: Range) -> Range {
         match self {

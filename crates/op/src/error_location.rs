@@ -39,7 +39,7 @@ mod tests {
         }
     }
 
-    /// Returns the error of the operation on a tetrahedron, and the locations in it.
+    /// Runs the operation on a tetrahedron. Returns its error, and the locations in the error.
     fn refused(edges: &[usize]) -> (OpError, Vec<ErrorLocation>) {
         let mut scene = Scene::new();
         let mesh = shapes::tetrahedron();

@@ -3,9 +3,9 @@
 //! Paths of input files are relative to the folder of the recipe. Output files are always inside the output
 //! folder: a path that leads out of it is refused.
 //!
-//! All uses of files are logged, so that the step cache knows the dependencies of a step. An operation that
-//! reads files reports each of them with [`Files::has_read`]. If an operation requests a path but does not
-//! report that it read the file, the dependencies of the step are unknown, and the step is never cached.
+//! All uses of files are logged, so that the step cache knows the dependencies of a step. An operation that reads files
+//! reports each file with [`Files::has_read`]. If an operation requests a path but does not report that it read the
+//! file, the dependencies of the step are unknown, and the step is never cached.
 
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -121,8 +121,8 @@ impl Files {
     }
 
     /// Logs that a file was read: either a file whose path [`to_read`](Self::to_read) returned, or another file that
-    /// such a file refers to. If an operation calls this for every requested path, the step can be cached. In that
-    /// case, the result of the step must not depend on the contents of any other file.
+    /// such a file refers to. If an operation calls this method for every requested path, the step can be cached. In
+    /// that case, the result of the step must not depend on the contents of any other file.
     pub fn has_read(&self, path: impl Into<PathBuf>) {
         self.log.note(FileUse::Read(path.into()));
     }

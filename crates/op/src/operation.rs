@@ -81,7 +81,7 @@ pub trait Operation:
     /// Whether a step may choose objects with `on:`.
     const TAKES_ON: bool = false;
     /// Whether the operation leaves the scene unchanged when it fails. If false, the runner keeps the meshes from
-    /// before the step, and the operation changes copies of them.
+    /// before the step, and the operation changes copies of these meshes.
     const ATOMIC: bool = false;
 
     /// Changes `plan` as [`apply`](Self::apply) will change the scene, and returns the problems.

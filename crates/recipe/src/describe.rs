@@ -37,8 +37,8 @@ pub fn fields(schema: &Json) -> Vec<FieldDoc> {
     fields_of(&Schema::root(schema), true)
 }
 
-/// Returns the fields of a schema. The variants of their types are included only if `with_variants` is set. Variants
-/// cannot be included at every level, because selections contain selections.
+/// Returns the fields of a schema. The variants of the types of the fields are included only if `with_variants` is set.
+/// Variants cannot be included at every level, because selections contain selections.
 fn fields_of(schema: &Schema, with_variants: bool) -> Vec<FieldDoc> {
     let required: Vec<&str> = schema.required().collect();
     let described = |name: &str| {

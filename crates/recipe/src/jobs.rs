@@ -68,8 +68,9 @@ impl<B, S, W> Jobs<B, S, W> {
     /// Runs the jobs. `ended` is called on the calling thread with all jobs that ended since the last call, in the
     /// order in which they ended. Every job is passed to `ended` exactly once.
     ///
-    /// Jobs start in their order. A job starts when its bytes and the bytes of the running jobs together are within the
-    /// budget. A job that exceeds the budget by itself runs alone. A panic ends only the job that panicked.
+    /// Jobs start in the order of their indices. A job starts when its bytes and the bytes of the running jobs together
+    /// are within the budget. A job that exceeds the budget by itself runs alone. A panic ends only the job that
+    /// panicked.
     ///
     /// This method blocks, so it must not be called from a thread of a rayon pool.
     ///
@@ -283,8 +284,8 @@ const BYTES_FOR_EACH_BYTE_READ: u64 = 8;
 
 impl Forecast {
     /// Returns the estimated peak memory of the run, in bytes. If the forecast has an upper limit for the meshes of
-    /// every step, the estimate is the size of the input files plus the largest of these limits. Otherwise the estimate
-    /// is eight times the size of the input files, but at least the largest lower limit.
+    /// every step, the estimate is the size of the input files plus the largest upper limit. Otherwise the estimate is
+    /// eight times the size of the input files, but at least the largest lower limit.
     pub fn peak_bytes(&self) -> u64 {
         let size = |path: &std::path::PathBuf| Path::metadata(path).map_or(0, |m| m.len());
         let read: u64 = self.inputs.iter().map(size).sum();

@@ -330,7 +330,7 @@ impl Runner<'_> {
         self.failures.push(diagnostic);
     }
 
-    /// Checks the expectations after the step with this index, or those at the end if `None`.
+    /// Checks the expectations after the step with this index, or the expectations at the end if `None`.
     fn check_expectations(
         &mut self,
         after: Option<usize>,

@@ -6,8 +6,7 @@ use ron_tree::{Call, Diagnostic, Span, Value, ValueKind};
 /// parameter and the span of that name, and returns the value of the parameter. The new value has the span of its
 /// `arg(..)` and the name of the parameter.
 ///
-/// Returns the errors of `resolve`, and an error for each `arg` without a name. In these cases the `arg` stays
-/// unchanged.
+/// Returns the errors of `resolve`, and an error for each `arg` without a name. An `arg` with an error stays unchanged.
 pub fn substitute(
     value: &mut Value,
     mut resolve: impl FnMut(&str, Span) -> Result<Value, Box<Diagnostic>>,

@@ -98,8 +98,8 @@ pub fn update(recipe: &Recipe, outcome: &Outcome) -> Update {
     }
 }
 
-/// Returns the expectations of the text that do not hold. Each of these expectations has a list with one entry for each
-/// repetition of its step. The entry is `None` if the expectation holds in that repetition.
+/// Returns the expectations of the text that do not hold. For each expectation, the result contains a list with one
+/// entry for each repetition of its step. The entry is `None` if the expectation holds in that repetition.
 fn unmet_in_text<'o>(
     recipe: &Recipe,
     outcome: &'o Outcome,

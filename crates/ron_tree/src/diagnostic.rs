@@ -111,7 +111,7 @@ impl Severity {
 pub struct Span {
     /// The first byte.
     pub start: usize,
-    /// The byte after the last one.
+    /// The byte after the last byte.
     pub end: usize,
 }
 

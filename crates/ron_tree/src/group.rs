@@ -253,7 +253,8 @@ impl Parser<'_> {
             complete,
         } = contents;
         if !complete && (bracket == Bracket::Square || !values.is_empty()) {
-            // Some items could not be read, so their number is unknown. The error value stands for these items.
+            // Some items could not be read, so their number is unknown. The error value stands for the items that could
+            // not be read.
             values.push(self.missing_value());
         }
         let has_fields = !fields.is_empty();

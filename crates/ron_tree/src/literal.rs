@@ -76,7 +76,7 @@ impl Number {
             .unwrap_or(f32::INFINITY)
     }
 
-    /// Whether the number is written with `0x`, `0o` or `0b`. `ron` accepts these only for integer types.
+    /// Whether the number is written with `0x`, `0o` or `0b`. `ron` accepts these prefixes only for integer types.
     pub fn has_base(&self) -> bool {
         matches!(self, Self::Int(text) if base(text.trim_start_matches(['+', '-'])).0 != 10)
     }

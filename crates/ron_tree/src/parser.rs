@@ -2,7 +2,7 @@
 //!
 //! Each error gives one diagnostic, and parsing continues after it. To recover from a bracket error, the parser assumes
 //! that only one bracket is missing or mistyped, that line breaks and indentation are right, and that each item of a
-//! list starts on its own line. The module [`recovery`](super::recovery) does this.
+//! list starts on its own line. The module [`recovery`](super::recovery) implements the recovery.
 
 use super::lexer::{Bracket, Lexer, Token, TokenKind};
 use super::literal::{self, BadLiteral, Number};
@@ -60,7 +60,7 @@ pub fn parse(source: &str) -> Parsed {
     Parsed { value, diagnostics }
 }
 
-/// A token that is not trivia, or the end of the text.
+/// A token that is neither whitespace nor a comment, or the end of the text.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lexeme {
     /// `None` at the end of the text.

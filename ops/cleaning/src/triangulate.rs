@@ -31,8 +31,8 @@ use rayon::prelude::*;
 /// diagonal is chosen where possible. The remaining duplicate diagonals are counted.
 ///
 /// A face with more corners is projected along its normal, cut by ear clipping, and improved by flipping diagonals
-/// until it is a constrained Delaunay triangulation. A face that cannot be cut this way, because it has no area or its
-/// sides cross, becomes a triangle fan around its vertex with the lowest number, and is counted.
+/// until it is a constrained Delaunay triangulation. A face that cannot be triangulated in this way, because it has no
+/// area or its sides cross, becomes a triangle fan around its vertex with the lowest number, and is counted.
 ///
 /// The triangles take the place of their face in the order of the faces and have its values. Vertices and edges keep
 /// their numbers. The corners of the triangles have the values of the corners of the face at the same vertices.

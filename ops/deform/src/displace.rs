@@ -17,7 +17,7 @@ use crate::moved::moved;
 /// Moves vertices along their normals, by amounts that vary over the surface.
 ///
 /// Each vertex moves along its normal by `distance` times the value of `by`. The normal of a vertex is the mean of the
-/// normals of its faces, weighted by their areas. Vertices without such a normal stay and are counted. Faces, element
+/// normals of its faces, weighted by their areas. Vertices without a normal do not move and are counted. Faces, element
 /// numbers and attributes do not change. Normals are dropped.
 ///
 /// The values are computed without functions that differ between machines, so the result is the same everywhere.

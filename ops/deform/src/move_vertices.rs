@@ -22,7 +22,7 @@ use crate::moved::moved;
 /// smoothly to 0 at the distance r. Distances are straight, not along the surface.
 ///
 /// With `by: Distance(..)`, each vertex moves along its own normal: the mean of the normals of its faces, weighted by
-/// their areas. Vertices without such a normal stay and are counted.
+/// their areas. Vertices without a normal do not move and are counted.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MoveVertices {

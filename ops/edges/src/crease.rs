@@ -88,7 +88,7 @@ impl Crease {
     }
 }
 
-/// Sets the attribute of these elements to `sharpness`. Returns how many values changed.
+/// Sets the attribute of the given elements to `sharpness`. Returns how many values changed.
 fn sharpen<I: Id>(
     mesh: &mut Mesh,
     attribute: Attribute<I, f64>,

@@ -29,10 +29,10 @@ use goal::Goal;
 /// other corners keep their values.
 ///
 /// With `until: Delaunay` or `until: Valence`, an edge is flipped only if that improves the mesh. Edges are checked
-/// again, pass after pass, until no edge is flipped. Flips with one of these goals neither fold the surface nor create
-/// triangles without area. If a flip that would improve the mesh is refused, the step does not fail: the edge is left
-/// unchanged, and the report counts the refusal by reason. The report also contains the number of passes, and whether
-/// the step stopped because `passes` was reached.
+/// again, pass after pass, until no edge is flipped. Flips with `until: Delaunay` or `until: Valence` neither fold the
+/// surface nor create triangles without area. If a flip that would improve the mesh is refused, the step does not fail:
+/// the edge is left unchanged, and the report counts the refusal by reason. The report also contains the number of
+/// passes, and whether the step stopped because `passes` was reached.
 ///
 /// On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from `edges`,
 /// for example with `Flat(below: 30)` or `Not(Tagged("keep"))`.

@@ -20,7 +20,7 @@ use op::prelude::*;
 ///
 /// The removal is refused if the remaining faces around a vertex would form separate fans that meet only at that
 /// vertex. With `on_refusal: Skip`, faces are instead removed one by one, in order of their numbers, in repeated passes
-/// until no more of them can be removed. The selected faces that remain are counted as refused.
+/// until no more of the selected faces can be removed. The selected faces that remain are counted as refused.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DeleteFaces {

@@ -16,7 +16,7 @@ use op::prelude::*;
 
 /// Joins two holes with a band of faces.
 ///
-/// Each hole is given by one of its vertices. An edge joins these two vertices, and the band goes around both holes
+/// Each hole is given by one of its vertices. An edge joins the two given vertices, and the band goes around both holes
 /// from there. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and n - m evenly spread
 /// triangles. The step adds n edges and no vertices. The holes may be in one part of the mesh, which then gets a tunnel
 /// or a handle, or in two parts of one object. (`Join` joins two objects into one.)

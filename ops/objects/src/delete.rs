@@ -14,7 +14,7 @@ use op::{Operation, named_object};
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Delete {
-    /// The names of the objects. All of them must exist.
+    /// The names of the objects. All of these objects must exist.
     pub objects: Vec<String>,
 }
 

@@ -14,8 +14,8 @@ use op::prelude::*;
 
 /// Creates a cylinder around the z axis.
 ///
-/// The vertices of the lower rim come first, and then those of the upper rim. Each rim is counter-clockwise seen from
-/// above and starts in the direction +x. The faces are `around` rectangles and, with caps, the lower and the upper
+/// The vertices of the lower rim come first, and then the vertices of the upper rim. Each rim is counter-clockwise seen
+/// from above and starts in the direction +x. The faces are `around` rectangles and, with caps, the lower and the upper
 /// polygon with `around` corners.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]

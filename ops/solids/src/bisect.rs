@@ -20,7 +20,7 @@ use op::prelude::*;
 /// are numbered last. Attributes are interpolated at the crossings, separately on each side of a seam.
 ///
 /// With `keep: Front` or `keep: Back`, the other side of the plane is removed. A face in the plane belongs to the back
-/// if its normal points to the front, because such a face closes the solid behind the plane. Vertices left without a
+/// if its normal points to the front, because the face then closes the solid behind the plane. Vertices left without a
 /// face are removed. If the remaining faces around a vertex form several fans, each fan gets a separate copy of the
 /// vertex. The cut is not closed with faces.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]

@@ -17,7 +17,7 @@ use crate::simplify::{error, part, plan_goal, triangles_problem, unreached};
 ///
 /// The copies are named after the object, for example `rock_lod1`, `rock_lod2` and so on. Each copy is made from the
 /// previous one, as by `Simplify`, and keeps attributes, materials and lines as `Simplify` does. If nodes place the
-/// object, a node for each copy is added beside each of these nodes.
+/// object, a node for each copy is added beside each node that places the object.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Lods {

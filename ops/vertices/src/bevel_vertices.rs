@@ -22,7 +22,7 @@ use op::prelude::*;
 /// order of the vertices.
 ///
 /// Values at the cuts are interpolated between the ends of the edge, so textures do not change. A new face has the
-/// values (material, tags) of one of the faces at the vertex. Which of these faces is not specified, but the choice is
+/// values (material, tags) of one of the faces at the vertex. Which of the faces is not specified, but the choice is
 /// the same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
 ///
 /// A vertex is refused if it is on the boundary, if it has fewer than three edges, or if earlier cuts leave too little

@@ -6,11 +6,12 @@ use op::prelude::*;
 
 /// Computes tangents for normal maps by the `MikkTSpace` algorithm, which other tools use too.
 ///
-/// The mesh needs texture coordinates and normals, such as those of `VertexNormals`. The tangents are written to the
-/// corner attribute `tangent`, which is replaced if it exists: a unit vector perpendicular to the normal and, as the
-/// fourth number, the sign of the bitangent. `.glb` and `.gltf` files store the attribute as `TANGENT`. Polygons are
-/// triangulated as for these files. Steps that change the shape or the faces remove the tangents. Corners at which the
-/// texture coordinates define no direction get an arbitrary tangent and are counted.
+/// The mesh needs texture coordinates and normals, such as the normals that `VertexNormals` computes. The tangents are
+/// written to the corner attribute `tangent`, which is replaced if it exists: a unit vector perpendicular to the normal
+/// and, as the fourth number, the sign of the bitangent. `.glb` and `.gltf` files store the attribute as `TANGENT`.
+/// Polygons are triangulated in the same way as for `.glb` and `.gltf` files. Steps that change the shape or the faces
+/// remove the tangents. Corners at which the texture coordinates define no direction get an arbitrary tangent and are
+/// counted.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tangents {

@@ -194,8 +194,8 @@ fn draw(
     draw_scenes(&picture, path, &scenes_at_steps, &args.draw.on)
 }
 
-/// Tags the faces in which two scenes differ, and returns a selection of them. Returns `None` if no faces differ, or if
-/// most faces differ, as after a subdivision.
+/// Tags the faces in which two scenes differ, and returns a selection of these faces. Returns `None` if no faces
+/// differ, or if most faces differ, as after a subdivision.
 fn highlight_changes(before: &mut Scene, after: &mut Scene) -> Option<Elements> {
     const TAG: &str = "changed by the step";
     let tag = TagName::try_from(TAG.to_owned()).ok()?;

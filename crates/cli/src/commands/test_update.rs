@@ -8,8 +8,8 @@ use recipe::update::update;
 use crate::output::write_temporary;
 use engine::Loaded;
 
-/// Replaces recorded values that differ from those of the run. Returns a line for each change. Failures that the update
-/// fixes are removed from `outcome`.
+/// Replaces recorded values that differ from the values of the run. Returns a line for each change. Failures that the
+/// update fixes are removed from `outcome`.
 pub(crate) fn update_recorded_values(
     path: &Path,
     loaded: &Loaded,

@@ -1,9 +1,9 @@
 //! `meshwright watch`: runs a recipe again whenever the recipe, a recipe that it calls, or one of its inputs is saved.
 //!
-//! The folders of these files are watched, since many editors save by replacing the file. Other files in these folders
-//! are ignored, and so are the files that the run writes. The cache compares contents:
-//! steps whose inputs did not change are not run again, and saving an unchanged file prints no results. If a file is
-//! saved during a run, the run is canceled and the next one starts.
+//! The program watches the folders of these files, since many editors save by replacing the file. Other files in the
+//! watched folders are ignored, and so are the files that the run writes. The cache compares contents: steps whose
+//! inputs did not change are not run again, and saving an unchanged file prints no results. If a file is saved during a
+//! run, the run is canceled and the next one starts.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

@@ -103,7 +103,7 @@ fn standard_output_has_the_bytes_alone() {
     let report: serde_json::Value = serde_json::from_str(&ended.stderr).unwrap();
     assert_eq!(report["bytes"], ended.stdout.len());
     assert_eq!(report["wrote"].as_array().unwrap().len(), 0);
-    // A loss that is an error leaves standard output empty.
+    // If a loss is an error, nothing is written to standard output.
     let ended = folder
         .run("convert in.obj - --to off --strict")
         .with_code(1);

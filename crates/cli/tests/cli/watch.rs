@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use crate::folder::{Folder, PROGRAM};
 
-/// Long enough for any machine: only a failing test waits this long.
+/// The time to wait for output. Long enough for any machine: only a failing test waits this long.
 const TIMEOUT: Duration = Duration::from_secs(120);
 
 struct Watching {
@@ -39,7 +39,7 @@ impl Watching {
         Self { child, lines }
     }
 
-    /// Waits for a line with this text. Returns all lines up to this one.
+    /// Waits for a line with this text. Returns all lines up to and including this line.
     #[track_caller]
     fn wait_for(&self, text: &str) -> Vec<String> {
         let mut lines = Vec::new();

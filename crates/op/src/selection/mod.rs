@@ -84,7 +84,7 @@ macro_rules! selection {
                 #[serde(default)]
                 of: Box<Self>,
             },
-            /// All elements of the selection `of`. Refused unless their number is exactly `count`.
+            /// All elements of the selection `of`. Refused unless the number of these elements is exactly `count`.
             Expect {
                 #[doc = concat!("The expected number of ", $elements, ".")]
                 count: u32,
@@ -225,7 +225,9 @@ impl<S: Select> Shared<'_, S> {
     fn mask(&self, mesh: &Mesh, cx: &Context) -> Result<Vec<bool>, OpError> {
         Ok(match *self {
             Self::Own => {
-                unreachable!("each selection type evaluates the variants that only it has")
+                unreachable!(
+                    "each selection type evaluates its own variants, which the other types do not have"
+                )
             }
             Self::All => marks::<S>(mesh, |_| true),
             Self::Inside(region) => marks::<S>(mesh, |id| {
@@ -407,7 +409,7 @@ fn center<S: Select>(mesh: &Mesh, id: S::Id) -> DVec3 {
     sum / n
 }
 
-/// Returns the `count` marked elements with the lowest keys. Of elements with equal keys, those with the lower
+/// Returns the `count` marked elements with the lowest keys. If elements have equal keys, the elements with the lower
 /// ids come first.
 fn lowest<S: Select, K: PartialOrd>(
     mesh: &Mesh,

@@ -121,7 +121,7 @@ pub(super) struct Order {
     pub(super) faces: Vec<FaceId>,
     /// Sorted by face. Within a face, the corner at the lowest vertex comes first.
     pub(super) corners: Vec<HalfEdgeId>,
-    /// Sorted by their lower vertex, then by their higher vertex.
+    /// Sorted by the lower vertex of each edge, then by the higher vertex.
     pub(super) edges: Vec<EdgeId>,
 }
 

@@ -30,7 +30,7 @@ pub struct Difference {
 pub struct ObjectDifference {
     /// The names of the two objects.
     pub names: [String; 2],
-    /// The kinds of their geometry.
+    /// The kinds of geometry of the two objects.
     pub kinds: [&'static str; 2],
     /// Whether the objects are identical bit by bit, except for their names.
     pub identical: bool,
@@ -48,7 +48,7 @@ pub struct ObjectDifference {
 
 impl Difference {
     /// Compares two scenes. Measures the distance between meshes that are not identical. If the nodes of the scenes
-    /// differ, their instances are compared in scene space.
+    /// differ, the instances of objects are compared in scene space.
     pub fn between(first: &Scene, second: &Scene) -> Self {
         if first.graph() == second.graph() {
             return Self::of_objects(first, second);

@@ -166,7 +166,7 @@ impl CheckedMesh<'_> {
             !others.any_near(p, tolerance)
         }));
         let missing = other.vertices().map(|v| other.position(v));
-        // Each mesh gets half of the places.
+        // Each of the two meshes gets half of the maximum number of places.
         places.truncate(ErrorLocation::MAX_ELEMENTS / 2);
         let missing = missing.filter(|&p| !these.any_near(p, tolerance));
         places.extend(missing.map(expected).take(ErrorLocation::MAX_ELEMENTS / 2));

@@ -25,8 +25,8 @@ use ron_tree::{Span, Value, ValueKind};
 /// The maximum nesting depth of calls.
 const MAX_CALLS: usize = 32;
 
-/// The number that each call adds to the number of steps, in addition to the steps of the called recipe. Bounds the
-/// time for reading called recipes.
+/// The number that each call adds to the number of steps, in addition to the steps of the called recipe. This number
+/// limits the time for reading called recipes.
 const STEPS_PER_CALL: usize = 20;
 
 /// Returns the kind of a step that contains steps, or `None` for other steps.

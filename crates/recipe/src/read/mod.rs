@@ -155,7 +155,7 @@ fn canonical(store: &dyn Store, path: &Path) -> PathBuf {
 struct Draft {
     step: RecipeStep,
     /// The ids that end with this step: the id of the step itself, and the id of each call, repetition and condition
-    /// whose last step is this one. Contains only ids of this text.
+    /// that ends with this step. Contains only ids of this text.
     ends: Vec<String>,
     /// The expectations that are checked after the step.
     then: Vec<RecipeExpectation>,
@@ -271,8 +271,8 @@ impl<'s, 'a> Reader<'s, 'a> {
         (drafts, last)
     }
 
-    /// Adds the diagnostics of this text to those of the whole recipe, and sets the text and the calls of each
-    /// diagnostic.
+    /// Adds the diagnostics of this text to the diagnostics of the whole recipe, and sets the text and the calls of
+    /// each diagnostic.
     fn close(self) {
         let scopes = &self.shared.scopes;
         let located = (self.diagnostics.into_iter()).map(|d| located(d, self.scope, scopes));

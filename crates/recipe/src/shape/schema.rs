@@ -7,7 +7,7 @@ use serde_json::{Map, Value as Json};
 #[derive(Clone, Debug)]
 pub(crate) struct Schema<'s> {
     root: &'s Json,
-    /// The schema and those that it includes by `$ref` and `allOf`. A value must fit all layers.
+    /// The schema itself and the schemas that it includes by `$ref` and `allOf`. A value must fit all layers.
     layers: Vec<&'s Map<String, Json>>,
     /// The name of the type, if it has one.
     name: Option<&'s str>,

@@ -70,8 +70,8 @@ impl Checker {
         }
     }
 
-    /// Reports the errors of a value that fits no variant. The errors are those from the check against the variant that
-    /// fits best.
+    /// Reports the errors of a value that fits no variant. The reported errors come from the check against the variant
+    /// that fits best.
     fn take_closest(&mut self, value: &Value, trials: Vec<(&str, Schema, Self)>) {
         let variants = |schema: &Schema| -> Vec<String> {
             let choice = schema.choice().unwrap_or_default();

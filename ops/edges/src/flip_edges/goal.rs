@@ -19,7 +19,8 @@
 //! Triangulation", 1997. The energy is also defined for surfaces in space.
 //!
 //! A flip that reduces the number of triangles without area is an improvement. If all four corners are collinear, both
-//! diagonals give triangles without area, and the shorter diagonal is better: this resolves groups of these triangles.
+//! diagonals give triangles without area, and the shorter diagonal is better. This rule resolves groups of triangles
+//! without area.
 //!
 //! **Valence.** A flip is an improvement if it reduces the sum over all vertices of (valence - target)², where the
 //! target is 6 inside and 4 on the boundary. Source: Botsch and Kobbelt, "A Remeshing Approach to Multiresolution
@@ -132,7 +133,7 @@ impl Quad {
         }
     }
 
-    /// Returns the triangles after a flip. The edge then goes from d to c.
+    /// Returns the triangles after a flip. After the flip, the edge goes from d to c.
     const fn flipped(&self) -> Self {
         let Self { a, b, c, d } = *self;
         Self {

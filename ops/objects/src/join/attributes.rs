@@ -97,8 +97,8 @@ fn leave_out_normals(columns: &mut [Attributes], parts: &[&Object], report: &mut
     }
 }
 
-/// Adds a note for each part that gets zero values for an attribute. Tags and materials need no note: elements of these
-/// parts are simply not tagged and have no material.
+/// Adds a note for each part that gets zero values for an attribute. Tags and materials need no note: elements of a
+/// part without them are simply not tagged and have no material.
 fn note_zeros(columns: &[Attributes], parts: &[&Object], report: &mut Report) {
     for (domain, name) in names(columns, |c| !matches!(c.values, Values::Tag(_))) {
         for (i, object) in parts.iter().enumerate() {

@@ -16,7 +16,8 @@ use super::{About, Transform};
 use crate::transform::map::Map;
 
 impl Transform {
-    /// Moves the objects that nodes place, and removes them from `names`. The report counts their points.
+    /// Moves the objects that nodes place, and removes them from `names`. The report counts the points of these
+    /// objects.
     pub(super) fn move_nodes(
         &self,
         scene: &mut Scene,

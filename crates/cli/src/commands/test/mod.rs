@@ -113,7 +113,7 @@ pub(crate) fn run(args: &TestArgs, engine: &Engine) -> anyhow::Result<bool> {
     Ok(failed == 0 && not_run == 0 && passed > 0)
 }
 
-/// Reads and checks the recipes, and keeps those that the filter selects.
+/// Reads and checks the recipes, and keeps the recipes that the filter selects.
 fn tests<'a>(
     recipes: &'a [RecipeFile],
     args: &TestArgs,

@@ -27,7 +27,7 @@ pub(crate) fn folder(args: &CacheFolder) -> anyhow::Result<PathBuf> {
         return Ok(folder.clone());
     }
     let user = etcetera::choose_base_strategy().context(
-        "cannot determine the user's cache folder: set one with --cache, or use --no-cache",
+        "cannot determine the user's cache folder: set a folder with --cache, or use --no-cache",
     )?;
     Ok(user.cache_dir().join("meshwright"))
 }

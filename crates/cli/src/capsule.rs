@@ -13,9 +13,9 @@ use engine::Loaded;
 
 /// Runs the steps before `step` and returns the scene. These steps are expected to succeed.
 pub(crate) fn scene_before(loaded: &mut Loaded, step: usize) -> anyhow::Result<Scene> {
-    loaded
-        .scene_before(step, &INTERRUPT)
-        .context("a step before the failed step failed when it was run again")
+    loaded.scene_before(step, &INTERRUPT).context(
+        "the failed step cannot be reproduced: an earlier step failed when it was run again",
+    )
 }
 
 /// Writes a capsule: a recipe with the failed step and the steps after it, and the scene before the failed step.

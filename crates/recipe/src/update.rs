@@ -275,8 +275,8 @@ fn number_text(value: &Value) -> Result<&str, String> {
     }
 }
 
-/// Returns an error if the value comes from a parameter. Such a value is not updated, because other values may depend
-/// on the parameter.
+/// Returns an error if the value comes from a parameter. A value that comes from a parameter is not updated, because
+/// other values may depend on the parameter.
 fn not_from_parameter(value: &Value) -> Result<(), String> {
     match &value.kind {
         ValueKind::Call(call) if &*call.name.text == "arg" => Err(format!(

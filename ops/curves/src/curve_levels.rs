@@ -18,8 +18,8 @@ use scene::Geometry;
 
 /// Replaces curves by the levels of de Casteljau's algorithm.
 ///
-/// A curve with n control points becomes n polylines in the plane z = 0. The first is the control polygon
-/// with n points. Each following level has one point less. The last is the point of the curve at `t`.
+/// A curve with n control points becomes n polylines in the plane z = 0. The first polyline is the control polygon with
+/// n points. Each following polyline has one point less. The last polyline is the point of the curve at `t`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CurveLevels {

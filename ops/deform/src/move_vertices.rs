@@ -1,4 +1,4 @@
-//! Move vertices: moves selected vertices, and vertices near them by less.
+//! Move vertices: moves selected vertices, and moves nearby vertices by a smaller distance.
 //!
 //! ```text
 //!                                  v                     v
@@ -50,7 +50,7 @@ pub enum MoveBy {
 
 impl MeshOperation for MoveVertices {
     const NAME: &'static str = "MoveVertices";
-    const SUMMARY: &'static str = "Move vertices, and vertices near them by less";
+    const SUMMARY: &'static str = "Move vertices, and move nearby vertices by a smaller distance";
     const EXAMPLE: &'static str = "MoveVertices(vertices: Vertices([0]), by: Offset((0, 0, 0.5)))";
     const WORDS: &'static [&'static str] =
         &["translate", "drag", "proportional", "push", "inflate"];

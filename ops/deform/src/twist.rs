@@ -17,8 +17,8 @@ use crate::moved::{Stretch, moved, next};
 /// Rotates vertices around an axis, by an angle that grows along the axis.
 ///
 /// The angle grows linearly from 0 at `from` to `angle` at `to`. Below `from` and above `to`, vertices rotate by the
-/// angle of the nearer end. A twist keeps volumes, and a twist by the opposite angle undoes it. Source: Barr, "Global
-/// and Local Deformations of Solid Primitives", 1984.
+/// angle of the nearer end. A twist keeps volumes, and a twist by the opposite angle undoes the first twist. Source:
+/// Barr, "Global and Local Deformations of Solid Primitives", 1984.
 ///
 /// Faces, element numbers and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
 /// vertices move: refine the mesh first if its faces are large.

@@ -251,7 +251,7 @@ fn placed(
     let bytes = bytes.fold(0_u64, |sum, mesh| sum.saturating_add(mesh.bytes() as u64));
     if bytes > cx.budget {
         let message = format!(
-            "the instances take {bytes} bytes, but the budget is {}",
+            "the instances take {bytes} bytes, but the memory budget is {}",
             cx.budget
         );
         return Err(OpError::Budget(message));

@@ -169,7 +169,8 @@ impl Separate {
     /// Returns the plan of each part.
     fn part_of(&self, whole: &MeshPlan) -> MeshPlan {
         let mut part = whole.clone();
-        // Fans that meet at a vertex get copies of the vertex, at most one for each edge.
+        // If several fans of faces meet at a vertex, each fan gets a copy of the vertex: at most one copy for each
+        // edge.
         part.vertices = whole.vertices.plus(whole.edges).or_less();
         part.edges = whole.edges.or_less();
         part.faces = whole.faces.or_less();

@@ -421,7 +421,7 @@ fn placed<'s>(scene: &'s Scene, cx: &Context) -> Result<Cow<'s, Scene>, OpError>
     let bytes = scene.placed_bytes();
     if !scene.graph().is_empty() && bytes > cx.budget {
         let message = format!(
-            "the instances take {bytes} bytes, but the budget is {}",
+            "the instances take {bytes} bytes, but the memory budget is {}",
             cx.budget
         );
         return Err(OpError::Budget(message));

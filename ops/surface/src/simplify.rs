@@ -16,8 +16,8 @@ use op::prelude::*;
 ///
 /// Edges are collapsed, starting with the edges whose collapse changes the surface least. The change is the mean
 /// squared distance of the new vertex to the planes of the original triangles that it replaces (Garland, Heckbert,
-/// 1997). The step ends when `faces` or `ratio` is reached, or when every other collapse could exceed `error`. At least
-/// one of the three must be given. All faces must be triangles.
+/// 1997). The step ends when `faces` or `ratio` is reached, or when every remaining collapse could exceed `error`. At
+/// least one of the three must be given. All faces must be triangles.
 ///
 /// The following properties are kept:
 ///

@@ -74,7 +74,7 @@ impl MeshOperation for Tangents {
 }
 
 const NO_NORMALS: &str = "the mesh has no normals";
-const NORMALS_HELP: &str = "compute them first, such as with VertexNormals()";
+const NORMALS_HELP: &str = "compute normals first, for example with VertexNormals()";
 
 impl Tangents {
     fn no_uvs(&self) -> String {

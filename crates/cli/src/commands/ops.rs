@@ -119,7 +119,8 @@ fn described(schema: &Json) -> String {
         "\nParameters:\n"
     };
     text.extend(fields.iter().map(|field| field_text(field, "  ")));
-    // The variants of a parameter's type are listed with the parameter. The fields of the type are not listed with it.
+    // The variants of a parameter's type are listed with the parameter. The fields of the type are not listed with the
+    // parameter.
     let is_shown = |t: &TypeDoc| t.fields.is_empty() && fields.iter().any(|f| f.kind == t.name);
     let types = types(schema);
     for t in types.iter().filter(|t| !t.is_selection() && !is_shown(t)) {

@@ -201,7 +201,7 @@ impl Rerun {
         let [then, here] = [&stamp.program, &now.program];
         if then != here {
             reasons.push(format!(
-                "the file was written by {then}, but this is {here}"
+                "the file was written by {then}, but this program is {here}"
             ));
         }
         let [then, here] = [&stamp.recipe, &now.recipe];

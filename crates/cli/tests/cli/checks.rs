@@ -59,7 +59,7 @@ fn numbers_of_elements_that_do_not_exist() {
         &folder,
         &format!("{two}, (run: PokeFaces(faces: Faces([6])), on: [\"t\"])"),
     );
-    // Counts after a step of unknown effect are upper limits.
+    // After a step whose effect is unknown, the planned counts are upper limits.
     accepts(
         &folder,
         "Cube(), PokeFaces(), PokeFaces(faces: Faces([23]))",

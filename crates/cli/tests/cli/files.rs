@@ -311,7 +311,7 @@ fn a_rigged_character_is_converted_and_subdivided() {
     assert_eq!(json["objects"][0]["joints"], 2);
     assert_eq!(json["objects"][0]["morph_targets"], 1);
     assert_eq!(json["objects"][0]["faces"], 16);
-    // The losses of other formats are known before the run.
+    // For other formats, `check` lists the losses before the run.
     let checked = folder.run("check lost.ron").with_code(1);
     assert!(
         checked.stderr.contains("`on_loss` does not allow it"),

@@ -76,7 +76,7 @@ fn a_saved_recipe_and_a_saved_input_run_again() {
     watching.wait_for("wrote ./b.obj");
     watching.wait_for("watching one folder");
 
-    // Set parameters are kept, and only changed steps run.
+    // Parameters that were set are kept, and only changed steps run.
     let folder = folder.with("recipe.ron", RECIPE.replace("b.obj", "c.obj"));
     watching.wait_for("recipe.ron changed");
     let table = watching.wait_for("wrote ./c.obj");
@@ -84,7 +84,7 @@ fn a_saved_recipe_and_a_saved_input_run_again() {
     assert_eq!(cached, 2, "{table:#?}");
     watching.wait_for("watching");
 
-    // A mistake is reported, and then fixed.
+    // An error in the recipe is reported, and the recipe runs again after the error is fixed.
     let folder = folder.with(
         "recipe.ron",
         RECIPE.replace("LoopSubdivide", "LoopSubdivde"),

@@ -14,7 +14,8 @@ selection! {
         "edges",
         inside: "Edges whose vertices all lie in a region or on its surface.",
         shares: "a vertex",
-        nearest: "The edges whose midpoints are nearest to a point. Of equally near edges, those with the lower numbers."
+        nearest: "The edges whose midpoints are nearest to a point. If edges are equally near, those with the \
+                  lower numbers are selected."
     ) {
         /// Boundary edges: edges with a face on one side only.
         Boundary,
@@ -61,7 +62,7 @@ selection! {
             /// The number of the last vertex.
             to: u32,
         },
-        /// The longest edges. Of equally long edges, those with the lower numbers.
+        /// The longest edges. If edges are equally long, those with the lower numbers are selected.
         Longest {
             /// The number of edges. If fewer are available, all are selected.
             #[serde(default = "super::one")]

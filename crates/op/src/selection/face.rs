@@ -12,8 +12,8 @@ selection! {
         "faces",
         inside: "Faces whose vertices all lie in a region or on its surface.",
         shares: "a vertex",
-        nearest: "The faces whose centers (the means of their vertices) are nearest to a point. Of equally near \
-                  faces, those with the lower numbers."
+        nearest: "The faces whose centers (the means of their vertices) are nearest to a point. If faces are \
+                  equally near, those with the lower numbers are selected."
     ) {
         /// Faces with at least one boundary edge.
         Boundary,

@@ -19,7 +19,7 @@ impl Expectation {
             Self::Same { .. } | Self::DistanceTo { .. } | Self::SymmetricUnder { .. }
         );
         if compares && !subject.scene.graph().is_empty() {
-            // Places must be in object space, but these expectations compare instances in scene space.
+            // Places must be in object space, but expectations that measure in space compare instances in scene space.
             return places;
         }
         for (object, mesh) in subject.meshes().unwrap_or_default() {

@@ -102,7 +102,8 @@ impl<'m> PositionIndex<'m> {
     }
 }
 
-/// Orders vertices as a k-d tree. Stores with each vertex the coordinate by which it splits its part of the tree.
+/// Orders vertices as a k-d tree. Stores with each vertex the coordinate by which the vertex splits its part of the
+/// tree.
 fn split(mesh: &Mesh, tree: &mut [(VertexId, u8)]) {
     let positions = tree.iter().map(|&(v, _)| mesh.position(v));
     let Some((min, max)) = positions

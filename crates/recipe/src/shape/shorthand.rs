@@ -51,7 +51,8 @@ impl Checker {
         match fitting[..] {
             [one] => {
                 let place = trials.iter().position(|(name, ..)| *name == one);
-                let (_, _, trial) = trials.swap_remove(place.expect("its name is from `trials`"));
+                let (_, _, trial) =
+                    trials.swap_remove(place.expect("the name comes from `trials`"));
                 self.take(trial);
                 let (span, name) = (value.span, one.into());
                 self.shorts.push(Short { span, name });

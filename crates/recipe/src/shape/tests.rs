@@ -185,7 +185,7 @@ fn valid_parameters_have_no_errors_and_are_read_by_ron() {
             .iter()
             .any(|name| source.contains(name))
         {
-            // Without a schema, the name of a struct looks like a variant, and `()` like a unit.
+            // Without a schema, the name of a struct looks like a variant, and `()` looks like a unit.
             continue;
         }
         // `to_json` gives the same JSON as serde, except for defaults.

@@ -4,8 +4,8 @@
 //!   scene <-- P -- parent <-- L -- node <-- points of the object
 //! ```
 //!
-//! L places the node in its parent, and P places the parent in the scene. A map M of the scene moves a point from P L p
-//! to M P L p. So the new placement of the node is P'^-1 M P L, where P' places the parent after the move. If the
+//! L places the node in its parent, and P places the parent in the scene. A map M in scene space moves a point from P L
+//! p to M P L p. So the new placement of the node is P'^-1 M P L, where P' places the parent after the move. If the
 //! parent has moved by M itself, P' = M P, and the placement does not change.
 
 use glam::{DAffine3, DVec3};
@@ -26,7 +26,7 @@ impl Transform {
         cx: &Context,
     ) -> Result<Report, OpError> {
         let graph = scene.graph();
-        // For each node, the map of the scene that the node must move by.
+        // For each node, the map in scene space by which the node must move.
         let mut maps: Vec<Option<DAffine3>> = vec![None; graph.nodes().len()];
         let mut n_points = 0;
         let nodes_of = graph.nodes_of_objects();
@@ -100,14 +100,14 @@ fn insert_parents(scene: &mut Scene, maps: &mut Vec<Option<DAffine3>>) -> usize 
     maps.len() - before
 }
 
-/// Moves each node by its map of the scene. A node without a map moves along with its parent. If `only_moves` is set,
+/// Moves each node by its map in scene space. A node without a map moves along with its parent. If `only_moves` is set,
 /// the maps neither scale nor rotate.
 fn move_by(scene: &mut Scene, maps: &[Option<DAffine3>], only_moves: bool) -> Result<(), OpError> {
     let old = scene.graph().to_scene();
     let nodes = scene.graph().nodes();
     let mut placements: Vec<Placement> = nodes.iter().map(|node| node.placement).collect();
     let mut new: Vec<DAffine3> = Vec::with_capacity(nodes.len());
-    // The map of the scene by which each node has moved.
+    // For each node, the map in scene space by which the node has moved.
     let mut moved: Vec<Option<DAffine3>> = Vec::with_capacity(nodes.len());
     for (i, node) in nodes.iter().enumerate() {
         let of_parent = node.parent.and_then(|parent| moved[parent]);

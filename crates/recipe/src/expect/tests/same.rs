@@ -177,8 +177,8 @@ fn a_cube_has_24_rotations_and_48_motions() {
 
 #[test]
 fn a_tetrahedron_has_half_of_the_symmetries_of_a_cube() {
-    // The vertices of the tetrahedron are every second vertex of a cube, so half of the motions of the cube map the
-    // tetrahedron onto itself.
+    // The vertices of the tetrahedron are four of the eight vertices of a cube, so half of the motions of the cube map
+    // the tetrahedron onto itself.
     let tetrahedron = scene([("a", shapes::tetrahedron())]);
     holds_and_fails(
         &tetrahedron,
@@ -232,7 +232,7 @@ fn a_vertex_that_moves_breaks_symmetries_unless_the_tolerance_allows_it() {
     let mut dented = shapes::cube();
     dented.positions_mut()[7] *= 0.99;
     let dented = scene([("dented", dented)]);
-    // Only the three rotations about the diagonal through the dent remain.
+    // The mesh stays the same only under the three rotations about the diagonal through the dent.
     assert_eq!(
         check(&dented, "SymmetricUnder(group: CubeRotations)"),
         Err("expected 24 symmetries, found 3".to_owned())

@@ -175,8 +175,8 @@ impl Folder {
         let _ = fs::remove_file(path);
     }
 
-    /// Marks a file as used and returns true. If the file cannot be opened or was already marked within
-    /// [`TOUCH_INTERVAL`], returns false and does not mark it.
+    /// Marks a file as used and returns true. Returns false and does nothing if the file cannot be opened, or was
+    /// already marked within [`TOUCH_INTERVAL`].
     pub(crate) fn touch(path: &Path) -> bool {
         let now = SystemTime::now();
         let Ok(file) = File::open(path) else {

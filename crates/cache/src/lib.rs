@@ -16,15 +16,15 @@
 //! cached result is used, the contents of these files are compared again. Modification times are not used to compare
 //! files.
 //!
-//! **Integrity.** Only regular files are read, never links, and never more bytes than were stored. Every blob must
+//! **Integrity.** Only regular files are read, not links, and at most as many bytes as were stored. Every blob must
 //! match the digest in its name. Every record must match its digest, which depends on the secret key of the cache. Only
 //! the user can read that key, so an edited record is rejected even if its digest was computed again. The arrays of a
 //! scene are validated. A damaged file is removed and treated as missing. Files are written under a temporary name and
 //! then renamed, so that neither concurrent nor killed processes leave incomplete files; no locks are needed. If the
 //! folder cannot be written, the problem is reported once, and the run continues without storing anything.
 //!
-//! **What is stored.** Records are always stored. Scenes and files of fewer than [`ALWAYS_STORED`] bytes are always
-//! stored too. A larger scene is stored if the computation since the last stored scene took longer than storing the
+//! **What is stored.** Records are always stored. Scenes and files of fewer than [`ALWAYS_STORED`] bytes are also
+//! always stored. A larger scene is stored if the computation since the last stored scene took longer than storing the
 //! scene takes (at [`BYTES_PER_SECOND`]). A first run that stores its results therefore takes at most about twice as
 //! long, and recomputing a scene in a later run takes no longer than storing the scene would have taken. The same rule
 //! applies to large output files, but the time for loading the scene is added to the computing time. Equal arrays are

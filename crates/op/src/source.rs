@@ -91,7 +91,7 @@ impl<'a> Source<'a> {
     }
 
     /// Adds the object at the end of a scene. `make` creates the mesh and is called only if there are no problems, the
-    /// name is not taken and the memory is sufficient.
+    /// name is free and the memory is sufficient.
     ///
     /// # Errors
     ///

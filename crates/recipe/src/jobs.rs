@@ -69,8 +69,7 @@ impl<B, S, W> Jobs<B, S, W> {
     /// order in which they ended. Every job is passed to `ended` exactly once.
     ///
     /// Jobs start in the order of their indices. A job starts when its bytes and the bytes of the running jobs together
-    /// are within the budget. A job that exceeds the budget by itself runs alone. A panic ends only the job that
-    /// panicked.
+    /// are within the budget. A single job that exceeds the budget runs alone. A panic ends only the job that panicked.
     ///
     /// This method blocks, so it must not be called from a thread of a rayon pool.
     ///

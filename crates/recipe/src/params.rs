@@ -173,8 +173,7 @@ impl Param {
             }
             (Self::Choice { of, .. }, ValueKind::String(text) | ValueKind::Name(text)) => {
                 let word = text.chars().all(|c| c.is_alphanumeric() || c == '_');
-                // Words from the command line arrive as texts. In these texts, upper and lower case are not
-                // distinguished.
+                // Words from the command line arrive as texts. In words from the command line, case does not matter.
                 let is_text = matches!(written.kind, ValueKind::String(_));
                 let same = |choice: &&String| ***choice == **text;
                 let similar = |choice: &&String| is_text && choice.eq_ignore_ascii_case(text);

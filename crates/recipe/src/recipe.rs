@@ -56,7 +56,7 @@ pub struct Parameter {
     pub origin: Origin,
 }
 
-/// Where the value of a parameter comes from. Later variants take precedence over earlier ones.
+/// Where the value of a parameter comes from. Later variants of this enumeration take precedence over earlier variants.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Origin {
     /// The default in the recipe.

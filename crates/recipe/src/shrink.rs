@@ -2,7 +2,7 @@
 //!
 //! Faces are removed in blocks. The size of the blocks is halved until the blocks are single faces, as in the algorithm
 //! ddmin of Zeller and Hildebrandt, "Simplifying and Isolating Failure-Inducing Input", 2002. Vertices keep their ids
-//! until the end. Then isolated vertices are removed too, if the step still fails without them.
+//! until the end. At the end, isolated vertices are removed, if the step still fails without them.
 
 use std::sync::Arc;
 

@@ -236,7 +236,8 @@ impl Parser<'_> {
                     if !pairs || !starts_value(self.current.kind) {
                         return;
                     }
-                    // In `[a: 1]`, only the colon is an error: the missing comma before the 1 is not reported too.
+                    // In `[a: 1]`, only the colon is reported as an error. The missing comma before the 1 is not
+                    // reported.
                     self.value("a value");
                 }
                 _ => return self.missing("`,`"),
@@ -336,7 +337,7 @@ impl Parser<'_> {
             let text = format!("and this `{}`", open.bracket.open());
             diagnostic = diagnostic.with_label(open.span, text);
         }
-        // The outer groups end here too, but `complain` reports only the first error about `current`.
+        // The outer groups also end here, but `complain` reports only the first error about `current`.
         self.complain(diagnostic);
     }
 }

@@ -1,4 +1,4 @@
-//! Parses a text into a tree of values. A text with errors gives a tree too.
+//! Parses a text into a tree of values. A text with errors also becomes a tree.
 //!
 //! Each error gives one diagnostic, and parsing continues after it. To recover from a bracket error, the parser assumes
 //! that only one bracket is missing or mistyped, that line breaks and indentation are right, and that each item of a

@@ -21,7 +21,7 @@ pub fn field_span(value: &Value, path: &[String]) -> Span {
                 (value, deepest, rest, is_variant_matched) = (inner, inner, after, false);
             }
             Step::Variant => (deepest, rest, is_variant_matched) = (value, after, true),
-            // The inner value may match the item.
+            // The inner value may match the item of the path.
             Step::Through(inner) => (value, is_variant_matched) = (inner, false),
             Step::NotFound => break,
         }

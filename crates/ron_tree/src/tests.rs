@@ -386,7 +386,7 @@ proptest! {
             prop_assert!(text.get(span.range()).is_some(), "{:?}", d);
         }
         let _ = (to_json(&parsed.value), parsed.value.to_string());
-        // A text without diagnostics has no values that could not be read.
+        // If a text has no diagnostics, all its values could be read.
         if parsed.diagnostics.is_empty() {
             prop_assert!(!parsed.value.has_errors());
         }

@@ -8,10 +8,10 @@
 //!    a ------- b          a ------- b          '---'                  '---'
 //! ```
 //!
-//! A face with n corners becomes n - 2 triangles, which take its place in the order of the faces. Vertices and edges
+//! A face with n corners becomes n - 2 triangles, which replace the face in the order of the faces. Vertices and edges
 //! keep their numbers, and the n - 3 diagonals are added at the end. [`Triangulate`] documents which diagonals are
-//! chosen. The half-edges of the mesh are kept and new ones are added. The mesh is not built again from triangles, so
-//! a closed mesh stays closed even where two diagonals join the same two vertices.
+//! chosen. The half-edges of the mesh are kept and new ones are added. The mesh is not built again from triangles, so a
+//! closed mesh stays closed even where two diagonals join the same two vertices.
 
 mod assemble;
 mod duplicates;
@@ -26,7 +26,7 @@ use rayon::prelude::*;
 /// A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length (the relative difference
 /// of their squared lengths is at most 1e-12), it is cut along the diagonal at its vertex with the lowest number. A
 /// diagonal that gives a triangle without area, or a triangle that is turned over relative to the normal of the face,
-/// is chosen only if the other diagonal is no better. A quadrilateral with a reflex corner is therefore cut at that
+/// is chosen only if the other diagonal is not better. A quadrilateral with a reflex corner is therefore cut at that
 /// corner. If a diagonal would join two vertices that are already joined by an edge or another diagonal, the other
 /// diagonal is chosen where possible. The remaining duplicate diagonals are counted.
 ///
@@ -34,7 +34,7 @@ use rayon::prelude::*;
 /// until it is a constrained Delaunay triangulation. A face that cannot be triangulated in this way, because it has no
 /// area or its sides cross, becomes a triangle fan around its vertex with the lowest number, and is counted.
 ///
-/// The triangles take the place of their face in the order of the faces and have its values. Vertices and edges keep
+/// The triangles replace their face in the order of the faces and have the values of the face. Vertices and edges keep
 /// their numbers. The corners of the triangles have the values of the corners of the face at the same vertices.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]

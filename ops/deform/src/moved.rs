@@ -53,8 +53,8 @@ pub(crate) struct Stretch {
 }
 
 impl Stretch {
-    /// Creates the part between the coordinates `from` and `to` of the axis through `about`. A missing coordinate stands
-    /// for the end of the mesh.
+    /// Creates the part between the coordinates `from` and `to` of the axis through `about`. If a coordinate is
+    /// missing, the end of the mesh is used.
     pub(crate) const fn new(
         axis: Axis,
         about: Vector,

@@ -61,7 +61,7 @@ impl MeshOperation for CollapseEdges {
         let selected = self.edges.count(plan);
         let n = self.on_refusal.done(selected);
         // On each side of an edge, a triangle is removed and two edges become one. Faces with more than three corners
-        // remain, and so do holes.
+        // and holes remain.
         let least = u64::from(plan.is_triangles());
         let faces = n.times(Range { min: least, max: 2 });
         plan.vertices = plan.vertices.minus(n);

@@ -14,7 +14,7 @@ use op::prelude::*;
 /// Removes faces and leaves holes.
 ///
 /// All faces are removed at once, so their order does not matter. Edges left without a face are removed. Vertices that
-/// lose their last edge are removed too, unless `keep_vertices` is true. Vertices that were isolated before the step
+/// lose their last edge are also removed, unless `keep_vertices` is true. Vertices that were isolated before the step
 /// are kept. The remaining elements keep their order and their values but are renumbered. To delete edges or vertices
 /// together with their faces, use `FacesBeside(edges)` or `FacesAround(vertices)`.
 ///

@@ -72,7 +72,7 @@ impl Operation for Separate {
         }
         let part = self.part_of(mesh);
         let Some(count) = self.count.map(Count::get) else {
-            // The number of parts, and so their names, are unknown.
+            // The number of parts is unknown, so the names of the parts are unknown.
             plan.objects_mut().remove(place);
             plan.incomplete = true;
             return Vec::new();

@@ -31,7 +31,7 @@ use crate::transform::map::Map;
 /// Points are first scaled, then rotated, then moved. The points of meshes, patches, curves and polylines are changed,
 /// unless nodes of a glTF file place the object. An object that nodes place is moved by changing the placements of its
 /// nodes, and everything below these nodes moves along. A skinned mesh is moved with its joints. A node whose placement
-/// is animated gets a parent, which is moved instead. Without `on:`, root nodes with cameras and lights move too,
+/// is animated gets a parent, which is moved instead. Without `on:`, root nodes with cameras and lights also move,
 /// unless `about` is `Center`. A curve must stay in the plane z = 0.
 ///
 /// Ids do not change. Normals and the deltas of morph targets are transformed; other attributes do not change. A mirror (one or three negative factors in
@@ -65,7 +65,7 @@ pub enum Space {
     /// The scene. The placements of nodes change; an object that no node places changes its points.
     #[default]
     Scene,
-    /// The space of each object. The points change, and so do all instances of the object.
+    /// The space of each object. The points of the object change, and therefore all instances of the object.
     Object,
 }
 

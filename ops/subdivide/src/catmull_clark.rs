@@ -43,10 +43,10 @@ use crate::step::{Step, Until};
 /// the vertex on edge e has the id V + e, the vertex at the center of face f has the id V + E + f, and edge e becomes
 /// edges 2e and 2e + 1. Quads are numbered face by face, in order of the corners.
 ///
-/// Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner
-/// values are smoothed as `face_varying` says, and seams are kept. Parts of an edge or a face copy the values
-/// of the old edge or face. Normals are dropped, because they would be wrong. Edges and vertices that `Crease`
-/// made sharp stay sharp for as many levels as their sharpness says.
+/// Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values are
+/// smoothed according to `face_varying`, and seams are kept. Parts of an edge or a face copy the values of the old edge
+/// or face. Normals are dropped, because they would be wrong. Edges and vertices that `Crease` made sharp stay sharp
+/// for a number of levels that is equal to their sharpness.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CatmullClark {

@@ -41,10 +41,10 @@ use crate::step::{Step, Until};
 /// V - E + F does not change. Old vertices keep their ids, the vertex on edge e has the id V + e, edge e becomes
 /// edges 2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
 ///
-/// Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner
-/// values are smoothed as `face_varying` says, and seams are kept. Parts of an edge or a triangle copy the
-/// values of the old edge or triangle. Normals are dropped, because they would be wrong. Edges and vertices
-/// that `Crease` made sharp stay sharp for as many levels as their sharpness says.
+/// Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values are
+/// smoothed according to `face_varying`, and seams are kept. Parts of an edge or a triangle copy the values of the old
+/// edge or triangle. Normals are dropped, because they would be wrong. Edges and vertices that `Crease` made sharp stay
+/// sharp for a number of levels that is equal to their sharpness.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct LoopSubdivide {

@@ -4,7 +4,7 @@ use mesh::{CORNER_NORMAL, CORNER_TANGENT, DVec2, Domain, VERTEX_NORMAL, Value};
 use op::Refusal;
 use op::prelude::*;
 
-/// Computes tangents for normal maps by the `MikkTSpace` algorithm, which other tools use too.
+/// Computes tangents for normal maps by the `MikkTSpace` algorithm, which many other tools also use.
 ///
 /// The mesh needs texture coordinates and normals, such as the normals that `VertexNormals` computes. The tangents are
 /// written to the corner attribute `tangent`, which is replaced if it exists: a unit vector perpendicular to the normal

@@ -122,7 +122,7 @@ pub(crate) struct BatchArgs {
     pub(crate) many: ManyArgs,
 }
 
-/// One of several parts of a list of files.
+/// One part of a list of files that is divided into several parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(expecting = "an object")]
 pub(crate) struct Shard {

@@ -310,7 +310,7 @@ fn is_cancelled(error: &anyhow::Error) -> bool {
     matches!(error.downcast_ref(), Some(op::OpError::Cancelled))
 }
 
-/// Writes one image as PNG, and with `say` prints its path and size.
+/// Writes one image as PNG. If `say` is set, prints the path and the size of the image.
 pub(crate) fn write_png(image: &Image, path: &Path, say: bool) -> anyhow::Result<()> {
     let bytes = image.to_png_with_progress(&[("Software", STAMP)], &INTERRUPT)?;
     if say {

@@ -112,7 +112,7 @@ struct FolderWatcher {
     folders: BTreeSet<PathBuf>,
     /// Knows the files that the recipe reads: changes of other files are ignored.
     disk: Arc<RecordingDisk>,
-    /// Files that the runs write. Changes of these files are ignored too.
+    /// Files that the runs write. Changes of files that the runs write are ignored.
     ignored: Mutex<BTreeSet<PathBuf>>,
     /// A file that has changed since the last call of [`wait`](Self::wait), if any.
     pending: Mutex<Option<PathBuf>>,

@@ -245,7 +245,7 @@ fn an_output_can_be_expected_to_differ() {
         .complains(&["not to hold, but it does"]);
     change_a_pixel(&folder, "goldens/sheet.png", 0, 1);
     folder.run("test recipe.ron").with_code(0);
-    // If the files cannot be compared, `Not` fails too.
+    // If the files cannot be compared, `Not` also fails.
     std::fs::remove_file(folder.path("goldens/sheet.png")).unwrap();
     folder
         .run("test recipe.ron --update")

@@ -13,7 +13,8 @@ selection! {
         "vertices",
         inside: "Vertices in a region or on its surface.",
         shares: "an edge",
-        nearest: "The vertices nearest to a point. If vertices are equally near, those with the lower numbers are selected."
+        nearest: "The vertices nearest to a point. If vertices are equally near, those with the lower \
+                  numbers are selected."
     ) {
         /// Vertices with a boundary edge.
         Boundary,

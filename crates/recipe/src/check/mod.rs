@@ -297,7 +297,7 @@ fn missing_file(files: &Files, path: &Path, span: Span) -> Option<Diagnostic> {
 }
 
 /// The totals over all meshes of a plan. If a step only adds objects, only the new objects are counted, so that
-/// unchanged objects take no time.
+/// counting takes no time for unchanged objects.
 struct Totals {
     /// The number of objects that are counted.
     objects: usize,

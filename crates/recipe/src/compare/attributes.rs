@@ -97,7 +97,7 @@ fn values<I: Id>(a: &Column, b: &Column, first: &[I], second: &[I]) -> ColumnDif
     let (mut count, mut most, mut element) = (0, 0.0, None);
     for (&i, &j) in first.iter().zip(second) {
         let by = largest_difference(&a.values, i.index(), &b.values, j.index());
-        // A NaN counts as a difference too.
+        // A NaN also counts as a difference.
         if by == 0.0 {
             continue;
         }

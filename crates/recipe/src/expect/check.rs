@@ -267,8 +267,8 @@ fn count(of: &Elements, object: &Object, mesh: &Mesh, subject: Subject) -> Resul
     Ok(n as u64)
 }
 
-/// Checks that the Hausdorff distance is proven to be below a limit. For a small limit, the tolerance of the
-/// measurement is a fraction of the limit, so that small limits can be checked too.
+/// Checks that the Hausdorff distance is proven to be below a limit. If the limit is small, the tolerance of the
+/// measurement is a fraction of the limit, so that small limits can also be checked.
 fn distance_below(
     mesh: &Mesh,
     other: &Mesh,

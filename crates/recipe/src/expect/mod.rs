@@ -262,7 +262,7 @@ pub enum Expectation {
         #[serde(default)]
         #[schemars(range(min = 0.0))]
         tolerance: f64,
-        /// Whether the faces must be the same too.
+        /// Whether the faces must also be the same.
         #[serde(default = "yes")]
         connectivity: bool,
     },
@@ -291,7 +291,7 @@ pub enum Expectation {
         #[serde(default = "tolerance")]
         #[schemars(range(min = 0.0))]
         tolerance: f64,
-        /// Whether every face must be mapped onto a face too.
+        /// Whether every face must also be mapped onto a face.
         #[serde(default = "yes")]
         connectivity: bool,
     },

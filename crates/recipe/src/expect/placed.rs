@@ -37,7 +37,7 @@ impl<'a> PlacedSubject<'a> {
             let message = format!("expected 1 instance of \"{other}\", found {n}");
             return Err(message.into());
         }
-        // An object without instances cannot exist, so an unknown name stays unknown.
+        // Every object has at least one instance, so a name without instances is unknown and stays in the list.
         let on = subject.on.map(|on| {
             let names = on.iter().flat_map(|name| {
                 let of_object = instances.iter().filter(|i| i.object.name == *name);

@@ -120,7 +120,7 @@ impl Reader<'_, '_> {
 
     fn choice(&mut self, run: &Value, bodies: [Vec<Value>; 2], is_whole: bool) -> Vec<Draft> {
         let [then, otherwise] = bodies;
-        // Both branches are read, so that errors in the branch that is not taken are found too.
+        // Both branches are read, so that errors are also found in the branch that is not taken.
         let known = self.ids.len();
         let then = self.steps(then);
         // Only one branch is taken, so a step in each branch can have the same id.

@@ -12,7 +12,8 @@ use crate::shape::{Rename, check_shape, check_step, unread};
 use crate::unknown_operation::suggest_operations;
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
-/// After this number of problems, errors about unknown operations have no suggestions, which take long to find.
+/// After this number of problems, errors about unknown operations have no suggestions, because finding suggestions
+/// takes long.
 const MAX_SUGGESTIONS: usize = 1000;
 
 impl Reader<'_, '_> {

@@ -30,7 +30,7 @@ pub trait Listener: Progress {
     fn scene_after(&self, _number: usize, _scene: &Scene) {}
     /// Called when a step fails or an expectation does not hold.
     fn failed(&self, _: &Failure) {}
-    /// Whether to find the elements that violate an expectation, which takes time.
+    /// Whether to find the elements that violate an expectation. The search takes time.
     fn wants_places(&self) -> bool {
         false
     }

@@ -86,7 +86,7 @@ fn repeated_extrusions_of_a_cube_give_one_closed_component() {
         "(faces: Faces([1]), by: Distance(0.4), scale: 1.8)",
         "(faces: Faces([1]), by: Distance(0.8))",
         "(faces: Faces([1]), by: Distance(0.3), scale: 0.6, tag: \"crown\")",
-        // Both arms at once, to the right and to the left. Then the right arm is bent upwards.
+        // One step grows both arms, to the right and to the left. Then the right arm is bent upwards.
         "(faces: Faces([3, 5]), by: Distance(0.5), scale: 0.4, tag: \"arms\")",
         "(faces: Faces([3, 5]), by: Distance(1.5), scale: 0.8)",
         "(faces: Faces([3]), by: Distance(0.5), rotate: [(axis: Y, angle: -60)])",
@@ -107,7 +107,7 @@ fn repeated_extrusions_of_a_cube_give_one_closed_component() {
     );
     assert!(mesh.faces().all(|f| mesh.degree(f) == 4));
     assert!(mesh.face_normal(FaceId::new(3)).z > 0.8);
-    // Side faces of tagged faces are also tagged, in later steps too.
+    // Side faces of tagged faces are also tagged, even in later steps.
     let arms = mesh.tag(Domain::Face, "arms").unwrap();
     assert_eq!(arms.iter().filter(|&&a| a).count(), 2 + 8 + 8 + 4 + 4);
     let legs = mesh.tag(Domain::Face, "legs").unwrap();

@@ -1,8 +1,9 @@
 //! Finds pairs of boundary edges that coincide.
 //!
-//! Edges are sorted into a grid of cubic cells by their midpoints. If the ends of two edges are close together, so are
-//! their midpoints. An edge is therefore compared only with the edges in its cell and the 26 neighboring cells. The edges
-//! are visited in the order of their cells, so that the neighboring cells are found without searching.
+//! Edges are sorted into a grid of cubic cells by their midpoints. If the ends of two edges are close together, the
+//! midpoints of the edges are also close together. An edge is therefore compared only with the edges in its cell and
+//! the 26 neighboring cells. The edges are visited in the order of their cells, so that the neighboring cells are found
+//! without searching.
 
 use mesh::{DVec3, HalfEdgeId, Mesh};
 use op::{Context, OpError};

@@ -50,8 +50,8 @@ pub(crate) fn appended(parts: &[&Object], numbers: &[Vec<i32>], report: &mut Rep
     all
 }
 
-/// Replaces the material numbers of the faces by the numbers of the merged materials. Faces without a material get -1,
-/// and so do all faces of parts without the attribute if another part has it.
+/// Replaces the material numbers of the faces by the numbers of the merged materials. Faces without a material get -1.
+/// If only some parts have the attribute, all faces of the other parts also get -1.
 fn renumber_materials(
     columns: &mut [Attributes],
     numbers: &[Vec<i32>],

@@ -247,7 +247,7 @@ fn planned_counts_are_exact_for_every_scheme_on_every_fixture() {
                 }
                 let exactly = MeshPlan::of(&new);
                 if scheme == Scheme::DooSabin && levels > 0 {
-                    // A plan does not know the number of vertices that do not become faces.
+                    // Some vertices do not become faces. A plan does not know their number.
                     for (planned, exactly) in [
                         (&mut plan.vertices, exactly.vertices),
                         (&mut plan.edges, exactly.edges),

@@ -145,7 +145,7 @@ impl<'a> Batch<'a> {
     /// Returns the digest of everything that the row of an input file depends on; `None` if an input cannot be read.
     pub(super) fn key(&self, file: &Input, loaded: &Loaded) -> Option<String> {
         let mut hasher = blake3::Hasher::new();
-        // The length of each hashed piece of data is hashed too, so that different lists of pieces have different
+        // The length of each hashed piece of data is also hashed, so that different lists of pieces have different
         // digests.
         let mut part = |bytes: &[u8]| {
             hasher.update(&(bytes.len() as u64).to_le_bytes());

@@ -17,7 +17,7 @@
 //!                 "milliseconds":20.5}
 //! ```
 //!
-//! `format` is the version of this format. New events and fields can be added without a new version; readers must
+//! `format` is the version of the event format. New events and fields can be added without a new version; readers must
 //! ignore events and fields that they do not know. Steps are numbered from 1. `end` is always the last line, even if
 //! the recipe has errors and does not run. Unknown values are `null`.
 

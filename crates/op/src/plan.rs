@@ -248,7 +248,7 @@ impl MeshPlan {
             .retain(|a| a.domain != domain || a.name != name);
     }
 
-    /// Removes the normals and tangents of vertices and corners. For operations that change the shape.
+    /// Removes the normals and tangents of vertices and corners. Used by operations that change the shape.
     pub fn drop_normals(&mut self) {
         self.drop_attribute(Domain::Vertex, VERTEX_NORMAL.name);
         self.drop_attribute(Domain::Corner, CORNER_NORMAL.name);

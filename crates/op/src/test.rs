@@ -115,7 +115,7 @@ pub fn planned(operation: &impl MeshOperation, mesh: &Mesh) -> (MeshPlan, Vec<Pr
 ///
 /// # Panics
 ///
-/// As [`applied`], and if a count or degree is outside of its planned range.
+/// In the same cases as [`applied`], and if a count or degree is outside of its planned range.
 pub fn applied_as_planned(operation: &impl MeshOperation, mesh: &Mesh) -> Mesh {
     let new = applied(operation, mesh.clone());
     assert!(is_as_planned(operation, mesh, &new), "the plan holds");

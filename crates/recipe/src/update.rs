@@ -3,7 +3,7 @@
 //!
 //! Recorded values are `eq`, `is`, the corners of `Bounds`, `Digest`, and the reference file of `Output`. Requirements
 //! are never changed: one-sided bounds such as `min` and `below`, and conditions such as `Manifold`. Values that come
-//! from parameters are never changed either.
+//! from parameters are also never changed.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;

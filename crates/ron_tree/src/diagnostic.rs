@@ -17,8 +17,8 @@ pub struct Diagnostic {
     pub labels: Vec<(Span, String)>,
     /// How to correct the text.
     pub help: Option<String>,
-    /// The calls that led to the text, innermost first. Each has the index of the calling text and the span of the call
-    /// in that text.
+    /// The calls that led to the text, innermost first. Each call has the index of the calling text and the span of the
+    /// call in that text.
     pub calls: Vec<(usize, Span)>,
 }
 

@@ -120,8 +120,9 @@ impl<'s> Lexer<'s> {
     /// Creates a lexer for `source`.
     ///
     /// A string can span several lines. If the text has an unclosed string, a quote is missing somewhere, and after the
-    /// missing quote all strings would be read as other tokens, and all other tokens as strings. In that case, every
-    /// string ends at the end of its line at the latest, so that only the line with the missing quote is misread.
+    /// missing quote all strings would be read as other tokens, and all other tokens as strings. In a text with an
+    /// unclosed string, every string ends at the end of its line at the latest, so that only the line with the missing
+    /// quote is misread.
     pub fn new(source: &'s str) -> Self {
         let mut lexer = Self {
             source,

@@ -79,7 +79,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Whether `current` seems to start an item of an outer group. Then the closing bracket of the innermost group is
+    /// Whether `current` seems to start an item of an outer group. If so, the closing bracket of the innermost group is
     /// missing.
     pub(super) fn belongs_outside(&self, contents: &Contents) -> bool {
         let Lexeme {

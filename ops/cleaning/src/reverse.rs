@@ -94,7 +94,7 @@ mod tests {
             (geometry::volume(&reversed) - (geometry::volume(&mesh) - 2.0 * small)).abs() < 1e-12
         );
         assert_eq!(report.changed, 4);
-        // Reversing the components one after the other equals reversing the mesh.
+        // Reversing the components one after the other has the same result as reversing the whole mesh.
         let both = applied(&faces(&[0, 1, 2, 3, 4, 5]), reversed);
         assert_eq!(both, mesh.reversed());
     }

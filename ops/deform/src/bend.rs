@@ -16,8 +16,8 @@ use crate::moved::{Stretch, moved, next};
 
 /// Bends an axis, and everything around it, into an arc of a circle.
 ///
-/// The plane at `from` stays. Between `from` and `to`, the axis becomes an arc that keeps its length and turns by
-/// `angle` in total. Beyond `to`, everything moves rigidly. Vertices between the axis and the center of the circle come
+/// The plane at `from` does not move. Between `from` and `to`, the axis becomes an arc that keeps its length and turns
+/// by `angle` in total. Vertices beyond `to` move rigidly. Vertices between the axis and the center of the circle come
 /// closer together, and vertices on the other side of the axis move apart. The center is at the distance (to - from) /
 /// angle from the axis, with the angle in radians. Parts of the mesh beyond the center turn inside out. Source: Barr,
 /// "Global and Local Deformations of Solid Primitives", 1984.

@@ -12,7 +12,7 @@ use op::prelude::*;
 ///
 /// Edges are removed in order of their numbers. Each removal is checked against the mesh as edited so far. After a
 /// removal, the mesh has 1 edge and 1 face less. Of the two faces beside the edge, the one with the lower number is
-/// kept, with its values. No vertex is removed or moves. To remove vertices that are left with two edges, use
+/// kept, with its values. No vertex is removed or moved. To remove vertices that are left with two edges, use
 /// `DissolveVertices(vertices: Valence(2))` in a later step. The remaining elements keep their order and their values
 /// but are renumbered.
 ///

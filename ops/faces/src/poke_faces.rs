@@ -14,10 +14,10 @@ use op::prelude::*;
 ///
 /// A face with n corners becomes n triangles. Each poked face adds 1 vertex, n edges and n - 1 faces. The first
 /// triangle keeps the number of the face; the other triangles and the new vertices and edges are numbered last, in
-/// order of the faces. The vertex is at the mean of the corners, moved along the normal of the face by `distance`. The
-/// vertex and corner values of the new vertex are also means, if the type of the attribute allows means. The triangles
-/// have the values of their face, and the new edges have zero values (no crease, no tags). If `distance` is not 0,
-/// normals are dropped.
+/// order of the faces. The new vertex is at the mean of the corners, moved along the normal of the face by `distance`.
+/// The vertex and corner values of the new vertex are also means, if the type of the attribute allows means. The
+/// triangles have the values of their face, and the new edges have zero values (no crease, no tags). If `distance` is
+/// not 0, normals are dropped.
 ///
 /// A face is refused only if the position of the new vertex would not be finite, or if the mesh already has the largest
 /// supported number of elements.

@@ -42,8 +42,8 @@ pub struct Load {
     /// What to do with vertices without a face.
     #[serde(default)]
     pub isolated: CleanupPolicy,
-    /// What to do with the nodes of a glTF file. If they are kept, steps change a mesh in its own space, once for all
-    /// nodes that show it.
+    /// What to do with the nodes of a glTF file. If the nodes are kept, steps change a mesh in its own space, once for
+    /// all nodes that show the mesh.
     #[serde(default)]
     pub placements: Placements,
     /// If true, the step fails if anything in the file would be left out.

@@ -25,7 +25,8 @@ pub struct Save {
     /// images, so embedded images are written to files too.
     #[serde(default)]
     pub images: Option<Images>,
-    /// How to compress the geometry of `.glb` and `.gltf` files without loss. If omitted, it is not compressed.
+    /// How to compress the geometry of `.glb` and `.gltf` files without loss. If omitted, the geometry is not
+    /// compressed.
     #[serde(default)]
     pub compress: Option<Compression>,
     /// The numbers of bits with which the geometry of `.glb` and `.gltf` files is stored. If omitted, numbers are floats

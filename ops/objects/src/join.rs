@@ -27,14 +27,14 @@ use crate::join::skin::KeptSkin;
 /// scene; the other meshes are removed.
 /// Nodes that place a part are applied to its points, once for each node, and the result has no node.
 ///
-/// If a part lacks an attribute that another part has, its elements get the value zero, or -1 (no material) for
-/// material numbers. Normals are dropped and reported as lost unless all parts have them. If an attribute of a part has
-/// a different type than in earlier parts, the attribute of this part is dropped and reported as lost. Equal materials
-/// become one.
+/// If a part lacks an attribute that another part has, the elements of this part get the value zero, or -1 (no
+/// material) for material numbers. Normals are dropped and reported as lost unless all parts have them. If an attribute
+/// of a part has a different type than in earlier parts, the attribute of this part is dropped and reported as lost.
+/// Equal materials become one.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Join {
-    /// The names of the meshes. At least one, without duplicates.
+    /// The names of the meshes. At least one name, without duplicates.
     pub objects: Vec<String>,
     /// The name of the result. This name may be the name of one of the meshes.
     pub name: String,

@@ -62,7 +62,8 @@ pub struct Transform {
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Space {
-    /// The scene. The placements of nodes change; an object that no node places changes its points.
+    /// The scene. If nodes place an object, the placements of the nodes change. Otherwise the points of the object
+    /// change.
     #[default]
     Scene,
     /// The space of each object. The points of the object change, and therefore all instances of the object.

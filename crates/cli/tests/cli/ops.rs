@@ -171,7 +171,7 @@ fn a_closed_pipe_is_not_a_failure() {
     let first = folder.shell("\"$0\" ops | head -1").with_code(0);
     assert_eq!(first.stdout.lines().count(), 1);
     assert_eq!(first.stderr, "");
-    // In this case, the reader closes the pipe before the first byte is written.
+    // The reader of the output closes the pipe before the first byte is written.
     for command in ["ops", "ops --markdown", "schema"] {
         let ended = folder.shell(&format!(
             "{{ sleep 0.3; \"$0\" {command}; echo \"exit code $?\" >&2; }} | true"

@@ -276,8 +276,8 @@ pub enum Expectation {
         #[schemars(range(min = 0.0))]
         below: f64,
     },
-    /// The number of motions of a symmetry group about the origin that map the mesh onto itself. If `eq`, `min`
-    /// and `max` are omitted, all motions of the group must do so.
+    /// The number of motions of a symmetry group about the origin that map the mesh onto itself. If `eq`, `min` and
+    /// `max` are omitted, all motions of the group must map the mesh onto itself.
     SymmetricUnder {
         /// The symmetry group.
         group: Group,

@@ -93,8 +93,8 @@ pub(super) fn check(
     })
 }
 
-/// Adds the bytes of the written file to the violation, so that `test --update` can record them. If that is not
-/// possible, adds the reason to the message.
+/// Adds the bytes of the written file to the violation, so that `test --update` can record them. If the bytes cannot be
+/// recorded, adds the reason to the message.
 fn with_written_file(
     mut violation: Violation,
     written: &Path,
@@ -127,8 +127,8 @@ fn with_written_file(
 }
 
 /// Whether a copy of the written file would be read as the same objects if it had the name of the reference file and
-/// were alone in a folder. For an OBJ file with a material library, the answer is no. True if the written file cannot
-/// be read as objects.
+/// were alone in a folder. Returns false for an OBJ file with a material library. Returns true if the written file
+/// cannot be read as objects.
 fn stands_alone(written: &Path, golden: &Path, bytes: &[u8], subject: Subject) -> bool {
     let Ok(scene) = subject.reader.scene(written, subject.files) else {
         return true;

@@ -133,8 +133,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Whether the parameter of an `If` has the requested value. `None` if that cannot be determined because of an
-    /// error.
+    /// Whether the parameter of an `If` has the requested value. `None` if an error prevents the comparison.
     fn condition(&mut self, run: &Value) -> Option<bool> {
         let param = run.field("param")?;
         let name = param.as_str()?;

@@ -7,7 +7,7 @@ use ron_tree::{Field, Number, Span, Value, ValueKind};
 impl Checker {
     /// Checks `(a: 1, b: 2)`.
     ///
-    /// `owner` is the span of the name, or of the opening bracket. Missing fields are reported there.
+    /// `owner` is the span of the name, or of the opening bracket. Missing fields are reported at this span.
     pub(super) fn check_struct(
         &mut self,
         value: &Value,

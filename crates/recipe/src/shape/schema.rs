@@ -215,7 +215,7 @@ impl<'s> Schema<'s> {
         found.then_some(choice)
     }
 
-    /// Adds the names of `enum` and `const` if the schema is for strings. Returns whether there are any.
+    /// Adds the names of `enum` and `const` if the schema is for strings. Returns whether the schema has such names.
     fn add_units(&self, choice: &mut Choice<'s>) -> bool {
         let before = choice.units.len();
         choice.units.extend(self.units());

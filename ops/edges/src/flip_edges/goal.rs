@@ -73,9 +73,8 @@ impl Goal {
     ///
     /// For both goals, the sequence of improving flips is finite, regardless of rounding. For `Valence`, the sum of
     /// squares is an integer that decreases. For `Delaunay`, the computed energy of a triangle depends only on its
-    /// three vertices. Each flip reduces the number of triangles without area. If this number stays the same, the flip
-    /// reduces the exact sum of the other energies. If the sum also stays the same, the flip reduces the sum of the
-    /// squared lengths of all edges.
+    /// three vertices. Each flip reduces the first of these three values that it changes: the number of triangles
+    /// without area, the exact sum of the other energies, and the sum of the squared lengths of all edges.
     pub(crate) fn is_improvement(&self, mesh: &Mesh, quad: &Quad) -> bool {
         match self {
             Self::Delaunay => {
@@ -157,8 +156,8 @@ impl Quad {
     }
 
     /// Whether the normals of both new triangles point to the same side as the old pair. The sum of the two area
-    /// vectors (normals multiplied by areas) is the same before and after a flip. In the plane, this is true exactly if
-    /// the quad is convex.
+    /// vectors (normals multiplied by areas) is the same before and after a flip. In the plane, the result is true
+    /// exactly if the quad is convex.
     fn flips_without_fold(&self, mesh: &Mesh) -> bool {
         let [a, b, c, d] = [self.a, self.b, self.c, self.d].map(|v| mesh.position(v));
         let (left, right) = ((c - d).cross(a - d), (d - c).cross(b - c));

@@ -52,7 +52,7 @@ pub(super) struct CellResult {
     pub(super) error: Option<String>,
     /// The scene for the sheet, if one is drawn and the cell succeeded.
     pub(super) scene: Option<CellScene>,
-    /// Whether the cell was not run or not finished, because Ctrl-C was pressed.
+    /// Whether Ctrl-C prevented or canceled the run of the cell.
     pub(super) is_not_run: bool,
 }
 

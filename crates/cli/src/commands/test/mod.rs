@@ -177,7 +177,7 @@ struct Test<'a> {
     found: &'a RecipeFile,
     /// The loaded recipe, or an error if it cannot be read.
     loaded: Result<Loaded, String>,
-    /// Whether other tested recipes call this recipe, which also tests this recipe.
+    /// Whether other tested recipes call this recipe. The tests of these recipes then also test this recipe.
     is_called: bool,
 }
 

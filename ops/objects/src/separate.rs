@@ -195,7 +195,7 @@ impl Separate {
             .collect()
     }
 
-    /// Replaces the object by the parts. The names must not be taken.
+    /// Replaces the object by the parts. The names of the parts must be free.
     fn replace(&self, scene: &mut Scene, names: &[String], parts: Vec<Mesh>) {
         let (_, materials) = scene.parts_mut(&self.object).expect("it was found");
         let materials = materials.clone();

@@ -34,10 +34,11 @@ use crate::transform::map::Map;
 /// is animated gets a parent, which is moved instead. Without `on:`, root nodes with cameras and lights also move,
 /// unless `about` is `Center`. A curve must stay in the plane z = 0.
 ///
-/// Ids do not change. Normals and the deltas of morph targets are transformed; other attributes do not change. A mirror (one or three negative factors in
-/// `scale`) also reverses the faces, so that they are counter-clockwise seen from outside: the first corner of a face
-/// stays first, and the other corners follow in reverse order. In mirrored patches, u and v are exchanged for the same
-/// reason. A mirror drops attributes with the rule `Drop`, which are lost whenever the connectivity changes.
+/// Ids do not change. Normals and the deltas of morph targets are transformed; other attributes do not change. A mirror
+/// (one or three negative factors in `scale`) also reverses the faces, so that they are counter-clockwise seen from
+/// outside: the first corner of a face stays first, and the other corners follow in reverse order. In mirrored patches,
+/// u and v are exchanged, so that the outside stays the outside. A mirror drops attributes with the rule `Drop`, which
+/// are lost whenever the connectivity changes.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Transform {

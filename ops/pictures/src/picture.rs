@@ -53,9 +53,10 @@ pub struct Picture {
     /// Elements to highlight in orange, as in `Edges(Sharp(above: 30))` or `Faces(Tagged("top"))`.
     #[serde(default)]
     pub highlight: Option<Elements>,
-    /// The width of highlighted edges and the diameter of highlighted vertices, in pixels. If omitted, 2.8 and 7.5 in
-    /// pictures that are 240 pixels high, 3.4 and 10 at 480, 4 and 13 at 960, 8 and 26 at 1920. If there are many
-    /// highlighted vertices, they are drawn smaller. Hidden edges are faint, and hidden vertices are rings.
+    /// The width of highlighted edges and the diameter of highlighted vertices, in pixels. The defaults depend on the
+    /// height of the picture: 2.8 and 7.5 for 240 pixels, 3.4 and 10 for 480, 4 and 13 for 960, 8 and 26 for 1920. If
+    /// there are many highlighted vertices, they are drawn smaller. Hidden edges are faint, and hidden vertices are
+    /// rings.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub highlight_width: Option<f64>,

@@ -16,9 +16,9 @@ use op::prelude::*;
 ///
 /// Point i becomes vertex i, and polygon i becomes face i. If connected faces have different orientations, the faces in
 /// the minority are reversed, provided that all orientations then agree. If the faces do not form a manifold, they are
-/// split: an edge keeps two faces with consistent orientations, a vertex keeps one fan of faces, and the other faces get
-/// copies of the vertices, which are numbered last. The report, and the check of the recipe, list the reversed and split
-/// elements.
+/// split: an edge keeps two faces with consistent orientations, a vertex keeps one fan of faces, and the other faces
+/// get copies of the vertices, which are numbered last. Both the report and the check of the recipe list the reversed
+/// and split elements.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Polygons {

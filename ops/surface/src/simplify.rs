@@ -17,7 +17,7 @@ use op::prelude::*;
 /// Edges are collapsed, starting with the edges whose collapse changes the surface least. The change is the mean
 /// squared distance of the new vertex to the planes of the original triangles that it replaces (Garland, Heckbert,
 /// 1997). The step ends when `faces` or `ratio` is reached, or when every remaining collapse could exceed `error`. At
-/// least one of the three must be given. All faces must be triangles.
+/// least one of `faces`, `ratio` and `error` must be given. All faces must be triangles.
 ///
 /// The following properties are kept:
 ///
@@ -25,8 +25,8 @@ use op::prelude::*;
 /// - Lines: the boundary, seams of texture coordinates and normals, borders between face tags or materials, edges with
 ///   a tag or a crease, and `features`. A line can lose vertices, but its ends, and the vertices where lines meet, keep
 ///   their exact positions.
-/// - Attributes: they are interpolated, and never across a line. Normals are interpolated too, so that a simplified mesh
-///   is shaded like the original.
+/// - Attributes: they are interpolated, but never across a line. Normals are also interpolated, so that a simplified
+///   mesh is shaded like the original.
 /// - Vertex tags: vertices with different tags or sharpness are not merged.
 ///
 /// No triangle is turned over. Remaining elements are numbered anew, in the order of their old numbers. If the number of

@@ -78,7 +78,7 @@ pub enum SmoothBy {
         pass_band: Fraction,
     },
     /// Moves the surface by mean curvature flow for the given time, in one stable step. Details smaller than the square
-    /// root of the time disappear, in any density of the mesh.
+    /// root of the time disappear, no matter how dense the mesh is.
     Implicit {
         /// The time, in squares of the scene unit.
         time: PositiveLength,
@@ -97,7 +97,7 @@ pub enum SmoothBy {
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum SmoothWeights {
-    /// All vertices that share an edge with the vertex have the same weight. Evens out the lengths of edges.
+    /// All vertices that share an edge with the vertex have the same weight. The lengths of edges become more equal.
     #[default]
     Uniform,
     /// The weights follow the shape of the faces. Vertices hardly move within the surface.

@@ -14,9 +14,10 @@ use op::prelude::*;
 ///
 /// Vertices are removed in order of their numbers. Each removal is checked against the mesh as edited so far. All faces
 /// around the vertex become one face, which has the number and the values of the face with the lowest number. If the
-/// vertex is on the boundary, its two boundary edges become one. If the vertex has only two edges, they become one
-/// edge, and the faces beside it lose a corner. When two edges become one, the edge with the lower number is kept, with
-/// its values. The remaining elements keep their order and their values but are renumbered. Normals are dropped.
+/// vertex is on the boundary, its two boundary edges become one. If the vertex has only two edges, these edges become
+/// one edge, and the faces beside the edge lose a corner. When two edges become one, the edge with the lower number is
+/// kept, with its values. The remaining elements keep their order and their values but are renumbered. Normals are
+/// dropped.
 ///
 /// A vertex is refused if it is isolated or has a single edge, if a neighbor would be left with a single edge inside a
 /// face, if a face would visit a vertex twice or have fewer than three corners, or if an edge would join two vertices

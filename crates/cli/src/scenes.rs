@@ -106,7 +106,9 @@ fn run_recipe(
     anyhow::ensure!(!outcome.cancelled, "interrupted");
     anyhow::ensure!(outcome.succeeded(), "{shown} failed");
     Ok(SceneAtStep {
-        scene: outcome.scene.expect("a run without a cache has its scene"),
+        scene: outcome
+            .scene
+            .expect("a run without a cache returns its final scene"),
         stream,
     })
 }

@@ -96,7 +96,7 @@ fn flow_fields(kind: Kind, step: &Json) -> Json {
             json!({
                 "recipe": {
                     "type": "string",
-                    "description": "The path of the recipe, relative to the folder of this recipe.",
+                    "description": "The path of the called recipe, relative to the folder of the calling recipe.",
                 },
                 "with": {
                     "type": "object",

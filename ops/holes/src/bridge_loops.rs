@@ -25,8 +25,8 @@ use op::prelude::*;
 /// same vertices in the adjacent faces. Normals are dropped.
 ///
 /// The step is refused if a vertex is not on the boundary (`NotBoundary`), if both vertices are on the same hole
-/// (`WrongPlace`), or if the band would join two vertices that are already joined by an edge (`DuplicateEdge`). In the
-/// last case, other start vertices may work.
+/// (`WrongPlace`), or if the band would join two vertices that are already joined by an edge (`DuplicateEdge`). If the
+/// reason is `DuplicateEdge`, other start vertices may work.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct BridgeLoops {

@@ -10,7 +10,7 @@ use super::{ReadArgs, ValueArgs};
 #[derive(Debug, ClapArgs)]
 #[expect(
     clippy::struct_excessive_bools,
-    reason = "each is a switch of the command line"
+    reason = "each field is a switch of the command line"
 )]
 pub(crate) struct DrawArgs {
     /// Size of each view in pixels; defaults to 1280x960, and to 320x240 on a sheet

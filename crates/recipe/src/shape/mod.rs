@@ -372,7 +372,7 @@ impl Checker {
     }
 }
 
-/// Returns the span of the name of a value, or else of its first character.
+/// Returns the span of the name of a value or, if the value has no name, of its first character.
 fn opening(value: &Value) -> Span {
     match value.name() {
         Some((_, span)) => span,

@@ -301,7 +301,8 @@ fn plain(setting: &Setting) -> String {
     }
 }
 
-/// Shortens a long decimal number to six significant digits. Escapes other texts for the terminal.
+/// Shortens a long decimal number to six significant digits. In all other texts, escapes control characters for the
+/// terminal.
 fn short(text: &str) -> String {
     match text.parse::<f64>() {
         Ok(x) if text.contains('.') => number(x),

@@ -21,7 +21,8 @@ pub(crate) enum FileKind {
 const MAX_SWEEP: u64 = 1 << 20;
 
 /// Checks the kind of a file by its extension. Recipes and sweeps share an extension, so they are distinguished by
-/// their contents. Files that are missing or of an unknown kind pass: the command itself reports them.
+/// their contents. Files that are missing or of an unknown kind are accepted here, because the command itself reports
+/// them.
 ///
 /// # Errors
 ///

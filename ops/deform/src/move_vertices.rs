@@ -44,7 +44,7 @@ pub enum MoveBy {
     Offset(Vector),
     /// By this distance along the normal of each vertex, in scene units. A negative distance moves inwards.
     Distance(Distance),
-    /// Together, so that the mean of the selected vertices comes to this point.
+    /// All by the same offset, which moves the mean of the selected vertices to this point.
     To(Vector),
 }
 

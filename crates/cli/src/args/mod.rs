@@ -23,7 +23,7 @@ pub(crate) use run::{
     CheckArgs, RecipeArgs, ReproduceArgs, RunArgs, ShrinkArgs, UpgradeArgs, ValueArgs,
 };
 
-/// Edit 3D meshes by recipe.
+/// Edit 3D meshes with recipes.
 #[derive(Debug, Parser)]
 #[command(name = "meshwright", version, max_term_width = 100)]
 pub(crate) struct Args {

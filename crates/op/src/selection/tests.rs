@@ -362,7 +362,8 @@ proptest! {
         let neither = EdgeSelection::Or(vec![not(&a), not(&b)]);
         prop_assert_eq!(edges(&not(&both), &grid), edges(&neither, &grid));
         prop_assert_eq!(edges(&not(&not(&a)), &grid), edges(&a, &grid));
-        // `Grow` only adds elements, and `Shrink` is the complement of `Grow` of the complement.
+        // `Grow` only adds elements. To shrink a selection is to grow its complement and take the complement of the
+        // result.
         let grown = edges(&EdgeSelection::Grow(boxed(&a)), &grid);
         prop_assert!(edges(&a, &grid).iter().all(|e| grown.contains(e)));
         prop_assert_eq!(

@@ -88,9 +88,10 @@ impl Goal {
             }
             Self::Valence { excess } => {
                 let [a, b, c, d] = [quad.a, quad.b, quad.c, quad.d].map(|v| excess[v.index()]);
-                // The flip reduces the valences of a and b by 1 and increases those of c and d by 1. The square of an
-                // excess x changes by (x - 1)² - x² = 1 - 2x or by (x + 1)² - x² = 1 + 2x. The sum of the four changes
-                // is 4 - 2 (a + b - c - d), and the flip is an improvement if this sum is below 0.
+                // The flip reduces the valences of a and b by 1 and increases the valences of c and d by 1. The square
+                // of an excess x changes by (x - 1)² - x² = 1 - 2x or by (x + 1)² - x² = 1 + 2x. If a, b, c, d stand
+                // for the four excesses, the sum of the four changes is 4 - 2 (a + b - c - d), and the flip is an
+                // improvement if this sum is below 0.
                 a + b - c - d > 2
                     && quad.flipped().energies(mesh).iter().all(|x| x.is_finite())
                     && quad.flips_without_fold(mesh)

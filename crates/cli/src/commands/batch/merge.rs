@@ -126,7 +126,7 @@ fn difference(a: &Header, b: &Header) -> Option<&'static str> {
     }
 }
 
-/// Describes a row in an error about a contradiction.
+/// Describes a row, for the error about rows that contradict each other.
 fn description(row: &Row) -> String {
     match (&row.message, &row.digest) {
         (Some(message), _) => format!("{} ({})", row.state.name(), escape_control(message)),

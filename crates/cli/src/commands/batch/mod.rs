@@ -8,8 +8,8 @@
 //!
 //! Prints a line for each processed file, in the order of the list, and a summary. [`row`] describes the reports, and
 //! [`journal`] describes how an interrupted batch is resumed. Outputs, reports and failures are written to temporary
-//! files and renamed. If the disk is full, the current files fail. If the journal cannot be written, no further file is
-//! started.
+//! files and renamed. If the disk is full, the files that are being processed count as failed. If the journal cannot be
+//! written, no further file is started.
 
 mod failed;
 pub(crate) mod inputs;

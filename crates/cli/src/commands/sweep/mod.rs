@@ -310,7 +310,8 @@ fn short(text: &str) -> String {
     }
 }
 
-/// Shortens the table for a terminal: errors become a mark, since they are printed below, and numbers are shortened.
+/// Shortens the table for a terminal: an error is replaced by a mark, because the errors are printed below the table,
+/// and numbers are shortened.
 fn on_a_terminal(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
     rows.into_iter()
         .map(|mut row| {

@@ -120,7 +120,7 @@ fn dihedral_angles_lie_in_a_range() {
 
 #[test]
 fn the_mean_area_of_faces_is_in_proportion_to_the_median() {
-    // Areas 1, 1 and 4.
+    // The areas of the faces are 1, 1 and 4.
     let positions: Vec<DVec3> = [0.0, 1.0, 2.0, 6.0]
         .map(|x| [DVec3::new(x, 0.0, 0.0), DVec3::new(x, 1.0, 0.0)])
         .concat();
@@ -143,7 +143,7 @@ fn the_mean_area_of_faces_is_in_proportion_to_the_median() {
 #[test]
 fn lengths_of_edges_and_angles_of_corners_are_measured() {
     let p = |x: f64, y: f64| DVec3::new(x, y, 0.0);
-    // Angles of 90, 60 and 30 degrees, sides of 1, 2 and the root of 3.
+    // The triangle has angles of 90, 60 and 30 degrees, and sides of 1, 2 and √3.
     let triangle = scene([(
         "a",
         mesh_from(

@@ -58,12 +58,12 @@ pub fn samples(
     };
     let mut crowding = vec![0.0; candidates.len()];
     let mut heap = BinaryHeap::with_capacity(candidates.len());
-    for i in 0..candidates.len() {
+    for (i, sum) in crowding.iter_mut().enumerate() {
         if i.is_multiple_of(4096) {
             progress.report("scatter", i as u64, 2 * candidates.len() as u64)?;
         }
-        grid.each_near(i, |j| crowding[i] += weight(i, j));
-        heap.push(entry(crowding[i], i));
+        grid.each_near(i, |j| *sum += weight(i, j));
+        heap.push(entry(*sum, i));
     }
     let mut is_kept = vec![true; candidates.len()];
     let mut n = candidates.len();

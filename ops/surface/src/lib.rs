@@ -8,7 +8,7 @@ mod transfer;
 use op::Registry;
 
 pub use lods::Lods;
-pub use simplify::Simplify;
+pub use simplify::{Intersections, Simplify};
 pub use smooth::{Smooth, SmoothBoundary, SmoothBy, SmoothWeights};
 pub use transfer::Transfer;
 

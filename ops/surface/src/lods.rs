@@ -119,6 +119,7 @@ impl Operation for Lods {
                 error: None,
                 features: &features,
                 pinned: &[],
+                refuse_intersections: false,
             };
             let simplified = simplify(&mesh, &options, cx.progress()).map_err(|e| error(&e))?;
             mesh = Arc::new(simplified.mesh);

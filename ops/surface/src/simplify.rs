@@ -53,9 +53,23 @@ pub struct Simplify {
     /// Vertices that keep their exact positions, for example `Boundary`. If omitted, none.
     #[serde(default)]
     pub pin: Option<VertexSelection>,
+    /// Whether faces may come to intersect other faces, which can happen where parts of the surface are close together.
+    #[serde(default)]
+    pub intersections: Intersections,
     /// What to do if the number of faces cannot be reached.
     #[serde(default)]
     pub on_refusal: OnRefusal,
+}
+
+/// Whether new intersections of faces are allowed.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum Intersections {
+    /// They are not looked for.
+    #[default]
+    Allow,
+    /// No changed face intersects another face: a mesh without self-intersections keeps none. The step takes longer.
+    Refuse,
 }
 
 impl Simplify {
@@ -173,6 +187,7 @@ impl MeshOperation for Simplify {
             error: self.error.map(PositiveLength::get),
             features: &features,
             pinned: &pinned,
+            refuse_intersections: self.intersections == Intersections::Refuse,
         };
         let simplified = simplify(mesh, &options, cx.progress()).map_err(|e| error(&e))?;
         let after = simplified.mesh.n_faces();
@@ -196,6 +211,35 @@ mod tests {
 
     fn step(text: &str) -> Simplify {
         op::test::read(text).unwrap()
+    }
+
+    #[test]
+    fn intersections_are_refused_on_request() {
+        // Two bent sheets, one close above the other: the few triangles of one pass through the other.
+        let sheet = shapes::fans(&shapes::grid(30, 30));
+        let n = u32::try_from(sheet.n_vertices()).unwrap();
+        let number = |v: mesh::VertexId| u32::try_from(v.index()).unwrap();
+        let (mut positions, mut faces) = (Vec::new(), Vec::<Vec<u32>>::new());
+        for (first, height) in [(0, 0.0), (n, 0.002)] {
+            let bent = |p: &mesh::DVec3| {
+                let z = height + 0.3 * (1.0 - p.x * p.x) * (1.0 - p.y * p.y);
+                mesh::DVec3::new(p.x, p.y, z)
+            };
+            positions.extend(sheet.positions().iter().map(bent));
+            let corners = |f| sheet.face_vertices(f).map(|v| first + number(v)).collect();
+            faces.extend(sheet.faces().map(corners));
+        }
+        let sheets = Mesh::from_polygons(positions, &faces).unwrap().0;
+        let crossing = |text: &str| {
+            let mesh = applied(&step(text), sheets.clone());
+            let faces = geometry::surface_index::self_intersecting_faces(&mesh, &op::NoProgress);
+            faces.unwrap().len()
+        };
+        assert!(crossing("(faces: 100)") > 0);
+        assert_eq!(
+            crossing("(faces: 100, intersections: Refuse, on_refusal: Skip)"),
+            0
+        );
     }
 
     #[test]

@@ -1,12 +1,13 @@
 //! The loop that collapses edges.
 
-use mesh::{Column, DVec3, Domain, EdgeId, HalfEdgeId, Mesh, VERTEX_SHARPNESS, VertexId};
+use mesh::{Column, DVec3, Domain, EdgeId, FaceId, HalfEdgeId, Mesh, VERTEX_SHARPNESS, VertexId};
 use progress::{Cancelled, Progress};
 use rayon::prelude::*;
 
 use crate::lines::{Kind, inverse_power_of_two, kinds, labels, lines};
 use crate::surface_index::triangle::nearest_on_triangle;
 
+use super::contact::Contacts;
 use super::quadric::{Quadric, Spread};
 use super::queue::Queue;
 use super::{Blocked, Options};
@@ -54,6 +55,8 @@ pub(super) struct Collapser<'a> {
     lines: Vec<bool>,
     states: Vec<State>,
     queue: Queue,
+    /// If intersections are refused.
+    contacts: Option<Contacts>,
     pub(super) options: &'a Options<'a>,
 }
 
@@ -98,6 +101,9 @@ impl<'a> Collapser<'a> {
             lines,
             states: vec![State::Queued; mesh.n_edges()],
             queue: Queue::new(),
+            contacts: (options.refuse_intersections)
+                .then(|| Contacts::new(&mesh))
+                .flatten(),
             options,
             mesh,
         };
@@ -226,6 +232,13 @@ impl<'a> Collapser<'a> {
             Some(v) => self.mesh.position(v),
             None => target.point / self.scale + self.center,
         };
+        let mut around: Vec<FaceId> = Vec::new();
+        if let Some(contacts) = &self.contacts {
+            if contacts.arise(&self.mesh, [a, b], point) {
+                return Err(Blocked::Intersections);
+            }
+            around.extend([a, b].into_iter().flat_map(|v| self.mesh.vertex_faces(v)));
+        }
         let is_inside =
             self.kinds[a.index()] == Kind::Inside && self.kinds[b.index()] == Kind::Inside;
         let v = if is_inside && self.has_values {
@@ -236,6 +249,11 @@ impl<'a> Collapser<'a> {
         };
         let v = v.map_err(|_| Blocked::Topology)?;
         self.n_faces -= n_removed;
+        if let Some(contacts) = &mut self.contacts {
+            for f in around {
+                contacts.update(&self.mesh, f);
+            }
+        }
         for (f, error) in errors {
             self.errors[f.index()] = error;
         }

@@ -20,6 +20,7 @@
 
 mod bound;
 mod collapse;
+mod contact;
 mod quadric;
 mod queue;
 
@@ -45,6 +46,10 @@ pub struct Options<'a> {
     pub features: &'a [EdgeId],
     /// Vertices that keep their positions.
     pub pinned: &'a [VertexId],
+    /// Whether a collapse is refused if a changed triangle would intersect another one, as
+    /// [`triangles_intersect`](crate::surface_index::triangles_intersect) decides: faces that do not intersect before do not
+    /// intersect afterwards.
+    pub refuse_intersections: bool,
 }
 
 /// The result of [`simplify`].
@@ -70,15 +75,18 @@ pub enum Blocked {
     Turned,
     /// The topology of the surface would change.
     Topology,
+    /// Two triangles would intersect.
+    Intersections,
 }
 
 impl Blocked {
-    const ALL: [Self; 5] = [
+    const ALL: [Self; 6] = [
         Self::Error,
         Self::Lines,
         Self::Labels,
         Self::Turned,
         Self::Topology,
+        Self::Intersections,
     ];
 }
 
@@ -90,6 +98,7 @@ impl std::fmt::Display for Blocked {
             Self::Labels => "join vertices with different tags or sharpness",
             Self::Turned => "would turn a triangle over",
             Self::Topology => "would change the topology",
+            Self::Intersections => "would make triangles intersect",
         })
     }
 }

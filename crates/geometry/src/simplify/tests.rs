@@ -1,6 +1,7 @@
 use super::*;
 use crate::distance::{Distance, diagonal};
 use crate::shapes;
+use crate::surface_index::self_intersecting_faces;
 use mesh::{CREASE, DVec2, DVec3, Domain, HalfEdgeId, MATERIAL, UV, VERTEX_NORMAL};
 use progress::NoProgress;
 use proptest::prelude::*;
@@ -54,6 +55,46 @@ pub(crate) fn square(n: u32) -> Mesh {
         *p = (*p - min) / (max.x - min.x);
     }
     mesh
+}
+
+/// Two spheres, one close around the other, in which coarse faces would cross.
+fn nested_spheres() -> Mesh {
+    let outer = shapes::fans(&shapes::uv_sphere(40, 20));
+    let mut inner = outer.clone();
+    for p in inner.positions_mut() {
+        *p *= 0.96;
+    }
+    let mut positions = outer.positions().to_vec();
+    positions.extend(inner.positions());
+    let n = u32::try_from(outer.n_vertices()).unwrap();
+    let number = |v: VertexId| u32::try_from(v.index()).unwrap();
+    let triangles = |mesh: &Mesh, first: u32| -> Vec<Vec<u32>> {
+        let corners = |f| mesh.face_vertices(f).map(|v| first + number(v)).collect();
+        mesh.faces().map(corners).collect()
+    };
+    let faces = [triangles(&outer, 0), triangles(&inner, n)].concat();
+    Mesh::from_polygons(positions, &faces).unwrap().0
+}
+
+#[test]
+fn no_faces_intersect_if_intersections_are_refused() {
+    let mesh = nested_spheres();
+    let run = |refuse_intersections| {
+        let options = Options {
+            faces: 60,
+            refuse_intersections,
+            ..Options::default()
+        };
+        simplify(&mesh, &options, &NoProgress).unwrap()
+    };
+    let crossing = |mesh: &Mesh| self_intersecting_faces(mesh, &NoProgress).unwrap().len();
+    assert_eq!(crossing(&mesh), 0);
+    assert!(crossing(&run(false).mesh) > 0);
+    let refused = run(true);
+    assert_eq!(crossing(&refused.mesh), 0);
+    assert!(refused.mesh.n_faces() < mesh.n_faces() / 2);
+    let reasons: Vec<Blocked> = refused.blocked.iter().map(|(reason, _)| *reason).collect();
+    assert!(reasons.contains(&Blocked::Intersections), "{reasons:?}");
 }
 
 #[test]

@@ -122,6 +122,11 @@ impl SurfaceIndex {
         }
     }
 
+    /// Returns the face that contains a triangle; `None` if there is no triangle of this number.
+    pub fn face(&self, i: u32) -> Option<FaceId> {
+        self.origins.get(i as usize).map(|origin| origin.face)
+    }
+
     /// Returns the smallest and the largest corner of the bounding box of all triangles.
     pub fn bounds(&self) -> [DVec3; 2] {
         [self.nodes[0].min, self.nodes[0].max]

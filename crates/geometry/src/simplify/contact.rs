@@ -1,0 +1,120 @@
+//! Finds the faces that a collapse would make intersect, in a tree of boxes that follows the changes of the mesh.
+
+use mesh::{DVec3, Domain, FaceId, Mesh, VertexId};
+
+use crate::surface_index::{SurfaceIndex, triangles_intersect};
+
+/// A box; the first corner exceeds the second if the box is empty.
+type Bounds = [DVec3; 2];
+
+const EMPTY: Bounds = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+
+/// The boxes of all faces in a complete binary tree. Each face keeps its leaf; the boxes above it follow when it changes.
+pub(super) struct Contacts {
+    /// The children of node i are 2 i and 2 i + 1. The leaves are the second half.
+    boxes: Vec<Bounds>,
+    /// The face of each leaf, in the order of a spatial index, and the leaf of each face.
+    faces: Vec<FaceId>,
+    leaf_of_face: Vec<usize>,
+}
+
+impl Contacts {
+    /// Builds the tree of a dense mesh of triangles; `None` if it has no faces.
+    pub(super) fn new(mesh: &Mesh) -> Option<Self> {
+        let index = SurfaceIndex::new(mesh)?;
+        let faces: Vec<FaceId> = (0..).map_while(|i| index.face(i)).collect();
+        let first_leaf = faces.len().next_power_of_two();
+        let mut leaf_of_face = vec![0; mesh.domain_len(Domain::Face)];
+        let mut boxes = vec![EMPTY; 2 * first_leaf];
+        for (i, &f) in faces.iter().enumerate() {
+            leaf_of_face[f.index()] = first_leaf + i;
+            boxes[first_leaf + i] = around(&corners(mesh, f));
+        }
+        for i in (1..first_leaf).rev() {
+            boxes[i] = union(boxes[2 * i], boxes[2 * i + 1]);
+        }
+        Some(Self {
+            boxes,
+            faces,
+            leaf_of_face,
+        })
+    }
+
+    /// Updates the box of a face that has changed or does not exist anymore.
+    pub(super) fn update(&mut self, mesh: &Mesh, f: FaceId) {
+        let mut i = self.leaf_of_face[f.index()];
+        self.boxes[i] = if mesh.has_face(f) {
+            around(&corners(mesh, f))
+        } else {
+            EMPTY
+        };
+        while i > 1 {
+            i /= 2;
+            let new = union(self.boxes[2 * i], self.boxes[2 * i + 1]);
+            if self.boxes[i] == new {
+                break;
+            }
+            self.boxes[i] = new;
+        }
+    }
+
+    /// Whether the faces around `a` and `b` would intersect another face, or each other, if both vertices merged at `point`.
+    pub(super) fn arise(&self, mesh: &Mesh, [a, b]: [VertexId; 2], point: DVec3) -> bool {
+        let mut changed: Vec<FaceId> = Vec::new();
+        let mut new: Vec<[DVec3; 3]> = Vec::new();
+        for (v, other) in [(a, b), (b, a)] {
+            for f in mesh.vertex_faces(v) {
+                changed.push(f);
+                if mesh.face_vertices(f).all(|w| w != other) {
+                    let mut triangle = [DVec3::ZERO; 3];
+                    for (p, w) in triangle.iter_mut().zip(mesh.face_vertices(f)) {
+                        *p = if w == v { point } else { mesh.position(w) };
+                    }
+                    new.push(triangle);
+                }
+            }
+        }
+        let folds =
+            |(i, s): (usize, &[DVec3; 3])| new[..i].iter().any(|t| triangles_intersect(s, t));
+        new.iter().enumerate().any(folds) || new.iter().any(|s| self.meets(mesh, s, &changed))
+    }
+
+    /// Whether a triangle intersects a face that is not among `changed`.
+    fn meets(&self, mesh: &Mesh, triangle: &[DVec3; 3], changed: &[FaceId]) -> bool {
+        let first_leaf = self.boxes.len() / 2;
+        let bounds = around(triangle);
+        let mut waiting = vec![1];
+        while let Some(i) = waiting.pop() {
+            if !touch(bounds, self.boxes[i]) {
+                continue;
+            }
+            if i < first_leaf {
+                waiting.extend([2 * i + 1, 2 * i]);
+                continue;
+            }
+            let f = self.faces[i - first_leaf];
+            if !changed.contains(&f) && triangles_intersect(triangle, &corners(mesh, f)) {
+                return true;
+            }
+        }
+        false
+    }
+}
+
+fn corners(mesh: &Mesh, f: FaceId) -> [DVec3; 3] {
+    let h = mesh.face_half_edge(f);
+    let next = mesh.next(h);
+    [h, next, mesh.next(next)].map(|h| mesh.position(mesh.origin(h)))
+}
+
+fn around([a, b, c]: &[DVec3; 3]) -> Bounds {
+    [a.min(*b).min(*c), a.max(*b).max(*c)]
+}
+
+fn union([min, max]: Bounds, [low, high]: Bounds) -> Bounds {
+    [min.min(low), max.max(high)]
+}
+
+fn touch([min, max]: Bounds, [low, high]: Bounds) -> bool {
+    min.cmple(high).all() && low.cmple(max).all()
+}

@@ -28,6 +28,6 @@ pub fn register(registry: Registry) -> Registry {
         .with::<Bend>()
         .with::<Twist>()
         .with::<Taper>()
-        .with::<Project>()
         .with::<Lattice>()
+        .with::<Project>()
 }

@@ -1,6 +1,7 @@
 //! Operations that simplify, remesh and smooth surfaces.
 
 mod lods;
+mod remesh;
 mod simplify;
 mod smooth;
 mod transfer;
@@ -8,6 +9,7 @@ mod transfer;
 use op::Registry;
 
 pub use lods::Lods;
+pub use remesh::{Remesh, RemeshCurvature};
 pub use simplify::{Intersections, Simplify};
 pub use smooth::{Smooth, SmoothBoundary, SmoothBy, SmoothWeights};
 pub use transfer::Transfer;
@@ -18,6 +20,7 @@ pub fn register(registry: Registry) -> Registry {
     registry
         .with::<Simplify>()
         .with::<Lods>()
+        .with::<Remesh>()
         .with::<Smooth>()
         .with::<Transfer>()
 }

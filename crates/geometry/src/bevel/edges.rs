@@ -373,8 +373,9 @@ impl<'m> Bevel<'m> {
             let [from, to] = self.side(h);
             let is_kept = (to - from).dot(self.direction(h)) > 0.0;
             if !is_kept || !from.is_finite() || !to.is_finite() {
-                ends.into_iter()
-                    .for_each(|v| block(v, BevelRefusal::TooWide));
+                for v in ends {
+                    block(v, BevelRefusal::TooWide);
+                }
             }
         }
         blocked.sort_unstable();

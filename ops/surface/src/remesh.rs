@@ -1,0 +1,284 @@
+//! Remesh: nearly equilateral triangles of a given size for the same surface.
+//!
+//! ```text
+//!     +---+-----------+            +-----+-----+
+//!     |\ /       .  / |            |\   / \   /|
+//!     | X     .    /  |            | \ /   \ / |
+//!     |/ \ .      /   |    -->     |  +-----+  |
+//!     +---+------+----+            | / \   / \ |
+//!     |  / .      \   |            |/   \ /   \|
+//!     +-+----------+--+            +-----+-----+
+//! ```
+
+use geometry::remesh::{Counts, Length, Options, RemeshError, remesh};
+use op::Refusal;
+use op::prelude::*;
+
+use crate::simplify::triangles_problem;
+
+/// Replaces triangles by nearly equilateral triangles of a given size, on the same surface.
+///
+/// Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
+/// vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target length. All
+/// vertices lie on the original surface. The target length is either `length`, or it follows the `curvature`: short
+/// edges where the surface is curved, long edges where it is flat (Dunyach and others, 2013). One of the two must be
+/// given. All faces must be triangles.
+///
+/// These are kept:
+///
+/// - Topology: holes, handles and separate parts stay.
+/// - Lines: the boundary, seams of texture coordinates and normals, borders between face tags or materials, edges with
+///   a tag or a crease, and `features`. Vertices on a line slide along it. The ends of lines, the vertices where lines
+///   meet, and corners where a line turns by more than 40 degrees keep their exact positions. Other sharp edges are
+///   rounded.
+/// - Attributes: they come from the same place of the original surface, and are never interpolated across a line.
+/// - Vertex tags: a new vertex has a tag if all vertices around its place had it. Tagged vertices without tagged
+///   neighbors keep their exact positions, and so do vertices with sharpness.
+///
+/// Each step that would turn a triangle over is refused. Elements are numbered anew. If the result could be further from
+/// the original than `error`, the step is refused as `Unreached`; with `on_refusal: Skip`, the mesh then stays as it
+/// was.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Remesh {
+    /// The target length of edges, in scene units.
+    #[serde(default)]
+    pub length: Option<PositiveLength>,
+    /// Target lengths that follow the curvature, instead of `length`.
+    #[serde(default)]
+    pub curvature: Option<RemeshCurvature>,
+    /// Edges that are kept as lines, for example `Sharp(above: 30)`. If omitted, none in addition to those above.
+    #[serde(default)]
+    pub features: Option<EdgeSelection>,
+    /// The largest allowed distance between the old and the new surface, in scene units: the Hausdorff distance. Edges
+    /// become shorter than the target length where this is necessary. The distance is measured at the end, in both
+    /// directions and for all points. If omitted, there is no limit.
+    #[serde(default)]
+    pub error: Option<PositiveLength>,
+    /// Vertices that keep their exact positions, for example `Boundary`. If omitted, none.
+    #[serde(default)]
+    pub pin: Option<VertexSelection>,
+    /// The largest number of passes, from 1 to 1000. The step ends earlier if a pass changes almost nothing. Defaults to
+    /// 10.
+    #[serde(default = "ten")]
+    pub passes: Count<1, 1000>,
+    /// What to do if the result could be further from the original than `error`.
+    #[serde(default)]
+    pub on_refusal: OnRefusal,
+}
+
+/// Target lengths that follow the curvature of the surface.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct RemeshCurvature {
+    /// The distance between the surface and the triangles at which the lengths aim, in scene units. It is not guaranteed;
+    /// the parameter `error` of the step is.
+    pub error: PositiveLength,
+    /// The smallest length, in scene units.
+    pub min: PositiveLength,
+    /// The largest length, in scene units.
+    pub max: PositiveLength,
+}
+
+fn ten() -> Count<1, 1000> {
+    Count::literal(10)
+}
+
+impl Remesh {
+    /// Returns the target length, or what is wrong with it.
+    fn target(&self) -> Result<Length, &'static str> {
+        match (self.length, self.curvature) {
+            (Some(length), None) => Ok(Length::Uniform(length.get())),
+            (None, Some(RemeshCurvature { error, min, max })) if min <= max => {
+                Ok(Length::Curvature {
+                    error: error.get(),
+                    min: min.get(),
+                    max: max.get(),
+                })
+            }
+            (None, Some(_)) => Err("`min` of `curvature` must not be above `max`"),
+            (Some(_), Some(_)) => Err("`length` and `curvature` cannot be combined"),
+            (None, None) => Err("Remesh needs `length` or `curvature`"),
+        }
+    }
+}
+
+/// Returns the largest number of faces whose arrays fit the memory budget: the result, and the copy that is changed.
+fn max_faces(mesh: &Mesh, budget: u64) -> usize {
+    // Connectivity and positions, for half a vertex and one and a half edges for each face.
+    const BYTES: u64 = 54;
+    let per_face = BYTES + mesh.bytes() as u64 / (mesh.n_faces() as u64).max(1);
+    usize::try_from(budget / per_face).unwrap_or(usize::MAX)
+}
+
+fn notes(counts: &Counts) -> Report {
+    let report = Report::changed(counts.split + counts.collapsed + counts.flipped)
+        .count("split", counts.split)
+        .count("collapsed", counts.collapsed)
+        .count("flipped", counts.flipped);
+    let refused: Vec<String> = counts
+        .refused()
+        .map(|(reason, n)| format!("{n} {reason}"))
+        .collect();
+    if refused.is_empty() {
+        return report;
+    }
+    report.note(format!("not done in the last pass: {}", refused.join(", ")))
+}
+
+impl MeshOperation for Remesh {
+    const NAME: &'static str = "Remesh";
+    const SUMMARY: &'static str =
+        "Replace triangles by nearly equilateral triangles of a given size";
+    const EXAMPLE: &'static str = "Remesh(length: 0.5)";
+    const WORDS: &'static [&'static str] = &["isotropic", "retriangulate", "resample", "adaptive"];
+
+    fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+        let mut problems = Vec::from_iter(triangles_problem(Self::NAME, plan));
+        problems.extend(self.target().err().map(|message| {
+            Problem::error(message).help("write, for example, `Remesh(length: 0.02)`")
+        }));
+        // The area is not known yet. No face is made where there is none.
+        for count in [&mut plan.vertices, &mut plan.edges, &mut plan.faces] {
+            *count = Range {
+                min: count.min.min(1),
+                max: if count.max == 0 { 0 } else { u64::MAX },
+            };
+        }
+        problems
+    }
+
+    fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+        let length = self
+            .target()
+            .map_err(|message| OpError::Parameter(message.to_owned()))?;
+        let features = match &self.features {
+            Some(features) => features.resolve(mesh, cx)?,
+            None => Vec::new(),
+        };
+        let pinned = match &self.pin {
+            Some(pin) => pin.resolve(mesh, cx)?,
+            None => Vec::new(),
+        };
+        let options = Options {
+            length,
+            error: self.error.map(PositiveLength::get),
+            features: &features,
+            pinned: &pinned,
+            passes: self.passes.get(),
+            max_faces: max_faces(mesh, cx.budget),
+        };
+        match remesh(mesh, &options, cx.progress()) {
+            Ok(remeshed) => {
+                mesh.replace(remeshed.mesh);
+                Ok(notes(&remeshed.counts))
+            }
+            Err(error) => {
+                let message = error.to_string();
+                match error {
+                    RemeshError::Cancelled(_) => Err(OpError::Cancelled),
+                    RemeshError::NotTriangle(f) => {
+                        let message =
+                            format!("{message}; triangulate the faces first, with Triangulate");
+                        Err(OpError::refused(Refusal::NotTriangle, message).about([f]))
+                    }
+                    RemeshError::TooManyFaces { .. } => Err(OpError::Budget(message)),
+                    RemeshError::TooFar { .. } => {
+                        let mut report = Report::default();
+                        let refused = OpError::refused(Refusal::Unreached, message);
+                        self.on_refusal.refuse(refused, &mut report)?;
+                        Ok(report)
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use geometry::shapes;
+    use op::test::{applied, planned, try_applied};
+
+    fn step(text: &str) -> Remesh {
+        op::test::read(text).unwrap()
+    }
+
+    #[test]
+    fn a_length_gives_edges_of_about_this_length() {
+        let icosahedron = shapes::icosahedron();
+        let step = step("(length: 0.2)");
+        let (plan, problems) = planned(&step, &icosahedron);
+        let (mesh, report) = try_applied(&step, icosahedron.clone()).unwrap();
+        assert_eq!(problems, []);
+        assert!(plan.faces.contains(mesh.n_faces() as u64));
+        assert!(report.changed > 100 && !report.notes.is_empty());
+        let in_range = |&e: &mesh::EdgeId| {
+            let length = mesh.length(e.half_edges()[0]);
+            (0.8 * 0.2..4.0 / 3.0 * 0.2).contains(&length)
+        };
+        let n = mesh.edges().filter(in_range).count();
+        assert!(n as f64 > 0.9 * mesh.n_edges() as f64);
+    }
+
+    #[test]
+    fn a_target_must_be_given() {
+        let curvature = "curvature: (error: 0.01, min: 0.1, max: 1)";
+        let bad = "(curvature: (error: 0.01, min: 1, max: 0.1))";
+        for text in ["()", &format!("(length: 1, {curvature})"), bad] {
+            let (_, problems) = planned(&step(text), &shapes::icosahedron());
+            assert_eq!(problems.len(), 1, "{text}");
+            assert!(try_applied(&step(text), shapes::icosahedron()).is_err());
+        }
+        let (_, problems) = planned(&step(&format!("({curvature})")), &shapes::icosahedron());
+        assert_eq!(problems, []);
+    }
+
+    #[test]
+    fn features_and_pins_are_kept() {
+        let cube = shapes::fans(&shapes::cube());
+        let kept = applied(
+            &step("(length: 0.3, features: Sharp(above: 40))"),
+            cube.clone(),
+        );
+        assert!((geometry::volume(&kept) - 8.0).abs() < 1e-12);
+        let pinned = applied(&step("(length: 5, pin: All)"), cube.clone());
+        assert_eq!(pinned.positions(), cube.positions());
+    }
+
+    #[test]
+    fn an_error_holds_or_the_step_is_refused() {
+        let octahedron = shapes::octahedron();
+        let near = applied(&step("(length: 0.5, error: 0.05)"), octahedron.clone());
+        let distance = geometry::distance::Distance::between(&octahedron, &near, None).unwrap();
+        assert!(distance.at_most() <= 0.05);
+    }
+
+    #[test]
+    fn a_length_that_needs_too_much_memory_is_refused_before_the_work() {
+        let mut mesh = shapes::icosahedron();
+        let files = op::Files::default();
+        let mut cx = Context::new(&op::NoProgress, &files);
+        cx.budget = 100_000;
+        let refused = step("(length: 0.01)")
+            .apply(&mut mesh, &mut cx)
+            .unwrap_err();
+        assert!(matches!(refused, OpError::Budget(_)), "{refused}");
+        assert_eq!(mesh, shapes::icosahedron());
+    }
+
+    #[test]
+    fn polygons_are_refused_in_the_plan_and_in_the_run() {
+        let (_, problems) = planned(&step("(length: 1)"), &shapes::cube());
+        assert_eq!(problems.len(), 1);
+        let refused = try_applied(&step("(length: 1)"), shapes::cube()).unwrap_err();
+        assert!(matches!(
+            refused,
+            OpError::Refused {
+                reason: Refusal::NotTriangle,
+                ..
+            }
+        ));
+    }
+}

@@ -7,7 +7,7 @@ use crate::folder::Folder;
 fn every_run_ends_under_a_limit_of_memory() {
     let (mut succeeded, mut refused) = (0, 0);
     for backtrace in [0, 1] {
-        for mebibytes in [60, 150, 250, 400, 4000] {
+        for mebibytes in [80, 150, 250, 400, 4000] {
             let folder = Folder::with_recipe(
                 r#"(recipe: 1, steps: [Torus(name: "a", around: 8, across: 6), Triangulate,
                     LoopSubdivide(levels: 7), Save(path: "a.stl")])"#,

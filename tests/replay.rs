@@ -28,7 +28,13 @@ const BUDGET: u64 = 4 << 30;
 const MAX_BYTES_FROM_EVERY_STEP: u64 = 16 << 20;
 
 /// The operations that only write files. The expectations of a recipe do not depend on these operations.
-const OUTPUTS: [&str; 3] = ["CurveFigure", "Picture", "Save"];
+const OUTPUTS: [&str; 5] = [
+    "CurveFigure",
+    "HalfEdgeFigure",
+    "Picture",
+    "Save",
+    "UvPicture",
+];
 
 const DIGESTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/digests.txt");
 

@@ -76,7 +76,8 @@ fn scenes(n: usize) -> Vec<(&'static str, Scene)> {
     };
     let torus = shapes::torus(2 * side, side / 2, 2.0, 1.0);
     let mut two = of(Object::mesh("mesh", torus.clone()));
-    let other = Object::mesh("other", shapes::fans(&shapes::grid(side, side)));
+    let mut other = with_attributes(shapes::fans(&shapes::grid(side, side)));
+    "other".clone_into(&mut other.name);
     two.insert(other).expect("another name");
     vec![
         ("a torus of quads", of(Object::mesh("mesh", torus.clone()))),

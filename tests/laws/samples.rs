@@ -176,6 +176,7 @@ const MORE_STEPS: &[&str] = &[
     r#"Project(onto: "other", along: Direction((1, 2, 3)), vertices: Boundary)"#,
     r#"Transfer(from: "mesh", attributes: ["uv"])"#,
     r#"Transfer(from: "mesh", attributes: ["uv"], within: 0.1)"#,
+    r#"Transfer(from: "other", attributes: ["uv", "color"])"#,
 ];
 
 /// Returns operations with samples of their parameters, such as `(levels: 2)`. Most of these operations need an

@@ -310,7 +310,7 @@ fn mesh_differences(mesh: &Mesh, plan: &MeshPlan) -> Vec<String> {
     }
     for (domain, column) in attributes.iter() {
         let is_planned = |a: &op::PlannedAttribute| a.domain == domain && a.name == column.name;
-        if !plan.attributes.iter().any(is_planned) {
+        if !plan.has_unlisted_attributes && !plan.attributes.iter().any(is_planned) {
             differences.push(format!(
                 "the {domain} attribute {} was not planned",
                 column.name

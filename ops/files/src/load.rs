@@ -145,13 +145,18 @@ impl Load {
                 PeekGeometry::Curve { points } => PlannedGeometry::Curve(Range::exactly(points)),
                 PeekGeometry::Polylines { .. } => PlannedGeometry::Polylines,
             };
-            let field = if self.name.is_some() { "name" } else { "path" };
+            // Objects can have names in the file, which `name` does not replace.
+            let is_named_here = self.name.as_ref() == Some(&object.name);
+            let field = if is_named_here { "name" } else { "path" };
             let taken = plan.insert(&object.name, geometry);
             if taken.is_none() {
                 plan.set_instances_of_last(object.instances);
             }
-            let help =
-                "give the object a different name with `name`, or rename the existing object";
+            let help = if self.name.is_none() || is_named_here {
+                "give the object a different name with `name`, or rename the existing object"
+            } else {
+                "the name is in the file, and `name` does not replace it: rename the existing object with `Rename`"
+            };
             problems.extend(taken.map(|p| p.at([field]).help(help)));
         }
         problems
@@ -271,6 +276,32 @@ mod tests {
         assert!(planned.edges.contains(mesh.n_edges() as u64));
         assert!(planned.faces.contains(mesh.n_faces() as u64));
         assert!(planned.degrees.contains(4));
+    }
+
+    #[test]
+    fn a_name_of_the_file_that_is_taken_is_not_blamed_on_the_step() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut scene = Scene::new();
+        let object = scene::Object::mesh("spot", geometry::shapes::tetrahedron());
+        scene.insert(object).unwrap();
+        let path = folder.path().join("a.glb");
+        let options = mesh_io::WriteOptions::default();
+        mesh_io::write(&store::Disk, &path, &scene, &options).unwrap();
+        let files = files(folder.path());
+        let mut plan = Plan::default();
+        let step = load("(path: \"a.glb\", name: Some(\"new\"))");
+        let cx = PlanContext {
+            files: &files,
+            on: None,
+            budget: u64::MAX,
+        };
+        assert_eq!(step.plan(&mut plan, &cx), []);
+        let problems = step.plan(&mut plan, &cx);
+        assert_eq!(problems.len(), 1);
+        assert!(
+            format!("{problems:?}").contains("the name is in the file"),
+            "{problems:?}"
+        );
     }
 
     #[test]

@@ -143,6 +143,7 @@ fn at_vertices(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geodesic::tests::together;
     use crate::shapes;
     use progress::NoProgress;
 
@@ -151,22 +152,6 @@ mod tests {
             *p *= by;
         }
         mesh
-    }
-
-    /// Returns the parts of two meshes as one mesh.
-    fn together(a: &Mesh, b: &Mesh) -> Mesh {
-        let (mut points, mut faces) = (Vec::new(), Vec::new());
-        for mesh in [a, b] {
-            let first = points.len();
-            points.extend_from_slice(mesh.positions());
-            for f in mesh.faces() {
-                let corners = mesh
-                    .face_vertices(f)
-                    .map(|v| u32::try_from(first + v.index()).unwrap());
-                faces.push(corners.collect::<Vec<u32>>());
-            }
-        }
-        Mesh::from_polygons(points, &faces).unwrap().0
     }
 
     fn thicknesses(mesh: &Mesh) -> Vec<f64> {

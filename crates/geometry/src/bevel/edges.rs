@@ -10,7 +10,9 @@
 //! polygons, and all values are interpolated within the old faces.
 
 use mesh::build::{NonManifold, build};
-use mesh::{Attributes, DVec3, Domain, EdgeId, FaceId, HalfEdgeId, Id, Mesh, Rule, VertexId};
+use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
+
+use super::values::{Blend, blended};
 
 /// The least sine that is used to compute the length of a cut. An edge that is almost parallel to a beveled edge would have
 /// to be cut far from its end to reach the width.
@@ -99,9 +101,6 @@ pub fn shortest_edge_at(mesh: &Mesh, edges: &[EdgeId]) -> f64 {
     let around = ends.flat_map(|v| mesh.vertex_half_edges(v));
     around.map(|h| mesh.length(h)).fold(f64::INFINITY, f64::min)
 }
-
-/// A weighted mean of values at vertices or corners: the sources and their weights, which add up to 1.
-type Blend<I> = [(I, f64); 3];
 
 /// A corner of a new polygon.
 #[derive(Clone, Copy)]
@@ -473,56 +472,6 @@ impl<'m> Bevel<'m> {
         result.set_attributes(attributes);
         Some(result)
     }
-}
-
-/// Returns the values of the new elements. Columns that are copied get the values of the first source.
-fn blended(
-    old: &Attributes,
-    vertices: &[Blend<VertexId>],
-    corners: &[Option<Blend<HalfEdgeId>>],
-    edges: &[EdgeId],
-    faces: &[FaceId],
-) -> Attributes {
-    fn run<I: Id>(
-        new: &mut Attributes,
-        old: &Attributes,
-        domain: Domain,
-        blends: &[Option<Blend<I>>],
-    ) {
-        for column in old.of(domain) {
-            let is_mean = matches!(column.rule, Rule::Interpolate | Rule::Normal);
-            let values = column.values.blend(blends.len(), |i, add| {
-                let Some(blend) = &blends[i] else {
-                    return;
-                };
-                if is_mean {
-                    let terms = blend.iter().filter(|(_, weight)| *weight != 0.0);
-                    terms.for_each(|&(source, weight)| add(source.index(), weight));
-                } else {
-                    add(blend[0].0.index(), 1.0);
-                }
-            });
-            new.insert(domain, column.with_values(values));
-        }
-    }
-    let mut new = Attributes::default();
-    let vertices: Vec<Option<Blend<VertexId>>> = vertices.iter().copied().map(Some).collect();
-    run(&mut new, old, Domain::Vertex, &vertices);
-    run(&mut new, old, Domain::Corner, corners);
-    for column in old.of(Domain::Edge) {
-        let source = |e: usize| edges[e].some().map(Id::index);
-        new.insert(
-            Domain::Edge,
-            column.with_values(column.values.gather(edges.len(), source)),
-        );
-    }
-    for column in old.of(Domain::Face) {
-        let values = column
-            .values
-            .gather(faces.len(), |f| Some(faces[f].index()));
-        new.insert(Domain::Face, column.with_values(values));
-    }
-    new
 }
 
 /// Converts the number of a vertex or a corner. Ids have 32 bits.

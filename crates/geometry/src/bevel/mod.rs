@@ -1,6 +1,7 @@
 //! Bevels: the widths of vertex bevels, which can cut an edge from both ends, and beveling a set of edges.
 
 mod edges;
+mod values;
 
 use mesh::{EdgeId, FaceId, Mesh};
 

@@ -11,7 +11,7 @@
 
 mod intrinsic;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 use mesh::{Domain, Mesh};
 use progress::Progress;

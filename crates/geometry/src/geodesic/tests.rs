@@ -13,7 +13,7 @@ fn distances(mesh: &Mesh, sources: &[usize]) -> Vec<f64> {
 }
 
 /// Returns the parts of two meshes as one mesh.
-fn together(a: &Mesh, b: &Mesh) -> Mesh {
+pub(crate) fn together(a: &Mesh, b: &Mesh) -> Mesh {
     let (mut points, mut faces) = (Vec::new(), Vec::new());
     for mesh in [a, b] {
         let first = points.len();

@@ -203,17 +203,17 @@ fn a_seam_stays_and_texture_coordinates_do_not_blend_across_it() {
     }
 }
 
+/// Returns the edges of a [`square`] on the line x = 0.5.
+pub(crate) fn middle(mesh: &Mesh) -> Vec<EdgeId> {
+    let is_on_line = |&v: &VertexId| mesh.position(v).x == 0.5;
+    let is_in_middle = |&e: &EdgeId| mesh.edge_vertices(e).iter().all(is_on_line);
+    mesh.edges().filter(is_in_middle).collect()
+}
+
 #[test]
 fn borders_of_materials_creases_features_and_tags_stay() {
     let mesh = square(12);
-    let middle: Vec<EdgeId> = mesh
-        .edges()
-        .filter(|&e| {
-            mesh.edge_vertices(e)
-                .iter()
-                .all(|&v| mesh.position(v).x == 0.5)
-        })
-        .collect();
+    let middle = middle(&mesh);
     assert_eq!(middle.len(), 12);
     let left = |mesh: &Mesh, f: FaceId| {
         mesh.face_vertices(f)

@@ -1,0 +1,180 @@
+use super::*;
+use geometry::shapes;
+use mesh::{Attribute, COLOR, DVec2, DVec4, UV, VertexId};
+use scene::Object;
+
+const GROUP: Attribute<FaceId, i32> = Attribute::new("group", Rule::Copy);
+
+fn step(text: &str) -> Transfer {
+    op::test::read(text).unwrap()
+}
+
+/// The coordinates of a chart: (x, y), and 5 further right for faces right of x = 0.
+fn uv(p: DVec3, right: bool) -> DVec2 {
+    DVec2::new(p.x + if right { 5.0 } else { 0.0 }, p.y)
+}
+
+/// A square of 8 x 8 faces from -4 to 4, with two charts and a color that is linear in x.
+fn source() -> Mesh {
+    let mut mesh = shapes::grid(8, 8);
+    let scale = 4.0 / mesh.positions().iter().fold(0.0, |m, p| p.x.max(m));
+    mesh.positions_mut().iter_mut().for_each(|p| *p *= scale);
+    let of_corner = |i| {
+        let h = HalfEdgeId::new(i);
+        mesh.face(h).map_or(DVec2::ZERO, |f| {
+            uv(mesh.position(mesh.origin(h)), mesh.face_center(f).x > 0.0)
+        })
+    };
+    let uvs = (0..mesh.domain_len(Domain::Corner))
+        .map(of_corner)
+        .collect();
+    let colors = mesh
+        .positions()
+        .iter()
+        .map(|p| DVec4::new(p.x, 0.0, 0.0, 1.0))
+        .collect();
+    let groups = mesh
+        .faces()
+        .map(|f| if mesh.face_center(f).y > 0.0 { 7 } else { 3 })
+        .collect();
+    mesh.set(UV, uvs);
+    mesh.set(COLOR, colors);
+    mesh.set(GROUP, groups);
+    mesh
+}
+
+fn scene(target: Mesh) -> Scene {
+    let mut scene = Scene::new();
+    scene.insert(Object::mesh("scan", source())).unwrap();
+    scene.insert(Object::mesh("low", target)).unwrap();
+    scene
+}
+
+fn low(scene: &Scene) -> &Mesh {
+    scene.object("low").unwrap().as_mesh().unwrap()
+}
+
+/// A target with other faces, 0.01 above the source.
+fn target() -> Mesh {
+    let mut mesh = shapes::grid(5, 7);
+    let largest = mesh
+        .positions()
+        .iter()
+        .fold(0.0, |m, p| p.abs().max_element().max(m));
+    for p in mesh.positions_mut() {
+        *p = *p * (3.9 / largest) + DVec3::new(0.0, 0.0, 0.01);
+    }
+    mesh
+}
+
+#[test]
+fn affine_values_are_exact_and_no_face_lies_in_two_charts() {
+    let mut scene = scene(target());
+    let step = step(r#"(from: "scan", attributes: ["uv", "color", "group"], within: 0.1)"#);
+    let report = op::test::run(&step, &mut scene).unwrap();
+    assert_eq!(report.notes, [""; 0]);
+    let mesh = low(&scene);
+    for (p, color) in mesh.positions().iter().zip(mesh.get(COLOR).unwrap()) {
+        assert!((color.x - p.x).abs() < 1e-12 && (color.w - 1.0).abs() < 1e-12);
+    }
+    let uvs = mesh.get(UV).unwrap();
+    let mut crossing = 0;
+    for f in mesh.faces() {
+        let right = mesh.face_center(f).x > 0.0;
+        for h in mesh.face_half_edges(f) {
+            let p = mesh.position(mesh.origin(h));
+            // A corner beyond the seam gets the coordinates of the seam.
+            let clamped = DVec3::new(if right { p.x.max(0.0) } else { p.x.min(0.0) }, p.y, 0.0);
+            crossing += usize::from(clamped.x != p.x);
+            assert!(uvs[h.index()].distance(uv(clamped, right)) < 1e-12);
+        }
+        let expected = if mesh.face_center(f).y > 0.0 { 7 } else { 3 };
+        assert_eq!(mesh.get(GROUP).unwrap()[f.index()], expected);
+    }
+    assert!(crossing > 0);
+}
+
+#[test]
+fn elements_that_are_too_far_keep_their_values_and_are_counted() {
+    let mut target = target();
+    let v = VertexId::new(0);
+    target.set_position(v, DVec3::new(-3.9, -3.9, 2.0));
+    target.set(COLOR, vec![DVec4::splat(0.25); target.n_vertices()]);
+    let mut scene = scene(target);
+    let step = step(r#"(from: "scan", attributes: ["uv", "color"], within: 0.1)"#);
+    let report = op::test::run(&step, &mut scene).unwrap();
+    assert_eq!(
+        report.notes,
+        [
+            "vertices further than `within` from \"scan\", which keep their values: 1",
+            "corners further than `within` from \"scan\", which keep their values: 4"
+        ]
+    );
+    let mesh = low(&scene);
+    assert_eq!(mesh.get(COLOR).unwrap()[0], DVec4::splat(0.25));
+    let f = mesh.vertex_faces(v).next().unwrap();
+    assert!(
+        mesh.face_half_edges(f)
+            .all(|h| mesh.get(UV).unwrap()[h.index()] == DVec2::ZERO)
+    );
+}
+
+#[test]
+fn a_mesh_takes_its_own_attributes_back_unchanged() {
+    let mut bare = source();
+    for (domain, name) in [
+        (Domain::Corner, "uv"),
+        (Domain::Vertex, "color"),
+        (Domain::Face, "group"),
+    ] {
+        bare.remove_column(domain, name);
+    }
+    let mut scene = scene(bare);
+    op::test::run(
+        &step(r#"(from: "scan", attributes: ["group", "uv", "color"])"#),
+        &mut scene,
+    )
+    .unwrap();
+    let (mesh, source) = (low(&scene), source());
+    assert_eq!(mesh.get(COLOR), source.get(COLOR));
+    assert_eq!(mesh.get(GROUP), source.get(GROUP));
+    for f in mesh.faces() {
+        for h in mesh.face_half_edges(f) {
+            assert_eq!(
+                mesh.get(UV).unwrap()[h.index()],
+                source.get(UV).unwrap()[h.index()]
+            );
+        }
+    }
+}
+
+#[test]
+fn missing_and_unsuitable_attributes_are_refused() {
+    let refused = |text: &str, target: Mesh| {
+        let mut scene = scene(target);
+        let before = scene.clone();
+        let error = op::test::run(&step(text), &mut scene)
+            .unwrap_err()
+            .to_string();
+        assert_eq!(scene, before);
+        error
+    };
+    let error = refused(r#"(from: "scan", attributes: ["uw"])"#, target());
+    assert!(
+        error.contains("has no attribute \"uw\"; it has: vertex attribute \"color\""),
+        "{error}"
+    );
+    let mut other = target();
+    other.set(
+        Attribute::<VertexId, f64>::new("color", Rule::Copy),
+        vec![0.0; other.n_vertices()],
+    );
+    let error = refused(r#"(from: "scan", attributes: ["color"])"#, other);
+    assert!(
+        error.contains("\"4 numbers\", and the existing one \"number\""),
+        "{error}"
+    );
+    refused(r#"(from: "scan", attributes: ["material"])"#, target());
+    refused(r#"(from: "scan", attributes: [])"#, target());
+    refused(r#"(from: "scam", attributes: ["uv"])"#, target());
+}

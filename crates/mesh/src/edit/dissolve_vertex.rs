@@ -36,8 +36,8 @@ impl Mesh {
     /// - [`EditError::FewEdges`] with `v` if `v` is isolated or has a single edge. The same error with a
     ///   neighbor of `v` if the neighbor would be left with a single edge inside the merged face (remove
     ///   the neighbor first).
-    /// - [`EditError::RepeatedVertex`] if a face visits `v` twice, or the merged face would visit another
-    ///   vertex twice.
+    /// - [`EditError::RepeatedVertex`] if a face visits `v` twice, or two of the merged faces have another vertex in
+    ///   common.
     /// - [`EditError::DuplicateEdge`] if two edges would become one edge, but its ends already share an edge.
     /// - [`EditError::FewCorners`] if a face would be left with fewer than three corners.
     /// - [`EditError::Seam`] with an edge at `v` if, at the other end of this edge, corner attributes differ between
@@ -97,13 +97,10 @@ impl Mesh {
                 return Err(EditError::FewEdges(self.target(h)));
             }
         }
-        let rim = self.rim_around(&spokes);
-        let mut corners: Vec<VertexId> = rim.iter().map(|&h| self.origin(h)).collect();
-        if on_boundary {
-            // The rim is open: it ends at the target of the first spoke.
-            corners.push(self.target(spokes[0]));
-        }
-        if let Some(v) = first_repeated(&corners) {
+        // A vertex of a very large face is removed without a walk around that face.
+        let large = self.spoke_of_largest_face(&spokes);
+        let rim = self.rim_around(spokes.iter().copied().filter(|&h| h != large));
+        if let Some(v) = self.repeated_after_merge(&spokes, large, &rim) {
             return Err(EditError::RepeatedVertex(v));
         }
         if on_boundary && self.share_an_edge(spokes[0].twin(), spokes[last].twin()) {
@@ -118,15 +115,20 @@ impl Mesh {
         }
 
         self.drop_columns_by_rule();
+        let merged = faces[0];
+        let rim_of_large = match self.face(large) {
+            Some(f) if f != merged => self.rim_around([large].into_iter()),
+            _ => Vec::new(),
+        };
+        let first_spoke = spokes[usize::from(on_boundary)];
+        self.set_face_half_edge(merged, self.next(first_spoke));
         for &h in inner {
             let after = self.next(h);
             self.set_next(self.prev_on_face(h.twin()), after);
             self.replace_first_of_vertex(h.twin(), after);
             self.kill(h.edge());
         }
-        let merged = faces[0];
-        self.set_face_half_edge(merged, rim[0]);
-        for &h in &rim {
+        for &h in rim.iter().chain(&rim_of_large) {
             self.set_face(h, Some(merged));
         }
         for &f in &faces[1..] {
@@ -144,11 +146,10 @@ impl Mesh {
         Ok(merged)
     }
 
-    /// Returns the half-edges of the faces around a vertex, except those that start or end at the vertex.
-    /// `spokes` are the outgoing half-edges of the vertex.
-    fn rim_around(&self, spokes: &[HalfEdgeId]) -> Vec<HalfEdgeId> {
+    /// Returns the half-edges of the faces of these spokes, except those that start or end at their origin.
+    fn rim_around(&self, spokes: impl Iterator<Item = HalfEdgeId>) -> Vec<HalfEdgeId> {
         let mut rim = Vec::new();
-        for &spoke in spokes.iter().filter(|&&h| self.face(h).is_some()) {
+        for spoke in spokes.filter(|&h| self.face(h).is_some()) {
             let mut h = self.next(spoke);
             while self.target(h) != self.origin(spoke) {
                 rim.push(h);
@@ -156,6 +157,51 @@ impl Mesh {
             }
         }
         rim
+    }
+
+    /// Returns the spoke whose face has the most corners. Walks around all faces at the same time, and stops when only
+    /// one face is left.
+    fn spoke_of_largest_face(&self, spokes: &[HalfEdgeId]) -> HalfEdgeId {
+        let with_face = spokes.iter().filter(|&&h| self.face(h).is_some());
+        let mut walks: Vec<(HalfEdgeId, HalfEdgeId)> = with_face.map(|&h| (h, h)).collect();
+        let mut largest = spokes[0];
+        while let Some(&(spoke, _)) = walks.first() {
+            largest = spoke;
+            if walks.len() == 1 {
+                break;
+            }
+            walks.retain_mut(|(spoke, h)| {
+                *h = self.next(*h);
+                *h != *spoke
+            });
+        }
+        largest
+    }
+
+    /// Returns a vertex that the face merged around a vertex would visit twice. `rim` are the half-edges around the other
+    /// faces than that of the spoke `large`, which is not walked around.
+    fn repeated_after_merge(
+        &self,
+        spokes: &[HalfEdgeId],
+        large: HalfEdgeId,
+        rim: &[HalfEdgeId],
+    ) -> Option<VertexId> {
+        let mut corners: Vec<VertexId> = rim.iter().map(|&h| self.origin(h)).collect();
+        if self.face(spokes[0]).is_none() {
+            // On the boundary, the rim is open: it ends at the target of the first spoke.
+            corners.push(self.target(spokes[0]));
+        }
+        let before_large = spokes.iter().position(|&h| h == large)? + spokes.len() - 1;
+        let ends = [large, spokes[before_large % spokes.len()]].map(|h| self.target(h));
+        let on_large =
+            |v: &VertexId| (self.vertex_half_edges(*v)).any(|h| self.face(h) == self.face(large));
+        let common = corners
+            .iter()
+            .copied()
+            .filter(|v| !ends.contains(v))
+            .find(on_large);
+        corners.push(ends[0]);
+        common.or_else(|| first_repeated(&corners))
     }
 
     /// Checks that the edges of `x` and `y`, the only outgoing half-edges of a vertex, can become one edge.

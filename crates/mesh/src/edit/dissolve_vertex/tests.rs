@@ -255,3 +255,33 @@ fn a_vertex_that_does_not_exist_is_refused() {
         EditError::NoSuchVertex(vertex(8))
     );
 }
+
+#[test]
+fn large_faces_stay_valid_in_any_order() {
+    let grid = shapes::grid(7, 7);
+    let orders: [fn(usize) -> usize; 3] = [|i| i, |i| 63 - i, |i| i * 37 % 64];
+    for order in orders {
+        let mut mesh = grid.clone();
+        let mut dissolved = 0;
+        for v in (0..64).map(order).map(vertex) {
+            let lowest = mesh.vertex_faces(v).min();
+            match mesh.dissolve_vertex(v) {
+                Ok(f) => {
+                    dissolved += 1;
+                    assert_eq!(Some(f), lowest);
+                }
+                Err(EditError::NoSuchVertex(_)) => panic!("{v} is visited once"),
+                Err(_) => {}
+            }
+            assert_eq!(mesh.defects(), []);
+            for f in mesh.faces() {
+                let mut corners: Vec<VertexId> = mesh.face_vertices(f).collect();
+                assert!(mesh.face_half_edges(f).all(|h| mesh.face(h) == Some(f)));
+                corners.sort_unstable();
+                corners.dedup();
+                assert_eq!(corners.len(), mesh.degree(f));
+            }
+        }
+        assert!(dissolved > 40, "{dissolved}");
+    }
+}

@@ -1,5 +1,8 @@
 //! Checks whether two meshes are the same up to the order of their elements.
 
+use std::cmp::Ordering;
+use std::ops::Range;
+
 use mesh::{DVec3, Mesh, VertexId};
 
 use super::subject::counted;
@@ -19,63 +22,61 @@ impl<'m> PositionIndex<'m> {
         Self { mesh, tree }
     }
 
-    /// Returns the `free` vertex nearest to `p`, if there is one within the tolerance. If several vertices are equally
-    /// near, returns the vertex with the lowest id.
-    fn nearest(
-        &self,
-        p: DVec3,
-        tolerance: f64,
-        free: impl Fn(VertexId) -> bool,
-    ) -> Option<VertexId> {
-        let mut best = (tolerance, VertexId::NONE);
-        self.visit(&self.tree, p, tolerance, &mut |v| {
-            let found = (self.mesh.position(v).distance(p), v);
-            if found.0 < best.0 || found.0 == best.0 && v < best.1 {
-                if !free(v) {
-                    return best.0;
-                }
-                best = found;
+    /// Returns the place in the tree of the free vertex nearest to `p`, if there is one within the tolerance. If several
+    /// vertices are equally near, returns the one with the lowest id.
+    fn nearest(&self, p: DVec3, tolerance: f64, free: &FreeVertices) -> Option<usize> {
+        let mut best = (tolerance, VertexId::NONE, 0);
+        let all = 0..self.tree.len();
+        self.visit(all, p, tolerance, &|i| free.any_below(i), &mut |i| {
+            let v = self.tree[i].0;
+            let distance = self.mesh.position(v).distance(p);
+            if (distance < best.0 || distance == best.0 && v < best.1) && free.is_free(i) {
+                best = (distance, v, i);
             }
             best.0
         });
-        (best.1 != VertexId::NONE).then_some(best.1)
+        (best.1 != VertexId::NONE).then_some(best.2)
     }
 
     /// Whether any vertex is near `p`: at a distance of at most the tolerance.
     pub(super) fn any_near(&self, p: DVec3, tolerance: f64) -> bool {
         let mut found = false;
-        self.visit(&self.tree, p, tolerance, &mut |v| {
-            found |= self.mesh.position(v).distance(p) <= tolerance;
+        let all = 0..self.tree.len();
+        self.visit(all, p, tolerance, &|_| true, &mut |i| {
+            found |= self.mesh.position(self.tree[i].0).distance(p) <= tolerance;
             if found { -1.0 } else { tolerance }
         });
         found
     }
 
-    /// Calls `at` for the vertices in a part of the tree that can be within a distance of `p`. The distance is `limit`
-    /// at first, and then the last value that `at` returned. Returns the final distance.
+    /// Calls `at` for the places in a part of the tree whose vertices can be within a distance of `p`. The distance is
+    /// `limit` at first, and then the last value that `at` returned. Skips the parts of the tree for whose middle `enter`
+    /// returns `false`. Returns the final distance.
     fn visit(
         &self,
-        tree: &[(VertexId, u8)],
+        part: Range<usize>,
         p: DVec3,
         mut limit: f64,
-        at: &mut impl FnMut(VertexId) -> f64,
+        enter: &impl Fn(usize) -> bool,
+        at: &mut impl FnMut(usize) -> f64,
     ) -> f64 {
-        let middle = tree.len() / 2;
-        let Some(&(v, axis)) = tree.get(middle) else {
+        let middle = middle(&part);
+        if part.is_empty() || !enter(middle) {
             return limit;
-        };
-        limit = at(v);
+        }
+        let (v, axis) = self.tree[middle];
+        limit = at(middle);
         let axis = usize::from(axis);
         let beyond = p[axis] - self.mesh.position(v)[axis];
-        let (below, above) = (&tree[..middle], &tree[middle + 1..]);
+        let (below, above) = (part.start..middle, middle + 1..part.end);
         let [near, far] = if beyond < 0.0 {
             [below, above]
         } else {
             [above, below]
         };
-        limit = self.visit(near, p, limit, at);
+        limit = self.visit(near, p, limit, enter, at);
         if beyond.abs() <= limit {
-            limit = self.visit(far, p, limit, at);
+            limit = self.visit(far, p, limit, enter, at);
         }
         limit
     }
@@ -91,14 +92,68 @@ impl<'m> PositionIndex<'m> {
         if other.n_vertices() != self.mesh.n_vertices() {
             return None;
         }
-        let mut taken = vec![false; self.mesh.positions().len()];
+        let mut free = FreeVertices::all(self.tree.len());
         let mut map = vec![VertexId::NONE; other.positions().len()];
         for v in other.vertices() {
-            let found = self.nearest(image(v), tolerance, |v| !taken[v.index()])?;
-            taken[found.index()] = true;
-            map[v.index()] = found;
+            let found = self.nearest(image(v), tolerance, &free)?;
+            free.take(found);
+            map[v.index()] = self.tree[found].0;
         }
         Some(map)
+    }
+}
+
+/// Returns the place of the vertex that splits a part of the tree.
+fn middle(part: &Range<usize>) -> usize {
+    part.start + part.len() / 2
+}
+
+/// The vertices of a k-d tree that have not been taken. A search skips the parts of the tree in which all vertices are
+/// taken; otherwise it would visit the same taken vertices again and again.
+struct FreeVertices {
+    is_free: Vec<bool>,
+    /// The number of free vertices in the part of the tree that a vertex splits.
+    n_below: Vec<usize>,
+}
+
+impl FreeVertices {
+    fn all(n: usize) -> Self {
+        fn count(part: Range<usize>, n_below: &mut [usize]) {
+            if !part.is_empty() {
+                let middle = middle(&part);
+                n_below[middle] = part.len();
+                count(part.start..middle, n_below);
+                count(middle + 1..part.end, n_below);
+            }
+        }
+        let mut n_below = vec![0; n];
+        count(0..n, &mut n_below);
+        Self {
+            is_free: vec![true; n],
+            n_below,
+        }
+    }
+
+    fn is_free(&self, i: usize) -> bool {
+        self.is_free[i]
+    }
+
+    fn any_below(&self, i: usize) -> bool {
+        self.n_below[i] > 0
+    }
+
+    fn take(&mut self, i: usize) {
+        self.is_free[i] = false;
+        let mut part = 0..self.is_free.len();
+        loop {
+            let middle = middle(&part);
+            self.n_below[middle] -= 1;
+            match i.cmp(&middle) {
+                Ordering::Less => part.end = middle,
+                Ordering::Equal => break,
+                Ordering::Greater => part.start = middle + 1,
+            }
+        }
     }
 }
 
@@ -177,4 +232,49 @@ pub(super) fn check(
         return Err("the faces differ from those of the other mesh".to_owned());
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn points(max: usize) -> impl Strategy<Value = Vec<DVec3>> {
+        let coordinate = || (0_u8..5).prop_map(f64::from);
+        let point = (coordinate(), coordinate(), coordinate());
+        prop::collection::vec(point.prop_map(DVec3::from), 1..max)
+    }
+
+    fn mesh_of(points: Vec<DVec3>) -> Mesh {
+        Mesh::from_polygons(points, &[] as &[[u32; 3]])
+            .expect("vertices without faces are valid")
+            .0
+    }
+
+    proptest! {
+        #[test]
+        fn the_matching_is_that_of_a_search_through_all_vertices(
+            points in points(60),
+            shift in (0_u8..3).prop_map(f64::from),
+            tolerance in (0_u8..8).prop_map(f64::from),
+        ) {
+            let other = mesh_of(points.iter().rev().copied().collect());
+            let mesh = mesh_of(points);
+            let image = |v: VertexId| other.position(v) + DVec3::splat(shift);
+            let mut free: Vec<VertexId> = mesh.vertices().collect();
+            let expected: Option<Vec<VertexId>> = other
+                .vertices()
+                .map(|v| {
+                    let distance = |w: VertexId| mesh.position(w).distance(image(v));
+                    let near = free.iter().copied().filter(|&w| distance(w) <= tolerance);
+                    let key = |w: &VertexId| (distance(*w), *w);
+                    let found = near.min_by(|a, b| key(a).partial_cmp(&key(b)).expect("finite"))?;
+                    free.retain(|&w| w != found);
+                    Some(found)
+                })
+                .collect();
+            let index = PositionIndex::new(&mesh);
+            prop_assert_eq!(index.matching(&other, image, tolerance), expected);
+        }
+    }
 }

@@ -54,11 +54,20 @@ pub(crate) fn peek(
     for instance in scene.instances() {
         *instances.entry(&instance.object.name).or_default() += 1;
     }
+    let graph = scene.graph();
+    let mut skins: BTreeMap<&str, Option<u64>> = BTreeMap::new();
+    for node in graph.nodes() {
+        if let Some(object) = &node.object {
+            let skin = node.skin.map(|skin| skin as u64);
+            skins.entry(object.as_str()).or_insert(skin);
+        }
+    }
     let objects = scene.objects().iter().map(|object| PeekObject {
         materials: Some(object.materials.iter().map(|m| m.name.clone()).collect()),
         name: object.name.clone(),
         geometry: PeekGeometry::of(&object.geometry),
         instances: instances[object.name.as_str()],
+        skin: skins.get(object.name.as_str()).copied().flatten(),
     });
     Ok(objects.collect())
 }

@@ -47,6 +47,8 @@ pub struct PeekObject {
     pub geometry: PeekGeometry,
     /// The number of nodes that show the object, or 1 in a file without nodes.
     pub instances: u64,
+    /// The index of the skin of the first node that shows the object.
+    pub skin: Option<u64>,
     /// The names of the materials of the object. `None` if the names are known only after reading.
     pub materials: Option<Vec<String>>,
 }
@@ -58,6 +60,7 @@ impl PeekObject {
             name,
             geometry,
             instances: 1,
+            skin: None,
             materials: None,
         }
     }

@@ -346,8 +346,25 @@ pub struct PlannedObject {
     pub name: String,
     /// The geometry.
     pub geometry: PlannedGeometry,
-    /// How often nodes show the object; 1 if no node shows it.
+    /// How nodes show the object.
+    pub shown: PlannedNodes,
+}
+
+/// The plan of the nodes that show an object.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PlannedNodes {
+    /// The number of nodes; 1 if no node shows the object.
     pub instances: u64,
+    /// The number of the skin of the first node, counted over all files that are loaded.
+    pub skin: Option<u64>,
+}
+
+impl PlannedNodes {
+    /// One node without a skin, or no node.
+    pub const ONE: Self = Self {
+        instances: 1,
+        skin: None,
+    };
 }
 
 /// The plan of a scene at one point of a recipe. Each step changes the plan as it will change the scene.
@@ -416,16 +433,16 @@ impl Plan {
             self.objects.push(PlannedObject {
                 name: name.to_owned(),
                 geometry,
-                instances: 1,
+                shown: PlannedNodes::ONE,
             });
         }
         taken
     }
 
-    /// Sets how often nodes show the object that was added last.
-    pub fn set_instances_of_last(&mut self, instances: u64) {
+    /// Sets how nodes show the object that was added last.
+    pub fn set_nodes_of_last(&mut self, shown: PlannedNodes) {
         if let Some(object) = self.objects.last_mut() {
-            object.instances = instances;
+            object.shown = shown;
         }
     }
 

@@ -6,7 +6,7 @@ use mesh_io::{
     Placements, Policies, ReadOptions,
 };
 use op::prelude::*;
-use op::{Loss, Operation, ReadingChange, ReadingElements};
+use op::{Loss, Operation, PlannedNodes, ReadingChange, ReadingElements};
 
 /// Reads the objects of a file into the scene.
 ///
@@ -130,6 +130,7 @@ impl Operation for Load {
 
 impl Load {
     fn plan_objects(&self, peek: &Peek, plan: &mut Plan) -> Vec<Problem> {
+        let first_skin = plan.skins;
         plan.skins = plan.skins.saturating_add(peek.skins);
         plan.animations = plan.animations.saturating_add(peek.animations);
         let mut problems = Vec::new();
@@ -150,7 +151,11 @@ impl Load {
             let field = if is_named_here { "name" } else { "path" };
             let taken = plan.insert(&object.name, geometry);
             if taken.is_none() {
-                plan.set_instances_of_last(object.instances);
+                let skin = object.skin.map(|skin| first_skin.saturating_add(skin));
+                plan.set_nodes_of_last(PlannedNodes {
+                    instances: object.instances,
+                    skin,
+                });
             }
             let help = if self.name.is_none() || is_named_here {
                 "give the object a different name with `name`, or rename the existing object"
@@ -338,7 +343,7 @@ mod tests {
             let names: Vec<_> = scene.objects().iter().map(|o| o.name.as_str()).collect();
             let planned: Vec<_> = plan.objects().iter().map(|o| o.name.as_str()).collect();
             assert_eq!((&names[..], &planned[..]), (expected, expected));
-            let instances: u64 = plan.objects().iter().map(|o| o.instances).sum();
+            let instances: u64 = plan.objects().iter().map(|o| o.shown.instances).sum();
             assert_eq!(instances, 2);
             assert_eq!(scene.instances().len(), 2);
         }

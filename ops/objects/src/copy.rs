@@ -31,10 +31,10 @@ impl Operation for Copy {
         let Some(object) = plan.object(&self.from) else {
             return Vec::from_iter(plan.missing(&self.from, ["from"]));
         };
-        let (geometry, instances) = (object.geometry.clone(), object.instances);
+        let (geometry, shown) = (object.geometry.clone(), object.shown);
         let taken = plan.insert(&self.to, geometry);
         if taken.is_none() {
-            plan.set_instances_of_last(instances);
+            plan.set_nodes_of_last(shown);
         }
         Vec::from_iter(taken.map(|p| p.at(["to"])))
     }

@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 use mesh::Domain;
 use op::prelude::*;
-use op::{Operation, PlannedAttribute, PlannedObject, check_name, named_object};
+use op::{Operation, PlannedAttribute, PlannedNodes, PlannedObject, check_name, named_object};
 use scene::Object;
 
 use crate::join::skin::KeptSkin;
@@ -62,8 +62,8 @@ impl Operation for Join {
             match plan.object(name).map(|o| &o.geometry) {
                 None => problems.extend(plan.missing(name, ["objects", &at])),
                 Some(PlannedGeometry::Mesh(mesh)) => {
-                    let instances = plan.object(name).map_or(1, |o| o.instances);
-                    parts.push((mesh.clone(), Range::exactly(instances)));
+                    let shown = plan.object(name).map_or(PlannedNodes::ONE, |o| o.shown);
+                    parts.push((mesh.clone(), shown));
                 }
                 Some(other) => {
                     let message = not_a_mesh(name, other.kind());
@@ -83,6 +83,9 @@ impl Operation for Join {
             return problems;
         }
         let joined = self.joined_plan(&parts);
+        let nodes: Vec<PlannedNodes> = parts.iter().map(|(_, shown)| *shown).collect();
+        let (kept, loss) = skin::planned(&nodes, &self.name);
+        plan.losses.extend(loss);
         let counts = [joined.edges.by(2), joined.vertices, joined.faces];
         let largest = counts.map(|n| n.min).into_iter().fold(0, u64::max);
         if largest > parts::MAX_ELEMENTS {
@@ -95,7 +98,10 @@ impl Operation for Join {
         *object.expect("checked above") = PlannedObject {
             name: self.name.clone(),
             geometry: PlannedGeometry::Mesh(joined),
-            instances: 1,
+            shown: PlannedNodes {
+                instances: 1,
+                skin: kept,
+            },
         };
         problems
     }
@@ -185,13 +191,14 @@ impl Join {
         Ok((object, report))
     }
 
-    /// Returns the plan of the result. Each part is given with its number of instances.
-    fn joined_plan(&self, parts: &[(MeshPlan, Range)]) -> MeshPlan {
+    /// Returns the plan of the result. Each part is given with the nodes that show it.
+    fn joined_plan(&self, parts: &[(MeshPlan, PlannedNodes)]) -> MeshPlan {
         let mut joined = parts[0].0.clone();
         let none = Range::exactly(0);
         (joined.vertices, joined.edges, joined.faces) = (none, none, none);
-        for (part, instances) in parts {
-            let counts = [part.vertices, part.edges, part.faces].map(|n| n.times(*instances));
+        for (part, shown) in parts {
+            let instances = Range::exactly(shown.instances);
+            let counts = [part.vertices, part.edges, part.faces].map(|n| n.times(instances));
             joined.grow(counts[0], counts[1], counts[2]);
             joined.has_unlisted_attributes |= part.has_unlisted_attributes;
             joined.degrees = joined.degrees.or(part.degrees);

@@ -245,3 +245,44 @@ fn a_deleted_object_keeps_joints_and_drops_channels() {
     let back = Scene::decode(&bytes, usize::MAX, &mut scene::NoArrays).unwrap();
     assert_eq!(back, only);
 }
+
+#[test]
+fn the_plan_of_a_join_names_the_loss_of_different_skins() {
+    let shown = |instances, skin| op::PlannedNodes { instances, skin };
+    let [plain, skinned, other, twice] = [
+        shown(1, None),
+        shown(1, Some(0)),
+        shown(1, Some(1)),
+        shown(2, Some(0)),
+    ];
+    for (parts, kept, n_lost) in [
+        ([plain, plain], None, 0),
+        ([skinned, skinned], Some(0), 0),
+        ([plain, other], Some(1), 0),
+        ([skinned, other], None, 1),
+        ([twice, plain], None, 1),
+    ] {
+        let mut plan = op::Plan::default();
+        let mesh = op::MeshPlan::of(&shapes::cube());
+        for (name, nodes) in ["body", "twin"].into_iter().zip(parts) {
+            let geometry = op::PlannedGeometry::Mesh(mesh.clone());
+            assert_eq!(plan.insert(name, geometry), None);
+            plan.set_nodes_of_last(nodes);
+        }
+        let registry = op::Registry::new().with::<Join>();
+        let entry = registry.get("Join").unwrap();
+        let step = entry
+            .parse_by_ron(r#"(objects: ["body", "twin"], name: "all")"#)
+            .unwrap();
+        let files = op::Files::default();
+        let cx = op::PlanContext {
+            files: &files,
+            on: None,
+            budget: u64::MAX,
+        };
+        let problems = step.plan(&mut plan, &cx);
+        assert_eq!(problems, []);
+        assert_eq!(plan.losses.len(), n_lost, "{parts:?}");
+        assert_eq!(plan.object("all").unwrap().shown, shown(1, kept));
+    }
+}

@@ -76,8 +76,8 @@ impl Operation for Scatter {
         let object = plan.objects_mut().iter_mut().find(|o| o.name == *name);
         if let Some(object) = object {
             // An object that no node shows has one instance, which disappears.
-            object.instances = if object.instances > 1 {
-                object.instances + n
+            object.shown.instances = if object.shown.instances > 1 {
+                object.shown.instances + n
             } else {
                 n
             };

@@ -88,11 +88,11 @@ impl Operation for Separate {
         if let Some(taken) = names.iter().find_map(|name| plan.taken(name, "object")) {
             return vec![taken];
         }
-        let instances = plan.objects()[place].instances;
+        let shown = plan.objects()[place].shown;
         let mut objects = names.into_iter().map(|name| PlannedObject {
             name,
             geometry: PlannedGeometry::Mesh(part.clone()),
-            instances,
+            shown,
         });
         plan.objects_mut()[place] = objects.next().expect("at least one part");
         plan.objects_mut().extend(objects);

@@ -69,7 +69,7 @@ impl Operation for Lods {
         let Some(object) = plan.object(&self.from) else {
             return Vec::from_iter(plan.missing(&self.from, ["from"]));
         };
-        let instances = object.instances;
+        let shown = object.shown;
         let PlannedGeometry::Mesh(mesh) = object.geometry.clone() else {
             let message = format!("Lods needs a mesh, but \"{}\" is not a mesh", self.from);
             return vec![Problem::error(message).at(["from"])];
@@ -85,7 +85,7 @@ impl Operation for Lods {
             plan_goal(&mut copy, goal, self.on_refusal == OnRefusal::Error);
             let taken = plan.insert(&self.name(i + 1), PlannedGeometry::Mesh(copy));
             if taken.is_none() {
-                plan.set_instances_of_last(instances);
+                plan.set_nodes_of_last(shown);
             }
             problems.extend(taken);
         }

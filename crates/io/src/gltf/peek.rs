@@ -65,6 +65,7 @@ pub(crate) fn peek(
         objects.push(PeekObject {
             name: placed.name,
             instances: placed.instances,
+            skin: placed.skin.map(|skin| skin as u64),
             geometry: PeekGeometry::Mesh(*mesh),
             materials: Some(names.collect()),
         });

@@ -365,6 +365,9 @@ fn an_asset_that_no_step_touched_keeps_skin_targets_and_animations() {
     for extension in ["glb", "gltf", "mws"] {
         let path = folder.path("a").with_extension(extension);
         mesh_io::write(&Disk, &path, &scene, &WriteOptions::default()).unwrap();
+        let peek = mesh_io::peek(&Disk, &path, &mesh_io::ReadOptions::default()).unwrap();
+        let mut objects = peek.objects.iter();
+        assert!(objects.any(|o| o.skin == Some(0)), "{extension}");
         let back = scene_of(crate::read(&path).unwrap());
         assert_eq!(back.digest(), scene.digest(), "{extension}");
         assert_eq!(back, scene, "{extension}");

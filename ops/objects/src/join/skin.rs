@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use glam::DAffine3;
 use mesh::{Attributes, Column, Domain, Mesh, Rule, Value, joint_name};
-use op::{Loss, Report};
+use op::{Loss, PlannedNodes, Report};
 use scene::{Geometry, Instance, Object, Scene, transformed};
 
 /// The skin of a joined mesh.
@@ -80,6 +80,29 @@ fn remove_joints(mesh: &mut Mesh) {
     }
 }
 
+/// Plans the skin of the joined mesh. Returns the skin that all skinned parts have, or else the loss of the skins.
+pub(super) fn planned(parts: &[PlannedNodes], joined: &str) -> (Option<u64>, Option<Loss>) {
+    let mut skinned = parts.iter().filter(|part| part.skin.is_some());
+    let Some(first) = skinned.next() else {
+        return (None, None);
+    };
+    if first.instances == 1 && skinned.all(|other| other == first) {
+        (first.skin, None)
+    } else {
+        (None, Some(lost_skin(joined)))
+    }
+}
+
+fn lost_skin(joined: &str) -> Loss {
+    let reason = "the parts have different skins or several instances, so they are joined in the pose of their joints";
+    Loss {
+        object: joined.to_owned(),
+        name: "skins".to_owned(),
+        what: "its skin".to_owned(),
+        reason: reason.to_owned(),
+    }
+}
+
 /// Reports what becomes of skins and morph targets. Without a skin, the joined mesh loses the weights of joints.
 pub(super) fn report(
     scene: &Scene,
@@ -100,12 +123,6 @@ pub(super) fn report(
         nodes.any(|node| node.skin.is_some())
     };
     let n_skinned = parts.iter().filter(is_skinned).count();
-    let loss = |name: &str, what: &str, reason: &str| Loss {
-        object: joined.name.clone(),
-        name: name.to_owned(),
-        what: what.to_owned(),
-        reason: reason.to_owned(),
-    };
     if kept.is_some() {
         let others = parts.iter().filter(|part| !is_skinned(part));
         let n: usize = others
@@ -118,8 +135,7 @@ pub(super) fn report(
             ));
         }
     } else if n_skinned > 0 {
-        let reason = "the parts have different skins or several instances, so they are joined in the pose of their joints";
-        report.losses.push(loss("skins", "its skin", reason));
+        report.losses.push(lost_skin(&joined.name));
     }
     let n_morphed = parts
         .iter()
@@ -130,12 +146,12 @@ pub(super) fn report(
         n_morphed == 1 && part.is_some_and(|part| !attributes(part).morphs().is_empty())
     });
     if n_morphed > 0 && !keeps_label {
-        let what = "the names and default weights of morph targets";
-        report.losses.push(loss(
-            "morph targets",
-            what,
-            "the parts have their own morph targets",
-        ));
+        report.losses.push(Loss {
+            object: joined.name.clone(),
+            name: "morph targets".to_owned(),
+            what: "the names and default weights of morph targets".to_owned(),
+            reason: "the parts have their own morph targets".to_owned(),
+        });
     }
     if kept.is_none()
         && n_skinned > 0

@@ -142,7 +142,7 @@ const MORE_STEPS: &[&str] = &[
     "MoveVertices(vertices: Random(count: 2, seed: 1), by: Distance(-0.1), falloff: 0.7)",
     "MoveVertices(vertices: Vertices([0]), by: To((1, 2, 3)))",
     "Displace(by: Random(seed: 3), distance: 0.01, vertices: Boundary)",
-    r#"Displace(by: Attribute("height"), distance: 1)"#,
+    r#"Displace(by: Attribute(name: "height"), distance: 1)"#,
     "Measure(of: GaussianCurvature)",
     "Measure(of: PrincipalCurvature(Largest), name: \"k\")",
     "Measure(of: VertexArea)",

@@ -52,8 +52,11 @@ pub enum DisplaceBy {
         #[serde(default)]
         seed: u64,
     },
-    /// The vertex attribute of this name, which must hold one number for each vertex.
-    Attribute(String),
+    /// A vertex attribute that holds one number for each vertex.
+    Attribute {
+        /// The name of the attribute.
+        name: String,
+    },
 }
 
 impl MeshOperation for Displace {
@@ -64,20 +67,29 @@ impl MeshOperation for Displace {
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         plan.drop_normals();
-        Vec::new()
+        let DisplaceBy::Attribute { name } = &self.by else {
+            return Vec::new();
+        };
+        let mut listed = plan.attributes.iter();
+        if plan.has_unlisted_attributes
+            || listed.any(|a| a.domain == Domain::Vertex && a.name == *name)
+        {
+            return Vec::new();
+        }
+        vec![Problem::error(missing(name)).at(["by", "name"])]
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
         let mask = self.vertices.mask(mesh, cx)?;
         cx.advance("displace", 0, 1)?;
         let attribute = match &self.by {
-            DisplaceBy::Attribute(name) => Some(numbers(mesh, name)?),
+            DisplaceBy::Attribute { name } => Some(numbers(mesh, name)?),
             _ => None,
         };
         let value = |v: VertexId, p: DVec3| match self.by {
             DisplaceBy::Noise { scale, seed } => gradient(seed, p / scale.get()),
             DisplaceBy::Random { seed } => random(seed, v.index() as u64),
-            DisplaceBy::Attribute(_) => attribute.as_ref().map_or(0.0, |a| a[v.index()]),
+            DisplaceBy::Attribute { .. } => attribute.as_ref().map_or(0.0, |a| a[v.index()]),
         };
         let normals = vertex_directions(mesh);
         let without = normals
@@ -107,9 +119,13 @@ fn numbers(mesh: &Mesh, name: &str) -> Result<Vec<f64>, OpError> {
         ))),
         None => Err(OpError::refused(
             Refusal::Missing,
-            format!("by: the mesh has no vertex attribute \"{name}\""),
+            format!("by: {}", missing(name)),
         )),
     }
+}
+
+fn missing(name: &str) -> String {
+    format!("the mesh has no vertex attribute \"{name}\"")
 }
 
 #[cfg(test)]
@@ -172,7 +188,7 @@ mod tests {
                 rule: Rule::Interpolate,
             },
         );
-        let step = parse(r#"(by: Attribute("wall"), distance: -2)"#);
+        let step = parse(r#"(by: Attribute(name: "wall"), distance: -2)"#);
         let after = applied_as_planned(&step, &grid);
         for (p, h) in after.positions().iter().zip(heights) {
             assert_eq!(p.z, -2.0 * h);

@@ -123,7 +123,10 @@ fn notes(counts: &Counts) -> Report {
     if refused.is_empty() {
         return report;
     }
-    report.note(format!("not done in the last pass: {}", refused.join(", ")))
+    report.note(format!(
+        "improvements refused in the last pass: {}",
+        refused.join(", ")
+    ))
 }
 
 impl MeshOperation for Remesh {

@@ -140,8 +140,8 @@ pub(crate) fn unreached(n_faces: usize, goal: u64, blocked: &[(Blocked, usize)])
         .collect();
     let n_edges: usize = blocked.iter().map(|(_, n)| n).sum();
     let message = format!(
-        "only {n_faces} faces were reached instead of {goal}: of the remaining {n_edges} edges, a collapse of {}",
-        reasons.join(", of ")
+        "only {n_faces} faces were reached instead of {goal}, because no other edge can be collapsed: of {n_edges} edges, {}",
+        reasons.join(", ")
     );
     OpError::refused(Refusal::Unreached, message)
 }
@@ -278,7 +278,7 @@ mod tests {
         let refused = try_applied(&step("(faces: 2)"), shapes::tetrahedron()).unwrap_err();
         assert_eq!(
             refused.to_string(),
-            "only 4 faces were reached instead of 2: of the remaining 6 edges, a collapse of 6 would change the topology"
+            "only 4 faces were reached instead of 2, because no other edge can be collapsed: of 6 edges, 6 would change the topology"
         );
         let skip = step("(faces: 2, on_refusal: Skip)");
         let (mesh, report) = try_applied(&skip, shapes::octahedron()).unwrap();

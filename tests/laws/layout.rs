@@ -27,6 +27,7 @@ const ALLOWED_DEPENDENCIES: &[(&str, &[&str])] = &[
     ("cache", &["recipe"]),
     ("engine", &["cache", "io", "render"]),
     ("cli", &["engine", "view", "ops-pictures", "ops-all"]),
+    ("editor", &["engine"]),
     ("benches", &["ops-*", "engine"]),
     ("tests", &["cli"]),
 ];

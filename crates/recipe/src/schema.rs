@@ -229,6 +229,10 @@ fn step_fields(operation: &Json, defined: &mut SchemaGenerator) -> Json {
                 "minItems": 1,
                 "description": "The names of the objects that the step acts on. If omitted, all suitable objects.",
             },
+            "enabled": {
+                "type": "boolean",
+                "description": "Whether the step runs. Defaults to `true`. A disabled step is not checked, and expectations after it are not checked either.",
+            },
             "note": { "type": "string", "description": "A comment on the step, which `meshwright run --explain` and `check --explain` print." },
             "refused": described(
                 &reference::<Refusal>(defined),

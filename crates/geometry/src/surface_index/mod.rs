@@ -132,6 +132,28 @@ impl SurfaceIndex {
         [self.nodes[0].min, self.nodes[0].max]
     }
 
+    /// Calls `found` with the number of each triangle in the boxes that `enters` accepts. `enters` is called with the smallest
+    /// and the largest corner of a box, and only for boxes inside accepted boxes. Triangles in a box of the lowest level
+    /// are all found, also those that a smaller box would leave out.
+    pub fn visit_boxes(
+        &self,
+        enters: &mut dyn FnMut(DVec3, DVec3) -> bool,
+        found: &mut dyn FnMut(u32),
+    ) {
+        let mut stack = vec![0_usize];
+        while let Some(i) = stack.pop() {
+            let node = &self.nodes[i];
+            if !enters(node.min, node.max) {
+                continue;
+            }
+            if node.right == 0 {
+                (node.first..node.last).for_each(&mut *found);
+            } else {
+                stack.extend([node.right as usize, i + 1]);
+            }
+        }
+    }
+
     /// Returns the corners of the triangles of a node.
     fn triangles_of(&self, node: &Node) -> &[[DVec3; 3]] {
         &self.positions[node.first as usize..node.last as usize]

@@ -36,6 +36,10 @@ pub struct StepForecast {
     pub bytes: Range,
     /// The data of input files that the step certainly loses.
     pub losses: Vec<Loss>,
+    /// The number of files in [`Forecast::inputs`] that this step and earlier steps read.
+    pub n_inputs: usize,
+    /// The number of files in [`Forecast::outputs`] that this step and earlier steps write.
+    pub n_outputs: usize,
 }
 
 /// The result of checking a recipe without running it.
@@ -104,6 +108,8 @@ pub fn check(recipe: &Recipe, files: &Files, budget: u64) -> Forecast {
         }
         let mut step = totals.forecast(step, plan.incomplete);
         step.losses = losses;
+        step.n_inputs = plan.inputs.len();
+        step.n_outputs = plan.outputs.len();
         forecast.steps.push(step);
     }
     for placed in expectations {
@@ -355,6 +361,8 @@ impl Totals {
             faces: self.faces.plus(unknown),
             bytes: self.bytes,
             losses: Vec::new(),
+            n_inputs: 0,
+            n_outputs: 0,
         }
     }
 }

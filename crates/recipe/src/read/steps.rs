@@ -20,8 +20,10 @@ impl Reader<'_, '_> {
     /// Reads a list of steps.
     pub(super) fn steps(&mut self, items: Vec<Value>) -> Vec<Draft> {
         let mut drafts = Vec::new();
-        for item in items {
-            if let Some(kind) = flow::kind(&item) {
+        for mut item in items {
+            if self.is_disabled(&mut item) {
+                self.disabled(item);
+            } else if let Some(kind) = flow::kind(&item) {
                 let steps = self.flow(kind, item);
                 drafts.extend(steps);
             } else if self.shared.remaining_steps == 0 {
@@ -33,6 +35,35 @@ impl Reader<'_, '_> {
             }
         }
         drafts
+    }
+
+    /// Whether a step has `enabled: false`.
+    fn is_disabled(&mut self, item: &mut Value) -> bool {
+        if !matches!(item.kind, ValueKind::Struct(_)) {
+            return false;
+        }
+        let Some(enabled) = item.field_mut("enabled") else {
+            return false;
+        };
+        self.fill(enabled) && enabled.kind == ValueKind::Bool(false)
+    }
+
+    /// Reads a disabled step, so that its ids are known and its parameters count as used, and drops it with its problems.
+    fn disabled(&mut self, item: Value) {
+        let before = (
+            self.diagnostics.len(),
+            self.shared.diagnostics.len(),
+            self.shared.remaining_steps,
+            self.has_too_many_steps,
+        );
+        if let Some(kind) = flow::kind(&item) {
+            self.flow(kind, item);
+        } else {
+            self.step(item);
+        }
+        self.diagnostics.truncate(before.0);
+        self.shared.diagnostics.truncate(before.1);
+        (self.shared.remaining_steps, self.has_too_many_steps) = (before.2, before.3);
     }
 
     /// Reads `Name(..)` or `(id: .., run: Name(..), ..)`.

@@ -1,0 +1,295 @@
+//! The text of a recipe, its history, and its file.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::SystemTime;
+
+use store::Store;
+
+use crate::run::stamp;
+
+/// The maximum number of texts in the history.
+const MAX_HISTORY: usize = 10_000;
+
+/// The text of a recipe, its history, and its file.
+#[derive(Debug)]
+pub struct Document {
+    /// The path of the recipe's file. For a recipe that was never saved, the path that a save suggests.
+    path: PathBuf,
+    /// Whether the recipe was read from its file or saved to it.
+    has_file: bool,
+    /// The texts, oldest first.
+    history: Vec<State>,
+    /// The index of the current text in `history`.
+    current: usize,
+    /// The text of the file when it was last read or written.
+    saved: Option<Arc<str>>,
+    /// The stamp of the file when it was last looked at.
+    seen: Option<(u64, Option<SystemTime>)>,
+    conflict: Option<Conflict>,
+    /// Whether the file was removed by another program.
+    is_removed: bool,
+    /// Increases with every change of the text.
+    version: u64,
+}
+
+#[derive(Clone, Debug)]
+struct State {
+    text: Arc<str>,
+    /// What the change to this text did, for the menu of undo.
+    label: String,
+    /// Where the step cursor was after the change.
+    cursor: usize,
+}
+
+/// The file was changed by another program while the text had unsaved changes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Conflict {
+    /// The text of the file.
+    pub theirs: Arc<str>,
+}
+
+/// Something that happened to the file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FileChange {
+    /// The file was changed by another program, and its text is now the text of the document.
+    Reloaded,
+    /// The file was changed by another program while the text had unsaved changes.
+    Conflict,
+    /// The file was removed. The text stays, and counts as unsaved.
+    Removed,
+    /// The file was changed, but cannot be read.
+    Unreadable(String),
+}
+
+impl Document {
+    /// Creates a document that has no file yet. `path` is the path that a save suggests.
+    pub fn new(path: impl Into<PathBuf>, text: impl Into<Arc<str>>) -> Self {
+        let text = text.into();
+        let state = State {
+            text,
+            label: String::new(),
+            cursor: usize::MAX,
+        };
+        Self {
+            path: path.into(),
+            has_file: false,
+            history: vec![state],
+            current: 0,
+            saved: None,
+            seen: None,
+            conflict: None,
+            is_removed: false,
+            version: 1,
+        }
+    }
+
+    /// Opens the file of a recipe.
+    ///
+    /// # Errors
+    ///
+    /// A message with the path, if the file cannot be read, is too long, or is not UTF-8 text.
+    pub fn open(store: &dyn Store, path: &Path) -> Result<Self, String> {
+        let seen = stamp(path, store);
+        let text = recipe::Source::open_in(store, path)?.text;
+        let mut document = Self::new(path, text.clone());
+        document.has_file = true;
+        document.saved = Some(text);
+        document.seen = seen;
+        Ok(document)
+    }
+
+    /// Returns the text.
+    pub fn text(&self) -> &Arc<str> {
+        &self.history[self.current].text
+    }
+
+    /// Returns a number that changes with every change of the text.
+    pub fn version(&self) -> u64 {
+        self.version
+    }
+
+    /// Returns the path of the file, or the path that a save suggests.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Whether the recipe was read from its file or saved to it.
+    pub fn has_file(&self) -> bool {
+        self.has_file
+    }
+
+    /// Whether the text differs from the file.
+    pub fn is_dirty(&self) -> bool {
+        self.is_removed || self.saved.as_ref() != Some(self.text())
+    }
+
+    /// Replaces the text. `label` says what the change does. Returns whether the text is different.
+    ///
+    /// If `merges` is set and the last change had the same label, both become one step of the history, as for letters that
+    /// are typed one after another.
+    pub fn replace(&mut self, text: impl Into<Arc<str>>, label: &str, merges: bool) -> bool {
+        let text = text.into();
+        if *self.text() == text {
+            return false;
+        }
+        self.history.truncate(self.current + 1);
+        let last = &mut self.history[self.current];
+        if merges
+            && self.current > 0
+            && last.label == label
+            && self.saved.as_ref() != Some(&last.text)
+        {
+            last.text = text;
+        } else {
+            self.history.push(State {
+                text,
+                label: label.to_owned(),
+                cursor: usize::MAX,
+            });
+            if self.history.len() > MAX_HISTORY {
+                self.history.remove(0);
+            }
+            self.current = self.history.len() - 1;
+        }
+        self.version += 1;
+        true
+    }
+
+    /// Remembers the step cursor of the current text.
+    pub(crate) fn set_cursor(&mut self, cursor: usize) {
+        self.history[self.current].cursor = cursor;
+    }
+
+    /// Returns the step cursor that was remembered for the current text.
+    pub(crate) fn cursor(&self) -> usize {
+        self.history[self.current].cursor
+    }
+
+    /// Returns what an undo would undo; `None` if nothing can be undone.
+    pub fn undo_label(&self) -> Option<&str> {
+        (self.current > 0).then(|| self.history[self.current].label.as_str())
+    }
+
+    /// Returns what a redo would do again; `None` if nothing can be redone.
+    pub fn redo_label(&self) -> Option<&str> {
+        self.history
+            .get(self.current + 1)
+            .map(|state| state.label.as_str())
+    }
+
+    /// Goes back to the text before the last change. Returns whether there was one.
+    pub fn undo(&mut self) -> bool {
+        let can = self.current > 0;
+        if can {
+            self.current -= 1;
+            self.version += 1;
+        }
+        can
+    }
+
+    /// Goes forward to the text that was undone last. Returns whether there was one.
+    pub fn redo(&mut self) -> bool {
+        let can = self.current + 1 < self.history.len();
+        if can {
+            self.current += 1;
+            self.version += 1;
+        }
+        can
+    }
+
+    /// Saves the text to its file.
+    ///
+    /// # Errors
+    ///
+    /// A message with the path, if the file cannot be written, or was changed by another program since it was read. In the
+    /// second case, [`conflict`](Self::conflict) has their text.
+    pub fn save(&mut self, store: &dyn Store) -> Result<(), String> {
+        if self.has_file && self.follow(store) == Some(FileChange::Conflict) {
+            let path = self.path.display();
+            return Err(format!(
+                "{path} was changed by another program: keep your text or take theirs"
+            ));
+        }
+        self.save_as(store, &self.path.clone())
+    }
+
+    /// Saves the text to a file, which becomes the file of the document. An existing file is replaced.
+    ///
+    /// # Errors
+    ///
+    /// A message with the path, if the file cannot be written.
+    pub fn save_as(&mut self, store: &dyn Store, path: &Path) -> Result<(), String> {
+        store
+            .write(path, self.text().as_bytes())
+            .map_err(|error| error.to_string())?;
+        path.clone_into(&mut self.path);
+        self.has_file = true;
+        self.saved = Some(self.text().clone());
+        self.seen = stamp(path, store);
+        self.conflict = None;
+        self.is_removed = false;
+        Ok(())
+    }
+
+    /// Returns the conflict with another program, if there is one.
+    pub fn conflict(&self) -> Option<&Conflict> {
+        self.conflict.as_ref()
+    }
+
+    /// Ends a conflict: the text stays as it is and counts as unsaved. The next save replaces the file.
+    pub fn keep_mine(&mut self) {
+        if let Some(conflict) = self.conflict.take() {
+            self.saved = Some(conflict.theirs);
+        }
+    }
+
+    /// Ends a conflict: the text of the file becomes the text of the document. An undo brings back the own text.
+    pub fn take_theirs(&mut self) {
+        if let Some(Conflict { theirs }) = self.conflict.take() {
+            self.replace(theirs.clone(), "take the changed file", false);
+            self.saved = Some(theirs);
+        }
+    }
+
+    /// Looks whether another program has changed the file, and follows the change if the text has no unsaved changes.
+    pub fn follow(&mut self, store: &dyn Store) -> Option<FileChange> {
+        if !self.has_file {
+            return None;
+        }
+        let seen = stamp(&self.path, store);
+        if seen == self.seen {
+            return self.conflict.is_some().then_some(FileChange::Conflict);
+        }
+        if seen.is_none() {
+            self.seen = None;
+            self.is_removed = true;
+            return Some(FileChange::Removed);
+        }
+        let theirs = match recipe::Source::open_in(store, &self.path) {
+            Ok(source) => source.text,
+            Err(message) => {
+                // The file may be half-written: it is read again at the next look if it changes.
+                self.seen = seen;
+                return Some(FileChange::Unreadable(message));
+            }
+        };
+        self.seen = seen;
+        self.is_removed = false;
+        if Some(&theirs) == self.saved.as_ref() {
+            return self.conflict.is_some().then_some(FileChange::Conflict);
+        }
+        if theirs == *self.text() {
+            self.saved = Some(theirs);
+            self.conflict = None;
+            return None;
+        }
+        if self.is_dirty() {
+            self.conflict = Some(Conflict { theirs });
+            return Some(FileChange::Conflict);
+        }
+        self.replace(theirs.clone(), "follow the changed file", false);
+        self.saved = Some(theirs);
+        Some(FileChange::Reloaded)
+    }
+}

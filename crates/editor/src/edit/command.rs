@@ -1,0 +1,290 @@
+//! Commands: operations with parameters and a selection that become steps of the text.
+
+use op::ElementKind;
+use ron_tree::string_literal;
+
+use super::Editor;
+use crate::keys::Action;
+use crate::panel::{FieldKind, Panel};
+use crate::text::{self, TextError};
+
+/// An operation to insert after the cursor.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Command {
+    /// The name of the operation.
+    pub operation: String,
+    /// The parameters with their values as RON.
+    pub parameters: Vec<(String, String)>,
+    /// The selection for the first parameter that selects elements and has no value.
+    pub selection: Option<SelectionText>,
+}
+
+/// A selection for a command.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SelectionText {
+    /// The kind of elements that it selects.
+    pub kind: ElementKind,
+    /// The selection as RON.
+    pub text: String,
+    /// A step that must come first because the selection uses its tag.
+    pub before: Option<String>,
+    /// The name of the object.
+    pub object: String,
+}
+
+/// Why a command cannot be applied.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum CommandError {
+    /// The registry does not have the operation.
+    #[error("no operation is named {0}")]
+    Unknown(String),
+    /// The operation needs a selection, and nothing is picked.
+    #[error("{operation} needs {kind}: pick some first")]
+    NothingPicked {
+        /// The operation.
+        operation: String,
+        /// The kind of elements.
+        kind: &'static str,
+    },
+    /// A parameter has a problem: its name, and the problem.
+    #[error("{operation}: {message}")]
+    Parameter {
+        /// The operation.
+        operation: String,
+        /// The name of the parameter; empty if the problem is not about one.
+        field: String,
+        /// The problem.
+        message: String,
+    },
+    /// The text cannot be edited.
+    #[error(transparent)]
+    Text(#[from] TextError),
+}
+
+impl Command {
+    /// Creates a command without parameters.
+    pub fn new(operation: &str) -> Self {
+        Self {
+            operation: operation.to_owned(),
+            ..Self::default()
+        }
+    }
+
+    /// Adds a parameter with its value as RON.
+    #[must_use]
+    pub fn with(mut self, name: &str, value: &str) -> Self {
+        self.parameters.push((name.to_owned(), value.to_owned()));
+        self
+    }
+}
+
+/// Operations after which elements keep their numbers, so that the picked elements stay picked.
+const KEEPS_NUMBERS: &[&str] = &[
+    "FlipEdges",
+    "SplitEdges",
+    "TagVertices",
+    "TagEdges",
+    "TagFaces",
+    "MoveVertices",
+    "Crease",
+    "VertexNormals",
+    "PokeFaces",
+    "ExtrudeFaces",
+    "InsetFaces",
+    "Measure",
+    "Save",
+    "Picture",
+];
+
+impl Editor {
+    /// Returns the selection that means the picked elements, for a command.
+    pub fn selection(&mut self) -> Option<SelectionText> {
+        let proposal = self.proposal()?.clone();
+        let picked = self.picked()?;
+        Some(SelectionText {
+            kind: picked.kind(),
+            text: proposal.text,
+            before: proposal.before,
+            object: picked.object.clone(),
+        })
+    }
+
+    /// Returns the command of a key, with the selection of the picked elements. `None` for actions that are no operations.
+    pub fn command_of(&mut self, action: Action) -> Option<Command> {
+        let kind = self.picked().map(crate::Picked::kind);
+        let command = match action {
+            Action::Flip => Command::new("FlipEdges"),
+            Action::Split => Command::new("SplitEdges"),
+            Action::Collapse => Command::new("CollapseEdges"),
+            Action::Extrude => Command::new("ExtrudeFaces").with("by", &self.extrusion()),
+            Action::Dissolve if kind == Some(ElementKind::Vertices) => {
+                Command::new("DissolveVertices")
+            }
+            Action::Dissolve => Command::new("DissolveEdges"),
+            Action::Loop => Command::new("LoopSubdivide").with("levels", "1"),
+            Action::CatmullClark => Command::new("CatmullClark").with("levels", "1"),
+            _ => return None,
+        };
+        let is_whole = matches!(action, Action::Loop | Action::CatmullClark);
+        let selection = if is_whole { None } else { self.selection() };
+        Some(Command {
+            selection,
+            ..command
+        })
+    }
+
+    /// Returns a first distance for an extrusion: a fifth of the size of the picked object.
+    fn extrusion(&self) -> String {
+        let object = self
+            .picked()
+            .and_then(|picked| self.shown.object(&picked.object));
+        let size = object
+            .and_then(|object| object.as_mesh())
+            .map_or(1.0, |mesh| {
+                let (mut low, mut high) = (mesh::DVec3::INFINITY, mesh::DVec3::NEG_INFINITY);
+                for &p in mesh.positions() {
+                    (low, high) = (low.min(p), high.max(p));
+                }
+                (high - low).max_element()
+            });
+        let distance = if size.is_finite() && size > 0.0 {
+            size / 5.0
+        } else {
+            0.2
+        };
+        let short: f64 = format!("{distance:.0e}").parse().unwrap_or(0.2);
+        format!("Distance({})", crate::panel::number(short))
+    }
+
+    /// Returns the steps that a command inserts.
+    ///
+    /// # Errors
+    ///
+    /// [`CommandError`] if the operation does not exist, a parameter has a problem, or a selection is missing.
+    pub fn steps_of(&self, command: &Command) -> Result<Vec<String>, CommandError> {
+        let name = &command.operation;
+        let entry = self
+            .registry()
+            .get(name)
+            .ok_or_else(|| CommandError::Unknown(name.clone()))?;
+        let mut panel = Panel::new(entry);
+        for (field, value) in &command.parameters {
+            if panel.field(field).is_none() {
+                let known = panel.fields.iter().map(|field| field.name.as_str());
+                let help = recipe::did_you_mean(field, known);
+                return Err(CommandError::Parameter {
+                    operation: name.clone(),
+                    field: field.clone(),
+                    message: format!("unknown parameter `{field}`; {help}"),
+                });
+            }
+            panel.set(field, Some(value));
+        }
+        let wanted = panel
+            .fields
+            .iter()
+            .find_map(|field| match field.kind.inner() {
+                FieldKind::Selection(kind) if field.value.is_none() => Some((field.clone(), *kind)),
+                _ => None,
+            });
+        let mut before = None;
+        let mut object = None;
+        if let Some((field, kind)) = wanted {
+            match &command.selection {
+                Some(selection) => {
+                    let text =
+                        converted(selection, kind).ok_or_else(|| CommandError::NothingPicked {
+                            operation: name.clone(),
+                            kind: kind.map_or("elements", ElementKind::word),
+                        })?;
+                    // The selection comes first, as people write it.
+                    let others: Vec<(String, String)> = command.parameters.clone();
+                    others.iter().for_each(|(other, _)| panel.set(other, None));
+                    panel.set(&field.name, Some(&text));
+                    others
+                        .iter()
+                        .for_each(|(other, value)| panel.set(other, Some(value)));
+                    before.clone_from(&selection.before);
+                    object = Some(selection.object.clone());
+                }
+                None if field.is_missing() => {
+                    return Err(CommandError::NothingPicked {
+                        operation: name.clone(),
+                        kind: kind.map_or("elements", ElementKind::word),
+                    });
+                }
+                None => {}
+            }
+        }
+        if let Some((field, problem)) = panel.problems().into_iter().next() {
+            return Err(CommandError::Parameter {
+                operation: name.clone(),
+                field,
+                message: problem.message,
+            });
+        }
+        let meshes = self
+            .shown
+            .objects()
+            .iter()
+            .filter(|object| object.as_mesh().is_some())
+            .count();
+        let on = object.filter(|_| entry.takes_on && meshes > 1);
+        let placed = |step: String| match &on {
+            Some(object) => format!("(run: {step}, on: [{}])", string_literal(object)),
+            None => step,
+        };
+        Ok(before
+            .into_iter()
+            .chain([panel.step_text()])
+            .map(placed)
+            .collect())
+    }
+
+    /// Inserts the steps of a command after the cursor, moves the cursor after them, and runs them.
+    ///
+    /// # Errors
+    ///
+    /// [`CommandError`]. The text is then unchanged.
+    pub fn apply(&mut self, command: &Command) -> Result<(), CommandError> {
+        let steps = self.steps_of(command)?;
+        let cursor = self.cursor() + steps.len();
+        let edits = text::insert_steps(self.text(), &self.outline, self.cursor(), &steps)?;
+        self.edit(edits, &command.operation, Some(cursor))?;
+        if !KEEPS_NUMBERS.contains(&command.operation.as_str()) {
+            self.set_picked(None);
+        } else {
+            (self.proposals, self.proposal) = (None, 0);
+        }
+        Ok(())
+    }
+
+    /// Runs a command without writing it to the text, for a live preview. [`end_preview`](Self::end_preview) goes back.
+    ///
+    /// # Errors
+    ///
+    /// As [`apply`](Self::apply).
+    pub fn preview(&mut self, command: &Command) -> Result<(), CommandError> {
+        let steps = self.steps_of(command)?;
+        let edits = text::insert_steps(self.text(), &self.outline, self.cursor(), &steps)?;
+        self.preview_edits(edits)
+    }
+}
+
+/// Returns a selection of the wanted kind: the selection itself, or the elements at the selected ones.
+fn converted(selection: &SelectionText, wanted: Option<ElementKind>) -> Option<String> {
+    let text = &selection.text;
+    match wanted {
+        None => Some(match selection.kind {
+            ElementKind::Vertices => format!("Vertices({text})"),
+            ElementKind::Edges => format!("Edges({text})"),
+            ElementKind::Faces => format!("Faces({text})"),
+        }),
+        Some(kind) if kind == selection.kind => Some(text.clone()),
+        Some(kind) => {
+            // Of several conversions, the last is the narrowest: `EdgesWithin` instead of `EdgesAround`.
+            let outer = kind.conversions(selection.kind).last()?;
+            Some(format!("{outer}({text})"))
+        }
+    }
+}

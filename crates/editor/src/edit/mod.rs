@@ -1,0 +1,564 @@
+//! The editor: a document, its engine thread, the step cursor and the picked elements.
+
+mod command;
+mod steps;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+
+use engine::Source;
+use mesh_io::Format;
+use op::Registry;
+use scene::Scene;
+use store::Store;
+use web_time::Instant;
+
+use crate::document::{Document, FileChange};
+use crate::pick::Indexes;
+use crate::run::{Event, Progress, Request, RunState, Runner, Status, Wake};
+use crate::select::{Picked, Proposal, propose};
+use crate::text::Outline;
+
+pub use command::{Command, CommandError, SelectionText};
+
+/// The settings of an editor.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// The folder for outputs. Defaults to `out`.
+    pub out: PathBuf,
+    /// The memory budget for the meshes of a run, in bytes. Defaults to [`engine::BUDGET`].
+    pub budget: u64,
+    /// The memory for the scenes after steps, in bytes. Defaults to 4 GiB.
+    pub memory: u64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            out: PathBuf::from("out"),
+            budget: engine::BUDGET,
+            memory: 4 << 30,
+        }
+    }
+}
+
+/// The editor: a document, its engine thread, the step cursor and the picked elements.
+pub struct Editor {
+    registry: Arc<Registry>,
+    store: Arc<dyn Store>,
+    settings: Settings,
+    document: Document,
+    /// The outline of the document's text.
+    outline: Outline,
+    runner: Runner,
+    run: RunState,
+    /// The number of the newest request.
+    number: u64,
+    /// The version of the text that `run` is about; `None` for a preview.
+    run_version: Option<u64>,
+    /// The version of the text of the newest request; `None` for a preview.
+    requested: Option<u64>,
+    /// The text that runs in place of the document's text.
+    preview: Option<Arc<str>>,
+    /// The number of steps of the text before the cursor.
+    cursor: usize,
+    /// The scene that is shown until the scene at the cursor is known.
+    shown: Arc<Scene>,
+    picked: Option<Picked>,
+    /// The selections that mean the picked elements, once they were asked for.
+    proposals: Option<Vec<Proposal>>,
+    proposal: usize,
+    indexes: Indexes,
+}
+
+/// Why a file cannot be opened.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum OpenError {
+    /// The file cannot be read.
+    #[error("{0}")]
+    Unreadable(String),
+    /// The file is of a kind that the editor does not open.
+    #[error("{0} is not a recipe (.ron) or a model; models: {1}")]
+    Kind(PathBuf, String),
+}
+
+/// What changed since the last poll.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Update {
+    /// Whether the scene at the cursor may be a different one.
+    pub scene: bool,
+    /// Whether the state of the run changed.
+    pub run: bool,
+    /// What happened to the file of the recipe.
+    pub file: Option<FileChange>,
+}
+
+/// The scene that the view shows.
+#[derive(Clone, Debug)]
+pub struct View {
+    /// The scene.
+    pub scene: Arc<Scene>,
+    /// Whether it is the scene after the step at the cursor. If not, it is the last scene that was known: the run goes on or
+    /// has failed.
+    pub is_current: bool,
+}
+
+impl Editor {
+    /// Creates an editor with a new recipe.
+    pub fn new(registry: Arc<Registry>, store: Arc<dyn Store>, settings: Settings) -> Self {
+        let document = Document::new(
+            "recipe.ron",
+            new_text("Cube(name: \"cube\", size: 2, triangles: true)"),
+        );
+        let mut editor = Self {
+            runner: Runner::new(registry.clone(), store.clone()),
+            registry,
+            store,
+            settings,
+            outline: Outline::of(document.text()),
+            document,
+            run: RunState::default(),
+            number: 0,
+            run_version: None,
+            requested: None,
+            preview: None,
+            cursor: usize::MAX,
+            shown: Arc::default(),
+            picked: None,
+            proposals: None,
+            proposal: 0,
+            indexes: Indexes::new(),
+        };
+        editor.show(None);
+        editor
+    }
+
+    /// Opens a recipe, or a model in a new recipe that loads it. The document before is dropped.
+    ///
+    /// # Errors
+    ///
+    /// [`OpenError`] if the file cannot be read or is neither a recipe nor a model. The document stays.
+    pub fn open(&mut self, path: &Path) -> Result<(), OpenError> {
+        let is_recipe = path
+            .extension()
+            .is_some_and(|ending| ending.eq_ignore_ascii_case("ron"));
+        let document = if is_recipe {
+            Document::open(&*self.store, path).map_err(OpenError::Unreadable)?
+        } else {
+            self.document_of_model(path)?
+        };
+        self.set_document(document);
+        Ok(())
+    }
+
+    /// Returns a document with a recipe that loads a model.
+    fn document_of_model(&self, path: &Path) -> Result<Document, OpenError> {
+        let is_model = Format::from_path(path).is_some_and(Format::can_read);
+        let file = path.file_name().and_then(|name| name.to_str());
+        let (true, Some(file)) = (is_model, file) else {
+            return Err(OpenError::Kind(
+                path.to_owned(),
+                Format::readable_extensions(),
+            ));
+        };
+        if !self.store.is_file(path) {
+            let message = format!("cannot read {}: the file does not exist", path.display());
+            return Err(OpenError::Unreadable(message));
+        }
+        let load = format!("Load(path: {})", ron_tree::string_literal(file));
+        let name = store::stem(path).to_owned();
+        let recipe = path.with_file_name(name).with_extension("ron");
+        Ok(Document::new(recipe, new_text(&load)))
+    }
+
+    /// Starts a new recipe. The document before is dropped.
+    pub fn new_recipe(&mut self) {
+        self.set_document(Document::new(
+            "recipe.ron",
+            new_text("Cube(name: \"cube\", size: 2, triangles: true)"),
+        ));
+    }
+
+    /// Replaces the document, and runs it. The cursor is at the end.
+    pub fn set_document(&mut self, document: Document) {
+        self.document = document;
+        self.outline = Outline::of(self.document.text());
+        self.cursor = self.outline.steps.len();
+        self.document.set_cursor(self.cursor);
+        self.picked = None;
+        self.shown = Arc::default();
+        self.run = RunState::default();
+        self.show(None);
+    }
+
+    /// Returns the document.
+    pub fn document(&self) -> &Document {
+        &self.document
+    }
+
+    /// Returns the text of the recipe.
+    pub fn text(&self) -> &str {
+        self.document.text()
+    }
+
+    /// Returns the outline of the text.
+    pub fn outline(&self) -> &Outline {
+        &self.outline
+    }
+
+    /// Returns the operations.
+    pub fn registry(&self) -> &Arc<Registry> {
+        &self.registry
+    }
+
+    /// Returns the spatial indexes for picking.
+    pub fn indexes(&self) -> &Indexes {
+        &self.indexes
+    }
+
+    /// Sets a function that is called from other threads when [`poll`](Self::poll) has something new.
+    pub fn on_wake(&self, wake: Wake) {
+        self.runner.on_event(wake.clone());
+        self.indexes.on_ready(wake);
+    }
+
+    /// Replaces the text, as typing does. Changes that follow each other are one step of the history.
+    pub fn set_text(&mut self, text: &str) {
+        self.change(text, "type", true);
+    }
+
+    /// Undoes the last change of the text. The scene before is known and needs no run. Returns whether there was a change.
+    pub fn undo(&mut self) -> bool {
+        let done = self.document.undo();
+        if done {
+            self.restored();
+        }
+        done
+    }
+
+    /// Does again what was undone last. Returns whether there was something.
+    pub fn redo(&mut self) -> bool {
+        let done = self.document.redo();
+        if done {
+            self.restored();
+        }
+        done
+    }
+
+    fn restored(&mut self) {
+        let before = std::mem::replace(&mut self.outline, Outline::of(self.document.text()));
+        let n = self.outline.steps.len();
+        self.cursor = match self.document.cursor() {
+            cursor if cursor <= n => cursor,
+            _ => self.cursor.min(before.steps.len()).min(n),
+        };
+        self.show(None);
+    }
+
+    /// Saves the recipe to its file.
+    ///
+    /// # Errors
+    ///
+    /// The errors of [`Document::save`].
+    pub fn save(&mut self) -> Result<(), String> {
+        self.document.save(&*self.store)?;
+        self.watch();
+        Ok(())
+    }
+
+    /// Saves the recipe to a file, which becomes the file of the document. Paths in the recipe are relative to its new
+    /// folder.
+    ///
+    /// # Errors
+    ///
+    /// The errors of [`Document::save_as`].
+    pub fn save_as(&mut self, path: &Path) -> Result<(), String> {
+        self.document.save_as(&*self.store, path)?;
+        self.show(None);
+        Ok(())
+    }
+
+    /// Ends a conflict with another program that changed the file: the text stays, and the next save replaces the file.
+    pub fn keep_mine(&mut self) {
+        self.document.keep_mine();
+    }
+
+    /// Ends a conflict with another program that changed the file: its text becomes the text of the document. An undo brings
+    /// back the own text.
+    pub fn take_theirs(&mut self) {
+        self.document.take_theirs();
+        self.text_changed(None);
+    }
+
+    /// Returns the state of the newest run.
+    pub fn run(&self) -> &RunState {
+        &self.run
+    }
+
+    /// Whether [`run`](Self::run) is about the current text, so that its spans fit the text.
+    pub fn is_run_current(&self) -> bool {
+        self.run_version == Some(self.document.version())
+    }
+
+    /// Whether a run goes on or waits.
+    pub fn is_running(&self) -> bool {
+        self.run_version != self.requested || self.run.is_running()
+    }
+
+    /// Returns the progress of the run, if a run goes on.
+    pub fn progress(&self) -> Option<Progress> {
+        if !self.is_running() {
+            return None;
+        }
+        Some(self.runner.progress(self.number).unwrap_or_default())
+    }
+
+    /// Cancels the run. The scenes that are known stay.
+    pub fn cancel(&mut self) {
+        if self.is_running() {
+            self.runner.cancel();
+            self.run.status = Status::Canceled;
+            self.run_version = self.requested;
+        }
+    }
+
+    /// Runs the recipe again from the start and writes its outputs.
+    pub fn write_outputs(&mut self) {
+        self.request(true);
+    }
+
+    /// Takes what the engine thread has sent. Returns what changed, or `None` if nothing did.
+    pub fn poll(&mut self) -> Option<Update> {
+        let mut update = Update::default();
+        for event in self.runner.events() {
+            if event.number().is_some_and(|number| number != self.number) {
+                continue;
+            }
+            match event {
+                Event::Checked { state, .. } => {
+                    self.run = *state;
+                    self.run_version = self.requested;
+                    (update.run, update.scene) = (true, true);
+                    self.watch();
+                }
+                Event::Step { step, result, .. } => {
+                    if let Some(step) = self.run.steps.get_mut(step) {
+                        step.result = Some(result);
+                    }
+                    (update.run, update.scene) = (true, true);
+                }
+                Event::Done { end, .. } => {
+                    let end = *end;
+                    for (state, verdict) in self.run.expectations.iter_mut().zip(end.verdicts) {
+                        state.verdict = verdict;
+                    }
+                    self.run.failures = end.failures;
+                    self.run.digest = end.digest;
+                    self.run.written = end.written;
+                    self.run.time = end.time;
+                    self.run.ran = end.ran;
+                    self.run.status = if end.canceled {
+                        Status::Canceled
+                    } else {
+                        Status::Done
+                    };
+                    update.run = true;
+                }
+                Event::Panicked { .. } => {
+                    let message = "internal error while the recipe was read (please report it)";
+                    self.run.diagnostics = vec![engine::Diagnostic::without_place(message)];
+                    self.run.status = Status::Done;
+                    self.run_version = self.requested;
+                    update.run = true;
+                }
+                Event::FilesChanged => {
+                    update.file = self.document.follow(&*self.store);
+                    if update.file == Some(FileChange::Reloaded) {
+                        self.text_changed(None);
+                    } else {
+                        self.request(false);
+                    }
+                }
+            }
+        }
+        if update.scene {
+            self.keep_shown();
+        }
+        (update != Update::default()).then_some(update)
+    }
+
+    /// Polls until the run has ended, at most for the given time. Returns whether it has ended.
+    pub fn wait(&mut self, time: Duration) -> bool {
+        let end = Instant::now() + time;
+        loop {
+            self.poll();
+            if !self.is_running() {
+                return true;
+            }
+            let Some(rest) = end.checked_duration_since(Instant::now()) else {
+                return false;
+            };
+            self.runner.wait(rest);
+        }
+    }
+
+    /// Returns the step cursor: the number of steps of the text before it. The view shows the scene after these steps, and
+    /// new steps come after them.
+    pub fn cursor(&self) -> usize {
+        self.cursor
+    }
+
+    /// Moves the step cursor. At most the number of steps.
+    pub fn set_cursor(&mut self, cursor: usize) {
+        self.cursor = cursor.min(self.outline.steps.len());
+        self.document.set_cursor(self.cursor);
+        self.keep_shown();
+        self.keep_picked();
+    }
+
+    /// Returns the scene that the view shows.
+    pub fn view(&self) -> View {
+        let is_of_text = self.run_version == self.requested || self.preview.is_some();
+        let (_, is_known) = self.run.result_after(self.cursor);
+        View {
+            scene: self.shown.clone(),
+            is_current: is_of_text && is_known,
+        }
+    }
+
+    /// Keeps the scene at the cursor as the scene that is shown.
+    fn keep_shown(&mut self) {
+        let (last, is_known) = self.run.result_after(self.cursor);
+        match last {
+            Some(snapshot) => self.shown = snapshot.scene.clone(),
+            // Without a step before the cursor, the scene is empty.
+            None if is_known && self.run_version.is_some() => self.shown = Arc::default(),
+            None => {}
+        }
+    }
+
+    /// Returns the picked elements.
+    pub fn picked(&self) -> Option<&Picked> {
+        self.picked.as_ref()
+    }
+
+    /// Sets the picked elements of the scene that the view shows.
+    pub fn set_picked(&mut self, picked: Option<Picked>) {
+        self.picked = picked.filter(|picked| !picked.is_empty());
+        (self.proposals, self.proposal) = (None, 0);
+    }
+
+    /// Returns the selections that mean the picked elements, the best first. The list is computed once for each pick.
+    pub fn proposals(&mut self) -> &[Proposal] {
+        if self.proposals.is_none() {
+            let found = self
+                .picked
+                .as_ref()
+                .map(|picked| propose(&self.shown, picked, ""));
+            self.proposals = Some(found.unwrap_or_default());
+        }
+        self.proposals.as_deref().unwrap_or_default()
+    }
+
+    /// Returns the selection that commands use for the picked elements.
+    pub fn proposal(&mut self) -> Option<&Proposal> {
+        let at = self.proposal;
+        self.proposals().get(at)
+    }
+
+    /// Chooses the next selection that means the picked elements, or the first after the last.
+    pub fn next_proposal(&mut self) {
+        let n = self.proposals().len().max(1);
+        self.proposal = (self.proposal + 1) % n;
+    }
+
+    /// Drops picked elements that the scene at the cursor does not have.
+    fn keep_picked(&mut self) {
+        let mesh = |picked: &Picked| self.shown.object(&picked.object)?.as_mesh().cloned();
+        let kept = self
+            .picked
+            .as_ref()
+            .and_then(|picked| Some(picked.existing(&*mesh(picked)?)));
+        self.set_picked(kept);
+    }
+
+    /// Replaces the text and runs it. Returns whether it is different.
+    fn change(&mut self, text: &str, label: &str, merges: bool) -> bool {
+        let changed = self.document.replace(text, label, merges);
+        if changed {
+            self.text_changed(None);
+        }
+        changed
+    }
+
+    /// Reads the outline of the changed text and runs it. The cursor keeps its place between the steps, unless it is given.
+    fn text_changed(&mut self, cursor: Option<usize>) {
+        let new = Outline::of(self.document.text());
+        let (old_n, new_n) = (self.outline.steps.len(), new.steps.len());
+        let is_end = self.cursor >= old_n;
+        self.outline = new;
+        self.cursor = match cursor {
+            Some(cursor) => cursor.min(new_n),
+            None if is_end => new_n,
+            None => self.cursor.min(new_n),
+        };
+        self.document.set_cursor(self.cursor);
+        self.show(None);
+    }
+
+    /// Runs the document's text or a preview.
+    fn show(&mut self, preview: Option<Arc<str>>) {
+        self.preview = preview;
+        self.cursor = self.cursor.min(self.outline.steps.len());
+        self.request(false);
+    }
+
+    fn request(&mut self, keep_outputs: bool) {
+        self.number += 1;
+        let text = self
+            .preview
+            .clone()
+            .unwrap_or_else(|| self.document.text().clone());
+        self.requested = self.preview.is_none().then(|| self.document.version());
+        // The state so far is about another text.
+        self.run_version = if self.preview.is_some() {
+            Some(0)
+        } else {
+            None
+        };
+        self.runner.request(Request {
+            number: self.number,
+            source: Source::new(self.document.path(), text),
+            out: self.settings.out.clone(),
+            keep_outputs,
+            budget: self.settings.budget,
+            memory: self.settings.memory,
+        });
+    }
+
+    /// Watches the file of the recipe, the recipes that it calls, and its inputs.
+    fn watch(&self) {
+        let called = self
+            .run
+            .sources
+            .iter()
+            .skip(1)
+            .map(|source| source.path.clone());
+        let own = self
+            .document
+            .has_file()
+            .then(|| self.document.path().to_owned());
+        self.runner.watch(
+            own.into_iter()
+                .chain(called)
+                .chain(self.run.inputs.iter().cloned())
+                .collect(),
+        );
+    }
+}
+
+/// Returns the text of a new recipe with one step.
+fn new_text(step: &str) -> String {
+    format!("(\n    recipe: 1,\n    steps: [\n        {step},\n    ],\n)\n")
+}

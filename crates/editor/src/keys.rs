@@ -1,0 +1,335 @@
+//! Actions and their keys. The table is data: a file can change it.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+/// Something that a key does.
+#[derive(Clone, Copy, Debug, Deserialize, Eq, Ord, PartialEq, PartialOrd, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum Action {
+    /// Walk to the next half-edge of the face.
+    Next,
+    /// Walk to the other half of the edge.
+    Twin,
+    /// Walk to the previous half-edge of the face.
+    Previous,
+    /// Walk to the next half-edge around the vertex.
+    AroundVertex,
+    /// Flip the picked edges.
+    Flip,
+    /// Split the picked edges.
+    Split,
+    /// Collapse the picked edges.
+    Collapse,
+    /// Extrude the picked faces.
+    Extrude,
+    /// Dissolve the picked vertices or edges.
+    Dissolve,
+    /// One level of Loop subdivision.
+    Loop,
+    /// One level of Catmull-Clark subdivision.
+    CatmullClark,
+    /// Show or hide the wireframe.
+    Wireframe,
+    /// Switch between smooth and flat shading.
+    Smooth,
+    /// Show or hide information about the scene.
+    Information,
+    /// Show or hide the help.
+    Help,
+    /// Reset the view.
+    ResetView,
+    /// Fit the view to the picked elements or, if nothing is picked, to the scene.
+    Fit,
+    /// Open the list of all operations.
+    Palette,
+    /// Undo the last change of the recipe.
+    Undo,
+    /// Redo the change that was undone last.
+    Redo,
+    /// Save the recipe.
+    Save,
+    /// Save the recipe under a new name.
+    SaveAs,
+    /// Open a file.
+    Open,
+    /// Start a new recipe.
+    New,
+    /// Cancel the run, or close what is open.
+    Cancel,
+    /// Show the next selection that means the picked elements.
+    NextProposal,
+    /// Pick the elements around the picked elements too.
+    Grow,
+    /// Remove the outermost of the picked elements.
+    Shrink,
+    /// Pick the edge loop through the picked edges.
+    EdgeLoop,
+    /// Pick the edge ring through the picked edges.
+    EdgeRing,
+    /// Pick all elements.
+    SelectAll,
+    /// Pick nothing.
+    SelectNone,
+    /// Pick vertices.
+    PickVertices,
+    /// Pick edges.
+    PickEdges,
+    /// Pick faces.
+    PickFaces,
+    /// Pick half-edges.
+    PickHalfEdges,
+    /// Move the step cursor to the step before.
+    StepBack,
+    /// Move the step cursor to the step after.
+    StepForward,
+    /// Delete the step at the cursor.
+    DeleteStep,
+    /// Enable or disable the step at the cursor.
+    ToggleStep,
+    /// Duplicate the step at the cursor.
+    DuplicateStep,
+}
+
+impl Action {
+    /// Returns what the action does, for the help.
+    pub fn doc(self) -> &'static str {
+        let found = TABLE.iter().find(|row| row.0 == self);
+        found.map_or("", |row| row.2)
+    }
+
+    /// All actions, in the order of the help.
+    pub fn all() -> impl Iterator<Item = Self> {
+        TABLE.iter().map(|row| row.0)
+    }
+}
+
+/// The default keys: the action, its keys, and what it does.
+const TABLE: &[(Action, &[&str], &str)] = &[
+    (
+        Action::Next,
+        &["N"],
+        "walk to the next half-edge of the face",
+    ),
+    (Action::Twin, &["T"], "walk to the other half of the edge"),
+    (
+        Action::Previous,
+        &["P"],
+        "walk to the previous half-edge of the face",
+    ),
+    (
+        Action::AroundVertex,
+        &["V"],
+        "walk to the next half-edge around the vertex",
+    ),
+    (Action::Flip, &["F"], "flip the picked edges"),
+    (Action::Split, &["S"], "split the picked edges"),
+    (Action::Collapse, &["C"], "collapse the picked edges"),
+    (Action::Extrude, &["E"], "extrude the picked faces"),
+    (
+        Action::Dissolve,
+        &["D"],
+        "dissolve the picked vertices or edges",
+    ),
+    (Action::Loop, &["L"], "one level of Loop subdivision"),
+    (
+        Action::CatmullClark,
+        &["K"],
+        "one level of Catmull-Clark subdivision",
+    ),
+    (Action::Wireframe, &["W"], "show or hide the wireframe"),
+    (
+        Action::Smooth,
+        &["Q"],
+        "switch between smooth and flat shading",
+    ),
+    (
+        Action::Information,
+        &["I"],
+        "show or hide information about the scene",
+    ),
+    (Action::Help, &["H", "F1"], "show or hide this help"),
+    (Action::ResetView, &["Space"], "reset the view"),
+    (
+        Action::Fit,
+        &["Home"],
+        "fit the view to the picked elements or the scene",
+    ),
+    (Action::Palette, &["Ctrl+K"], "search all operations"),
+    (Action::Undo, &["Ctrl+Z"], "undo"),
+    (Action::Redo, &["Ctrl+Shift+Z", "Ctrl+Y"], "redo"),
+    (Action::Save, &["Ctrl+S"], "save the recipe"),
+    (
+        Action::SaveAs,
+        &["Ctrl+Shift+S"],
+        "save the recipe under a new name",
+    ),
+    (Action::Open, &["Ctrl+O"], "open a file"),
+    (Action::New, &["Ctrl+N"], "start a new recipe"),
+    (
+        Action::Cancel,
+        &["Escape"],
+        "cancel the run, or close what is open",
+    ),
+    (
+        Action::NextProposal,
+        &["Tab"],
+        "show the next selection that means the picked elements",
+    ),
+    (
+        Action::Grow,
+        &["Plus"],
+        "pick the elements around the picked elements too",
+    ),
+    (
+        Action::Shrink,
+        &["Minus"],
+        "remove the outermost of the picked elements",
+    ),
+    (
+        Action::EdgeLoop,
+        &["O"],
+        "pick the edge loop through the picked edges",
+    ),
+    (
+        Action::EdgeRing,
+        &["R"],
+        "pick the edge ring through the picked edges",
+    ),
+    (Action::SelectAll, &["Ctrl+A"], "pick all elements"),
+    (Action::SelectNone, &["Ctrl+Shift+A"], "pick nothing"),
+    (Action::PickVertices, &["Alt+1"], "pick vertices"),
+    (Action::PickEdges, &["Alt+2"], "pick edges"),
+    (Action::PickFaces, &["Alt+3"], "pick faces"),
+    (Action::PickHalfEdges, &["Alt+4"], "pick half-edges"),
+    (
+        Action::StepBack,
+        &["Alt+Up"],
+        "move the cursor to the step before",
+    ),
+    (
+        Action::StepForward,
+        &["Alt+Down"],
+        "move the cursor to the step after",
+    ),
+    (
+        Action::DeleteStep,
+        &["Ctrl+Delete"],
+        "delete the step at the cursor",
+    ),
+    (
+        Action::ToggleStep,
+        &["Ctrl+E"],
+        "enable or disable the step at the cursor",
+    ),
+    (
+        Action::DuplicateStep,
+        &["Ctrl+D"],
+        "duplicate the step at the cursor",
+    ),
+];
+
+/// The keys of all actions. A key is written as modifiers and the name of the key: `N`, `Ctrl+Shift+Z`, `Alt+Up`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Keys {
+    of_action: BTreeMap<Action, Vec<String>>,
+}
+
+impl Default for Keys {
+    fn default() -> Self {
+        let row =
+            |row: &(Action, &[&str], &str)| (row.0, row.1.iter().map(|key| normal(key)).collect());
+        Self {
+            of_action: TABLE.iter().map(row).collect(),
+        }
+    }
+}
+
+/// Why a file of keys cannot be used.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum KeysError {
+    /// The text is not a map of actions and keys.
+    #[error("line {line}, column {column}: {message}")]
+    Text {
+        /// The line, from 1.
+        line: usize,
+        /// The column, from 1.
+        column: usize,
+        /// The reason.
+        message: String,
+    },
+    /// Two actions have the same key.
+    #[error("the key {0} is used for {1:?} and for {2:?}")]
+    Twice(String, Action, Action),
+}
+
+impl Keys {
+    /// Reads changes of the default keys from RON: `{ Flip: ["Ctrl+F"], Split: [] }`. Actions that are not named keep their
+    /// keys, unless another action takes them.
+    ///
+    /// # Errors
+    ///
+    /// [`KeysError`] if the text is not a map of actions and lists of keys, or gives one key to two actions.
+    pub fn read(text: &str) -> Result<Self, KeysError> {
+        let changes: BTreeMap<Action, Vec<String>> = ron_tree::from_str(text).map_err(|error| {
+            let place = error.span.unwrap_or_default().start;
+            let (line, column) = ron_tree::LineIndex::new(text).position(place);
+            KeysError::Text {
+                line,
+                column,
+                message: error.message,
+            }
+        })?;
+        let mut keys = Self::default();
+        let mut taken: Vec<(String, Action)> = Vec::new();
+        for (action, list) in &changes {
+            for key in list.iter().map(|key| normal(key)) {
+                if let Some((_, other)) = taken.iter().find(|(known, _)| *known == key) {
+                    return Err(KeysError::Twice(key, *other, *action));
+                }
+                taken.push((key, *action));
+            }
+        }
+        for list in keys.of_action.values_mut() {
+            list.retain(|key| taken.iter().all(|(other, _)| other != key));
+        }
+        for (action, list) in changes {
+            keys.of_action
+                .insert(action, list.iter().map(|key| normal(key)).collect());
+        }
+        Ok(keys)
+    }
+
+    /// Returns the keys of an action.
+    pub fn of(&self, action: Action) -> &[String] {
+        self.of_action.get(&action).map_or(&[], Vec::as_slice)
+    }
+
+    /// Returns the action of a key such as `Ctrl+Shift+Z`. The order and the case of the modifiers do not matter.
+    pub fn action(&self, key: &str) -> Option<Action> {
+        let key = normal(key);
+        let mut all = self.of_action.iter();
+        all.find(|(_, keys)| keys.contains(&key))
+            .map(|(action, _)| *action)
+    }
+}
+
+/// Returns a key with its modifiers in the order Ctrl, Alt, Shift.
+fn normal(key: &str) -> String {
+    let mut parts: Vec<&str> = key.split('+').map(str::trim).collect();
+    let name = parts.pop().unwrap_or_default();
+    let mut text = String::new();
+    for modifier in ["Ctrl", "Alt", "Shift"] {
+        if parts.iter().any(|part| part.eq_ignore_ascii_case(modifier)) {
+            text += modifier;
+            text += "+";
+        }
+    }
+    let mut letters = name.chars();
+    if let Some(first) = letters.next() {
+        text.extend(first.to_uppercase());
+        text += letters.as_str();
+    }
+    text
+}

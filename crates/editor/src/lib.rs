@@ -1,0 +1,45 @@
+//! The editor without a window: a document, an engine thread, picks that become selections, commands that become text.
+//!
+//! ```text
+//! text --parse--> recipe --run from the first step that is not known--> snapshots --> view
+//!   ^                                                                                   |
+//!   +---- edits of spans <--- Command(operation, selection) <--- pick, key, drag -------+
+//! ```
+//!
+//! The recipe's text is the only source: an [`Editor`] changes it and nothing else, and the engine thread follows. Undo is
+//! the history of texts; the scenes after its steps are known, so that an undo runs nothing. This crate knows no window: a
+//! program draws what [`Editor`] returns and forwards input.
+//!
+//! | task | items |
+//! | --- | --- |
+//! | the recipe and its file | [`Editor`], [`Document`], [`Outline`] |
+//! | the results | [`RunState`], [`StepState`], [`ExpectationState`], [`Snapshot`] |
+//! | operations | [`Command`], [`Panel`], [`FieldKind`] |
+//! | picking | [`pick`], [`pick_area`], [`Projection`], [`Indexes`], [`Picked`], [`propose`] |
+//! | half-edges | [`walk`], [`HalfEdgeInfo`] |
+//! | keys | [`Keys`], [`Action`] |
+
+mod document;
+mod edit;
+mod half_edge;
+mod keys;
+mod panel;
+mod pick;
+mod run;
+mod select;
+mod text;
+
+pub use document::{Conflict, Document, FileChange};
+pub use edit::{Command, CommandError, Editor, OpenError, SelectionText, Settings, Update, View};
+pub use half_edge::{AttributeInfo, HalfEdgeInfo, Walk, of_element, walk};
+pub use keys::{Action, Keys, KeysError};
+pub use panel::{FieldKind, FieldValue, Limits, Panel, PanelField};
+pub use pick::{Area, Hit, Indexes, PICK_RADIUS, PickMode, Projection, pick, pick_area};
+pub use run::{
+    ExpectationState, FailureState, Progress, RunState, Snapshot, Status, StepState, Verdict, Wake,
+};
+pub use select::{Picked, Proposal, propose};
+pub use text::{Outline, ParameterText, StepText, TextError};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,267 @@
+//! The kinds of fields, read from JSON schemas, and values in the form of their widgets.
+
+use op::ElementKind;
+use ron_tree::{Number, Value, ValueKind, parse, string_literal};
+use serde_json::Value as Json;
+
+/// The kind of values of a field.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FieldKind {
+    /// A number.
+    Number(Limits),
+    /// A whole number.
+    Integer(Limits),
+    /// `true` or `false`.
+    Bool,
+    /// One of several names, each with its description.
+    Choice(Vec<(String, String)>),
+    /// A text in quotes.
+    Text,
+    /// Two or three numbers `(x, y, z)`, with this length.
+    Vector(usize),
+    /// A selection of elements. If `None`, a selection of elements of any kind.
+    Selection(Option<ElementKind>),
+    /// Any other type: a text field for RON that is checked.
+    Other,
+    /// A value of this kind, or none.
+    Optional(Box<FieldKind>),
+}
+
+/// The range of a number.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Limits {
+    /// The minimum.
+    pub min: Option<f64>,
+    /// Whether the minimum itself is not allowed.
+    pub above_min: bool,
+    /// The maximum.
+    pub max: Option<f64>,
+    /// Whether the maximum itself is not allowed.
+    pub below_max: bool,
+}
+
+impl Limits {
+    /// Whether a value is in the range.
+    pub fn allows(&self, value: f64) -> bool {
+        let low = self
+            .min
+            .is_none_or(|min| value > min || (value == min && !self.above_min));
+        let high = self
+            .max
+            .is_none_or(|max| value < max || (value == max && !self.below_max));
+        low && high && value.is_finite()
+    }
+}
+
+impl FieldKind {
+    /// Returns the kind of a field with this schema. References are looked up in `root`.
+    pub(super) fn of(json: &Json, root: &Json) -> Self {
+        Self::at_depth(json, root, 0)
+    }
+
+    fn at_depth(json: &Json, root: &Json, depth: usize) -> Self {
+        // Schemas can refer to themselves.
+        if depth > 8 {
+            return Self::Other;
+        }
+        if let Some(path) = json["$ref"].as_str() {
+            let name = path.rsplit('/').next().unwrap_or_default();
+            return match name {
+                "VertexSelection" => Self::Selection(Some(ElementKind::Vertices)),
+                "EdgeSelection" => Self::Selection(Some(ElementKind::Edges)),
+                "FaceSelection" => Self::Selection(Some(ElementKind::Faces)),
+                "Elements" => Self::Selection(None),
+                _ => match path.strip_prefix('#').and_then(|path| root.pointer(path)) {
+                    Some(target) => Self::at_depth(target, root, depth + 1),
+                    None => Self::Other,
+                },
+            };
+        }
+        if let Some(parts) = json["allOf"].as_array() {
+            return match &parts[..] {
+                [one] => Self::at_depth(one, root, depth + 1),
+                _ => Self::Other,
+            };
+        }
+        if let Some(options) = json["anyOf"].as_array() {
+            let others: Vec<&Json> = options
+                .iter()
+                .filter(|option| option["type"] != "null")
+                .collect();
+            return match &others[..] {
+                [one] if options.len() == 2 => {
+                    Self::Optional(Box::new(Self::at_depth(one, root, depth + 1)))
+                }
+                _ => Self::Other,
+            };
+        }
+        if let Some(choice) = choice(json) {
+            return Self::Choice(choice);
+        }
+        let (name, is_optional) = match &json["type"] {
+            Json::String(name) => (name.as_str(), false),
+            Json::Array(names) => {
+                let mut others = names
+                    .iter()
+                    .filter_map(Json::as_str)
+                    .filter(|name| *name != "null");
+                match (others.next(), others.next()) {
+                    (Some(name), None) => (name, names.len() > 1),
+                    _ => return Self::Other,
+                }
+            }
+            _ => return Self::Other,
+        };
+        let kind = match name {
+            "number" => Self::Number(limits(json)),
+            "integer" => Self::Integer(limits(json)),
+            "boolean" => Self::Bool,
+            "string" => Self::Text,
+            "array" => vector(json).map_or(Self::Other, Self::Vector),
+            _ => Self::Other,
+        };
+        if is_optional {
+            Self::Optional(Box::new(kind))
+        } else {
+            kind
+        }
+    }
+
+    /// Returns the kind of the value itself, without the option around it.
+    pub fn inner(&self) -> &Self {
+        match self {
+            Self::Optional(inner) => inner.inner(),
+            kind => kind,
+        }
+    }
+}
+
+/// Returns the names of an enumeration whose variants have no content.
+fn choice(json: &Json) -> Option<Vec<(String, String)>> {
+    let text = |json: &Json| json.as_str().map(str::to_owned);
+    if let Some(names) = json["enum"].as_array() {
+        return names
+            .iter()
+            .map(|name| Some((text(name)?, String::new())))
+            .collect();
+    }
+    let mut names = Vec::new();
+    for option in json["oneOf"].as_array()? {
+        let doc = text(&option["description"]).unwrap_or_default();
+        match &option["enum"] {
+            Json::Array(list) => {
+                for name in list {
+                    names.push((text(name)?, doc.clone()));
+                }
+            }
+            _ => names.push((text(&option["const"])?, doc)),
+        }
+    }
+    Some(names)
+}
+
+fn limits(json: &Json) -> Limits {
+    let number = |key: &str| json[key].as_f64();
+    let (above, below) = (number("exclusiveMinimum"), number("exclusiveMaximum"));
+    Limits {
+        min: above.or_else(|| number("minimum")),
+        above_min: above.is_some(),
+        max: below.or_else(|| number("maximum")),
+        below_max: below.is_some(),
+    }
+}
+
+/// Returns the length of an array of two or three numbers.
+fn vector(json: &Json) -> Option<usize> {
+    let items = json["prefixItems"].as_array()?;
+    let are_numbers = items.iter().all(|item| item["type"] == "number");
+    (are_numbers && (2..=3).contains(&items.len())).then_some(items.len())
+}
+
+/// A value in the form of its widget.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FieldValue {
+    /// A number.
+    Number(f64),
+    /// A whole number.
+    Integer(i64),
+    /// `true` or `false`.
+    Bool(bool),
+    /// One of the names of a choice.
+    Choice(String),
+    /// A text, without its quotes.
+    Text(String),
+    /// The numbers of a vector.
+    Vector(Vec<f64>),
+    /// Any other value as RON.
+    Ron(String),
+    /// No value, for an optional field.
+    None,
+}
+
+impl FieldValue {
+    /// Returns the value as RON.
+    pub fn to_ron(&self) -> String {
+        match self {
+            Self::Number(x) => number(*x),
+            Self::Integer(n) => n.to_string(),
+            Self::Bool(is) => is.to_string(),
+            Self::Choice(name) => name.clone(),
+            Self::Text(text) => string_literal(text),
+            Self::Vector(parts) => {
+                let parts: Vec<String> = parts.iter().map(|x| number(*x)).collect();
+                format!("({})", parts.join(", "))
+            }
+            Self::Ron(text) => text.clone(),
+            Self::None => "None".to_owned(),
+        }
+    }
+
+    /// Reads a value of a kind from RON. `None` if the text does not have the form of the kind.
+    pub fn read(kind: &FieldKind, text: &str) -> Option<Self> {
+        let parsed = parse(text);
+        if !parsed.diagnostics.is_empty() {
+            return None;
+        }
+        let value = &parsed.value;
+        if let FieldKind::Optional(inner) = kind {
+            if value.name() == Some(("None", value.span)) || text == "none" {
+                return Some(Self::None);
+            }
+            return Self::read(
+                inner,
+                value.some().map_or(text, |inner| inner.span.of(text)),
+            );
+        }
+        Some(match (kind, &value.kind) {
+            (FieldKind::Number(_), ValueKind::Number(number)) => Self::Number(number.to_float()),
+            (FieldKind::Integer(_), ValueKind::Number(number)) => {
+                Self::Integer(i64::try_from(number.to_int()?).ok()?)
+            }
+            (FieldKind::Bool, ValueKind::Bool(is)) => Self::Bool(*is),
+            (FieldKind::Choice(names), ValueKind::Name(name)) => names
+                .iter()
+                .any(|(known, _)| **known == **name)
+                .then(|| Self::Choice(name.to_string()))?,
+            (FieldKind::Text, ValueKind::String(text)) => Self::Text(text.to_string()),
+            (FieldKind::Vector(n), ValueKind::Tuple(items)) if items.len() == *n => {
+                let number = |item: &Value| match &item.kind {
+                    ValueKind::Number(number) => Some(Number::to_float(number)),
+                    _ => None,
+                };
+                Self::Vector(items.iter().map(number).collect::<Option<_>>()?)
+            }
+            (FieldKind::Selection(_) | FieldKind::Other, _) => Self::Ron(text.to_owned()),
+            _ => return None,
+        })
+    }
+}
+
+/// Returns the shortest text that reads back as the same number: `2` and `0.5`.
+pub(crate) fn number(x: f64) -> String {
+    if x.is_finite() && x.abs() < 1e15 && x.abs() >= 1e-5 || x == 0.0 {
+        let text = format!("{x}");
+        return text;
+    }
+    format!("{x:?}")
+}

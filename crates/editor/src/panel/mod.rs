@@ -1,0 +1,204 @@
+//! The panel of an operation: a list of fields, generated from the schema of its parameters. A panel writes the text of a
+//! step.
+
+mod kind;
+
+use op::{Entry, Registry};
+use recipe::{Diagnostic, VariantDoc};
+use ron_tree::{Value, ValueKind, parse};
+
+pub use kind::{FieldKind, FieldValue, Limits};
+
+pub(crate) use kind::number;
+
+/// The panel of an operation.
+#[derive(Clone, Debug)]
+pub struct Panel {
+    /// The name of the operation.
+    pub operation: String,
+    /// One line: what the operation does.
+    pub summary: String,
+    /// The description of the operation.
+    pub doc: String,
+    /// An example step.
+    pub example: String,
+    /// The fields, in the order of the documentation.
+    pub fields: Vec<PanelField>,
+    /// The names of the fields that have a value, in the order of the text.
+    order: Vec<String>,
+    schema: serde_json::Value,
+}
+
+/// A field of a panel.
+#[derive(Clone, Debug)]
+pub struct PanelField {
+    /// The name of the parameter.
+    pub name: String,
+    /// The description of the parameter.
+    pub doc: String,
+    /// The kind of values, which determines the widget.
+    pub kind: FieldKind,
+    /// The type in words, as in the reference.
+    pub type_name: String,
+    /// The variants of the type, for completion.
+    pub variants: Vec<VariantDoc>,
+    /// The default as RON; `None` if the parameter is required.
+    pub default: Option<String>,
+    /// The value in the step as RON; `None` if the step does not set the parameter.
+    pub value: Option<String>,
+    /// The name of the recipe's parameter, if the value is `arg("name")`.
+    pub argument: Option<String>,
+}
+
+impl PanelField {
+    /// Whether the parameter must be set and is not.
+    pub fn is_missing(&self) -> bool {
+        self.default.is_none() && self.value.is_none()
+    }
+
+    /// Returns the value or, if the step does not set the parameter, the default.
+    pub fn current(&self) -> Option<&str> {
+        self.value.as_deref().or(self.default.as_deref())
+    }
+
+    /// Returns the current value in the form of the widget; `None` if it is missing or does not have this form, such as
+    /// `arg(..)`.
+    pub fn typed(&self) -> Option<FieldValue> {
+        FieldValue::read(&self.kind, self.current()?)
+    }
+}
+
+impl Panel {
+    /// Creates the panel of an operation without values.
+    pub fn new(entry: &Entry) -> Self {
+        let schema = entry.schema();
+        let docs = recipe::fields(&schema);
+        let fields = docs.into_iter().map(|field| {
+            let json = &schema["properties"][&field.name];
+            PanelField {
+                kind: FieldKind::of(json, &schema),
+                name: field.name,
+                doc: field.doc,
+                type_name: field.kind,
+                variants: field.variants,
+                default: field.default,
+                value: None,
+                argument: None,
+            }
+        });
+        Self {
+            operation: entry.name.to_owned(),
+            summary: entry.summary.to_owned(),
+            doc: schema["description"]
+                .as_str()
+                .unwrap_or_default()
+                .to_owned(),
+            example: entry.example.to_owned(),
+            fields: fields.collect(),
+            order: Vec::new(),
+            schema,
+        }
+    }
+
+    /// Creates the panel of a step `Name(..)` with the values of the step. `text` is the text that the spans of `run` refer
+    /// to. `None` if the registry does not have the operation.
+    pub fn of_step(registry: &Registry, run: &Value, text: &str) -> Option<Self> {
+        let entry = registry.get(run.name()?.0)?;
+        let mut panel = Self::new(entry);
+        for field in run.fields() {
+            let name = panel.current_name(&field.name.text);
+            panel.set(&name, Some(field.value.span.of(text)));
+        }
+        Some(panel)
+    }
+
+    /// Returns the field with this name.
+    pub fn field(&self, name: &str) -> Option<&PanelField> {
+        self.fields.iter().find(|field| field.name == name)
+    }
+
+    /// Sets the value of a parameter as RON, or removes it if `value` is `None`. A name that the operation does not have is
+    /// ignored.
+    pub fn set(&mut self, name: &str, value: Option<&str>) {
+        let Some(field) = self.fields.iter_mut().find(|field| field.name == name) else {
+            return;
+        };
+        field.value = value.map(str::to_owned);
+        field.argument = value.and_then(argument);
+        match value {
+            None => self.order.retain(|known| known != name),
+            Some(_) if self.order.iter().any(|known| known == name) => {}
+            Some(_) => self.order.push(name.to_owned()),
+        }
+    }
+
+    /// Returns the step `Name(parameter: value, ..)`.
+    pub fn step_text(&self) -> String {
+        let value = |name: &String| Some(format!("{name}: {}", self.field(name)?.value.as_ref()?));
+        let fields: Vec<String> = self.order.iter().filter_map(value).collect();
+        format!("{}({})", self.operation, fields.join(", "))
+    }
+
+    /// Returns the problems of the values: missing parameters, wrong types, values out of range. Each has the name of its
+    /// field; empty for a problem of the whole step. A value `arg(..)` has no problem here.
+    pub fn problems(&self) -> Vec<(String, Diagnostic)> {
+        let text = self.step_text();
+        let parsed = parse(&text);
+        let ValueKind::Call(call) = &parsed.value.kind else {
+            return Vec::new();
+        };
+        let found = if parsed.diagnostics.is_empty() {
+            recipe::shape::check_shape(&call.body, &self.schema)
+        } else {
+            parsed.diagnostics.clone()
+        };
+        let fields = call.body.fields();
+        let place = |diagnostic: &Diagnostic| {
+            let span = diagnostic.span?;
+            fields
+                .iter()
+                .find(|field| field.name.span.to(field.value.span).contains(span))
+        };
+        let problem = |diagnostic: Diagnostic| {
+            let field = place(&diagnostic);
+            if field.is_some_and(|field| argument(field.value.span.of(&text)).is_some()) {
+                return None;
+            }
+            Some((
+                field.map_or_else(String::new, |field| field.name.text.to_string()),
+                diagnostic,
+            ))
+        };
+        found.into_iter().filter_map(problem).collect()
+    }
+
+    /// Returns the current name of a parameter that the step names by an earlier name.
+    fn current_name(&self, name: &str) -> String {
+        if self.field(name).is_some() {
+            return name.to_owned();
+        }
+        let has_alias = |field: &&PanelField| {
+            let aliases = self.schema["properties"][&field.name]["aliases"].as_array();
+            aliases.is_some_and(|aliases| aliases.iter().any(|alias| alias == name))
+        };
+        self.fields
+            .iter()
+            .find(has_alias)
+            .map_or(name, |field| &field.name)
+            .to_owned()
+    }
+}
+
+/// Returns the name in `arg("name")`.
+fn argument(text: &str) -> Option<String> {
+    if !text.trim_start().starts_with("arg") {
+        return None;
+    }
+    let parsed = parse(text);
+    match &parsed.value.kind {
+        ValueKind::Call(call) if &*call.name.text == "arg" => {
+            Some(call.body.single()?.as_str()?.to_owned())
+        }
+        _ => None,
+    }
+}

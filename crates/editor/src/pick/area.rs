@@ -1,0 +1,87 @@
+//! Picking in an area of the view: a box or a lasso.
+
+use mesh::{DVec2, Mesh, VertexId};
+use op::{ElementKind, Selected};
+use scene::Scene;
+
+use super::Projection;
+use crate::select::Picked;
+
+/// An area of the view, in pixels.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Area {
+    /// A box, given by two opposite corners.
+    Box(DVec2, DVec2),
+    /// The inside of a polygon, by the even-odd rule.
+    Lasso(Vec<DVec2>),
+}
+
+impl Area {
+    /// Whether a pixel is in the area.
+    pub fn contains(&self, p: DVec2) -> bool {
+        match self {
+            Self::Box(a, b) => {
+                let (low, high) = (a.min(*b), a.max(*b));
+                p.cmpge(low).all() && p.cmple(high).all()
+            }
+            Self::Lasso(points) => {
+                let next = points.iter().cycle().skip(1);
+                let crossings = points.iter().zip(next).filter(|(a, b)| {
+                    (a.y > p.y) != (b.y > p.y)
+                        && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
+                });
+                crossings.count() % 2 == 1
+            }
+        }
+    }
+}
+
+/// Returns the elements of each mesh whose vertices all lie in the area, whether they are hidden or not. Meshes without such
+/// elements are left out.
+pub fn pick_area(scene: &Scene, view: &Projection, area: &Area, kind: ElementKind) -> Vec<Picked> {
+    let mut all: Vec<Picked> = Vec::new();
+    for placed in scene.instances() {
+        let Some(mesh) = placed.object.as_mesh() else {
+            continue;
+        };
+        let view = view.of_object(placed.to_scene);
+        let elements = inside(mesh, &view, area, kind);
+        if elements.is_empty() {
+            continue;
+        }
+        let new = Picked::new(&placed.object.name, elements);
+        match all
+            .iter_mut()
+            .find(|known| known.object == placed.object.name)
+        {
+            Some(known) => known.add(&new),
+            None => all.push(new),
+        }
+    }
+    all
+}
+
+fn inside(mesh: &Mesh, view: &Projection, area: &Area, kind: ElementKind) -> Selected {
+    let mut is_inside = vec![false; mesh.domain_len(mesh::Domain::Vertex)];
+    for v in mesh.vertices() {
+        let pixel = view.to_pixel(mesh.position(v));
+        is_inside[v.index()] = pixel.is_some_and(|(pixel, _)| area.contains(pixel));
+    }
+    let is_in = |v: VertexId| is_inside[v.index()];
+    match kind {
+        ElementKind::Vertices => {
+            Selected::Vertices(mesh.vertices().filter(|&v| is_in(v)).collect())
+        }
+        ElementKind::Edges => {
+            let edges = mesh
+                .edges()
+                .filter(|&e| mesh.edge_vertices(e).into_iter().all(is_in));
+            Selected::Edges(edges.collect())
+        }
+        ElementKind::Faces => Selected::Faces(
+            mesh.faces()
+                .filter(|&f| mesh.face_vertices(f).all(is_in))
+                .collect(),
+        ),
+    }
+}

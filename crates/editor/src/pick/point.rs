@@ -1,0 +1,327 @@
+//! Picking under a point: the vertex, edge or face that is visible at a pixel.
+//!
+//! ```text
+//!   ray through the pixel --> first face of the spatial index --> vertices and edges of this and the neighboring faces
+//!                         \-> nothing: all faces whose picture is near the pixel
+//! ```
+//!
+//! Small things win: a vertex within the radius comes before an edge, and an edge before the face.
+
+use std::sync::Arc;
+
+use geometry::surface_index::{RayHit, SurfaceIndex};
+use glam::DAffine3;
+use mesh::{DVec2, DVec3, Element, FaceId, HalfEdgeId, Mesh};
+use scene::Scene;
+
+use super::{Indexes, Projection};
+
+/// The distance in pixels at which vertices and edges are picked.
+pub const PICK_RADIUS: f64 = 8.0;
+
+/// The maximum number of faces around the face under the cursor that are searched for vertices and edges.
+const MAX_FACES: usize = 64;
+
+/// What a pick looks for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PickMode {
+    /// A vertex, an edge or a face: the smallest thing within the radius.
+    #[default]
+    Any,
+    /// A vertex.
+    Vertex,
+    /// An edge.
+    Edge,
+    /// A half-edge: the side of the edge that is nearest to the pixel.
+    HalfEdge,
+    /// A face.
+    Face,
+}
+
+/// An element under the cursor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hit {
+    /// The name of the object.
+    pub object: String,
+    /// The index of the instance in [`Scene::instances`].
+    pub instance: usize,
+    /// The element. For [`PickMode::HalfEdge`], a half-edge.
+    pub element: Element,
+    /// The half-edge of the element: the half of an edge that lies on the face under the cursor, or the half-edge of the
+    /// face whose edge is nearest. `None` for a vertex without edges.
+    pub half_edge: Option<HalfEdgeId>,
+    /// The face under the cursor; `None` if the cursor is beside the surface.
+    pub face: Option<FaceId>,
+    /// The picked point in scene space: the vertex, the nearest point of the edge, or the point of the face.
+    pub point: DVec3,
+}
+
+/// Returns the element at a pixel. `None` if nothing is there, or if the index of the mesh is not ready yet.
+pub fn pick(
+    scene: &Scene,
+    indexes: &Indexes,
+    view: &Projection,
+    pixel: DVec2,
+    mode: PickMode,
+) -> Option<Hit> {
+    let targets: Vec<Target> = Target::all(scene, indexes, view);
+    let under = first_hit(&targets, pixel);
+    let mut search = Search {
+        targets: &targets,
+        pixel,
+        mode,
+        found: Vec::new(),
+    };
+    match under {
+        Some((i, hit)) => search.around(i, targets[i].face_of(&hit)),
+        None if mode == PickMode::Face => return None,
+        None => (0..targets.len()).for_each(|i| search.near(i)),
+    }
+    if let Some(hit) = search.best(under.map(|(i, hit)| targets[i].face_of(&hit))) {
+        return Some(hit);
+    }
+    let (i, hit) = under?;
+    let target = &targets[i];
+    let face = target.face_of(&hit);
+    let half_edge = target.nearest_side(face, pixel);
+    let element = match mode {
+        PickMode::Any | PickMode::Face => Element::Face(face),
+        PickMode::HalfEdge => Element::HalfEdge(half_edge?),
+        // The nearest vertex or edge is too far away.
+        PickMode::Vertex | PickMode::Edge => return None,
+    };
+    Some(Hit {
+        object: target.object.to_owned(),
+        instance: target.instance,
+        element,
+        half_edge,
+        face: Some(face),
+        point: target.to_scene.transform_point3(hit.point),
+    })
+}
+
+/// An instance of a mesh with its index.
+pub(super) struct Target<'s> {
+    pub(super) object: &'s str,
+    pub(super) instance: usize,
+    pub(super) mesh: &'s Arc<Mesh>,
+    pub(super) index: Arc<SurfaceIndex>,
+    pub(super) to_scene: DAffine3,
+    pub(super) view: Projection,
+}
+
+impl<'s> Target<'s> {
+    pub(super) fn all(scene: &'s Scene, indexes: &Indexes, view: &Projection) -> Vec<Self> {
+        let instances = scene.instances().into_iter().enumerate();
+        instances
+            .filter_map(|(instance, placed)| {
+                let mesh = placed.object.as_mesh()?;
+                Some(Self {
+                    object: &placed.object.name,
+                    instance,
+                    mesh,
+                    index: indexes.get(mesh)?,
+                    to_scene: placed.to_scene,
+                    view: view.of_object(placed.to_scene),
+                })
+            })
+            .collect()
+    }
+
+    fn face_of(&self, hit: &RayHit) -> FaceId {
+        self.index.triangle(hit.triangle).face
+    }
+
+    /// Returns the half-edge of a face whose picture is nearest to a pixel.
+    fn nearest_side(&self, face: FaceId, pixel: DVec2) -> Option<HalfEdgeId> {
+        let sides = self
+            .mesh
+            .face_half_edges(face)
+            .filter_map(|h| Some((self.distance(h, pixel)?.0, h)));
+        sides.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, h)| h)
+    }
+
+    fn distance(&self, h: HalfEdgeId, pixel: DVec2) -> Option<(f64, DVec3)> {
+        let ends = [self.mesh.origin(h), self.mesh.target(h)].map(|v| self.mesh.position(v));
+        self.view.to_segment(pixel, ends[0], ends[1])
+    }
+}
+
+/// Returns the first point of all targets under a pixel, with the index of its target.
+pub(super) fn first_hit(targets: &[Target], pixel: DVec2) -> Option<(usize, RayHit)> {
+    let hits = targets.iter().enumerate().filter_map(|(i, target)| {
+        let (origin, direction) = target.view.ray(pixel);
+        Some((i, target.index.ray(origin, direction)?))
+    });
+    // The rays have the same parameter in all spaces.
+    hits.min_by(|a, b| a.1.t.total_cmp(&b.1.t))
+}
+
+/// A vertex or an edge near the pixel.
+struct Candidate {
+    /// 0 for vertices, 1 for edges.
+    rank: u8,
+    distance: f64,
+    target: usize,
+    element: Element,
+    half_edge: HalfEdgeId,
+    point: DVec3,
+}
+
+struct Search<'a, 's> {
+    targets: &'a [Target<'s>],
+    pixel: DVec2,
+    mode: PickMode,
+    found: Vec<Candidate>,
+}
+
+impl Search<'_, '_> {
+    /// Adds the vertices and edges near the pixel, of a face and of the faces around it that face the viewer in the same
+    /// way.
+    fn around(&mut self, at: usize, face: FaceId) {
+        let target = &self.targets[at];
+        let (_, direction) = target.view.ray(self.pixel);
+        let side = |f: FaceId| target.mesh.area_vector(f).dot(direction) > 0.0;
+        let is_back = side(face);
+        let mut faces = vec![face];
+        let mut done = 0;
+        while let Some(&f) = faces.get(done) {
+            done += 1;
+            for h in target.mesh.face_half_edges(f) {
+                if !self.add(at, h) || faces.len() >= MAX_FACES {
+                    continue;
+                }
+                if let Some(other) = target.mesh.face(h.twin())
+                    && !faces.contains(&other)
+                    && side(other) == is_back
+                {
+                    faces.push(other);
+                }
+            }
+        }
+    }
+
+    /// Adds all vertices and edges whose pictures are near the pixel.
+    fn near(&mut self, at: usize) {
+        let target = &self.targets[at];
+        let (view, pixel) = (target.view, self.pixel);
+        let mut faces = Vec::new();
+        let mut enters = |min, max| match view.bounds(min, max) {
+            Some([low, high]) => pixel.distance(pixel.clamp(low, high)) <= PICK_RADIUS,
+            None => true,
+        };
+        target.index.visit_boxes(&mut enters, &mut |i| {
+            faces.push(target.index.triangle(i).corners)
+        });
+        for corners in faces {
+            for (k, h) in corners.into_iter().enumerate() {
+                // The other sides of triangles are inside a face.
+                if target.mesh.next(h) == corners[(k + 1) % 3] {
+                    self.add(at, h);
+                }
+            }
+        }
+    }
+
+    /// Adds the edge of a half-edge and its ends if they are near the pixel. Returns whether the edge is.
+    fn add(&mut self, at: usize, h: HalfEdgeId) -> bool {
+        let target = &self.targets[at];
+        let Some((distance, point)) = target
+            .distance(h, self.pixel)
+            .filter(|near| near.0 <= PICK_RADIUS)
+        else {
+            return false;
+        };
+        if self.mode != PickMode::Vertex && self.mode != PickMode::Face {
+            let element = match self.mode {
+                PickMode::HalfEdge => Element::HalfEdge(h),
+                _ => Element::Edge(h.edge()),
+            };
+            self.found.push(Candidate {
+                rank: 1,
+                distance,
+                target: at,
+                element,
+                half_edge: h,
+                point,
+            });
+        }
+        if matches!(self.mode, PickMode::Any | PickMode::Vertex) {
+            for (v, half_edge) in [
+                (target.mesh.origin(h), h),
+                (target.mesh.target(h), target.mesh.next(h)),
+            ] {
+                let point = target.mesh.position(v);
+                let Some((pixel, _)) = target.view.to_pixel(point) else {
+                    continue;
+                };
+                let distance = pixel.distance(self.pixel);
+                if distance <= PICK_RADIUS {
+                    let element = Element::Vertex(v);
+                    self.found.push(Candidate {
+                        rank: 0,
+                        distance,
+                        target: at,
+                        element,
+                        half_edge,
+                        point,
+                    });
+                }
+            }
+        }
+        true
+    }
+
+    /// Returns the best candidate that is visible. `under` is the face under the cursor.
+    fn best(mut self, under: Option<FaceId>) -> Option<Hit> {
+        let key = |c: &Candidate| (c.rank, c.distance);
+        // On the two sides of an edge, the half on the face under the cursor comes first, because it was added first.
+        self.found.sort_by(|a, b| {
+            let ((ra, da), (rb, db)) = (key(a), key(b));
+            ra.cmp(&rb).then(da.total_cmp(&db))
+        });
+        self.found
+            .dedup_by(|a, b| a.element == b.element && a.target == b.target);
+        let best = self
+            .found
+            .iter()
+            .find(|candidate| self.is_visible(candidate))?;
+        let target = &self.targets[best.target];
+        Some(Hit {
+            object: target.object.to_owned(),
+            instance: target.instance,
+            element: best.element,
+            half_edge: Some(best.half_edge),
+            face: under,
+            point: target.to_scene.transform_point3(best.point),
+        })
+    }
+
+    /// Whether nothing hides the point of a candidate.
+    fn is_visible(&self, candidate: &Candidate) -> bool {
+        let target = &self.targets[candidate.target];
+        let Some((pixel, _)) = target.view.to_pixel(candidate.point) else {
+            return false;
+        };
+        let Some((i, hit)) = first_hit(self.targets, pixel) else {
+            return true;
+        };
+        if i == candidate.target {
+            let ends = [
+                target.mesh.origin(candidate.half_edge),
+                target.mesh.target(candidate.half_edge),
+            ];
+            let vertices = target.index.triangle(hit.triangle).vertices;
+            let is_at = match candidate.element {
+                Element::Vertex(v) => vertices.contains(&v),
+                _ => ends.iter().all(|v| vertices.contains(v)),
+            };
+            if is_at {
+                return true;
+            }
+        }
+        let (origin, direction) = target.view.ray(pixel);
+        let t = (candidate.point - origin).dot(direction) / direction.length_squared();
+        hit.t >= t * (1.0 - 1e-7)
+    }
+}

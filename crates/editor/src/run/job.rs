@@ -1,0 +1,364 @@
+//! One run: reads and checks the recipe, finds the first step whose result is not known, and runs from there.
+
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use engine::{Engine, Failure, Listener, Loaded, Options, Run, StepDone};
+use recipe::Expectation;
+use recipe::Recipe;
+use scene::Scene;
+use store::Store;
+use web_time::Instant;
+
+use super::keys::{Key, Keys};
+use super::snapshot::{Snapshot, Snapshots};
+use super::state::{
+    End, Event, ExpectationState, FailureState, RunState, Status, StepState, Verdict,
+};
+use super::{Progress, Request, Shared};
+
+pub(super) struct Job<'a> {
+    pub(super) engine: &'a Engine<'a>,
+    pub(super) store: &'a dyn Store,
+    pub(super) shared: &'a Shared,
+    pub(super) cancel: &'a AtomicBool,
+    pub(super) request: &'a Request,
+}
+
+impl Job<'_> {
+    pub(super) fn run(&self, snapshots: &mut Snapshots) {
+        let begin = Instant::now();
+        let options = Options {
+            out: &self.request.out,
+            budget: self.request.budget,
+            ..Options::default()
+        };
+        let loaded = self.engine.load(&self.request.source, &options);
+        snapshots.tick();
+        let keys = Keys::of(&loaded, self.store, self.request.budget);
+        let mut state = state_of(&loaded);
+        let mut scene = None;
+        let mut known = 0;
+        for (i, key) in keys.steps.iter().enumerate() {
+            let Some(snapshot) = snapshots.get(key) else {
+                break;
+            };
+            scene = Some(snapshot.scene.clone());
+            state.steps[i].result = Some(snapshot);
+            known = i + 1;
+        }
+        for (placed, key) in state.expectations.iter_mut().zip(&keys.expectations) {
+            placed.verdict = snapshots.verdicts.get(key).cloned();
+        }
+        let number = self.request.number;
+        let has_errors = loaded.has_errors();
+        if has_errors {
+            let time = begin.elapsed();
+            state.status = Status::Done;
+            let end = self.end_of(&state, &loaded.recipe, None, snapshots, &keys);
+            self.shared.send(Event::Checked {
+                number,
+                state: Box::new(state),
+            });
+            self.shared.send(Event::Done {
+                number,
+                end: Box::new(End { time, ..end }),
+            });
+            return;
+        }
+        let first = self.first_step(&loaded, &state, known);
+        let is_known = first == loaded.recipe.steps.len()
+            && state
+                .expectations
+                .iter()
+                .all(|placed| placed.verdict.is_some())
+            && snapshots.digests.contains_key(&keys.end());
+        self.shared.send(Event::Checked {
+            number,
+            state: Box::new(state.clone()),
+        });
+        if is_known && !self.request.keep_outputs {
+            let mut end = self.end_of(&state, &loaded.recipe, None, snapshots, &keys);
+            end.time = begin.elapsed();
+            self.shared.send(Event::Done {
+                number,
+                end: Box::new(end),
+            });
+            return;
+        }
+        let start = match first.checked_sub(1) {
+            None => Scene::new(),
+            Some(_) if first == known => scene.map_or_else(Scene::new, |scene| (*scene).clone()),
+            Some(i) => match &state.steps[i].result {
+                Some(snapshot) => (*snapshot.scene).clone(),
+                None => Scene::new(),
+            },
+        };
+        let follower = Follower {
+            job: self,
+            last: AtomicUsize::new(first),
+            label: Mutex::default(),
+            done: Mutex::default(),
+            results: Mutex::default(),
+            failures: Mutex::default(),
+        };
+        let run = Run {
+            keep_outputs: self.request.keep_outputs,
+            cache: None,
+        };
+        let outcome = loaded.run_from(first, start, run, &follower);
+        let ran = outcome.steps.len();
+        for (i, snapshot) in take(&follower.results) {
+            snapshots.insert(keys.steps[i], snapshot.clone());
+            state.steps[i].result = Some(snapshot);
+        }
+        let failures = take(&follower.failures);
+        let is_whole = !outcome.cancelled && outcome.failures.len() == outcome.unmet.len();
+        for (i, placed) in loaded.recipe.expectations.iter().enumerate() {
+            // Expectations after a step that did not run keep what is known about them.
+            let is_checked = placed.after.map_or(is_whole, |after| {
+                after >= first && (after < first + ran) && (is_whole || after + 1 < first + ran)
+            });
+            let unmet = outcome.unmet.iter().find(|unmet| unmet.expectation == i);
+            let verdict = match unmet {
+                Some(unmet) => Verdict::Fails {
+                    message: outcome.failures[unmet.failure].message.clone(),
+                    places: failures
+                        .get(unmet.failure)
+                        .map_or_else(Vec::new, |f| f.places.clone()),
+                },
+                None if is_checked => Verdict::Holds,
+                None => continue,
+            };
+            state.expectations[i].verdict = Some(verdict.clone());
+            snapshots.verdicts.insert(keys.expectations[i], verdict);
+        }
+        if is_whole {
+            snapshots.digests.insert(keys.end(), outcome.digest);
+        }
+        // Outputs that cannot be written have no event of their own.
+        let mut step_failures: Vec<FailureState> = Vec::new();
+        for (i, diagnostic) in outcome.failures.iter().enumerate() {
+            if outcome.unmet.iter().any(|unmet| unmet.failure == i) {
+                continue;
+            }
+            let found = failures
+                .get(i)
+                .filter(|failure| failure.diagnostic == *diagnostic);
+            step_failures.push(found.cloned().unwrap_or(FailureState {
+                diagnostic: diagnostic.clone(),
+                places: Vec::new(),
+                step: None,
+            }));
+        }
+        let mut end = self.end_of(
+            &state,
+            &loaded.recipe,
+            Some(step_failures),
+            snapshots,
+            &keys,
+        );
+        end.canceled = outcome.cancelled;
+        end.written = outcome.written;
+        end.ran = ran;
+        end.time = begin.elapsed();
+        snapshots.trim(self.request.memory);
+        self.shared.send(Event::Done {
+            number,
+            end: Box::new(end),
+        });
+    }
+
+    /// Returns the index of the step that the run starts with, where the results of the first `known` steps are known.
+    fn first_step(&self, loaded: &Loaded, state: &RunState, known: usize) -> usize {
+        if self.request.keep_outputs {
+            return 0;
+        }
+        let mut first = known;
+        // An expectation is checked only if the step before it runs.
+        for placed in state
+            .expectations
+            .iter()
+            .filter(|placed| placed.verdict.is_none())
+        {
+            if let Some(after) = placed.after {
+                first = first.min(after);
+            }
+        }
+        // Expectations about outputs need the steps that write them.
+        let mut expectations = loaded.recipe.expectations.iter().zip(&state.expectations);
+        let needs_files = |that: &Expectation| match that {
+            Expectation::Output { .. } => true,
+            Expectation::Not(that) => matches!(**that, Expectation::Output { .. }),
+            _ => false,
+        };
+        if expectations.any(|(placed, state)| state.verdict.is_none() && needs_files(&placed.that))
+        {
+            let forecast = &loaded.forecast.steps;
+            let writes = forecast.iter().position(|step| step.n_outputs > 0);
+            first = first.min(writes.unwrap_or(first));
+        }
+        first
+    }
+
+    /// Returns the end of a run with everything that is known.
+    fn end_of(
+        &self,
+        state: &RunState,
+        recipe: &Recipe,
+        failures: Option<Vec<FailureState>>,
+        snapshots: &Snapshots,
+        keys: &Keys,
+    ) -> End {
+        let mut failures = failures.unwrap_or_default();
+        for (i, placed) in state.expectations.iter().enumerate() {
+            if let Some(Verdict::Fails { message, places }) = &placed.verdict {
+                let of = &recipe.expectations[i];
+                let diagnostic = engine::Diagnostic::error(of.span, message.clone());
+                failures.push(FailureState {
+                    diagnostic: recipe.located(diagnostic, of.scope),
+                    places: places.clone(),
+                    step: of.after,
+                });
+            }
+        }
+        let is_whole = state.steps.iter().all(|step| step.result.is_some());
+        let digest = snapshots.digests.get::<Key>(&keys.end()).copied();
+        End {
+            canceled: false,
+            failures,
+            verdicts: state
+                .expectations
+                .iter()
+                .map(|placed| placed.verdict.clone())
+                .collect(),
+            digest: digest.filter(|_| is_whole),
+            written: Vec::new(),
+            time: Duration::ZERO,
+            ran: 0,
+        }
+    }
+}
+
+/// Returns the state of a recipe before it runs.
+fn state_of(loaded: &Loaded) -> RunState {
+    let recipe = &loaded.recipe;
+    let outline = crate::Outline::of(&recipe.sources[0].text);
+    let steps = (recipe.steps.iter().enumerate())
+        .map(|(i, step)| {
+            // The place of the step, or of the outermost call around it, in the text of the recipe itself.
+            let mut span = step.span;
+            let mut scope = step.scope;
+            while let Some((caller, call)) = recipe.scopes.get(scope).and_then(|s| s.called) {
+                (scope, span) = (caller, call);
+            }
+            StepState {
+                label: step.label().to_owned(),
+                name: step.name.clone(),
+                item: outline.step_at(span.start).unwrap_or(0),
+                source: recipe.source_of(step.scope),
+                span: step.span,
+                forecast: loaded.forecast.steps.get(i).cloned(),
+                result: None,
+            }
+        })
+        .collect();
+    let expectations = (recipe.expectations.iter())
+        .map(|placed| ExpectationState {
+            source: recipe.source_of(placed.scope),
+            span: placed.span,
+            after: placed.after,
+            verdict: None,
+        })
+        .collect();
+    RunState {
+        sources: recipe.sources.clone(),
+        diagnostics: loaded.diagnostics.clone(),
+        steps,
+        expectations,
+        parameters: recipe.parameters().to_vec(),
+        inputs: loaded.forecast.inputs.clone(),
+        status: Status::Running(Progress::default()),
+        ..RunState::default()
+    }
+}
+
+/// Follows a run: keeps the scene after each step, forwards progress, and cancels.
+struct Follower<'a> {
+    job: &'a Job<'a>,
+    /// The index of the current step.
+    last: AtomicUsize,
+    label: Mutex<String>,
+    /// The report of the step whose scene comes next.
+    done: Mutex<Option<StepDone>>,
+    results: Mutex<Vec<(usize, Snapshot)>>,
+    failures: Mutex<Vec<FailureState>>,
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn take<T: Default>(mutex: &Mutex<T>) -> T {
+    std::mem::take(&mut lock(mutex))
+}
+
+impl op::Progress for Follower<'_> {
+    fn advance(&self, task: &str, done: u64, total: u64) -> bool {
+        let step = lock(&self.label).clone();
+        let progress = Progress {
+            step,
+            task: task.to_owned(),
+            done,
+            total,
+        };
+        self.job
+            .shared
+            .set_progress(self.job.request.number, progress);
+        !self.job.cancel.load(Ordering::Relaxed)
+    }
+}
+
+impl Listener for Follower<'_> {
+    fn step_begins(&self, number: usize, label: &str) {
+        self.last.store(number, Ordering::Relaxed);
+        label.clone_into(&mut lock(&self.label));
+    }
+
+    fn step_done(&self, _: usize, done: &StepDone) {
+        *lock(&self.done) = Some(done.clone());
+    }
+
+    fn wants_scenes(&self) -> bool {
+        true
+    }
+
+    fn scene_after(&self, number: usize, scene: &Scene) {
+        let Some(done) = lock(&self.done).take() else {
+            return;
+        };
+        let result = Snapshot {
+            scene: Arc::new(scene.clone()),
+            done: Arc::new(done),
+        };
+        lock(&self.results).push((number, result.clone()));
+        self.job.shared.send(Event::Step {
+            number: self.job.request.number,
+            step: number,
+            result,
+        });
+    }
+
+    fn failed(&self, failure: &Failure) {
+        lock(&self.failures).push(FailureState {
+            diagnostic: failure.diagnostic.clone(),
+            places: failure.places.to_vec(),
+            step: Some(self.last.load(Ordering::Relaxed)),
+        });
+    }
+
+    fn wants_places(&self) -> bool {
+        true
+    }
+}

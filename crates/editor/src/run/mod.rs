@@ -1,0 +1,244 @@
+//! Runs the recipe in a thread of its own. A new request cancels the run before it; steps whose results are known do not
+//! run again.
+//!
+//! ```text
+//! request --> waiting (only the newest) --> thread: read, check, reuse snapshots, run the rest --> events --> Editor::poll
+//! ```
+
+mod job;
+mod keys;
+mod snapshot;
+mod state;
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use engine::{Engine, Source};
+use op::Registry;
+use store::Store;
+
+use job::Job;
+pub(crate) use keys::stamp;
+use snapshot::Snapshots;
+
+pub use snapshot::Snapshot;
+pub use state::{ExpectationState, FailureState, RunState, Status, StepState, Verdict};
+
+pub(crate) use state::Event;
+
+/// A request to run a recipe.
+#[derive(Clone, Debug)]
+pub(crate) struct Request {
+    /// The number of the request. Later requests have higher numbers.
+    pub(crate) number: u64,
+    pub(crate) source: Source,
+    /// The folder for outputs.
+    pub(crate) out: PathBuf,
+    /// Whether the outputs are kept.
+    pub(crate) keep_outputs: bool,
+    /// The memory budget for meshes, in bytes.
+    pub(crate) budget: u64,
+    /// The memory for snapshots, in bytes.
+    pub(crate) memory: u64,
+}
+
+/// Called when there is something new to poll.
+pub type Wake = Arc<dyn Fn() + Send + Sync>;
+
+/// A handle of the thread. Dropping it cancels the run and ends the thread.
+pub(crate) struct Runner {
+    shared: Arc<Shared>,
+    thread: Option<JoinHandle<()>>,
+}
+
+#[derive(Default)]
+struct Shared {
+    state: Mutex<Waiting>,
+    wake: Condvar,
+}
+
+#[derive(Default)]
+struct Waiting {
+    request: Option<Request>,
+    /// Cancels the current run.
+    cancel: Arc<AtomicBool>,
+    events: Vec<Event>,
+    progress: Option<(u64, Progress)>,
+    ends: bool,
+    on_event: Option<Wake>,
+    /// The files whose changes are reported.
+    watched: Vec<PathBuf>,
+}
+
+/// How often the files are looked at.
+const LOOK: Duration = Duration::from_millis(250);
+
+/// The progress of a run.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Progress {
+    /// The label of the current step.
+    pub step: String,
+    /// The current computation.
+    pub task: String,
+    /// The number of parts of the computation that are done.
+    pub done: u64,
+    /// The number of all parts of the computation.
+    pub total: u64,
+}
+
+impl Shared {
+    fn lock(&self) -> MutexGuard<'_, Waiting> {
+        // A panic while the lock is held leaves valid state.
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn send(&self, event: Event) {
+        let wake = {
+            let mut state = self.lock();
+            state.events.push(event);
+            state.on_event.clone()
+        };
+        self.wake.notify_all();
+        if let Some(wake) = wake {
+            wake();
+        }
+    }
+
+    fn set_progress(&self, number: u64, progress: Progress) {
+        self.lock().progress = Some((number, progress));
+    }
+}
+
+impl Runner {
+    pub(crate) fn new(registry: Arc<Registry>, store: Arc<dyn Store>) -> Self {
+        let shared = Arc::new(Shared::default());
+        let of_thread = shared.clone();
+        let thread = std::thread::Builder::new()
+            .name("meshwright engine".to_owned())
+            .spawn(move || serve(&of_thread, &registry, store))
+            .ok();
+        Self { shared, thread }
+    }
+
+    /// Replaces the waiting request and cancels the current run.
+    pub(crate) fn request(&self, request: Request) {
+        let mut state = self.shared.lock();
+        state.cancel.store(true, Ordering::Relaxed);
+        state.request = Some(request);
+        drop(state);
+        self.shared.wake.notify_all();
+    }
+
+    /// Cancels the current run and the waiting request. Returns whether a request was waiting.
+    pub(crate) fn cancel(&self) -> bool {
+        let mut state = self.shared.lock();
+        state.cancel.store(true, Ordering::Relaxed);
+        state.request.take().is_some()
+    }
+
+    /// Removes and returns the events.
+    pub(crate) fn events(&self) -> Vec<Event> {
+        std::mem::take(&mut self.shared.lock().events)
+    }
+
+    /// Waits for events, at most for the given time.
+    pub(crate) fn wait(&self, time: Duration) {
+        let state = self.shared.lock();
+        if state.events.is_empty() {
+            drop(self.shared.wake.wait_timeout(state, time));
+        }
+    }
+
+    pub(crate) fn progress(&self, number: u64) -> Option<Progress> {
+        let state = self.shared.lock();
+        let (of, progress) = state.progress.as_ref()?;
+        (*of == number).then(|| progress.clone())
+    }
+
+    /// Sets the files whose changes are reported.
+    pub(crate) fn watch(&self, files: Vec<PathBuf>) {
+        let mut state = self.shared.lock();
+        if state.watched != files {
+            state.watched = files;
+        }
+    }
+
+    pub(crate) fn on_event(&self, wake: Wake) {
+        self.shared.lock().on_event = Some(wake);
+    }
+}
+
+impl Drop for Runner {
+    fn drop(&mut self) {
+        {
+            let mut state = self.shared.lock();
+            state.ends = true;
+            state.cancel.store(true, Ordering::Relaxed);
+        }
+        self.shared.wake.notify_all();
+        if let Some(thread) = self.thread.take() {
+            // The thread catches panics of operations, so it only ends here.
+            let _ = thread.join();
+        }
+    }
+}
+
+/// Runs requests until the handle is dropped.
+fn serve(shared: &Shared, registry: &Registry, store: Arc<dyn Store>) {
+    let engine = Engine::new(registry).with_store(store.clone());
+    let mut snapshots = Snapshots::default();
+    let mut watched: (Vec<PathBuf>, String) = Default::default();
+    loop {
+        let Some((request, cancel)) = next_request(shared, &*store, &mut watched) else {
+            return;
+        };
+        let number = request.number;
+        let job = Job {
+            engine: &engine,
+            store: &*store,
+            shared,
+            cancel: &cancel,
+            request: &request,
+        };
+        // After a panic, the snapshots are complete: each is added as a whole.
+        if catch_unwind(AssertUnwindSafe(|| job.run(&mut snapshots))).is_err() {
+            shared.send(Event::Panicked { number });
+        }
+    }
+}
+
+/// Waits for a request, and watches files until it comes. `None` if the thread must end.
+fn next_request(
+    shared: &Shared,
+    store: &dyn Store,
+    watched: &mut (Vec<PathBuf>, String),
+) -> Option<(Request, Arc<AtomicBool>)> {
+    let mut state = shared.lock();
+    loop {
+        if state.ends {
+            return None;
+        }
+        if let Some(request) = state.request.take() {
+            let cancel = Arc::new(AtomicBool::new(false));
+            state.cancel = cancel.clone();
+            return Some((request, cancel));
+        }
+        let files = state.watched.clone();
+        drop(state);
+        let now = keys::stamps(&files, store);
+        let is_changed = files == watched.0 && now != watched.1;
+        *watched = (files, now);
+        if is_changed {
+            shared.send(Event::FilesChanged);
+        }
+        state = shared.lock();
+        if state.request.is_none() && !state.ends {
+            let waited = shared.wake.wait_timeout(state, LOOK);
+            state = waited.unwrap_or_else(PoisonError::into_inner).0;
+        }
+    }
+}

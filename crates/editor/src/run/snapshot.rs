@@ -1,0 +1,95 @@
+//! The scenes after steps, by the keys of the steps.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use engine::StepDone;
+use scene::{Digest, Geometry, Scene};
+
+use super::keys::Key;
+use super::state::Verdict;
+
+/// The scene after a step, and the report of the step. Clones share the scene.
+#[derive(Clone, Debug)]
+pub struct Snapshot {
+    /// The scene after the step.
+    pub scene: Arc<Scene>,
+    /// The report, the counts and the time of the step.
+    pub done: Arc<StepDone>,
+}
+
+/// The known results. Scenes share their unchanged meshes.
+#[derive(Default)]
+pub(super) struct Snapshots {
+    of_steps: HashMap<Key, (Snapshot, u64)>,
+    /// The digests of final scenes.
+    pub(super) digests: HashMap<Key, Digest>,
+    /// The results of expectations.
+    pub(super) verdicts: HashMap<Key, Verdict>,
+    clock: u64,
+}
+
+impl Snapshots {
+    /// Begins a run: later uses are newer.
+    pub(super) fn tick(&mut self) {
+        self.clock += 1;
+    }
+
+    pub(super) fn get(&mut self, key: &Key) -> Option<Snapshot> {
+        let (snapshot, used) = self.of_steps.get_mut(key)?;
+        *used = self.clock;
+        Some(snapshot.clone())
+    }
+
+    pub(super) fn insert(&mut self, key: Key, snapshot: Snapshot) {
+        self.of_steps.insert(key, (snapshot, self.clock));
+    }
+
+    /// Removes the snapshots that were used least recently until the rest fits into `memory` bytes. Snapshots that the
+    /// last run used stay.
+    pub(super) fn trim(&mut self, memory: u64) {
+        let mut by_age: Vec<(u64, Key)> = self
+            .of_steps
+            .iter()
+            .map(|(key, (_, used))| (*used, *key))
+            .collect();
+        // The newest come first. The keys make the order total.
+        by_age.sort_unstable_by(|a, b| b.cmp(a));
+        let mut seen = std::collections::HashSet::new();
+        let mut total = 0_u64;
+        for (used, key) in by_age {
+            let Some((snapshot, _)) = self.of_steps.get(&key) else {
+                continue;
+            };
+            total = total.saturating_add(new_bytes(&snapshot.scene, &mut seen));
+            if total > memory && used < self.clock {
+                self.of_steps.remove(&key);
+            }
+        }
+        const MAX_RESULTS: usize = 100_000;
+        if self.verdicts.len() > MAX_RESULTS {
+            self.verdicts.clear();
+        }
+        if self.digests.len() > MAX_RESULTS {
+            self.digests.clear();
+        }
+    }
+}
+
+/// Returns the memory of the meshes of a scene that are not in `seen`, in bytes, and adds them to it.
+fn new_bytes(scene: &Scene, seen: &mut std::collections::HashSet<usize>) -> u64 {
+    let mut bytes = 1024;
+    for object in scene.objects() {
+        bytes += match &object.geometry {
+            Geometry::Mesh(mesh) if seen.insert(Arc::as_ptr(mesh).addr()) => mesh.bytes() as u64,
+            Geometry::Mesh(_) => 0,
+            Geometry::Patches(patches) => size_of_val(patches.as_slice()) as u64,
+            Geometry::Curve(curve) => size_of_val(curve.points()) as u64,
+            Geometry::Polylines(lines) => lines
+                .iter()
+                .map(|line| size_of_val(line.as_slice()) as u64)
+                .sum(),
+        };
+    }
+    bytes
+}

@@ -1,0 +1,145 @@
+//! Sets of picked elements of one object.
+
+use mesh::{EdgeId, Element, FaceId, HalfEdgeId, Mesh, VertexId};
+use op::{ElementKind, Selected};
+
+/// Picked elements of one object, in the order of their numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picked {
+    /// The name of the object.
+    pub object: String,
+    /// The elements.
+    pub elements: Selected,
+    /// The half-edge that the arrow shows and the keys walk from, if there is one.
+    pub half_edge: Option<HalfEdgeId>,
+}
+
+impl Picked {
+    /// Creates a set of elements without a half-edge.
+    pub fn new(object: &str, elements: Selected) -> Self {
+        Self {
+            object: object.to_owned(),
+            elements,
+            half_edge: None,
+        }
+    }
+
+    /// Creates a set of one element. A half-edge stands for its edge.
+    pub fn one(object: &str, element: Element) -> Self {
+        let (elements, half_edge) = match element {
+            Element::Vertex(v) => (Selected::Vertices(vec![v]), None),
+            Element::Edge(e) => (Selected::Edges(vec![e]), Some(e.half_edge())),
+            Element::HalfEdge(h) => (Selected::Edges(vec![h.edge()]), Some(h)),
+            Element::Face(f) => (Selected::Faces(vec![f]), None),
+        };
+        Self {
+            object: object.to_owned(),
+            elements,
+            half_edge,
+        }
+    }
+
+    /// Returns the kind of the elements.
+    pub fn kind(&self) -> ElementKind {
+        match self.elements {
+            Selected::Vertices(_) => ElementKind::Vertices,
+            Selected::Edges(_) => ElementKind::Edges,
+            Selected::Faces(_) => ElementKind::Faces,
+        }
+    }
+
+    /// Returns the number of elements.
+    pub fn len(&self) -> usize {
+        self.elements.len()
+    }
+
+    /// Whether no element is picked.
+    pub fn is_empty(&self) -> bool {
+        self.elements.is_empty()
+    }
+
+    /// Whether an element is in the set.
+    pub fn contains(&self, element: Element) -> bool {
+        match (&self.elements, element) {
+            (Selected::Vertices(list), Element::Vertex(v)) => list.binary_search(&v).is_ok(),
+            (Selected::Edges(list), Element::Edge(e)) => list.binary_search(&e).is_ok(),
+            (Selected::Edges(list), Element::HalfEdge(h)) => list.binary_search(&h.edge()).is_ok(),
+            (Selected::Faces(list), Element::Face(f)) => list.binary_search(&f).is_ok(),
+            _ => false,
+        }
+    }
+
+    /// Adds the elements of another set. A set of another object or kind replaces this one.
+    pub fn add(&mut self, other: &Self) {
+        if self.object != other.object || self.kind() != other.kind() {
+            self.clone_from(other);
+            return;
+        }
+        match (&mut self.elements, &other.elements) {
+            (Selected::Vertices(a), Selected::Vertices(b)) => merge(a, b),
+            (Selected::Edges(a), Selected::Edges(b)) => merge(a, b),
+            (Selected::Faces(a), Selected::Faces(b)) => merge(a, b),
+            _ => {}
+        }
+        self.half_edge = other.half_edge.or(self.half_edge);
+    }
+
+    /// Adds the elements of another set, or removes them if all of them are in this set, as a click with Shift does. A set
+    /// of another object or kind replaces this one.
+    pub fn toggle(&mut self, other: &Self) {
+        let before = self.clone();
+        self.add(other);
+        if self.object != before.object || self.elements != before.elements {
+            return;
+        }
+        match (&mut self.elements, &other.elements) {
+            (Selected::Vertices(a), Selected::Vertices(b)) => a.retain(|v| !b.contains(v)),
+            (Selected::Edges(a), Selected::Edges(b)) => a.retain(|e| !b.contains(e)),
+            (Selected::Faces(a), Selected::Faces(b)) => a.retain(|f| !b.contains(f)),
+            _ => {}
+        }
+        if let Some(h) = self
+            .half_edge
+            .filter(|&h| !self.contains(Element::HalfEdge(h)))
+        {
+            self.half_edge = None;
+            let _ = h;
+        }
+    }
+
+    /// Returns the elements that still exist in a mesh.
+    #[must_use]
+    pub fn existing(&self, mesh: &Mesh) -> Self {
+        let elements = match &self.elements {
+            Selected::Vertices(list) => Selected::Vertices(
+                list.iter()
+                    .copied()
+                    .filter(|&v: &VertexId| mesh.has_vertex(v))
+                    .collect(),
+            ),
+            Selected::Edges(list) => Selected::Edges(
+                list.iter()
+                    .copied()
+                    .filter(|&e: &EdgeId| mesh.has_edge(e))
+                    .collect(),
+            ),
+            Selected::Faces(list) => Selected::Faces(
+                list.iter()
+                    .copied()
+                    .filter(|&f: &FaceId| mesh.has_face(f))
+                    .collect(),
+            ),
+        };
+        Self {
+            object: self.object.clone(),
+            elements,
+            half_edge: self.half_edge.filter(|h| mesh.has_edge(h.edge())),
+        }
+    }
+}
+
+fn merge<T: Ord + Copy>(a: &mut Vec<T>, b: &[T]) {
+    a.extend_from_slice(b);
+    a.sort_unstable();
+    a.dedup();
+}

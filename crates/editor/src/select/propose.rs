@@ -1,0 +1,362 @@
+//! From picked elements to selections of recipes that mean them.
+//!
+//! Candidates are proposed in the order of their meaning: tags, the boundary, materials, loops and paths, components,
+//! thresholds, numbers. Each is resolved on the mesh, and only those that give exactly the picked elements are kept.
+
+use mesh::{Domain, EdgeId, FaceId, MATERIAL, Mesh, Values, VertexId};
+use op::{ElementKind, Selected};
+use recipe::{read_selection, resolve};
+use ron_tree::string_literal;
+use scene::{Object, Scene};
+
+use super::Picked;
+use crate::panel::number;
+
+/// The maximum number of elements that are written as a list of numbers.
+const MAX_LISTED: usize = 8;
+
+/// A selection that means exactly the picked elements.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Proposal {
+    /// The selection as RON.
+    pub text: String,
+    /// A step that must come first because the selection uses its tag.
+    pub before: Option<String>,
+}
+
+/// Returns the selections that mean exactly the picked elements of an object, the best first. All except lists of numbers and
+/// `All` are written as `Expect(count: .., of: ..)`, so that a replay fails if the number of elements changes.
+///
+/// `stream` is the label of the step, which seeds random choices. Empty if nothing is picked or the object is not a mesh.
+pub fn propose(scene: &Scene, picked: &Picked, stream: &str) -> Vec<Proposal> {
+    let Some(object) = scene.object(&picked.object) else {
+        return Vec::new();
+    };
+    let Some(mesh) = object.as_mesh() else {
+        return Vec::new();
+    };
+    if picked.is_empty() || picked.existing(mesh).len() != picked.len() {
+        return Vec::new();
+    }
+    let kind = picked.kind();
+    let mut proposals: Vec<Proposal> = Vec::new();
+    for Candidate { text, is_closed } in candidates(object, mesh, &picked.elements) {
+        let text = if is_closed {
+            text
+        } else {
+            format!("Expect(count: {}, of: {text})", picked.len())
+        };
+        let Ok(elements) = read_selection(&text, Some(kind)) else {
+            continue;
+        };
+        let found = resolve(&elements, scene, object, mesh, stream);
+        if found.is_ok_and(|found| found == picked.elements)
+            && proposals.iter().all(|known| known.text != text)
+        {
+            proposals.push(Proposal { text, before: None });
+        }
+    }
+    if proposals.is_empty() || picked.len() > MAX_LISTED {
+        proposals.push(by_new_tag(mesh, picked));
+    }
+    proposals
+}
+
+/// A selection that may mean the elements.
+struct Candidate {
+    text: String,
+    /// Whether the selection fails by itself if its elements do not exist, or means all elements.
+    is_closed: bool,
+}
+
+fn candidates(object: &Object, mesh: &Mesh, elements: &Selected) -> Vec<Candidate> {
+    let mut open: Vec<String> = Vec::new();
+    let (domain, kind) = match elements {
+        Selected::Vertices(_) => (Domain::Vertex, ElementKind::Vertices),
+        Selected::Edges(_) => (Domain::Edge, ElementKind::Edges),
+        Selected::Faces(_) => (Domain::Face, ElementKind::Faces),
+    };
+    for column in mesh.attributes().of(domain) {
+        if matches!(column.values, Values::Tag(_)) {
+            open.push(format!("Tagged({})", string_literal(&column.name)));
+        }
+    }
+    open.push("Boundary".to_owned());
+    let listed = listed(mesh, elements);
+    match elements {
+        Selected::Vertices(list) => of_vertices(mesh, list, &mut open),
+        Selected::Edges(list) => of_edges(mesh, list, &mut open),
+        Selected::Faces(list) => of_faces(object, mesh, list, &mut open),
+    }
+    let mut all = vec![Candidate {
+        text: "All".to_owned(),
+        is_closed: true,
+    }];
+    let open = open.into_iter().map(|text| Candidate {
+        text,
+        is_closed: false,
+    });
+    let listed = listed.map(|text| Candidate {
+        text,
+        is_closed: true,
+    });
+    // One element is meant by its number, unless a tag or its place names it.
+    if elements.len() == 1 {
+        all.clear();
+        all.extend(listed);
+        all.extend(open);
+    } else {
+        all.extend(open);
+        all.extend(listed);
+    }
+    let _ = kind;
+    all
+}
+
+fn of_vertices(mesh: &Mesh, list: &[VertexId], open: &mut Vec<String>) {
+    let first = list[0];
+    open.push("Isolated".to_owned());
+    open.push(format!("Component(Vertices([{}]))", first.index()));
+    let valence = mesh.valence(first);
+    if list.iter().all(|&v| mesh.valence(v) == valence) {
+        open.push(format!("Valence({valence})"));
+    }
+}
+
+fn of_edges(mesh: &Mesh, list: &[EdgeId], open: &mut Vec<String>) {
+    let first = between(mesh, list[0]);
+    open.push(format!("EdgeLoop({first})"));
+    open.push(format!("EdgeRing({first})"));
+    if let Some((from, to)) = path_ends(mesh, list) {
+        open.push(format!("Path(from: {from}, to: {to})"));
+        open.push(format!("Path(from: {to}, to: {from})"));
+    }
+    open.push(format!("Component({first})"));
+    let mut picked = vec![false; mesh.domain_len(Domain::Edge)];
+    list.iter().for_each(|e| picked[e.index()] = true);
+    let angle = |e: EdgeId| mesh.dihedral_angle(e).map(f64::to_degrees);
+    if let Some(limit) = threshold(
+        mesh.edges()
+            .filter_map(|e| Some((angle(e)?, picked[e.index()]))),
+    ) {
+        open.push(format!("Sharp(above: {limit})"));
+    }
+    let flat = mesh
+        .edges()
+        .filter_map(|e| Some((-angle(e)?, picked[e.index()])));
+    if let Some(limit) = threshold(flat) {
+        open.push(format!("Flat(below: {})", limit.trim_start_matches('-')));
+    }
+    let length = |e: EdgeId| mesh.length(e.half_edge());
+    if let Some(limit) = threshold(mesh.edges().map(|e| (length(e), picked[e.index()]))) {
+        open.push(format!("Longer(than: {limit})"));
+    }
+    if let Some(limit) = threshold(mesh.edges().map(|e| (-length(e), picked[e.index()]))) {
+        open.push(format!("Shorter(than: {})", limit.trim_start_matches('-')));
+    }
+}
+
+fn of_faces(object: &Object, mesh: &Mesh, list: &[FaceId], open: &mut Vec<String>) {
+    let first = list[0];
+    if let Some(materials) = mesh.get(MATERIAL)
+        && let Some(material) = usize::try_from(materials[first.index()]).ok()
+        && let Some(material) = object.materials.get(material)
+    {
+        open.push(format!("Material({})", string_literal(&material.name)));
+    }
+    let mut picked = vec![false; mesh.domain_len(Domain::Face)];
+    list.iter().for_each(|f| picked[f.index()] = true);
+    open.push(format!("Component(Faces([{}]))", first.index()));
+    if let Some(angle) = spread_angle(mesh, &picked) {
+        open.push(format!(
+            "Expand(to_angle: {angle}, of: Faces([{}]))",
+            first.index()
+        ));
+    }
+    if let Some(text) = facing(mesh, &picked) {
+        open.push(text);
+    }
+    let degree = mesh.degree(first);
+    if list.iter().all(|&f| mesh.degree(f) == degree) {
+        open.push(format!("Degree({degree})"));
+    }
+}
+
+/// Returns the numbers of a few elements as a selection.
+fn listed(mesh: &Mesh, elements: &Selected) -> Option<String> {
+    if elements.len() > MAX_LISTED {
+        return None;
+    }
+    let numbers = |list: Vec<usize>| {
+        let list: Vec<String> = list.iter().map(usize::to_string).collect();
+        list.join(", ")
+    };
+    Some(match elements {
+        Selected::Vertices(list) => format!(
+            "Vertices([{}])",
+            numbers(list.iter().map(|v| v.index()).collect())
+        ),
+        Selected::Faces(list) => format!(
+            "Faces([{}])",
+            numbers(list.iter().map(|f| f.index()).collect())
+        ),
+        Selected::Edges(list) => edges_by_ends(mesh, list),
+    })
+}
+
+/// Returns a list of edges, each given by its ends.
+fn edges_by_ends(mesh: &Mesh, list: &[EdgeId]) -> String {
+    match list {
+        [one] => between(mesh, *one),
+        list => {
+            let all: Vec<String> = list.iter().map(|&e| between(mesh, e)).collect();
+            format!("Or([{}])", all.join(", "))
+        }
+    }
+}
+
+fn between(mesh: &Mesh, e: EdgeId) -> String {
+    let [v, w] = mesh.edge_vertices(e).map(VertexId::index);
+    format!("Between({}, {})", v.min(w), v.max(w))
+}
+
+/// Returns the step that tags the elements by their numbers, and the selection by this tag.
+fn by_new_tag(mesh: &Mesh, picked: &Picked) -> Proposal {
+    let (operation, field, domain) = match picked.kind() {
+        ElementKind::Vertices => ("TagVertices", "vertices", Domain::Vertex),
+        ElementKind::Edges => ("TagEdges", "edges", Domain::Edge),
+        ElementKind::Faces => ("TagFaces", "faces", Domain::Face),
+    };
+    let is_used = |name: &String| mesh.attributes().column(domain, name).is_some();
+    let mut names = (1..).map(|n| format!("picked {n}"));
+    let name = names
+        .find(|name| !is_used(name))
+        .expect("a mesh has finitely many tags");
+    let name = string_literal(&name);
+    let numbers = |list: Vec<usize>| {
+        let list: Vec<String> = list.iter().map(usize::to_string).collect();
+        list.join(", ")
+    };
+    let by_number = match &picked.elements {
+        Selected::Vertices(list) => format!(
+            "Vertices([{}])",
+            numbers(list.iter().map(|v| v.index()).collect())
+        ),
+        Selected::Faces(list) => format!(
+            "Faces([{}])",
+            numbers(list.iter().map(|f| f.index()).collect())
+        ),
+        Selected::Edges(list) => edges_by_ends(mesh, list),
+    };
+    Proposal {
+        text: format!("Expect(count: {}, of: Tagged({name}))", picked.len()),
+        before: Some(format!("{operation}(name: {name}, {field}: {by_number})")),
+    }
+}
+
+/// Returns the ends of a path of edges: the two vertices that have one of the edges. `None` if the edges are not one path.
+fn path_ends(mesh: &Mesh, list: &[EdgeId]) -> Option<(usize, usize)> {
+    let mut ends: Vec<usize> = list
+        .iter()
+        .flat_map(|&e| mesh.edge_vertices(e))
+        .map(VertexId::index)
+        .collect();
+    ends.sort_unstable();
+    let runs = ends.chunk_by(|a, b| a == b);
+    let mut single = Vec::new();
+    for run in runs {
+        match run.len() {
+            1 => single.push(run[0]),
+            2 => {}
+            _ => return None,
+        }
+    }
+    match single[..] {
+        [from, to] => Some((from, to)),
+        _ => None,
+    }
+}
+
+/// Returns a limit below all picked values and above all others, as short as the gap between them allows. `None` if no limit
+/// separates them, or the gap is only rounding.
+fn threshold(values: impl Iterator<Item = (f64, bool)>) -> Option<String> {
+    let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+    for (value, is_picked) in values {
+        if is_picked {
+            high = high.min(value);
+        } else {
+            low = low.max(value);
+        }
+    }
+    if !high.is_finite() {
+        return None;
+    }
+    let scale = high
+        .abs()
+        .max(if low.is_finite() { low.abs() } else { 0.0 });
+    if !low.is_finite() {
+        // Everything is picked.
+        return None;
+    }
+    (high - low > 1e-6 * scale).then(|| short_between(low, high))
+}
+
+/// Returns the number with the fewest digits that is well between two numbers.
+pub(super) fn short_between(low: f64, high: f64) -> String {
+    let (a, b) = (low + (high - low) * 0.25, high - (high - low) * 0.25);
+    let middle = f64::midpoint(low, high);
+    for digits in 1..17 {
+        let text = format!("{middle:.*e}", digits - 1);
+        if let Ok(short) = text.parse::<f64>()
+            && short >= a
+            && short <= b
+        {
+            return number(short);
+        }
+    }
+    number(middle)
+}
+
+/// Returns an angle for `Expand` from the first picked face: above all angles between picked neighbors and below all angles
+/// at the border of the picked faces.
+fn spread_angle(mesh: &Mesh, picked: &[bool]) -> Option<String> {
+    let (mut inside, mut border) = (0.0_f64, f64::INFINITY);
+    for e in mesh.edges() {
+        let [Some(f), Some(g)] = mesh.edge_faces(e) else {
+            continue;
+        };
+        let Some(angle) = mesh.dihedral_angle(e).map(f64::to_degrees) else {
+            continue;
+        };
+        match (picked[f.index()], picked[g.index()]) {
+            (true, true) => inside = inside.max(angle),
+            (false, false) => {}
+            _ => border = border.min(angle),
+        }
+    }
+    (border.is_finite() && border - inside > 1e-3).then(|| short_between(inside, border))
+}
+
+/// Returns `Facing` with the mean normal of the picked faces.
+fn facing(mesh: &Mesh, picked: &[bool]) -> Option<String> {
+    let mut mean = mesh::DVec3::ZERO;
+    for f in mesh.faces().filter(|f| picked[f.index()]) {
+        mean += mesh.area_vector(f);
+    }
+    let mut direction = mean.normalize_or_zero();
+    if direction == mesh::DVec3::ZERO {
+        return None;
+    }
+    // A short direction is easier to read: an axis, or three digits.
+    direction = (direction * 1000.0).round() / 1000.0;
+    let angle = |f: FaceId| mesh::angle_between(mesh.face_normal(f), direction).to_degrees();
+    let limit = threshold(mesh.faces().map(|f| (-angle(f), picked[f.index()])))?;
+    let direction = direction
+        .to_array()
+        .map(|x| number(if x == 0.0 { 0.0 } else { x }));
+    Some(format!(
+        "Facing(direction: ({}), within: {})",
+        direction.join(", "),
+        limit.trim_start_matches('-')
+    ))
+}

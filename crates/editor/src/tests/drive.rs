@@ -1,0 +1,237 @@
+use std::path::Path;
+
+use engine::{Engine, Options, Run, Silent};
+use mesh::Element;
+use scene::Digest;
+
+use super::*;
+use crate::{Action, Command, CommandError, Picked, Walk, walk};
+
+const CUBE: &str = "// A cube.
+(
+    recipe: 1,
+    steps: [
+        Cube(name: \"cube\", size: 2, triangles: true), // the start
+    ],
+)
+";
+
+/// Runs a saved recipe with the engine alone.
+fn replayed(store: Arc<Memory>, path: &str) -> Digest {
+    let registry = ops_all::registry();
+    let engine = Engine::new(&registry).with_store(store);
+    let source = engine.open(path.as_ref()).unwrap();
+    let loaded = engine.load(&source, &Options::default());
+    assert_eq!(loaded.n_errors(), 0, "{}", source.text);
+    let outcome = loaded.run(Run::default(), &Silent);
+    assert!(outcome.succeeded(), "{:?}", outcome.failures);
+    outcome.digest
+}
+
+fn counts(editor: &Editor) -> [usize; 3] {
+    let view = editor.view();
+    assert!(view.is_current);
+    let mesh = view.scene.objects()[0].as_mesh().unwrap().clone();
+    [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()]
+}
+
+fn press(editor: &mut Editor, action: Action) {
+    let command = editor.command_of(action).unwrap();
+    editor.apply(&command).unwrap();
+    settled(editor);
+}
+
+#[test]
+fn a_session_gives_a_recipe_that_replays_to_the_same_digest() {
+    let (mut editor, store) = opened(CUBE);
+    assert_eq!(counts(&editor), [8, 18, 12]);
+    // A diagonal of the front.
+    let mesh = editor.view().scene.objects()[0].as_mesh().unwrap().clone();
+    let diagonal = mesh
+        .edges()
+        .find(|&e| mesh.dihedral_angle(e) == Some(0.0))
+        .unwrap();
+    editor.set_picked(Some(Picked::one("cube", Element::Edge(diagonal))));
+    press(&mut editor, Action::Flip);
+    assert_eq!(counts(&editor), [8, 18, 12]);
+    let flipped = editor.run().digest;
+    press(&mut editor, Action::Split);
+    assert_eq!(counts(&editor), [9, 21, 14]);
+    press(&mut editor, Action::Loop);
+    assert_eq!(counts(&editor)[2], 56);
+    let whole = editor.run().digest.unwrap();
+
+    assert!(editor.undo() && editor.undo());
+    settled(&mut editor);
+    assert_eq!((editor.run().digest, editor.run().ran), (flipped, 0));
+    assert_eq!(counts(&editor), [8, 18, 12]);
+    assert!(editor.redo() && editor.redo() && !editor.redo());
+    settled(&mut editor);
+    assert_eq!((editor.run().digest, editor.run().ran), (Some(whole), 0));
+
+    editor.preview_parameter(3, &["levels"], "3").unwrap();
+    settled(&mut editor);
+    assert_eq!(counts(&editor)[2], 14 * 64);
+    editor.preview_parameter(3, &["levels"], "2").unwrap();
+    settled(&mut editor);
+    assert!(editor.is_preview() && editor.text().contains("LoopSubdivide(levels: 1)"));
+    editor.set_parameter(3, &["levels"], Some("2")).unwrap();
+    settled(&mut editor);
+    assert_eq!(
+        (counts(&editor)[2], editor.run().ran, editor.is_preview()),
+        (14 * 16, 0, false)
+    );
+
+    assert!(editor.document().is_dirty());
+    editor.save().unwrap();
+    assert!(!editor.document().is_dirty());
+    assert_eq!(Some(replayed(store, "a.ron")), editor.run().digest);
+    let [v, w] = mesh.edge_vertices(diagonal).map(|v| v.index());
+    let (v, w) = (v.min(w), v.max(w));
+    let lines: Vec<&str> = editor.text().lines().map(str::trim).collect();
+    assert_eq!(lines[..2], ["// A cube.", "("]);
+    assert_eq!(
+        lines[4],
+        "Cube(name: \"cube\", size: 2, triangles: true), // the start"
+    );
+    assert_eq!(lines[5], format!("FlipEdges(edges: Between({v}, {w})),"));
+    assert!(
+        lines[6].starts_with("SplitEdges(edges: Between("),
+        "{}",
+        lines[6]
+    );
+    assert_eq!(lines[7], "LoopSubdivide(levels: 2),");
+}
+
+#[test]
+fn a_step_goes_after_the_cursor_and_the_view_shows_the_scene_there() {
+    let (mut editor, _) = opened(CUBE);
+    editor
+        .apply(&Command::new("LoopSubdivide").with("levels", "1"))
+        .unwrap();
+    settled(&mut editor);
+    editor.set_cursor(1);
+    assert_eq!(counts(&editor)[2], 12);
+    editor.apply(&Command::new("Reverse")).unwrap();
+    settled(&mut editor);
+    assert_eq!(editor.cursor(), 2);
+    assert_eq!(counts(&editor)[2], 12);
+    editor.set_cursor(3);
+    assert_eq!(counts(&editor)[2], 48);
+    editor.set_cursor(0);
+    assert!(editor.view().scene.objects().is_empty() && editor.view().is_current);
+    let names: Vec<&str> = editor
+        .outline()
+        .steps
+        .iter()
+        .map(|step| step.name.as_str())
+        .collect();
+    assert_eq!(names, ["Cube", "Reverse", "LoopSubdivide"]);
+}
+
+#[test]
+fn a_step_that_fails_keeps_the_recipe_and_the_scene_before_it() {
+    let (mut editor, _) = opened(CUBE);
+    editor
+        .apply(&Command::new("FlipEdges").with("edges", "Between(0, 7)"))
+        .unwrap();
+    settle(&mut editor);
+    let run = editor.run();
+    assert!(run.has_failed());
+    let failure = run.failures[0].diagnostic.clone();
+    assert_eq!(failure.span.unwrap().of(editor.text()), "FlipEdges");
+    let view = editor.view();
+    assert!(!view.is_current && view.scene.objects().len() == 1);
+    assert!(editor.undo());
+    settled(&mut editor);
+    assert!(editor.view().is_current);
+}
+
+#[test]
+fn a_command_without_its_selection_or_with_a_wrong_value_changes_nothing() {
+    let (mut editor, _) = opened(CUBE);
+    let text = editor.text().to_owned();
+    let flip = editor.command_of(Action::Flip).unwrap();
+    assert_eq!(
+        editor.apply(&flip).unwrap_err().to_string(),
+        "FlipEdges needs edges: pick some first"
+    );
+    let wrong = Command::new("LoopSubdivide").with("levels", "-1");
+    let Err(CommandError::Parameter { field, .. }) = editor.apply(&wrong) else {
+        panic!()
+    };
+    assert_eq!(field, "levels");
+    assert!(matches!(
+        editor.apply(&Command::new("Flip")),
+        Err(CommandError::Unknown(_))
+    ));
+    assert_eq!(editor.text(), text);
+    assert!(!editor.undo());
+}
+
+#[test]
+fn a_model_becomes_a_recipe_that_loads_it() {
+    let (mut editor, store) = editor();
+    store
+        .write(
+            Path::new("m/a.obj"),
+            b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+        )
+        .unwrap();
+    editor.open(Path::new("m/a.obj")).unwrap();
+    settled(&mut editor);
+    assert!(editor.text().contains("Load(path: \"a.obj\")"));
+    assert_eq!(counts(&editor), [3, 3, 1]);
+    assert_eq!(
+        (editor.document().path(), editor.document().has_file()),
+        (Path::new("m/a.ron"), false)
+    );
+    assert!(
+        editor.open(Path::new("m/b.obj")).is_err() && editor.open(Path::new("m/a.txt")).is_err()
+    );
+}
+
+#[test]
+fn keys_walk_over_half_edges() {
+    let (editor, _) = opened(CUBE);
+    let mesh = editor.view().scene.objects()[0].as_mesh().unwrap().clone();
+    let h = mesh.half_edges().next().unwrap();
+    let go = |steps: &[Walk]| steps.iter().fold(h, |h, &step| walk(&mesh, h, step));
+    assert_eq!(go(&[Walk::Next, Walk::Next, Walk::Next]), h);
+    assert_eq!(go(&[Walk::Twin, Walk::Twin]), h);
+    assert_eq!(go(&[Walk::Next, Walk::Previous]), h);
+    let around = vec![Walk::AroundVertex; mesh.valence(mesh.origin(h))];
+    assert_eq!(go(&around), h);
+    let info = crate::HalfEdgeInfo::of(&mesh, h).unwrap();
+    assert_eq!(
+        (info.next, info.twin, info.target),
+        (mesh.next(h), h.twin(), mesh.target(h))
+    );
+}
+
+#[test]
+fn disabled_steps_do_not_run() {
+    let (mut editor, store) = opened(CUBE);
+    let start = editor.run().digest;
+    editor
+        .apply(&Command::new("LoopSubdivide").with("levels", "1"))
+        .unwrap();
+    settled(&mut editor);
+    editor.set_enabled(1, false).unwrap();
+    settled(&mut editor);
+    assert!(
+        editor
+            .text()
+            .contains("(run: LoopSubdivide(levels: 1), enabled: false),")
+    );
+    assert_eq!((editor.run().digest, editor.run().ran), (start, 0));
+    assert_eq!(counts(&editor)[2], 12);
+    editor.save().unwrap();
+    assert_eq!(Some(replayed(store, "a.ron")), start);
+    editor.set_enabled(1, true).unwrap();
+    assert!(
+        editor
+            .text()
+            .contains("        LoopSubdivide(levels: 1),\n")
+    );
+}

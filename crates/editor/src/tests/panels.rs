@@ -1,0 +1,144 @@
+use std::collections::BTreeSet;
+
+use op::ElementKind;
+use ron_tree::parse;
+
+use super::*;
+use crate::{FieldKind, FieldValue, Panel};
+
+/// Removes spaces and line ends outside of strings.
+fn plain(text: &str) -> String {
+    parse(text).value.to_string()
+}
+
+#[test]
+fn every_example_is_written_by_the_panel_of_its_operation() {
+    let registry = ops_all::registry();
+    for entry in registry.entries() {
+        let parsed = parse(entry.example);
+        assert!(parsed.diagnostics.is_empty(), "{}", entry.example);
+        let mut panel = Panel::new(entry);
+        assert!(
+            !panel.doc.is_empty() && !panel.summary.is_empty(),
+            "{}",
+            entry.name
+        );
+        for field in parsed.value.fields() {
+            panel.set(&field.name.text, Some(field.value.span.of(entry.example)));
+        }
+        assert_eq!(panel.problems(), [], "{}", entry.example);
+        assert_eq!(plain(&panel.step_text()), plain(entry.example));
+        let again = Panel::of_step(&registry, &parsed.value, entry.example).unwrap();
+        assert_eq!(again.step_text(), panel.step_text());
+        // Values of widgets are written as values that read back the same.
+        for field in &panel.fields {
+            assert!(
+                !field.doc.is_empty() && !field.type_name.is_empty(),
+                "{} {}",
+                entry.name,
+                field.name
+            );
+            let Some(typed) = field.typed() else { continue };
+            let written = typed.to_ron();
+            assert_eq!(
+                FieldValue::read(&field.kind, &written),
+                Some(typed),
+                "{} {}",
+                entry.name,
+                field.name
+            );
+        }
+    }
+}
+
+#[test]
+fn every_example_is_written_field_by_field_into_the_text() {
+    let registry = ops_all::registry();
+    for entry in registry.entries() {
+        let example = parse(entry.example).value;
+        let mut text = format!("(recipe: 1, steps: [\n    {}(),\n])", entry.name);
+        for field in example.fields() {
+            let outline = crate::Outline::of(&text);
+            let path = [field.name.text.to_string()];
+            let value = field.value.span.of(entry.example);
+            let edits =
+                crate::text::set_field(&text, outline.run_of(0).unwrap(), &path, Some(value))
+                    .unwrap();
+            text = crate::text::apply(&text, edits).unwrap();
+        }
+        let outline = crate::Outline::of(&text);
+        assert_eq!(outline.run_of(0).unwrap().to_string(), plain(entry.example));
+    }
+}
+
+#[test]
+fn every_required_parameter_without_a_value_is_a_problem() {
+    let registry = ops_all::registry();
+    for entry in registry.entries() {
+        let panel = Panel::new(entry);
+        let missing = panel.fields.iter().any(|field| field.is_missing());
+        assert_eq!(missing, !panel.problems().is_empty(), "{}", entry.name);
+    }
+}
+
+#[test]
+fn the_kinds_of_fields_come_from_the_schema() {
+    let registry = ops_all::registry();
+    let kind = |operation: &str, field: &str| {
+        let panel = Panel::new(registry.get(operation).unwrap());
+        panel.field(field).unwrap().kind.clone()
+    };
+    assert_eq!(
+        kind("FlipEdges", "edges"),
+        FieldKind::Selection(Some(ElementKind::Edges))
+    );
+    let FieldKind::Choice(choices) = kind("FlipEdges", "on_refusal") else {
+        panic!()
+    };
+    assert_eq!(
+        choices.iter().map(|c| c.0.as_str()).collect::<Vec<_>>(),
+        ["Error", "Skip"]
+    );
+    let FieldKind::Number(limits) = kind("SplitEdges", "at") else {
+        panic!()
+    };
+    assert!(
+        limits.allows(0.5)
+            && !limits.allows(0.0)
+            && !limits.allows(1.0)
+            && !limits.allows(f64::NAN)
+    );
+    let FieldKind::Integer(limits) = kind("Tessellate", "segments") else {
+        panic!()
+    };
+    assert_eq!((limits.min, limits.max), (Some(1.0), Some(4096.0)));
+    assert_eq!(kind("Bisect", "normal"), FieldKind::Vector(3));
+    assert_eq!(kind("Cube", "name"), FieldKind::Text);
+    assert_eq!(kind("Cube", "triangles"), FieldKind::Bool);
+    assert_eq!(
+        kind("Picture", "highlight"),
+        FieldKind::Optional(Box::new(FieldKind::Selection(None)))
+    );
+    let all: BTreeSet<String> = registry
+        .entries()
+        .iter()
+        .flat_map(|entry| Panel::new(entry).fields)
+        .filter(|field| *field.kind.inner() == FieldKind::Other)
+        .map(|field| field.type_name)
+        .collect();
+    assert!(all.len() < 60, "{all:?}");
+}
+
+#[test]
+fn an_argument_of_the_recipe_is_shown_and_is_no_problem() {
+    let text =
+        "(recipe: 1, params: {\"n\": Int(default: 1)}, steps: [LoopSubdivide(levels: arg(\"n\"))])";
+    let (editor, _) = opened(text);
+    let panel = editor.panel(0).unwrap();
+    assert_eq!(
+        panel.field("levels").unwrap().argument.as_deref(),
+        Some("n")
+    );
+    assert_eq!(panel.problems(), []);
+    assert_eq!(editor.outline().parameters[0].name, "n");
+}

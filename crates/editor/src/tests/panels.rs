@@ -113,7 +113,7 @@ fn the_kinds_of_fields_come_from_the_schema() {
     };
     assert_eq!((limits.min, limits.max), (Some(1.0), Some(4096.0)));
     assert_eq!(kind("Bisect", "normal"), FieldKind::Vector(3));
-    assert_eq!(kind("Cube", "name"), FieldKind::Text);
+    assert_eq!(kind("Save", "path"), FieldKind::Text);
     assert_eq!(kind("Cube", "triangles"), FieldKind::Bool);
     assert_eq!(
         kind("Picture", "highlight"),

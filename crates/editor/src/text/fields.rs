@@ -30,12 +30,8 @@ pub(crate) fn set_field(
 ) -> Result<Edits, TextError> {
     let no_place = || TextError::NoPlace(path.join("."));
     let mut place = Place::of(value);
-    let mut parent: Option<(&Value, &str)> = None;
     for (i, item) in path.iter().enumerate() {
         if let Some(next) = place.into_item(item) {
-            if !std::ptr::eq(next.value, place.value) {
-                parent = Some((place.value, item));
-            }
             place = next;
             continue;
         }
@@ -46,9 +42,10 @@ pub(crate) fn set_field(
         return add_field(text, place.value, &entry).ok_or_else(no_place);
     }
     let span = place.value.span;
-    match (new, parent) {
+    let name = path.last().map_or("", String::as_str);
+    match (new, place.holder) {
         (Some(new), _) => Ok(vec![(span, new.to_owned())]),
-        (None, Some((parent, name))) => remove_field(text, parent, name).ok_or_else(no_place),
+        (None, Some(holder)) => remove_field(text, holder, name).ok_or_else(no_place),
         (None, None) => Err(no_place()),
     }
 }
@@ -58,6 +55,8 @@ pub(crate) fn set_field(
 struct Place<'v> {
     value: &'v Value,
     in_variant: bool,
+    /// The struct that has the value as a field.
+    holder: Option<&'v Value>,
 }
 
 impl<'v> Place<'v> {
@@ -65,6 +64,7 @@ impl<'v> Place<'v> {
         Self {
             value,
             in_variant: false,
+            holder: None,
         }
     }
 
@@ -78,6 +78,7 @@ impl<'v> Place<'v> {
             return Some(Self {
                 value,
                 in_variant: true,
+                holder: None,
             });
         }
         match &value.kind {
@@ -85,6 +86,7 @@ impl<'v> Place<'v> {
                 let body = Self {
                     value: &call.body,
                     in_variant: true,
+                    holder: None,
                 };
                 match call.body.single() {
                     Some(single) if item.parse::<usize>().is_err() => {
@@ -93,7 +95,13 @@ impl<'v> Place<'v> {
                     _ => body.into_item(item),
                 }
             }
-            ValueKind::Struct(_) => value.field(item).map(Self::of),
+            ValueKind::Struct(_) => {
+                let found = value.field(item)?;
+                Some(Self {
+                    holder: Some(value),
+                    ..Self::of(found)
+                })
+            }
             ValueKind::Map(entries) => {
                 let found = entries.iter().find(|(key, _)| key.as_str() == Some(item));
                 found.map(|(_, value)| Self::of(value))

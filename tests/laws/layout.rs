@@ -28,6 +28,7 @@ const ALLOWED_DEPENDENCIES: &[(&str, &[&str])] = &[
     ("engine", &["cache", "io", "render"]),
     ("cli", &["engine", "view", "ops-pictures", "ops-all"]),
     ("editor", &["engine"]),
+    ("python", &["cli"]),
     ("benches", &["ops-*", "engine"]),
     ("tests", &["cli"]),
 ];

@@ -29,6 +29,7 @@ mod scenes;
 mod terminal_picture;
 
 use std::cell::Cell;
+use std::ffi::OsString;
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::process::ExitCode;
@@ -46,16 +47,23 @@ use output::{print_error, print_json};
     reason = "the caller has no further use for the registry"
 )]
 pub fn run(registry: Registry) -> ExitCode {
-    if std::env::args_os().len() == 1 {
+    let arguments: Vec<OsString> = std::env::args_os().collect();
+    ExitCode::from(run_with(&registry, &arguments))
+}
+
+/// Runs the program with these arguments, of which the first is the name of the program, and returns its exit code.
+/// Ends the process if the arguments are invalid or request help.
+pub fn run_with(registry: &Registry, arguments: &[OsString]) -> u8 {
+    if arguments.len() <= 1 {
         print_error(args::help::FIRST_STEPS);
-        return ExitCode::from(2);
+        return 2;
     }
-    let args = args::help::parse();
+    let args = args::help::parse(arguments);
     if let Err(clash) = registry.check() {
         print_error(&format!("error: {clash}\n"));
-        return ExitCode::FAILURE;
+        return 1;
     }
-    let engine = Engine::new(&registry);
+    let engine = Engine::new(registry);
     let code_of_errors = Cell::new(1);
     let run = || match args.command {
         Command::Run(args) => commands::run::run(&args, &engine),
@@ -64,7 +72,7 @@ pub fn run(registry: Registry) -> ExitCode {
         Command::Test(args) => commands::test::run(&args, &engine),
         Command::Batch(args) => commands::batch::run(&args, &engine),
         Command::Sweep(args) => commands::sweep::run(&args, &engine),
-        Command::Ops(args) => commands::ops::run(&args, &registry),
+        Command::Ops(args) => commands::ops::run(&args, registry),
         Command::Info(args) => commands::info::run(&args),
         Command::Convert(args) => commands::convert::run(&args),
         Command::Reproduce(args) => commands::reproduce::run(&args, &engine),
@@ -76,15 +84,15 @@ pub fn run(registry: Registry) -> ExitCode {
             code_of_errors.set(2);
             commands::diff::run(&args, &engine)
         }
-        Command::Upgrade(args) => commands::upgrade::run(&args, &registry),
+        Command::Upgrade(args) => commands::upgrade::run(&args, registry),
         Command::Cache(args) => commands::cache::run(&args),
         Command::Shrink(args) => commands::shrink::run(&args, &engine),
         Command::New(args) => commands::new::run(&args),
         Command::Expectations { name } => commands::ops::expectations(name.as_deref()),
         Command::Completions { shell } => commands::man::completions(shell),
         Command::Man => commands::man::page(),
-        Command::Schema => print_json(&recipe::schema(&registry)).map(|()| true),
-        Command::NewOp(args) => commands::new_op::run(&args, &registry),
+        Command::Schema => print_json(&recipe::schema(registry)).map(|()| true),
+        Command::NewOp(args) => commands::new_op::run(&args, registry),
     };
     let result = catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|payload| {
         // An array that does not fit into memory is an error, not a bug.
@@ -94,9 +102,9 @@ pub fn run(registry: Registry) -> ExitCode {
         }
     });
     match result.and_then(|succeeded| Ok(io::stdout().flush().map(|()| succeeded)?)) {
-        Ok(true) => ExitCode::SUCCESS,
+        Ok(true) => 0,
         Ok(false) => failure(1),
-        Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
+        Err(error) if is_broken_pipe(&error) => 0,
         Err(error) if error.is::<ReportedUsage>() => failure(2),
         Err(error) => {
             print_error(&format!("error: {error:#}\n"));
@@ -110,8 +118,8 @@ pub fn run(registry: Registry) -> ExitCode {
 }
 
 /// Returns the exit code of a failure: 130 if Ctrl-C caused it, as shells expect, or else `code`.
-fn failure(code: u8) -> ExitCode {
-    ExitCode::from(if is_interrupted() { 130 } else { code })
+fn failure(code: u8) -> u8 {
+    if is_interrupted() { 130 } else { code }
 }
 
 /// Whether the error is a broken pipe: the reader of the output, such as `head`, has closed it.

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use mesh::{
     CORNER_NORMAL, CORNER_TANGENT, DVec3, Domain, Rule, TANGENT, VERTEX_NORMAL, joint_of, morph_of,
 };
+use scene::{Geometry, Scene};
 
 use crate::{Files, Loss};
 
@@ -184,12 +185,16 @@ impl MeshPlan {
 
     /// Creates the exact plan of an existing mesh, whose materials are unknown.
     pub fn of(mesh: &mesh::Mesh) -> Self {
-        let degrees = || mesh.faces().map(|f| mesh.degree(f) as u64);
+        let degrees = mesh.faces().map(|f| mesh.degree(f) as u64);
+        let degrees = degrees
+            .map(Range::exactly)
+            .reduce(Range::or)
+            .unwrap_or(Range::exactly(3));
         Self {
             vertices: Range::exactly(mesh.n_vertices() as u64),
             edges: Range::exactly(mesh.n_edges() as u64),
             faces: Range::exactly(mesh.n_faces() as u64),
-            degrees: Range::between(degrees().min().unwrap_or(3), degrees().max().unwrap_or(3)),
+            degrees,
             attributes: mesh
                 .attributes()
                 .iter()
@@ -391,6 +396,42 @@ pub struct Plan {
 }
 
 impl Plan {
+    /// Creates the exact plan of an existing scene.
+    pub fn of(scene: &Scene) -> Self {
+        let mut plan = Self {
+            skins: scene.graph().skins.len() as u64,
+            animations: scene.graph().animations.len() as u64,
+            ..Self::default()
+        };
+        let mut instances: HashMap<&str, u64> = HashMap::new();
+        for object in scene
+            .graph()
+            .nodes()
+            .iter()
+            .filter_map(|n| n.object.as_deref())
+        {
+            *instances.entry(object).or_default() += 1;
+        }
+        for object in scene.objects() {
+            let geometry = match &object.geometry {
+                Geometry::Mesh(mesh) => PlannedGeometry::Mesh(MeshPlan {
+                    materials: Some(object.materials.iter().map(|m| m.name.clone()).collect()),
+                    ..MeshPlan::of(mesh)
+                }),
+                Geometry::Patches(patches) => {
+                    PlannedGeometry::Patches(Range::exactly(patches.len() as u64))
+                }
+                Geometry::Curve(curve) => {
+                    PlannedGeometry::Curve(Range::exactly(curve.points().len() as u64))
+                }
+                Geometry::Polylines(_) => PlannedGeometry::Polylines,
+            };
+            plan.insert(&object.name, geometry);
+            plan.set_instances_of_last(instances.get(object.name.as_str()).copied().unwrap_or(1));
+        }
+        plan
+    }
+
     /// Returns the objects, in order.
     pub fn objects(&self) -> &[PlannedObject] {
         &self.objects

@@ -31,7 +31,7 @@ mod source;
 mod substitute;
 mod sweep;
 
-pub use check::{Forecast, StepForecast, check, mebibytes};
+pub use check::{Forecast, StepForecast, check, check_from, mebibytes};
 pub use describe::{
     FieldDoc, TypeDoc, VariantDoc, expectations, fields, refusals, selections, types,
 };
@@ -46,7 +46,7 @@ pub use recipe::{
 pub use ron_tree::{Diagnostic, LineIndex, Severity, Span};
 pub use run::{
     CachedRun, CompletedStep, Failure, FileChange, Listener, Outcome, RerunReason, Settings,
-    Silent, StepCache, StepDone, StepResult, UnmetExpectation, run, run_from,
+    Silent, StepCache, StepDone, StepError, StepResult, UnmetExpectation, run, run_from, run_step,
 };
 pub use schema::{Schemas, schema, step_kinds};
 pub use select::{read_selection, read_step, resolve, with_case_of};

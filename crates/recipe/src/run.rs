@@ -139,10 +139,13 @@ struct Runner<'a> {
     checked: usize,
 }
 
-/// Why a step failed, and the places in the scene that the failure is about.
-pub(crate) struct StepError {
-    pub(crate) message: String,
-    places: Vec<ErrorLocation>,
+/// Why a step failed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StepError {
+    /// The reason: one line that starts in lower case and has no final period.
+    pub message: String,
+    /// The places in the scene that the failure is about.
+    pub places: Vec<ErrorLocation>,
 }
 
 /// Signals that the run ends early, because it was canceled or because a failure was reported.
@@ -440,13 +443,14 @@ impl Runner<'_> {
     }
 }
 
-/// Runs a step. Returns the report of the step and, if the recipe expects a refusal, the reason for the refusal.
+/// Runs a step that was read and checked without errors. Returns the report of the step and, if the recipe expects a
+/// refusal, the reason for the refusal.
 ///
 /// # Errors
 ///
 /// `None` if the step was canceled, or the reason if it failed. In both cases, the scene is unchanged, with one
 /// exception: if the operation panicked and the scene had not been cloned before, the scene is empty.
-pub(crate) fn run_step(
+pub fn run_step(
     step: &RecipeStep,
     scene: &mut Scene,
     files: &Files,

@@ -1,5 +1,7 @@
 //! The help of the program: commands grouped by purpose, each with an example.
 
+use std::ffi::OsString;
+
 use std::fmt::Write;
 
 use clap::{Arg, Command, CommandFactory, FromArgMatches};
@@ -94,8 +96,8 @@ fn in_any_case(argument: Arg) -> Arg {
 }
 
 /// Parses the command line. If the command line is invalid, prints a message and exits.
-pub(crate) fn parse() -> Args {
-    let matches = command().get_matches();
+pub(crate) fn parse(arguments: &[OsString]) -> Args {
+    let matches = command().get_matches_from(arguments);
     Args::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
 }
 

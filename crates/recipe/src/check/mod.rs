@@ -7,6 +7,7 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use op::{Files, Loss, Plan, PlanContext, Problem, Range};
+use scene::Scene;
 
 use crate::expect::{OtherMesh, golden};
 use crate::recipe::{Recipe, RecipeExpectation, RecipeStep};
@@ -70,8 +71,13 @@ impl Forecast {
 /// Checks a recipe that was read: plans every step, and returns the forecast. `budget` is the memory budget for meshes,
 /// in bytes.
 pub fn check(recipe: &Recipe, files: &Files, budget: u64) -> Forecast {
+    check_from(recipe, &Scene::new(), files, budget)
+}
+
+/// Like [`check`], for steps that run on `scene` instead of an empty scene.
+pub fn check_from(recipe: &Recipe, scene: &Scene, files: &Files, budget: u64) -> Forecast {
     let mut forecast = Forecast::default();
-    let mut plan = Plan::default();
+    let mut plan = Plan::of(scene);
     let mut attributes = Attributes::default();
     let mut totals = Totals::default();
     let mut over_budget = false;

@@ -1,0 +1,74 @@
+"""The exceptions of the package."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+__all__ = ["EditError", "Error", "Problem", "RecipeError"]
+
+
+@dataclass(frozen=True)
+class Problem:
+    """An error or a warning about a recipe or a step.
+
+    >>> import meshwright as mw
+    >>> try:
+    ...     mw.Scene().cube(name="a").loop_subdivide(levels=99)
+    ... except mw.RecipeError as error:
+    ...     print(error.problems[0].message, error.problems[0].help, sep=": ")
+    `levels` is 99, expected at most 16: allowed: 0 to 16
+    """
+
+    #: ``"error"`` or ``"warning"``.
+    severity: str
+    #: What is wrong.
+    message: str
+    #: How to correct it, if that is known.
+    help: str | None
+    #: The file of the recipe; ``"step"`` for a step that a method runs.
+    file: str | None
+    #: The line, counted from 1.
+    line: int | None
+    #: The column in characters, counted from 1.
+    column: int | None
+
+
+class Error(Exception):
+    """The base class of the errors of this package."""
+
+
+class RecipeError(Error):
+    """A recipe or a step cannot run, or has failed. The text shows the lines that the problems are about."""
+
+    #: All errors and warnings, in the order of the text.
+    problems: tuple[Problem, ...]
+
+    def __init__(self, text: str, problems: list[dict[str, Any]] | tuple[Problem, ...] = ()) -> None:
+        super().__init__(text)
+        made = (p if isinstance(p, Problem) else Problem(**p) for p in problems)
+        self.problems = tuple(made)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (type(self), (str(self), self.problems))
+
+
+class EditError(Error):
+    """An edit was refused. The mesh is unchanged."""
+
+    #: The name of the reason, such as ``"Boundary"``.
+    reason: str
+    #: The elements that the message names, such as ``"e12"`` for edge 12.
+    elements: tuple[str, ...]
+
+    def __init__(self, text: str, reason: str = "", elements: list[str] | tuple[str, ...] = ()) -> None:
+        super().__init__(text)
+        self.reason = reason
+        self.elements = tuple(elements)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (type(self), (str(self), self.reason, self.elements))
+
+
+for _class in (Problem, Error, RecipeError, EditError):
+    _class.__module__ = "meshwright"

@@ -1,0 +1,445 @@
+"""Meshes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence, Sized
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core
+from ._arrays import indices, numeric, points, view
+from ._convert import MeshConversions
+from ._operations import MeshOperations
+from ._ron import Choice
+
+if TYPE_CHECKING:
+    from ._editor import Editor
+    from ._scene import Scene
+
+Domain = Literal["vertex", "corner", "edge", "face"]
+Rule = Literal["interpolate", "normal", "copy", "drop"]
+DOMAINS: tuple[Domain, ...] = ("vertex", "corner", "edge", "face")
+
+
+class HalfEdges(NamedTuple):
+    """The connectivity of a mesh, as read-only arrays of `uint32` without a copy.
+
+    The two halves of edge ``e`` are the half-edges ``2 * e`` and ``2 * e + 1``: ``h ^ 1`` is the other half, and
+    ``h >> 1`` the edge. 4294967295 stands for a missing face or half-edge.
+    """
+
+    #: For each half-edge, the next one around its face, or around its hole.
+    next: NDArray[np.uint32]
+    #: For each half-edge, the vertex that it leaves.
+    origin: NDArray[np.uint32]
+    #: For each half-edge, its face; 4294967295 on the boundary.
+    face: NDArray[np.uint32]
+    #: For each vertex, a half-edge that leaves it; the boundary one if there is one.
+    of_vertex: NDArray[np.uint32]
+    #: For each face, one of its half-edges.
+    of_face: NDArray[np.uint32]
+
+
+class Attributes(Mapping[str, NDArray[Any]]):
+    """The attributes of a mesh by name, as read-only arrays: one row for each vertex, corner, edge or face.
+
+    If several domains have the name, ``attributes["uv"]`` is that of the first of vertices, corners, edges and faces;
+    ``attributes["corner", "uv"]`` names the domain.
+    """
+
+    def __init__(self, mesh: Mesh) -> None:
+        self._mesh = mesh
+        self._kinds = {(domain, name): (kind, rule) for domain, name, kind, rule in mesh._core.attributes()}
+        self._values: dict[tuple[str, str], NDArray[Any]] = {}
+
+    def domain(self, name: str) -> Domain:
+        """The domain of an attribute: vertex, corner, edge or face."""
+        for domain in DOMAINS:
+            if (domain, name) in self._kinds:
+                return domain
+        known = ", ".join(f'"{n}"' for n in self) or "none"
+        raise KeyError(f'no attribute is named "{name}"; attributes: {known}')
+
+    def rule(self, name: str, domain: Domain | None = None) -> Rule:
+        """What edits do with the values: interpolate, normal, copy or drop."""
+        rule: Any = self._kinds[domain or self.domain(name), name][1]
+        return rule  # type: ignore[no-any-return]
+
+    def __getitem__(self, key: str | tuple[Domain, str]) -> NDArray[Any]:
+        domain, name = key if isinstance(key, tuple) else (self.domain(key), key)
+        if (domain, name) not in self._kinds:
+            raise KeyError(f'no attribute of a {domain} is named "{name}"')
+        if (domain, name) not in self._values:
+            self._values[domain, name] = view(self._mesh._core.attribute(domain, name))
+        return self._values[domain, name]
+
+    def __contains__(self, key: object) -> bool:
+        return key in self._kinds or any(name == key for _, name in self._kinds)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(dict.fromkeys(name for _, name in self._kinds))
+
+    def __len__(self) -> int:
+        return len({name for _, name in self._kinds})
+
+    def items_by_domain(self) -> Iterator[tuple[Domain, str, NDArray[Any]]]:
+        """The domain, the name and the values of every attribute."""
+        for domain, name in self._kinds:
+            yield domain, name, self[domain, name]  # type: ignore[misc, index]
+
+    def __repr__(self) -> str:
+        lines = (f"{domain} {name}: {kind}" for (domain, name), (kind, _) in self._kinds.items())
+        return f"Attributes({', '.join(lines)})"
+
+
+class Mesh(MeshConversions, MeshOperations):
+    """A mesh of polygons, with attributes and materials. A mesh never changes: operations return new meshes.
+
+    Read one with :func:`meshwright.read`, or build one with :meth:`from_arrays`:
+
+    >>> import meshwright as mw
+    >>> m = mw.Mesh.from_arrays([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    >>> m
+    Mesh("mesh": 3 vertices, 3 edges, 1 face)
+    >>> m.loop_subdivide(levels=2).n_faces
+    16
+    """
+
+    def __init__(self, scene: _core.Scene, name: str, notes: tuple[str, ...] = ()) -> None:
+        self._scene = scene
+        self._name = name
+        self._core = scene.mesh(name)
+        self._notes = notes
+
+    @classmethod
+    def from_arrays(
+        cls,
+        vertices: ArrayLike,
+        faces: ArrayLike | Sequence[ArrayLike],
+        *,
+        face_starts: ArrayLike | None = None,
+        name: str = "mesh",
+        repair: bool = True,
+    ) -> Self:
+        """Builds a mesh from points and polygons.
+
+        >>> import meshwright as mw
+        >>> mw.Mesh.from_arrays([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]]).n_edges
+        4
+
+        :param vertices: The points, of shape (n, 3).
+        :param faces: The vertices of each face, counter-clockwise: an array of shape (k, d), a list of lists of any
+            lengths, or, with `face_starts`, the corners of all faces one after another.
+        :param face_starts: Where the corners of each face start in `faces`, and the number of all corners as the last
+            entry.
+        :param name: The name of the object.
+        :param repair: Whether faces that are not a manifold are repaired: inconsistent faces are reversed, edges with
+            more than two faces are split, and faces with fewer than three corners are dropped. `notes` lists the
+            repairs. If false, they raise `ValueError`.
+        """
+        positions = points(vertices)
+        starts, corners = polygons(faces, face_starts)
+        core, repairs, _ = _core.from_arrays(positions, starts, corners, repair)
+        return cls(_core.Scene().with_mesh(name, core), name, tuple(repairs))
+
+    # ---- Arrays
+
+    @cached_property
+    def vertices(self) -> NDArray[np.float64]:
+        """The positions, of shape (n, 3), without a copy."""
+        return view(self._core.array("positions"))
+
+    @cached_property
+    def _polygons(self) -> tuple[NDArray[np.uint32], NDArray[np.uint64]]:
+        corners, starts = self._core.polygons()
+        return view(corners), view(starts)
+
+    @property
+    def corners(self) -> NDArray[np.uint32]:
+        """The vertex of each corner, face by face. The corners of face i are
+        ``corners[face_starts[i]:face_starts[i + 1]]``."""
+        return self._polygons[0]
+
+    @property
+    def face_starts(self) -> NDArray[np.uint64]:
+        """Where the corners of each face start in :attr:`corners`, and the number of corners as the last entry."""
+        return self._polygons[1]
+
+    @property
+    def triangles(self) -> NDArray[np.uint32]:
+        """The vertices of the triangles, of shape (k, 3). Raises `ValueError` if a face is not a triangle."""
+        corners, starts = self._polygons
+        degrees = np.diff(starts)
+        wrong = np.flatnonzero(degrees != 3)
+        if len(wrong):
+            raise ValueError(
+                f"face {wrong[0]} has {degrees[wrong[0]]} corners; use triangulate() first, or corners and face_starts"
+            )
+        return corners.reshape(-1, 3)
+
+    @property
+    def faces(self) -> list[NDArray[np.uint32]]:
+        """The vertices of each face. Slow for large meshes: see :attr:`triangles`, :attr:`corners`."""
+        corners, starts = self._polygons
+        return np.split(corners, starts[1:-1].astype(np.int64)) if len(starts) > 1 else []
+
+    @cached_property
+    def half_edges(self) -> HalfEdges:
+        """The connectivity."""
+        parts = ("next", "origin", "face", "vertex_half_edge", "face_half_edge")
+        return HalfEdges(*(view(self._core.array(part)) for part in parts))
+
+    @cached_property
+    def edges(self) -> NDArray[np.uint32]:
+        """The two vertices of each edge, of shape (n, 2), without a copy."""
+        return self.half_edges.origin.reshape(-1, 2)
+
+    @cached_property
+    def attributes(self) -> Attributes:
+        """The attributes by name."""
+        return Attributes(self)
+
+    def attribute(self, name: str, domain: Domain | None = None) -> NDArray[Any]:
+        """The values of an attribute."""
+        return self.attributes[domain, name] if domain else self.attributes[name]
+
+    def tag(self, domain: Domain, name: str) -> NDArray[np.bool_]:
+        """A tag, which is a named selection: whether it has each element."""
+        values = self.attributes[domain, name]
+        if values.dtype != np.bool_:
+            raise TypeError(f'"{name}" is an attribute of type {values.dtype}, expected a tag')
+        return values
+
+    @property
+    def tags(self) -> list[tuple[str, str]]:
+        """The domain and the name of each tag."""
+        return [(domain, name) for domain, name, kind, _ in self._core.attributes() if kind == "tag"]
+
+    def with_attribute(
+        self, name: str, values: ArrayLike, domain: Domain | None = None, *, rule: Rule | None = None
+    ) -> Self:
+        """Returns the mesh with an attribute, in place of any attribute of the same domain and name.
+
+        >>> import meshwright as mw, numpy as np
+        >>> m = mw.Mesh.from_arrays(np.eye(3), [[0, 1, 2]]).with_attribute("heat", [0.0, 0.5, 1.0], "vertex")
+        >>> m.attributes["heat"]
+        array([0. , 0.5, 1. ])
+
+        :param name: The name.
+        :param values: One row for each element: numbers, rows of 2 to 4 numbers, whole numbers from -2^31 to 2^31 - 1,
+            or flags, which make a tag.
+        :param domain: vertex, corner, edge or face. If omitted, the only domain with as many elements.
+        :param rule: What edits do with the values. Defaults to "interpolate" for numbers and "copy" for others.
+        """
+        array = numeric(values, f"the values of {name!r}")
+        if array.ndim not in (1, 2) or array.ndim == 2 and not 1 <= array.shape[1] <= 4:
+            raise ValueError(f"the values of {name!r} have the shape {array.shape}, expected (n,) or (n, 1 to 4)")
+        columns = 1 if array.ndim == 1 else array.shape[1]
+        if array.dtype.kind == "b" and columns == 1:
+            packed: NDArray[Any] = np.ascontiguousarray(array, np.uint8)
+        elif array.dtype.kind in "iu" and columns == 1 and rule != "interpolate":
+            if array.size and (int(array.min()) < -(2**31) or int(array.max()) >= 2**31):
+                raise ValueError(f"the values of {name!r} do not fit into 32 bits")
+            packed = np.ascontiguousarray(array, np.int32)
+        else:
+            packed = np.ascontiguousarray(array, np.float64)
+        if domain is None:
+            domain = self._domain_of(len(array), name)
+        rule = rule or ("interpolate" if packed.dtype == np.float64 else "copy")
+        return self._with_core(self._core.with_attribute(domain, name, packed.reshape(-1), columns, rule))
+
+    def _domain_of(self, n: int, name: str) -> Domain:
+        counts = dict(zip(DOMAINS, (self.n_vertices, len(self.corners), self.n_edges, self.n_faces), strict=True))
+        fitting = [domain for domain in DOMAINS if counts[domain] == n]
+        if len(fitting) != 1:
+            listed = ", ".join(f"{count} for {domain}" for domain, count in counts.items())
+            reason = "fits several domains" if fitting else "fits no domain"
+            raise ValueError(f"{name!r} has {n} values, which {reason} ({listed}): pass domain=")
+        return fitting[0]
+
+    def without_attribute(self, name: str, domain: Domain | None = None) -> Self:
+        """Returns the mesh without an attribute."""
+        return self._with_core(self._core.without_attribute(domain or self.attributes.domain(name), name))
+
+    def with_vertices(self, vertices: ArrayLike) -> Self:
+        """Returns the mesh with other positions, of shape (n, 3). Normals are removed."""
+        return self._with_core(self._core.with_positions(points(vertices)))
+
+    # ---- Facts
+
+    @property
+    def name(self) -> str:
+        """The name of the object."""
+        return self._name
+
+    @property
+    def n_vertices(self) -> int:
+        """The number of vertices."""
+        return self._core.counts()[0]
+
+    @property
+    def n_edges(self) -> int:
+        """The number of edges."""
+        return self._core.counts()[1]
+
+    @property
+    def n_faces(self) -> int:
+        """The number of faces."""
+        return self._core.counts()[2]
+
+    @property
+    def materials(self) -> list[str]:
+        """The names of the materials. The attribute "material" of faces has indices into this list."""
+        return self._scene.materials(self._name)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What the last operation reported: repairs, losses and other facts."""
+        return self._notes
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether every edge has two faces."""
+        return self._core.is_closed()
+
+    @property
+    def euler_characteristic(self) -> int:
+        """The number of vertices minus edges plus faces."""
+        return self._core.euler_characteristic()
+
+    @property
+    def n_bytes(self) -> int:
+        """The memory of all arrays, in bytes."""
+        return self._core.bytes()
+
+    def defects(self) -> list[str]:
+        """The broken invariants in words. Empty, unless this package has a bug."""
+        return self._core.defects()
+
+    @cached_property
+    def digest(self) -> str:
+        """The digest of a scene with this object alone."""
+        return self._scene.digest()
+
+    # ---- Changes
+
+    def edit(self) -> Editor:
+        """Starts edits of single elements. Use it in a `with` block; `mesh` is then the edited mesh.
+
+        >>> import meshwright as mw
+        >>> m = mw.Scene().icosahedron(name="ball").mesh()
+        >>> with m.edit() as e:
+        ...     e.flip(e.edge(*m.edges[0]))
+        ...     middle = e.split(7, at=0.25)
+        >>> e.mesh.n_vertices
+        13
+        """
+        from ._editor import Editor
+
+        return Editor(self)
+
+    def scene(self) -> Scene:
+        """Returns the scene with this object alone."""
+        from ._scene import Scene
+
+        return Scene(self._scene)
+
+    def render(self, **options: Any) -> bytes:
+        """Draws the mesh and returns a PNG file. The options are those of the step `Picture`."""
+        return self.scene().render(**options)
+
+    def _repr_png_(self) -> bytes:
+        return self.render(size=(640, 480))
+
+    def apply(self, operation: str, /, **parameters: Any) -> Self:
+        """Runs an operation by its name in recipes: ``m.apply("LoopSubdivide", levels=2)``."""
+        return self._apply(operation, parameters, None, None)
+
+    def _apply(
+        self, operation: str, fields: Mapping[str, Any], on: str | Sequence[str] | None, id: str | None
+    ) -> Self:
+        from ._scene import Scene
+
+        others: dict[int, tuple[str, Mesh]] = {}
+        replaced = {name: self._named(value, others) for name, value in fields.items()}
+        scene = Scene(self._scene)
+        for name, other in others.values():
+            scene = scene.with_object(other, name=name)
+        only_this = [self._name] if others else None
+        done = scene._apply(operation, replaced, only_this, id)
+        result = done._core.only([n for n in done if n not in [name for name, _ in others.values()]])
+        names = result.names()
+        if len(names) != 1 or result.kind(names[0]) != "mesh":
+            raise TypeError(
+                f"{operation} gives {len(names)} objects; use mesh.scene() and the method of the scene instead"
+            )
+        return type(self)(result, names[0], done.notes)
+
+    def _named(self, value: Any, others: dict[int, tuple[str, Mesh]]) -> Any:
+        """Replaces meshes among parameters by names of objects."""
+        if isinstance(value, Mesh):
+            name = value.name if value.name != self._name else f"{value.name} (other)"
+            taken = {n for key, (n, _) in others.items() if key != id(value)}
+            while name in taken or name == self._name:
+                name += " (other)"
+            return others.setdefault(id(value), (name, value))[0]
+        if isinstance(value, Choice):
+            made = Choice(value.name)
+            made.args = tuple(self._named(v, others) for v in value.args)
+            made.fields = {k: self._named(v, others) for k, v in value.fields.items()}
+            return made
+        return value
+
+    def _with_core(self, core: _core.Mesh) -> Self:
+        return type(self)(self._scene.with_mesh(self._name, core), self._name)
+
+    # ---- Python
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Mesh) and self._name == other._name and self.digest == other.digest
+
+    def __hash__(self) -> int:
+        return hash(self.digest)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        from ._scene import _unpickle_mesh
+
+        return (_unpickle_mesh, (self.scene().to_bytes("mws"), self._name))
+
+    def __repr__(self) -> str:
+        vertices, edges, faces = self._core.counts()
+        parts = (_count(vertices, "vertex", "vertices"), _count(edges, "edge", "edges"), _count(faces, "face", "faces"))
+        return f'Mesh("{self._name}": {", ".join(parts)})'
+
+
+def _count(n: int, one: str, many: str) -> str:
+    return f"{n} {one if n == 1 else many}"
+
+
+def polygons(
+    faces: ArrayLike | Sequence[ArrayLike], face_starts: ArrayLike | None
+) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
+    """The start of each face and the corners of all faces."""
+    if face_starts is not None:
+        starts, corners = indices(face_starts, "face_starts"), indices(faces, "faces")  # type: ignore[arg-type]
+        if starts.ndim != 1 or corners.ndim != 1:
+            raise ValueError("with face_starts, faces and face_starts must have one dimension")
+        return starts, corners
+    if not isinstance(faces, np.ndarray) and isinstance(faces, Sequence):
+        lengths = [len(face) if isinstance(face, Sized) else -1 for face in faces]
+        if any(n < 0 for n in lengths):
+            raise ValueError("faces must be lists of vertices; for corners in one list, pass face_starts")
+        if len(set(lengths)) > 1:
+            flat = [v for face in faces for v in np.asarray(face).tolist()]
+            starts = np.concatenate([[0], np.cumsum(lengths)])
+            return indices(starts, "face_starts"), indices(np.asarray(flat), "faces")
+    array = indices(faces, "faces")  # type: ignore[arg-type]
+    if array.ndim == 1 and array.size == 0:
+        array = array.reshape(0, 3)
+    if array.ndim != 2:
+        raise ValueError(f"faces have the shape {array.shape}, expected (k, corners)")
+    starts = np.arange(array.shape[0] + 1, dtype=np.uint64) * array.shape[1]
+    return indices(starts, "face_starts"), array.reshape(-1)

@@ -1,0 +1,4363 @@
+"""Every operation as a method.
+
+Generated from the schema of the operations by `generate.py`: do not edit.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Literal, Self
+
+from numpy.typing import NDArray
+
+from ._ron import Arg, Choice, Ron
+
+if TYPE_CHECKING:
+    from ._mesh import Mesh
+
+
+class SceneOperations:
+    """The operations on a scene, and the steps of a recipe."""
+
+    def _apply(
+        self, operation: str, fields: Mapping[str, Any], on: str | Sequence[str] | None, id: str | None
+    ) -> Self:
+        raise NotImplementedError
+
+    def load(
+        self,
+        path: str | os.PathLike[str] | Arg | Ron,
+        *,
+        name: str | Arg | Ron | None = None,
+        non_manifold: Literal['Split', 'Refuse'] | Arg | Ron | None = None,
+        orientation: Literal['Orient', 'Keep'] | Arg | Ron | None = None,
+        duplicates: Literal['Keep', 'Drop'] | Arg | Ron | None = None,
+        degenerate: Literal['Keep', 'Drop'] | Arg | Ron | None = None,
+        isolated: Literal['Keep', 'Drop'] | Arg | Ron | None = None,
+        placements: Literal['Keep', 'Bake'] | Arg | Ron | None = None,
+        strict: bool | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Read the objects of a file.
+
+        Reads the objects of a file into the scene.
+
+        Formats: ``.obj``, ``.gltf``, ``.glb``, ``.ply``, ``.stl``, ``.off``, ``.dae``, ``.bez`` (Bezier patches),
+        ``.bzc`` (a Bezier curve) and ``.mws`` (a complete scene). A file compressed by gzip has ``.gz`` after its
+        extension, as in ``.obj.gz``; ``.glb`` and ``.mws`` files cannot be compressed this way. An OBJ file becomes one
+        object, and its objects (``o``) and groups (``g``) become face tags. A glTF file gives an object for each mesh,
+        named after its node if it has only one node, and keeps the nodes, cameras, lights, skins, morph targets and
+        animations. A COLLADA file gives an object for each node with a mesh. Content that the scene cannot hold is
+        counted and listed. Images of materials are read from files next to the model. A corner that repeats the corner
+        before it is removed, and a face that still visits a vertex twice is left out.
+
+        In a recipe: ``Load(path: "teapot.bez")``
+
+        :param path: The file. A relative path is relative to the folder of the recipe.
+        :param name: The name for objects that have no name in the file, and for the only object of an ``.mws`` file.
+            Defaults to the name of the file without its extension; objects of an ``.mws`` file then keep their names.
+        :param non_manifold: What to do if more than two faces share an edge, or if faces at a vertex share no edge.
+            Defaults to Split.
+        :param orientation: What to do if neighboring faces have opposite orientations. Defaults to Orient.
+        :param duplicates: What to do with faces that have the same vertices as an earlier face, in either direction.
+            Defaults to Keep.
+        :param degenerate: What to do with faces without area. Defaults to Keep.
+        :param isolated: What to do with vertices without a face. Defaults to Keep.
+        :param placements: What to do with the nodes of a glTF file. If the nodes are kept, steps change a mesh in its
+            own space, once for all nodes that show the mesh. Defaults to Keep.
+        :param strict: If true, the step fails if anything in the file would be left out. Defaults to False.
+        """
+        return self._apply('Load', {'path': path, 'name': name, 'non_manifold': non_manifold, 'orientation': orientation, 'duplicates': duplicates, 'degenerate': degenerate, 'isolated': isolated, 'placements': placements, 'strict': strict}, None, id)
+
+    def save(
+        self,
+        path: str | os.PathLike[str] | Arg | Ron,
+        *,
+        images: Literal['Embed', 'Copy', 'Keep'] | Arg | Ron | None = None,
+        compress: Literal['Meshopt'] | Arg | Ron | None = None,
+        quantize: Mapping[str, Any] | Arg | Ron | None = None,
+        weight_sets: int | Arg | Ron | None = None,
+        rows: Literal['Vertices', 'Faces', 'Corners'] | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Write objects to a file.
+
+        Writes objects to a file in the output folder.
+
+        The extension chooses the format: ``.obj``, ``.gltf``, ``.glb``, ``.ply``, ``.stl`` or ``.off`` for meshes,
+        ``.bez`` for Bezier patches, ``.bzc`` for a curve, and ``.mws`` for a complete scene without any loss. ``.csv``
+        is a table of the positions and attributes of vertices, faces or corners, and ``.npz`` has the arrays of a mesh
+        for ``NumPy``; these cannot be read. A name such as ``a.obj.gz`` compresses the file by gzip. Content that the
+        format cannot store is listed. The file is only created when the whole recipe has succeeded.
+
+        In a recipe: ``Save(path: "a.obj")``
+
+        :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
+            without extension, of the file in the recipe parameter ``name``.
+        :param images: What to do with the images of materials. If omitted, ``.glb`` files embed the images, and for
+            ``.gltf`` and ``.obj`` files, images that are next to their original model are copied next to the written
+            file. OBJ cannot embed images, so embedded images are written to files too.
+        :param compress: How to compress the geometry of ``.glb`` and ``.gltf`` files without loss. If omitted, the
+            geometry is not compressed.
+        :param quantize: The numbers of bits with which the geometry of ``.glb`` and ``.gltf`` files is stored. If
+            omitted, numbers are floats of 32 bits. ``quantize: ()`` uses the default of each attribute. The report
+            lists the largest errors.
+        :param weight_sets: For ``.gltf`` and ``.glb``, the number of sets of four joints that are written for each
+            vertex of a skinned mesh. If omitted, the number of sets in the file that the mesh comes from, or 1 if it
+            does not come from such a file.
+        :param rows: For ``.csv``, the elements that have a row each. If omitted, vertices.
+        """
+        return self._apply('Save', {'path': path, 'images': images, 'compress': compress, 'quantize': quantize, 'weight_sets': weight_sets, 'rows': rows}, on, id)
+
+    def polygons(
+        self,
+        points: Sequence[Sequence[float] | NDArray[Any]] | NDArray[Any] | Arg | Ron,
+        faces: Sequence[Sequence[int] | NDArray[Any]] | NDArray[Any] | Arg | Ron,
+        *,
+        name: str | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Create a mesh from points and faces.
+
+        Creates a mesh from points and faces.
+
+        Point i becomes vertex i, and polygon i becomes face i. If connected faces have different orientations, the
+        faces in the minority are reversed, provided that all orientations then agree. If the faces do not form a
+        manifold, they are split: an edge keeps two faces with consistent orientations, a vertex keeps one fan of faces,
+        and the other faces get copies of the vertices, which are numbered last. Both the report and the check of the
+        recipe list the reversed and split elements.
+
+        In a recipe: ``Polygons(name: "new", points: [(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces: [[0, 1, 2]])``
+
+        :param name: The name of the new object. Defaults to the name of the operation in lower case, with a number if
+            this name is taken.
+        :param points: The points: ``(x, y, z)``, in scene units. Points that no face uses become isolated vertices.
+        :param faces: The faces. Each is a list of the numbers of its points, counted from 0, counter-clockwise seen
+            from outside. A face has at least three points, without duplicates.
+        """
+        return self._apply('Polygons', {'name': name, 'points': points, 'faces': faces}, None, id)
+
+    def cube(
+        self,
+        *,
+        name: str | Arg | Ron | None = None,
+        size: float | Arg | Ron | None = None,
+        center: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        triangles: bool | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Create a cube.
+
+        Creates a cube.
+
+        The cube has 8 vertices and 6 squares: bottom (0, 2, 3, 1), top (4, 5, 7, 6), front (0, 1, 5, 4), right (1, 3,
+        7, 5), back (3, 2, 6, 7), left (2, 0, 4, 6). The number of a vertex is (x > center) + 2 (y > center) + 4 (z >
+        center), where a true comparison counts as 1.
+
+        In a recipe: ``Cube(name: "new", size: 3, center: (1, 2, 3))``
+
+        :param name: The name of the new object. Defaults to the name of the operation in lower case, with a number if
+            this name is taken.
+        :param size: The length of the edges, in scene units. More than 0. Defaults to 2.0.
+        :param center: The center of the cube, in scene units.
+        :param triangles: Whether to cut each square (a, b, c, d) along its diagonal from a to c into the triangles (a,
+            b, c) and (a, c, d). Square f becomes the faces 2 f and 2 f + 1. The diagonals are 0-3, 4-7, 0-5, 1-7, 3-6
+            and 2-4. Defaults to False.
+        """
+        return self._apply('Cube', {'name': name, 'size': size, 'center': center, 'triangles': triangles}, None, id)
+
+    def tetrahedron(
+        self,
+        *,
+        name: str | Arg | Ron | None = None,
+        radius: float | Arg | Ron | None = None,
+        center: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Create a regular tetrahedron.
+
+        Creates a regular tetrahedron with 4 vertices and 4 triangles.
+
+        The vertices are four of the eight corners of a cube with the same center. The signs of their coordinates
+        relative to the center are (+, +, +), (-, -, +), (-, +, -) and (+, -, -), in this order.
+
+        In a recipe: ``Tetrahedron(name: "new")``
+
+        :param name: The name of the new object. Defaults to the name of the operation in lower case, with a number if
+            this name is taken.
+        :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to 1.0.
+        :param center: The center of the tetrahedron, in scene units.
+        """
+        return self._apply('Tetrahedron', {'name': name, 'radius': radius, 'center': center}, None, id)
+
+    def octahedron(
+        self,
+        *,
+        name: str | Arg | Ron | None = None,
+        radius: float | Arg | Ron | None = None,
+        center: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Create a regular octahedron.
+
+        Creates a regular octahedron with 6 vertices and 8 triangles.
+
+        The vertices are in the directions +x, -x, +y, -y, +z and -z from the center, in this order.
+
+        In a recipe: ``Octahedron(name: "new")``
+
+        :param name: The name of the new object. Defaults to the name of the operation in lower case, with a number if
+            this name is taken.
+        :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to 1.0.
+        :param center: The center of the octahedron, in scene units.
+        """
+        return self._apply('Octahedron', {'name': name, 'radius': radius, 'center': center}, None, id)
+
+    def icosahedron(
+        self,
+        *,
+        name: str | Arg | Ron | None = None,
+        radius: float | Arg | Ron | None = None,
+        center: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Create a regular icosahedron.
+
+        Creates a regular icosahedron with 12 vertices and 20 triangles.
+
+        The vertices are the corners of three golden rectangles, one in each coordinate plane.
+
+        In a recipe: ``Icosahedron(name: "new")``
+
+        :param name: The name of the new object. Defaults to the name of the operation in lower case, with a number if
+            this name is taken.
+        :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to 1.0.
+        :param center: The center of the icosahedron, in scene units.
+        """
+        return self._apply('Icosahedron', {'name': name, 'radius': radius, 'center': center}, None, id)
+
+    def grid(
+        self,
+        *,
+        name: str | Arg | Ron | None = None,
+        columns: int | Arg | Ron | None = None,
+        rows: int | Arg | Ron | None = None,
+        size: float | Arg | Ron | None = None,
+        center: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Create a flat sheet of squares.
+
+        Creates a flat sheet of squares whose normals point to +z.
+
+        Vertices and faces are numbered in rows, from -x to +x and from -y to +y.
+
+        In a recipe: ``Grid(name: "new", columns: 3, rows: 2)``
+
+        :param name: The name of the new object. Defaults to the name of the operation in lower case, with a number if
+            this name is taken.
+        :param columns: The number of squares along x. At least 1. Defaults to 10.
+        :param rows: The number of squares along y. At least 1. Defaults to 10.
+        :param size: The side length of a square, in scene units. More than 0. Defaults to 1.0.
+        :param center: The center of the sheet, in scene units.
+        """
+        return self._apply('Grid', {'name': name, 'columns': columns, 'rows': rows, 'size': size, 'center': center}, None, id)
+
+    def torus(
+        self,
+        *,
+        name: str | Arg | Ron | None = None,
+        around: int | Arg | Ron | None = None,
+        across: int | Arg | Ron | None = None,
+        major: float | Arg | Ron | None = None,
+        minor: float | Arg | Ron | None = None,
+        center: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Create a torus.
+
+        Creates a torus of quadrilaterals around the z axis.
+
+        Vertex ``i * across + j`` is vertex j of ring i across the tube. Ring 0 is in the direction +x, and its vertex 0
+        is the farthest from the axis.
+
+        In a recipe: ``Torus(name: "new", around: 7, across: 5, major: 2, minor: 0.5)``
+
+        :param name: The name of the new object. Defaults to the name of the operation in lower case, with a number if
+            this name is taken.
+        :param around: The number of faces around the z axis. At least 3. Defaults to 32.
+        :param across: The number of faces around the tube. At least 3. Defaults to 16.
+        :param major: The distance from the z axis to the center of the tube, in scene units. More than 0. Defaults to
+            1.0.
+        :param minor: The radius of the tube, in scene units. More than 0. The tube intersects itself unless ``minor``
+            is less than ``major``. Defaults to 0.25.
+        :param center: The center of the torus, in scene units.
+        """
+        return self._apply('Torus', {'name': name, 'around': around, 'across': across, 'major': major, 'minor': minor, 'center': center}, None, id)
+
+    def cylinder(
+        self,
+        *,
+        name: str | Arg | Ron | None = None,
+        around: int | Arg | Ron | None = None,
+        radius: float | Arg | Ron | None = None,
+        height: float | Arg | Ron | None = None,
+        caps: bool | Arg | Ron | None = None,
+        center: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Create a cylinder.
+
+        Creates a cylinder around the z axis.
+
+        The vertices of the lower rim come first, and then the vertices of the upper rim. Each rim is counter-clockwise
+        seen from above and starts in the direction +x. The faces are ``around`` rectangles and, with caps, the lower
+        and the upper polygon with ``around`` corners.
+
+        In a recipe: ``Cylinder(name: "new", around: 6, radius: 1, height: 2, caps: true)``
+
+        :param name: The name of the new object. Defaults to the name of the operation in lower case, with a number if
+            this name is taken.
+        :param around: The number of sides. At least 3. Defaults to 32.
+        :param radius: The distance from the axis to the vertical edges, in scene units. More than 0. Defaults to 1.0.
+        :param height: The height along z, in scene units. More than 0. Defaults to 2.0.
+        :param caps: Whether the ends are closed. Defaults to True.
+        :param center: The center of the cylinder, in scene units.
+        """
+        return self._apply('Cylinder', {'name': name, 'around': around, 'radius': radius, 'height': height, 'caps': caps, 'center': center}, None, id)
+
+    def uv_sphere(
+        self,
+        *,
+        name: str | Arg | Ron | None = None,
+        around: int | Arg | Ron | None = None,
+        rings: int | Arg | Ron | None = None,
+        radius: float | Arg | Ron | None = None,
+        center: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Create a sphere of meridians and rings.
+
+        Creates a sphere of meridians and rings, with poles at -z and +z.
+
+        Vertex 0 is the lower pole. The circles of vertices follow from the bottom to the top; each starts in the
+        direction +x and is counter-clockwise seen from above. The last vertex is the upper pole.
+
+        In a recipe: ``UvSphere(name: "new", around: 8, rings: 4, radius: 2)``
+
+        :param name: The name of the new object. Defaults to the name of the operation in lower case, with a number if
+            this name is taken.
+        :param around: The number of meridians. At least 3. Defaults to 32.
+        :param rings: The number of bands of faces from pole to pole. At least 2. Defaults to 16.
+        :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to 1.0.
+        :param center: The center of the sphere, in scene units.
+        """
+        return self._apply('UvSphere', {'name': name, 'around': around, 'rings': rings, 'radius': radius, 'center': center}, None, id)
+
+    def tessellate(
+        self,
+        *,
+        segments: int | Arg | Ron | None = None,
+        faces: Literal['Triangles', 'Quads'] | Arg | Ron | None = None,
+        uvs: bool | Arg | Ron | None = None,
+        normals: bool | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Turn Bezier patches into a mesh.
+
+        Turns Bezier patches into a mesh.
+
+        Acts on all objects that consist of patches, or on the objects in ``on``. Each object becomes one mesh of the
+        same name. Every patch is divided into ``segments`` x ``segments`` cells. Elements are numbered patch after
+        patch. Patches share no vertices, but if they have the same control points on a common side, the positions of
+        their vertices there are equal bit for bit, so that ``Weld(distance: 0)`` joins them. A side whose points
+        coincide, as at the pole of a teapot's lid, becomes one vertex. Patches without area give no faces and are
+        counted. The mesh has UVs and normals only if they are requested.
+
+        In a recipe: ``Tessellate(segments: 3)``
+
+        :param segments: The number of cells along each side of a patch. Defaults to 8.
+        :param faces: The faces that a cell becomes. Defaults to Triangles.
+        :param uvs: Whether to store the parameters (u, v) of each patch as UVs of corners. Each patch covers the whole
+            square from 0 to 1. Defaults to False.
+        :param normals: Whether to store the exact unit normals of the patches as vertex normals. Defaults to False.
+        """
+        return self._apply('Tessellate', {'segments': segments, 'faces': faces, 'uvs': uvs, 'normals': normals}, on, id)
+
+    def sample_curve(
+        self,
+        segments: int | Arg | Ron,
+        *,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Replace curves by polylines through their points.
+
+        Replaces curves by polylines through their points.
+
+        Each curve becomes one polyline with ``segments`` + 1 points in the plane z = 0, at the parameters 0, 1 /
+        segments, ... 1. The first and the last point are exactly the end control points.
+
+        In a recipe: ``SampleCurve(segments: 1)``
+
+        :param segments: The number of straight segments.
+        """
+        return self._apply('SampleCurve', {'segments': segments}, on, id)
+
+    def curve_levels(
+        self,
+        t: float | Arg | Ron,
+        *,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Replace curves by the levels of de Casteljau's algorithm.
+
+        Replaces curves by the levels of de Casteljau's algorithm.
+
+        A curve with n control points becomes n polylines in the plane z = 0. The first polyline is the control polygon
+        with n points. Each following polyline has one point less. The last polyline is the point of the curve at ``t``.
+
+        In a recipe: ``CurveLevels(t: 0)``
+
+        :param t: The parameter of the point, from 0 (the start of the curve) to 1 (its end).
+        """
+        return self._apply('CurveLevels', {'t': t}, on, id)
+
+    def move_control_point(
+        self,
+        index: int | Arg | Ron,
+        to: Sequence[float] | NDArray[Any] | Arg | Ron,
+        *,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Move one control point of curves.
+
+        Moves one control point of curves.
+
+        The other control points do not move. The point of the curve at a parameter t moves in the same direction as the
+        control point. The point of the curve moves as far as the control point, multiplied by the value at t of the
+        Bernstein polynomial of the control point.
+
+        In a recipe: ``MoveControlPoint(index: 1, to: (2, -3.5))``
+
+        :param index: The index of the control point, from 0. Every curve on which the step acts must have a control
+            point with this index.
+        :param to: The new position: ``(x, y)`` in the plane z = 0, in scene units.
+        """
+        return self._apply('MoveControlPoint', {'index': index, 'to': to}, on, id)
+
+    def copy(
+        self,
+        from_: str | Arg | Ron,
+        to: str | Arg | Ron,
+        *,
+        id: str | None = None,
+    ) -> Self:
+        """Copy an object under a new name.
+
+        Copies an object, with its attributes and materials, under a new name.
+
+        The copy is added after all other objects. The elements of the copy have the same numbers as in the original. If
+        nodes place the object, a node that places the copy is added beside each node that places the object.
+
+        In a recipe: ``Copy(from: "mesh", to: "new")``
+
+        :param from_: The name of the object to copy.
+        :param to: The name of the new object.
+        """
+        return self._apply('Copy', {'from': from_, 'to': to}, None, id)
+
+    def delete(
+        self,
+        objects: Sequence[str] | NDArray[Any] | Arg | Ron,
+        *,
+        id: str | None = None,
+    ) -> Self:
+        """Delete objects.
+
+        Deletes objects.
+
+        The remaining objects keep their order. The nodes that place a deleted object are also removed, unless they have
+        children, a camera or a light.
+
+        In a recipe: ``Delete(objects: ["mesh"])``
+
+        :param objects: The names of the objects. All of these objects must exist.
+        """
+        return self._apply('Delete', {'objects': objects}, None, id)
+
+    def rename(
+        self,
+        from_: str | Arg | Ron,
+        to: str | Arg | Ron,
+        *,
+        id: str | None = None,
+    ) -> Self:
+        """Rename an object.
+
+        Renames an object.
+
+        The order of the objects does not change. A node or mesh that has the name of the object also gets the new name.
+
+        In a recipe: ``Rename(from: "mesh", to: "new")``
+
+        :param from_: The current name.
+        :param to: The new name.
+        """
+        return self._apply('Rename', {'from': from_, 'to': to}, None, id)
+
+    def join(
+        self,
+        objects: Sequence[str] | NDArray[Any] | Arg | Ron,
+        name: str | Arg | Ron,
+        *,
+        tag_parts: bool | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Join meshes into one object.
+
+        Joins meshes into one object.
+
+        Each mesh becomes a part of the result. Vertices, edges and faces are numbered part by part, in the order of the
+        list. The parts are not connected, even where they touch. The result replaces the first mesh of the list in the
+        scene; the other meshes are removed. Nodes that place a part are applied to its points, once for each node, and
+        the result has no node.
+
+        If a part lacks an attribute that another part has, the elements of this part get the value zero, or -1 (no
+        material) for material numbers. Normals are dropped and reported as lost unless all parts have them. If an
+        attribute of a part has a different type than in earlier parts, the attribute of this part is dropped and
+        reported as lost. Equal materials become one.
+
+        In a recipe: ``Join(objects: ["mesh", "other"], name: "joined")``
+
+        :param objects: The names of the meshes. At least one name, without duplicates.
+        :param name: The name of the result. This name may be the name of one of the meshes.
+        :param tag_parts: Whether to tag the faces of each part with the name of the part, so that ``Tagged("head")``
+            selects them in later steps. Defaults to True.
+        """
+        return self._apply('Join', {'objects': objects, 'name': name, 'tag_parts': tag_parts}, None, id)
+
+    def separate(
+        self,
+        object: str | Arg | Ron,
+        *,
+        by: Literal['Components', 'Material'] | Choice | Arg | Ron | None = None,
+        count: int | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Split a mesh into several objects.
+
+        Splits a mesh into several objects.
+
+        The parts of "figure" are named "figure 1", "figure 2" and so on. The first part replaces the object, and the
+        other parts are added after all other objects. Elements keep their order and their values, and every part has
+        all materials. Vertices without a face are dropped and counted. A mesh without faces is refused.
+
+        If nodes place the object, the nodes place the first part after the step, and each of them gets children that
+        place the other parts.
+
+        If parts of one component are separated, the edges and vertices between them are copied to both parts. If the
+        faces of a part around a vertex form several fans, each fan gets a separate copy of the vertex.
+
+        In a recipe: ``Separate(object: "mesh")``
+
+        :param object: The name of the mesh.
+        :param by: How the faces are grouped into parts. Defaults to Components.
+        :param count: The expected number of parts. The step is refused if the number differs. If omitted, the names of
+            the parts are not known before the recipe runs, so the object names in later steps cannot be checked before
+            the run.
+        """
+        return self._apply('Separate', {'object': object, 'by': by, 'count': count}, None, id)
+
+    def transform(
+        self,
+        *,
+        scale: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        rotate: Sequence[Mapping[str, Any]] | NDArray[Any] | Arg | Ron | None = None,
+        move: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        about: Literal['Origin', 'Center'] | Choice | Arg | Ron | None = None,
+        space: Literal['Scene', 'Object'] | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Scale, rotate, move and mirror objects.
+
+        Scales, rotates and moves objects.
+
+        Points are first scaled, then rotated, then moved. The points of meshes, patches, curves and polylines are
+        changed, unless nodes of a glTF file place the object. An object that nodes place is moved by changing the
+        placements of its nodes, and everything below these nodes moves along. A skinned mesh is moved with its joints.
+        A node whose placement is animated gets a parent, which is moved instead. Without ``on:``, root nodes with
+        cameras and lights also move, unless ``about`` is ``Center``. A curve must stay in the plane z = 0.
+
+        Ids do not change. Normals and the deltas of morph targets are transformed; other attributes do not change. A
+        mirror (one or three negative factors in ``scale``) also reverses the faces, so that they are counter-clockwise
+        seen from outside: the first corner of a face stays first, and the other corners follow in reverse order. In
+        mirrored patches, u and v are exchanged, so that the outside stays the outside. A mirror drops attributes with
+        the rule ``Drop``, which are lost whenever the connectivity changes.
+
+        In a recipe: ``Transform()``
+
+        :param scale: The scale factors along x, y and z. No factor may be 0; a negative factor mirrors.
+        :param rotate: The rotations, applied in order.
+        :param move: The distances to move along x, y and z, in scene units.
+        :param about: The fixed point of scaling and rotation. Defaults to Origin.
+        :param space: The coordinates in which objects move. Defaults to Scene.
+        """
+        return self._apply('Transform', {'scale': scale, 'rotate': rotate, 'move': move, 'about': about, 'space': space}, on, id)
+
+    def scatter(
+        self,
+        surface: str | Arg | Ron,
+        count: int | Arg | Ron,
+        *,
+        object: str | Arg | Ron | None = None,
+        seed: int | Arg | Ron | None = None,
+        align: Literal['X', 'Y', 'Z'] | Arg | Ron | None = None,
+        name: str | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Place copies of an object on a surface.
+
+        Places copies of an object on a surface, spread evenly at random.
+
+        Exactly ``count`` points are chosen so that they keep their distance from each other (Yuksel, "Sample
+        Elimination for Generating Poisson Disk Sample Sets", 2015). At each point, a node shows the object, so that the
+        memory and the file do not grow with the copies: the origin of the object is moved to the point. To make one
+        mesh of all copies, use ``Join`` afterwards. An object that no node has placed before is then shown only at the
+        points.
+
+        Without ``object``, a mesh of the points is made, with the normals of the surface and without faces.
+
+        In a recipe: ``Scatter(surface: "mesh", count: 20, seed: 7)``
+
+        :param object: The name of the object that is placed. If omitted, only the points are made.
+        :param surface: The name of the object with the surface: a mesh that is shown once.
+        :param count: The number of points.
+        :param seed: The number from which the random choices follow. Defaults to 0.
+        :param align: The axis of the object that is turned to the normal of the surface. If omitted, the copies are not
+            turned.
+        :param name: The name of the mesh of points, without ``object``. Defaults to ``points``.
+        """
+        return self._apply('Scatter', {'object': object, 'surface': surface, 'count': count, 'seed': seed, 'align': align, 'name': name}, None, id)
+
+    def weld(
+        self,
+        distance: float | Arg | Ron,
+        *,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Merge vertices that are close together.
+
+        Merges vertices that are close together, and joins the faces at them.
+
+        Vertices at most ``distance`` apart are linked, and vertices that are connected by a chain of links merge into
+        one, even if the ends of the chain are farther apart than ``distance``. The merged vertex has the position and
+        the values of the vertex with the lowest number. The other vertices are removed, and later vertices are
+        renumbered. Edges between the same two vertices become one edge with the values of the first. Corner values stay
+        with their corners, so UV seams are kept.
+
+        If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
+        corners left or would visit a vertex twice. If joined faces have opposite orientations, the smaller group is
+        reversed, provided that all orientations then agree. Reversed faces are counted, and the normals of vertices and
+        corners are dropped. Where the result would still not be manifold, vertices and edges are copied, and the copies
+        are counted: for example, a third face at an edge gets a copy of the edge. If no vertices merge, the mesh does
+        not change.
+
+        In a recipe: ``Weld(distance: 0)``
+
+        :param distance: The largest distance between linked vertices, in scene units. With 0, only vertices at equal
+            positions merge.
+        """
+        return self._apply('Weld', {'distance': distance}, on, id)
+
+    def reverse(
+        self,
+        *,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Reverse the orientation of faces.
+
+        Reverses the orientation of faces, so that their other side is the outside.
+
+        Adjacent faces must have the same orientation, so only whole connected components can be reversed: if a selected
+        face shares an edge with a face that is not selected, the step is refused. No vertex moves, and all elements
+        keep their numbers. The first corner of a face stays first, and the other corners follow in reverse order.
+        Normals are negated. Other attributes stay with their elements, and corner values with their vertex and face.
+
+        In a recipe: ``Reverse()``
+
+        :param faces: The faces to reverse: whole connected components. Defaults to All.
+        """
+        return self._apply('Reverse', {'faces': faces}, on, id)
+
+    def triangulate(
+        self,
+        *,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Cut polygons into triangles.
+
+        Cuts polygons into triangles.
+
+        A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length (the relative
+        difference of their squared lengths is at most 1e-12), it is cut along the diagonal at its vertex with the
+        lowest number. A diagonal that gives a triangle without area, or a triangle that is turned over relative to the
+        normal of the face, is chosen only if the other diagonal is not better. A quadrilateral with a reflex corner is
+        therefore cut at that corner. If a diagonal would join two vertices that are already joined by an edge or
+        another diagonal, the other diagonal is chosen where possible. The remaining duplicate diagonals are counted.
+
+        A face with more corners is projected along its normal, cut by ear clipping, and improved by flipping diagonals
+        until it is a constrained Delaunay triangulation. A face that cannot be triangulated in this way, because it has
+        no area or its sides cross, becomes a triangle fan around its vertex with the lowest number, and is counted.
+
+        The triangles replace their face in the order of the faces and have the values of the face. Vertices and edges
+        keep their numbers. The corners of the triangles have the values of the corners of the face at the same
+        vertices.
+
+        In a recipe: ``Triangulate()``
+
+        :param faces: The faces to cut. Defaults to All.
+        """
+        return self._apply('Triangulate', {'faces': faces}, on, id)
+
+    def flip_edges(
+        self,
+        edges: Literal['All', 'Boundary'] | Choice | Arg | Ron,
+        *,
+        until: Literal['Once', 'Delaunay', 'Valence'] | Arg | Ron | None = None,
+        passes: int | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        seams: Literal['Refuse', 'Drop'] | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Flip edges to the other diagonal of their two triangles.
+
+        Replaces the edge between two triangles by the other diagonal of the pair.
+
+        Edges are flipped in order of their numbers. Each flip is checked against the mesh as edited so far. A flip is
+        refused if the edge is on the boundary, if a face beside it is not a triangle, or if the opposite corners of the
+        two triangles are already joined by an edge or are the same vertex. At a seam, a flip is refused unless
+        ``seams`` is ``Drop``. All elements keep their numbers, and no vertex moves. Vertices, edges and faces keep
+        their values. Each triangle gets one new corner. The new corner takes the values that the other triangle has at
+        the same vertex; all other corners keep their values.
+
+        With ``until: Delaunay`` or ``until: Valence``, an edge is flipped only if that improves the mesh. Edges are
+        checked again, pass after pass, until no edge is flipped. Flips with ``until: Delaunay`` or ``until: Valence``
+        neither fold the surface nor create triangles without area. If a flip that would improve the mesh is refused,
+        the step does not fail: the edge is left unchanged, and the report counts the refusal by reason. The report also
+        contains the number of passes, and whether the step stopped because ``passes`` was reached.
+
+        On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from
+        ``edges``, for example with ``Flat(below: 30)`` or ``Not(Tagged("keep"))``.
+
+        In a recipe: ``FlipEdges(edges: All)``
+
+        :param edges: The edges to flip. The edges are selected before the first flip. An edge keeps its number when it
+            is flipped.
+        :param until: Which edges are flipped, and when to stop. Defaults to Once.
+        :param passes: The largest number of passes over the edges. Ignored for ``Once``, which makes one pass. Defaults
+            to 100.
+        :param on_refusal: What to do when a flip is refused. Only for ``Once``. Defaults to Error.
+        :param seams: What to do at seams. Defaults to Refuse.
+        """
+        return self._apply('FlipEdges', {'edges': edges, 'until': until, 'passes': passes, 'on_refusal': on_refusal, 'seams': seams}, on, id)
+
+    def split_edges(
+        self,
+        edges: Literal['All', 'Boundary'] | Choice | Arg | Ron,
+        *,
+        at: float | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Insert a vertex on edges and join it to the opposite corners.
+
+        Inserts a vertex on each edge and joins it to the opposite corners of the triangles beside the edge.
+
+        In a mesh of triangles, a split adds 1 vertex, 3 edges and 2 faces, or 1 vertex, 2 edges and 1 face on the
+        boundary. A face with more than three corners only gains the new vertex as a corner. Edges are split in order of
+        their numbers; new edges are not split again. New vertices are numbered last, in the order of the splits. Values
+        at the new vertex and its corners are interpolated between the ends, on each side of a seam separately.
+
+        In a recipe: ``SplitEdges(edges: All)``
+
+        :param edges: The edges to split.
+        :param at: The position of the new vertex on the edge. From 0 to 1, exclusive. If ``edges`` is ``Between(v,
+            w)``, 0 is at v and 1 is at w. Otherwise 0 is at the end with the lower number. Defaults to 0.5.
+        :param on_refusal: What to do when a split is refused. Defaults to Error.
+        """
+        return self._apply('SplitEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, on, id)
+
+    def collapse_edges(
+        self,
+        edges: Literal['All', 'Boundary'] | Choice | Arg | Ron,
+        *,
+        at: float | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Collapse edges to points.
+
+        Collapses edges: the two ends of each edge become one vertex.
+
+        In a mesh of triangles, a collapse removes 1 vertex, 3 edges and 2 faces or, on the boundary, 1 vertex, 2 edges
+        and 1 face. A face with more than three corners beside the edge only loses a corner. Of the two ends, the vertex
+        with the lower number is kept. Edges are collapsed in order of their numbers. An edge that an earlier collapse
+        removed counts as refused.
+
+        A collapse is refused if it would change the topology of the surface or make elements coincide:
+
+        - ``JoinsBoundaries``: an edge inside the surface joins two boundary vertices. - ``Link``: the ends have a
+        common neighbor that is not a corner of a triangle beside the edge, for example on a tube with three sides or at
+        a hole with three edges. - ``DuplicateEdge``: a second edge joins the ends. - ``RepeatedVertex``: both ends are
+        also corners of a face that is not beside the edge. - ``Vanishes``: the mesh around the edge is a tetrahedron or
+        a single triangle. - ``SameFace``: the same face is on both sides of the edge. - ``SameOpposite``: the two
+        triangles beside the edge share another edge.
+
+        Values at the remaining vertex and its corners are interpolated between the ends, on each side of a seam
+        separately. When two edges become one, the remaining edge has the larger crease of the two, and the tags of
+        both. Normals are dropped.
+
+        In a recipe: ``CollapseEdges(edges: All, on_refusal: Skip)``
+
+        :param edges: The edges to collapse.
+        :param at: The position of the remaining vertex on the edge, from 0 to 1. If ``edges`` is ``Between(v, w)``, 0
+            is at v and 1 is at w. Otherwise 0 is at the end with the lower number. Defaults to 0.5.
+        :param on_refusal: What to do when a collapse is refused. Defaults to Error.
+        """
+        return self._apply('CollapseEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, on, id)
+
+    def dissolve_edges(
+        self,
+        edges: Literal['All', 'Boundary'] | Choice | Arg | Ron,
+        *,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        seams: Literal['Refuse', 'Drop'] | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Remove edges and merge the faces beside them.
+
+        Removes edges and merges the faces beside them.
+
+        Edges are removed in order of their numbers. Each removal is checked against the mesh as edited so far. After a
+        removal, the mesh has 1 edge and 1 face less. Of the two faces beside the edge, the one with the lower number is
+        kept, with its values. No vertex is removed or moved. To remove vertices that are left with two edges, use
+        ``DissolveVertices(vertices: Valence(2))`` in a later step. The remaining elements keep their order and their
+        values but are renumbered.
+
+        An edge is refused if it is on the boundary, if the same face is on both of its sides, if one of its ends has
+        only two edges, or if its two faces have common corners other than its ends. An edge that is a seam is refused
+        unless ``seams`` is ``Drop``.
+
+        In a recipe: ``DissolveEdges(edges: Between(0, 1))``
+
+        :param edges: The edges to remove.
+        :param on_refusal: What to do when an edge is refused. Defaults to Error.
+        :param seams: What to do at seams. Defaults to Refuse.
+        """
+        return self._apply('DissolveEdges', {'edges': edges, 'on_refusal': on_refusal, 'seams': seams}, on, id)
+
+    def bevel_edges(
+        self,
+        edges: Literal['All', 'Boundary'] | Choice | Arg | Ron,
+        *,
+        width: float | Arg | Ron | None = None,
+        fraction: float | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Replace edges with faces.
+
+        Replaces edges with faces of constant width.
+
+        A selected edge and both of its ends are removed. In both faces beside the edge, the new face reaches to the
+        same distance, the width. Each other edge at an end is cut where it has this distance, and between two selected
+        edges the vertex moves into the face. If three or more new vertices surround an old vertex, another new face
+        joins them. All edges are beveled together: a cube that is beveled at all edges keeps all of its symmetries.
+
+        The ends of the edges are removed, and later vertices are renumbered. New vertices are numbered last. Faces keep
+        their numbers; new faces are numbered last: those of edges in the order of the edges, then those of vertices.
+        Edges are renumbered.
+
+        Values at new vertices are those at their places in the old faces, so textures do not change. A new face has the
+        values (material, tags) of one of the faces beside it. Which one is not specified, but it is the same in every
+        run. New edges have zero values (no crease, no tags). Normals are dropped.
+
+        An edge is refused if it is on the boundary, if one of its ends has only one other edge, which is not selected,
+        or if the bevels at both ends of an edge would overlap.
+
+        In a recipe: ``BevelEdges(edges: Between(0, 2), width: 0.25)``
+
+        :param edges: The edges to bevel.
+        :param width: The width: the distance of the new edges from the beveled edge in each of its two faces, in scene
+            units.
+        :param fraction: The width as a fraction of the length of the shortest edge at an end of a selected edge, in
+            place of ``width``. From 0 to 1, exclusive.
+        :param on_refusal: What to do when an edge is refused. Defaults to Error.
+        """
+        return self._apply('BevelEdges', {'edges': edges, 'width': width, 'fraction': fraction, 'on_refusal': on_refusal}, on, id)
+
+    def crease(
+        self,
+        sharpness: float | Arg | Ron,
+        *,
+        edges: Literal['All', 'Boundary'] | Choice | Arg | Ron | None = None,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Make edges and vertices sharp for subdivision.
+
+        Makes edges and vertices sharp for subdivision.
+
+        Sets the edge attribute ``crease`` of the selected edges and the vertex attribute ``corner`` of the selected
+        vertices to ``sharpness``. Other elements keep their values, or get 0 if the attribute did not exist. Loop and
+        Catmull-Clark subdivision keep an edge or a vertex sharp for this number of levels and smooth it in later
+        levels. For example, an edge with sharpness 2.5 is sharp for two levels and half sharp in the third. With
+        sharpness 10, an edge is sharp at every level. Boundary edges are always sharp.
+
+        At least one of ``edges`` and ``vertices`` must be given. The geometry does not change. The report counts the
+        elements whose value changed.
+
+        In a recipe: ``Crease(edges: Sharp(above: 40), sharpness: 2.5)``
+
+        :param edges: The edges to change. If omitted, no edges.
+        :param vertices: The vertices to change. If omitted, no vertices.
+        :param sharpness: The number of levels for which the elements stay sharp, from 0 to 10. With 0, creases are
+            removed. With 10, the elements are sharp at every level.
+        """
+        return self._apply('Crease', {'edges': edges, 'vertices': vertices, 'sharpness': sharpness}, on, id)
+
+    def poke_faces(
+        self,
+        *,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
+        distance: float | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Insert a vertex at the center of faces and join it to their corners.
+
+        Inserts a vertex at the center of faces and joins it to their corners.
+
+        A face with n corners becomes n triangles. Each poked face adds 1 vertex, n edges and n - 1 faces. The first
+        triangle keeps the number of the face; the other triangles and the new vertices and edges are numbered last, in
+        order of the faces. The new vertex is at the mean of the corners, moved along the normal of the face by
+        ``distance``. The vertex and corner values of the new vertex are also means, if the type of the attribute allows
+        means. The triangles have the values of their face, and the new edges have zero values (no crease, no tags). If
+        ``distance`` is not 0, normals are dropped.
+
+        A face is refused only if the position of the new vertex would not be finite, or if the mesh already has the
+        largest supported number of elements.
+
+        In a recipe: ``PokeFaces()``
+
+        :param faces: The faces to poke. Defaults to All.
+        :param distance: The distance of the vertex from the center along the normal of the face, in scene units. A
+            negative distance moves the vertex inwards. A face without area has no normal: its vertex is at the center.
+            Defaults to 0.0.
+        :param on_refusal: What to do when a face is refused. Defaults to Error.
+        """
+        return self._apply('PokeFaces', {'faces': faces, 'distance': distance, 'on_refusal': on_refusal}, on, id)
+
+    def split_faces(
+        self,
+        between: Sequence[Sequence[int] | NDArray[Any]] | NDArray[Any] | Arg | Ron,
+        *,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Cut faces in two with edges between their corners.
+
+        Cuts faces in two with edges between their corners.
+
+        Each pair (v, w) of vertices cuts the face that has both vertices as corners. The new edge joins the two
+        vertices. Each cut adds 1 edge and 1 face. Cuts are made in the order of the list, so a face can be cut several
+        times. The part of the face to the right of the line from v to w is the new face, and the other part keeps the
+        number. New edges and faces are numbered last. Corners keep their values, the new face has the values of the old
+        one, and the new edge has zero values (no crease, no tags).
+
+        A cut is refused if the two vertices are the same, if they are already joined by an edge, if no face has both as
+        corners, or if several faces have both as corners, because the cut would be ambiguous.
+
+        In a recipe: ``SplitFaces(between: [])``
+
+        :param between: The cuts: a list of pairs of vertex numbers, for example ``[(0, 2), (5, 9)]``.
+        :param on_refusal: What to do when a cut is refused. Defaults to Error.
+        """
+        return self._apply('SplitFaces', {'between': between, 'on_refusal': on_refusal}, on, id)
+
+    def delete_faces(
+        self,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron,
+        *,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        keep_vertices: bool | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Delete faces and leave holes.
+
+        Removes faces and leaves holes.
+
+        All faces are removed at once, so their order does not matter. Edges left without a face are removed. Vertices
+        that lose their last edge are also removed, unless ``keep_vertices`` is true. Vertices that were isolated before
+        the step are kept. The remaining elements keep their order and their values but are renumbered. To delete edges
+        or vertices together with their faces, use ``FacesBeside(edges)`` or ``FacesAround(vertices)``.
+
+        The removal is refused if the remaining faces around a vertex would form separate fans that meet only at that
+        vertex. With ``on_refusal: Skip``, faces are instead removed one by one, in order of their numbers, in repeated
+        passes until no more of the selected faces can be removed. The selected faces that remain are counted as
+        refused.
+
+        In a recipe: ``DeleteFaces(faces: All)``
+
+        :param faces: The faces to delete.
+        :param on_refusal: What to do when not all faces can be removed. Defaults to Error.
+        :param keep_vertices: Whether to keep vertices that are left without an edge. Defaults to False.
+        """
+        return self._apply('DeleteFaces', {'faces': faces, 'on_refusal': on_refusal, 'keep_vertices': keep_vertices}, on, id)
+
+    def extrude_faces(
+        self,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron,
+        by: Choice | Arg | Ron,
+        *,
+        scale: float | Arg | Ron | None = None,
+        rotate: Sequence[Mapping[str, Any]] | NDArray[Any] | Arg | Ron | None = None,
+        tag: str | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Move faces out of the surface and add side faces.
+
+        Moves faces out of the surface and connects them to their old rim with side faces.
+
+        Selected faces that share an edge form a region and move together, with one normal and one center. A region is
+        first scaled, then rotated, both about the mean of its vertices, and then moved. Side faces with four corners
+        are added along the rim of the region: the edges with a face of the region on one side only. If all faces of an
+        open sheet are extruded, the result is a box that is open where the sheet was. If a region is closed, it has no
+        rim and no normal: its faces only move, and ``by`` must be an ``Offset``.
+
+        The faces keep their numbers, so the same selection can be extruded again in later steps, for example to grow an
+        arm out of a body. Vertices and edges inside a region also keep their numbers. The vertices and edges of the old
+        rim do not move, and the moved faces get a new rim. New side faces are numbered last: by region, in order of the
+        lowest face number in each region, then in order of the faces, then counter-clockwise around each face from its
+        first corner. New vertices are in the same order: each is the copy of the first vertex of its side face.
+
+        A side face has the values of the adjacent moved face (material, tags). The corners of a side face have the
+        values of the corners of the moved face, so textures have no seam there. But each side face shows only one line
+        of the texture, the line along its edge, stretched over the face. The new edges of the rim have the values of
+        the old ones (creases, tags), and the edges between the old and the new rim have zero values (no crease, no
+        tags). Normals are dropped.
+
+        In a recipe: ``ExtrudeFaces(faces: Faces([0]), by: Distance(0.5))``
+
+        :param faces: The faces to extrude.
+        :param by: The distance or offset by which the faces move.
+        :param scale: The factor by which each region is scaled about its center. More than 0. Defaults to 1.0.
+        :param rotate: Rotations of each region about its center, applied in order.
+        :param tag: The name of a tag for the moved faces and their side faces. Faces that already have the tag keep it.
+            If omitted, no faces are tagged.
+        """
+        return self._apply('ExtrudeFaces', {'faces': faces, 'by': by, 'scale': scale, 'rotate': rotate, 'tag': tag}, on, id)
+
+    def inset_faces(
+        self,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron,
+        fraction: float | Arg | Ron,
+        *,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Shrink faces, each with a ring of faces around it.
+
+        Shrinks faces and surrounds each with a ring of faces.
+
+        Each face is inset separately, even if selected faces share edges. The inner face keeps the number of the face,
+        and existing vertices do not move. A face with n corners adds n vertices, 2 n edges and n faces with four
+        corners. New vertices and faces are numbered last: in order of the selected faces, and counter-clockwise around
+        each face from its first corner.
+
+        Values at the new corners and vertices are interpolated between the outer corner and the mean of the face, so
+        textures do not change. The ring has the values of the face (material, tags), and the inner edges have the
+        values of the outer edges. Normals are dropped.
+
+        A face is refused if it is on both sides of one of its edges.
+
+        In a recipe: ``InsetFaces(faces: All, fraction: 0.25)``
+
+        :param faces: The faces to inset.
+        :param fraction: How far the corners of the inner face are from the old corners towards the center of the face.
+            From 0 (the corner) to 1 (the center), exclusive.
+        :param on_refusal: What to do when a face is refused. Defaults to Error.
+        """
+        return self._apply('InsetFaces', {'faces': faces, 'fraction': fraction, 'on_refusal': on_refusal}, on, id)
+
+    def bevel_faces(
+        self,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron,
+        fraction: float | Arg | Ron,
+        distance: float | Arg | Ron,
+        *,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Shrink and raise faces, each with a ring of faces around it.
+
+        Shrinks and raises faces, and surrounds each with a ring of faces.
+
+        Works like ``InsetFaces``, and also moves the inner face along its normal. Each face is beveled separately, even
+        if selected faces share edges. The inner face keeps the number of the face, and existing vertices do not move. A
+        face with n corners adds n vertices, 2 n edges and n faces with four corners. New vertices and faces are
+        numbered last: in order of the selected faces, and counter-clockwise around each face from its first corner. A
+        face without area has no normal, and its inner face is not raised.
+
+        Values at the new corners and vertices are interpolated between the outer corner and the mean of the face. The
+        ring has the values of the face (material, tags), and the inner edges have the values of the outer edges.
+        Normals are dropped.
+
+        A face is refused if it is on both sides of one of its edges.
+
+        In a recipe: ``BevelFaces(faces: All, fraction: 0.25, distance: 0.5)``
+
+        :param faces: The faces to bevel.
+        :param fraction: How far the corners of the inner face are from the old corners towards the center of the face.
+            From 0 (the corner) to 1 (the center), exclusive.
+        :param distance: The distance by which the inner face moves along its normal, in scene units. A negative
+            distance moves the inner face inwards.
+        :param on_refusal: What to do when a face is refused. Defaults to Error.
+        """
+        return self._apply('BevelFaces', {'faces': faces, 'fraction': fraction, 'distance': distance, 'on_refusal': on_refusal}, on, id)
+
+    def dissolve_vertices(
+        self,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron,
+        *,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        seams: Literal['Refuse', 'Drop'] | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Remove vertices and merge the faces around them.
+
+        Removes vertices and merges the faces around them.
+
+        Vertices are removed in order of their numbers. Each removal is checked against the mesh as edited so far. All
+        faces around the vertex become one face, which has the number and the values of the face with the lowest number.
+        If the vertex is on the boundary, its two boundary edges become one. If the vertex has only two edges, these
+        edges become one edge, and the faces beside the edge lose a corner. When two edges become one, the edge with the
+        lower number is kept, with its values. The remaining elements keep their order and their values but are
+        renumbered. Normals are dropped.
+
+        A vertex is refused if it is isolated or has a single edge, if a neighbor would be left with a single edge
+        inside a face, if a face would visit a vertex twice or have fewer than three corners, or if an edge would join
+        two vertices that are already joined. At a seam, a vertex is refused unless ``seams`` is ``Drop``.
+
+        In a recipe: ``DissolveVertices(vertices: Vertices([1]))``
+
+        :param vertices: The vertices to remove.
+        :param on_refusal: What to do when a vertex is refused. Defaults to Error.
+        :param seams: What to do at seams. Defaults to Refuse.
+        """
+        return self._apply('DissolveVertices', {'vertices': vertices, 'on_refusal': on_refusal, 'seams': seams}, on, id)
+
+    def bevel_vertices(
+        self,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron,
+        fraction: float | Arg | Ron,
+        *,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Replace vertices with faces.
+
+        Replaces vertices with faces.
+
+        Each edge at a selected vertex is cut at a fraction of the length that it had before the step, and a new face
+        joins the cuts. The new face has as many corners as the vertex had edges. If both ends of an edge are selected,
+        the fraction must be below 0.5. For example, a fraction of 0.25 turns a cube into a truncated cube.
+
+        The selected vertices are removed, and later vertices are renumbered. New vertices are numbered last, in order
+        of the selected vertices and clockwise around each vertex. Faces keep their numbers; new faces are numbered
+        last, in order of the vertices.
+
+        Values at the cuts are interpolated between the ends of the edge, so textures do not change. A new face has the
+        values (material, tags) of one of the faces at the vertex. Which of the faces is not specified, but the choice
+        is the same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
+
+        A vertex is refused if it is on the boundary, if it has fewer than three edges, or if earlier cuts leave too
+        little of one of its edges.
+
+        In a recipe: ``BevelVertices(vertices: All, fraction: 0.25)``
+
+        :param vertices: The vertices to bevel.
+        :param fraction: The distance of the cuts from the vertex, as a fraction of the edge length. From 0 to 1,
+            exclusive.
+        :param on_refusal: What to do when a vertex is refused. Defaults to Error.
+        """
+        return self._apply('BevelVertices', {'vertices': vertices, 'fraction': fraction, 'on_refusal': on_refusal}, on, id)
+
+    def vertex_normals(
+        self,
+        *,
+        weight: Literal['Area', 'Angle', 'Uniform'] | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Compute a unit normal for every vertex from the faces around it.
+
+        Computes a unit normal for every vertex, from the faces around it.
+
+        The normals are written to the vertex attribute ``normal``, which is replaced if it exists. Corner normals are
+        removed, because they would contradict the vertex normals. A vertex without faces, or whose face normals cancel
+        each other out, gets the zero vector and is counted.
+
+        In a recipe: ``VertexNormals()``
+
+        :param weight: The weights of the faces around a vertex. Defaults to Area.
+        """
+        return self._apply('VertexNormals', {'weight': weight}, on, id)
+
+    def tangents(
+        self,
+        *,
+        uv: str | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Compute tangents of corners for normal maps.
+
+        Computes tangents for normal maps by the ``MikkTSpace`` algorithm, which many other tools also use.
+
+        The mesh needs texture coordinates and normals, such as the normals that ``VertexNormals`` computes. The
+        tangents are written to the corner attribute ``tangent``, which is replaced if it exists: a unit vector
+        perpendicular to the normal and, as the fourth number, the sign of the bitangent. ``.glb`` and ``.gltf`` files
+        store the attribute as ``TANGENT``. Polygons are triangulated in the same way as for ``.glb`` and ``.gltf``
+        files. Steps that change the shape or the faces remove the tangents. Corners at which the texture coordinates
+        define no direction get an arbitrary tangent and are counted.
+
+        In a recipe: ``Tangents()``
+
+        :param uv: The name of the texture coordinates of the normal map. Defaults to ``uv``.
+        """
+        return self._apply('Tangents', {'uv': uv}, on, id)
+
+    def fill_holes(
+        self,
+        *,
+        around: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        max_edges: int | Arg | Ron | None = None,
+        with_: Literal['Triangles', 'Face'] | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Fill holes with a face or with triangles.
+
+        Covers holes with faces.
+
+        A hole is a boundary loop: a loop of edges with a face on one side only. The outer rim of an open sheet is also
+        a boundary loop; use ``around`` or ``max_edges`` to exclude it. No vertices are added, and existing elements
+        keep their numbers. A hole with n edges gets 1 face with n corners, or n - 2 triangles and n - 3 edges.
+
+        For holes with up to 500 edges, the triangles have the smallest total area. Larger holes are filled by cutting
+        off one corner after the other: always the corner whose two neighbors are closest to each other. If the hole is
+        far from convex, the triangles may overlap. Two vertices that are already joined by an edge are not joined
+        again: if a hole cannot be filled without this edge, it is refused (``DuplicateEdge``). A hole with two edges is
+        also refused (``WrongPlace``); ``Stitch`` closes it.
+
+        New faces have the values of a face beside the hole. New corners have the values of the corner at the same
+        vertex in the adjacent face. Normals are dropped if a hole was filled.
+
+        In a recipe: ``FillHoles()``
+
+        :param around: Fill only holes with at least one of these vertices. Defaults to All.
+        :param max_edges: Fill only holes with at most this number of edges. If omitted, holes of any size.
+        :param with_: The faces that cover a hole. Defaults to Triangles.
+        :param on_refusal: What to do when a hole is refused. Defaults to Error.
+        """
+        return self._apply('FillHoles', {'around': around, 'max_edges': max_edges, 'with': with_, 'on_refusal': on_refusal}, on, id)
+
+    def bridge_loops(
+        self,
+        first: int | Arg | Ron,
+        second: int | Arg | Ron,
+        *,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Join two holes with a band of faces.
+
+        Joins two holes with a band of faces.
+
+        Each hole is given by one of its vertices. An edge joins the two given vertices, and the band goes around both
+        holes from there. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and n - m
+        evenly spread triangles. The step adds n edges and no vertices. The holes may be in one part of the mesh, which
+        then gets a tunnel or a handle, or in two parts of one object. (``Join`` joins two objects into one.)
+
+        New faces have the values of the adjacent faces at the longer hole. New corners have the values of the corners
+        at the same vertices in the adjacent faces. Normals are dropped.
+
+        The step is refused if a vertex is not on the boundary (``NotBoundary``), if both vertices are on the same hole
+        (``WrongPlace``), or if the band would join two vertices that are already joined by an edge (``DuplicateEdge``).
+        If the reason is ``DuplicateEdge``, other start vertices may work.
+
+        In a recipe: ``BridgeLoops(first: 0, second: 5)``
+
+        :param first: The number of a vertex on the first hole.
+        :param second: The number of the vertex on the second hole that is joined to ``first``.
+        """
+        return self._apply('BridgeLoops', {'first': first, 'second': second}, on, id)
+
+    def stitch(
+        self,
+        distance: float | Arg | Ron,
+        *,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Join boundary edges that coincide.
+
+        Joins boundary edges that coincide.
+
+        Two boundary edges coincide if both pairs of corresponding ends are at most ``distance`` apart. Two edges that
+        coincide only with each other form a pair. Choose a distance below the lengths of the edges. An edge that
+        coincides with several edges is refused (``NonManifold``), and none of the coinciding edges are joined. Unlike
+        ``Weld``, this operation never merges vertices inside the surface or vertices whose edges do not coincide.
+
+        Of each pair of vertices or edges, the one with the lower number keeps its position and its values. The other
+        vertex or edge is removed, and later elements are renumbered. Faces and corners do not change: different UVs
+        become a seam. Remaining holes with two edges are also closed.
+
+        A pair is refused if both edges belong to the same face (``SameFace``), if the ends of an edge would become one
+        vertex or a face would visit a vertex twice (``WrongPlace``), or if two edges would join the same vertices
+        (``DuplicateEdge``).
+
+        In a recipe: ``Stitch(distance: 0)``
+
+        :param distance: The largest distance between corresponding ends of two edges, in scene units. With 0, only ends
+            at equal positions are joined.
+        :param on_refusal: What to do when a pair is refused, or when more than two edges coincide. Defaults to Error.
+        """
+        return self._apply('Stitch', {'distance': distance, 'on_refusal': on_refusal}, on, id)
+
+    def cut(
+        self,
+        edges: Literal['All', 'Boundary'] | Choice | Arg | Ron,
+        *,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Open the mesh along edges.
+
+        Opens the mesh along edges.
+
+        The edges may form paths, loops and trees; a loop cuts out a piece. Each edge becomes two edges, one for each
+        side. If the cuts separate the faces around a vertex into several parts, each part gets a separate copy of the
+        vertex. The part that has the face with the lowest number keeps the number of the vertex, and new vertices are
+        numbered last. Faces keep their numbers, and nothing moves. Copies have the values of the originals, and corners
+        keep their values. ``Stitch`` is the inverse.
+
+        All edges are cut at once. An edge is refused if it is on the boundary (``Boundary``), or if the cut would not
+        open the mesh because both ends are inside the mesh and no other cut continues at either end
+        (``DuplicateEdge``).
+
+        In a recipe: ``Cut(edges: All)``
+
+        :param edges: The edges to cut.
+        :param on_refusal: What to do when an edge is refused. Defaults to Error.
+        """
+        return self._apply('Cut', {'edges': edges, 'on_refusal': on_refusal}, on, id)
+
+    def tag_vertices(
+        self,
+        name: str | Arg | Ron,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron,
+        *,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Tag vertices.
+
+        Tags the selected vertices and removes the tag from all other vertices. In later steps, ``Tagged("rim")``
+        selects the vertices with the tag ``rim``.
+
+        New vertices of later edits are not tagged. An existing tag of the same name is replaced. If an attribute of
+        another type has this name, the step fails. The geometry does not change. The report counts the vertices that
+        gained or lost the tag.
+
+        In a recipe: ``TagVertices(name: "some", vertices: Boundary)``
+
+        :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
+        :param vertices: The vertices to tag. An empty selection gives an empty tag.
+        """
+        return self._apply('TagVertices', {'name': name, 'vertices': vertices}, on, id)
+
+    def tag_edges(
+        self,
+        name: str | Arg | Ron,
+        edges: Literal['All', 'Boundary'] | Choice | Arg | Ron,
+        *,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Tag edges.
+
+        Tags the selected edges and removes the tag from all other edges. In later steps, ``Tagged("rim")`` selects the
+        edges with the tag ``rim``.
+
+        The parts of a tagged edge are also tagged when it is split or subdivided. An existing tag of the same name is
+        replaced. If an attribute of another type has this name, the step fails. The geometry does not change. The
+        report counts the edges that gained or lost the tag.
+
+        In a recipe: ``TagEdges(name: "marked", edges: EdgeLoop(Longest(count: 2)))``
+
+        :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
+        :param edges: The edges to tag. An empty selection gives an empty tag.
+        """
+        return self._apply('TagEdges', {'name': name, 'edges': edges}, on, id)
+
+    def tag_faces(
+        self,
+        name: str | Arg | Ron,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron,
+        *,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Tag faces.
+
+        Tags the selected faces and removes the tag from all other faces. In later steps, ``Tagged("rim")`` selects the
+        faces with the tag ``rim``.
+
+        The parts of a tagged face are also tagged when it is split or subdivided. An existing tag of the same name is
+        replaced. If an attribute of another type has this name, the step fails. The geometry does not change. The
+        report counts the faces that gained or lost the tag.
+
+        In a recipe: ``TagFaces(name: "some", faces: Facing(direction: (0, 0, 1), within: 45))``
+
+        :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
+        :param faces: The faces to tag. An empty selection gives an empty tag.
+        """
+        return self._apply('TagFaces', {'name': name, 'faces': faces}, on, id)
+
+    def loop_subdivide(
+        self,
+        *,
+        levels: int | Arg | Ron | None = None,
+        until: Choice | Arg | Ron | None = None,
+        weights: Literal['Warren', 'Loop'] | Arg | Ron | None = None,
+        boundary: Literal['EdgesOnly', 'EdgesAndCorners', 'Fixed'] | Arg | Ron | None = None,
+        creasing: Literal['Uniform', 'Chaikin'] | Arg | Ron | None = None,
+        face_varying: Literal['None', 'CornersOnly', 'CornersPlus1', 'CornersPlus2', 'Boundaries', 'All'] | Arg | Ron | None = None,
+        to_limit: bool | Arg | Ron | None = None,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Split every triangle into four and smooth the surface.
+
+        Splits every triangle into four and smooths the surface, for a number of levels.
+
+        A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles, so V -
+        E + F does not change. Old vertices keep their ids, the vertex on edge e has the id V + e, edge e becomes edges
+        2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
+
+        Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values
+        are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a triangle copy the values
+        of the old edge or triangle. Normals are dropped, because they would be wrong. Edges and vertices that
+        ``Crease`` made sharp stay sharp for a number of levels that is equal to their sharpness.
+
+        In a recipe: ``LoopSubdivide(levels: 2)``
+
+        :param levels: The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With
+            ``until``, the maximum number of levels, which defaults to 16.
+        :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
+        :param weights: The weights at old vertices. Defaults to Warren.
+        :param boundary: How vertices on the boundary move. Defaults to EdgesOnly.
+        :param creasing: How the sharpness of creases decreases from level to level. Defaults to Uniform.
+        :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to All.
+        :param to_limit: Whether to move the vertices of the last level to the limit surface and to store its normals
+            and tangents. Defaults to False.
+        :param faces: The faces to refine. If omitted, all faces. Triangles next to the refined faces are cut in two or
+            four, so that no vertex lies inside an edge, and the surface outside of the refined faces does not move. For
+            the ids of new elements see ``subdivision::refine_faces``.
+        """
+        return self._apply('LoopSubdivide', {'levels': levels, 'until': until, 'weights': weights, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, on, id)
+
+    def catmull_clark(
+        self,
+        *,
+        levels: int | Arg | Ron | None = None,
+        until: Choice | Arg | Ron | None = None,
+        boundary: Literal['EdgesOnly', 'EdgesAndCorners', 'Fixed'] | Arg | Ron | None = None,
+        creasing: Literal['Uniform', 'Chaikin'] | Arg | Ron | None = None,
+        face_varying: Literal['None', 'CornersOnly', 'CornersPlus1', 'CornersPlus2', 'Boundaries', 'All'] | Arg | Ron | None = None,
+        to_limit: bool | Arg | Ron | None = None,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Split every face into quads and smooth the surface.
+
+        Splits every face into quads and smooths the surface, for a number of levels.
+
+        A level creates a quad at each corner of each face. A level turns V vertices, E edges and F faces with C corners
+        in total into V + E + F vertices, 2 E + C edges and C quads, so V - E + F does not change. Old vertices keep
+        their ids, the vertex on edge e has the id V + e, the vertex at the center of face f has the id V + E + f, and
+        edge e becomes edges 2e and 2e + 1. Quads are numbered face by face, in order of the corners.
+
+        Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values
+        are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a face copy the values of
+        the old edge or face. Normals are dropped, because they would be wrong. Edges and vertices that ``Crease`` made
+        sharp stay sharp for a number of levels that is equal to their sharpness.
+
+        In a recipe: ``CatmullClark(levels: 2)``
+
+        :param levels: The number of levels. Each level replaces every corner of a face by a quad. Defaults to 1. With
+            ``until``, the maximum number of levels, which defaults to 16.
+        :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
+        :param boundary: How vertices on the boundary move. Defaults to EdgesOnly.
+        :param creasing: How the sharpness of creases decreases from level to level. Defaults to Uniform.
+        :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to All.
+        :param to_limit: Whether to move the vertices of the last level to the limit surface and to store its normals
+            and tangents. Defaults to False.
+        :param faces: The faces to refine. If omitted, all faces. Faces next to the refined faces get the new vertices
+            on common edges as corners, and the surface outside of the refined faces does not move. For the ids of new
+            elements see ``subdivision::refine_faces``.
+        """
+        return self._apply('CatmullClark', {'levels': levels, 'until': until, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, on, id)
+
+    def midpoint(
+        self,
+        *,
+        levels: int | Arg | Ron | None = None,
+        until: Choice | Arg | Ron | None = None,
+        into: Literal['Triangles', 'Quads'] | Arg | Ron | None = None,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Split every face into smaller faces without moving vertices.
+
+        Splits every face into smaller faces without moving vertices, for a number of levels.
+
+        ``into: Triangles`` requires a mesh of triangles. A level turns V vertices, E edges and F triangles into V + E
+        vertices, 2 E + 3 F edges and 4 F triangles. ``into: Quads`` accepts all polygons and creates a quad at each
+        corner: V vertices, E edges and F faces with C corners in total become V + E + F vertices, 2 E + C edges and C
+        quads. Old vertices keep their ids and positions, the vertex on edge e has the id V + e, and edge e becomes
+        edges 2e and 2e + 1. Triangle f becomes faces 4f to 4f + 3. Quads are numbered face by face, and the vertex at
+        the center of face f has the id V + E + f.
+
+        Vertex attributes are interpolated. Corner values are interpolated within one old face. Parts of an edge or a
+        face copy the values of the old edge or face, including sharpness. Normals are dropped.
+
+        In a recipe: ``Midpoint(levels: 2, into: Quads)``
+
+        :param levels: The number of levels. Each level multiplies the number of faces by about four. Defaults to 1.
+            With ``until``, the maximum number of levels, which defaults to 16.
+        :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
+        :param into: How faces are split. Defaults to Triangles.
+        :param faces: The faces to refine. If omitted, all faces. With ``into: Triangles``, triangles next to the
+            refined faces are cut in two or four. With ``into: Quads``, faces next to the refined faces get the new
+            vertices on common edges as corners. For the ids of new elements see ``subdivision::refine_faces``.
+        """
+        return self._apply('Midpoint', {'levels': levels, 'until': until, 'into': into, 'faces': faces}, on, id)
+
+    def butterfly(
+        self,
+        *,
+        levels: int | Arg | Ron | None = None,
+        until: Choice | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Split every triangle into four and smooth the surface, but keep the old vertices.
+
+        Splits every triangle into four and smooths the surface without moving the old vertices, for a number of levels.
+
+        A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles, so V -
+        E + F does not change. Old vertices keep their ids, the vertex on edge e has the id V + e, edge e becomes edges
+        2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
+
+        Vertex attributes are interpolated with the weights of the positions, and corner values are interpolated
+        linearly within one old triangle. Parts of an edge or a triangle copy the values of the old edge or triangle.
+        Normals are dropped, because they would be wrong. Sharpness has no effect and is copied unchanged.
+
+        In a recipe: ``Butterfly(levels: 1)``
+
+        :param levels: The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With
+            ``until``, the maximum number of levels, which defaults to 16.
+        :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
+        """
+        return self._apply('Butterfly', {'levels': levels, 'until': until}, on, id)
+
+    def sqrt3(
+        self,
+        *,
+        levels: int | Arg | Ron | None = None,
+        until: Choice | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Split every triangle into three, flip the old edges, and smooth the surface.
+
+        Splits every triangle into three, flips the old edges, and smooths the surface, for a number of levels.
+
+        A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles. Every
+        second level adds one more vertex and one more edge for each boundary edge. V - E + F does not change. Old
+        vertices keep their ids, the vertex in face f has the id V + f, and face f becomes faces 3f to 3f + 2. All faces
+        must be triangles. Levels are counted from the start of the step: one step of two levels cuts the boundary
+        edges, but two steps of one level leave the boundary unchanged.
+
+        Vertex attributes are smoothed with the weights of the positions. Corner values are interpolated linearly within
+        one old triangle. A triangle at a flipped edge lies in two old triangles. If the old edge was a seam, the
+        triangle has texture coordinates of both sides, which distorts textures. New triangles copy the values of their
+        old triangle. Parts of a boundary edge copy the values of the edge; other edges have zero values (no crease, no
+        tags). Normals are dropped, because they would be wrong.
+
+        In a recipe: ``Sqrt3(levels: 1)``
+
+        :param levels: The number of levels. Each level multiplies the number of triangles by three. Defaults to 1. With
+            ``until``, the maximum number of levels, which defaults to 16.
+        :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
+        """
+        return self._apply('Sqrt3', {'levels': levels, 'until': until}, on, id)
+
+    def doo_sabin(
+        self,
+        *,
+        levels: int | Arg | Ron | None = None,
+        until: Choice | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Replace every edge and vertex by a face.
+
+        Replaces every edge and vertex by a face and shrinks the old faces, for a number of levels.
+
+        A level turns a closed mesh with V vertices, E edges and F faces into a mesh with 2 E vertices, 4 E edges and V
+        + E + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. V - E + F
+        does not change. The face inside old face f has the id f, the face of edge e has the id F + e, and the faces of
+        vertices follow. Isolated vertices are kept, after all other vertices. Isolated vertices and inner vertices of
+        valence 2 do not become faces.
+
+        Vertex attributes are smoothed with the weights of the positions. Corner values are smoothed within one old
+        face. The new faces of edges and vertices have corner values of several old faces; at a seam, this distorts
+        textures. A face inside an old face copies the values of the old face; the face of an edge or a vertex copies
+        the values of an adjacent face. The two edges along an old edge copy its values; other edges have zero values
+        (no crease, no tags). Normals are dropped, because they would be wrong.
+
+        In a recipe: ``DooSabin(levels: 1)``
+
+        :param levels: The number of levels. Each level multiplies the number of faces by about four. Defaults to 1.
+            With ``until``, the maximum number of levels, which defaults to 16.
+        :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
+        """
+        return self._apply('DooSabin', {'levels': levels, 'until': until}, on, id)
+
+    def bisect(
+        self,
+        normal: Sequence[float] | NDArray[Any] | Arg | Ron,
+        *,
+        point: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        keep: Literal['Both', 'Front', 'Back'] | Arg | Ron | None = None,
+        tag: str | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Cut meshes along a plane.
+
+        Cuts meshes along a plane.
+
+        Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along it.
+        A concave face can be cut several times. A vertex closer to the plane than 1e-9 of the largest extent of the
+        mesh counts as on the plane and is not moved. When an edge is cut, the part at the end with the lower number
+        keeps the number of the edge. When a face is cut, the part with the first corner keeps the number of the face.
+        New elements are numbered last. Attributes are interpolated at the crossings, separately on each side of a seam.
+
+        With ``keep: Front`` or ``keep: Back``, the other side of the plane is removed. A face in the plane belongs to
+        the back if its normal points to the front, because the face then closes the solid behind the plane. Vertices
+        left without a face are removed. If the remaining faces around a vertex form several fans, each fan gets a
+        separate copy of the vertex. No faces are added to close the cut.
+
+        In a recipe: ``Bisect(normal: (0, 0, 1))``
+
+        :param point: A point on the plane.
+        :param normal: The normal of the plane, which points to the front. The length of the normal does not matter but
+            must not be 0.
+        :param keep: The side to keep. Defaults to Both.
+        :param tag: The name of a tag for the edges on the plane. Edges that already have the tag keep it. If omitted,
+            no edges are tagged.
+        """
+        return self._apply('Bisect', {'point': point, 'normal': normal, 'keep': keep, 'tag': tag}, on, id)
+
+    def symmetrize(
+        self,
+        normal: Sequence[float] | NDArray[Any] | Arg | Ron,
+        *,
+        point: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        from_: Literal['Front', 'Back'] | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Replace one half of a mesh by the mirror image of the other.
+
+        Replaces one half of a mesh by the mirror image of the other half.
+
+        The mesh is cut along a plane as by ``Bisect``. The half on the side ``from`` is kept and mirrored, and the
+        halves are joined at the plane. Vertices on the plane are moved onto it exactly, so that the result is
+        symmetric. Faces in the plane are removed, because they would be walls inside the result. Where the surface only
+        touches the plane, the halves are not joined.
+
+        The elements of the kept half come first, in their old order, then those of the mirror image. Attributes are
+        copied: both halves have the same texture coordinates, tags and weights of joints. Normals and tangents are
+        dropped.
+
+        In a recipe: ``Symmetrize(normal: (1, 0, 0))``
+
+        :param point: A point on the plane.
+        :param normal: The normal of the plane, which points to the front. Its length does not matter but must not be 0.
+        :param from_: The half that is kept and mirrored. Defaults to Front.
+        """
+        return self._apply('Symmetrize', {'point': point, 'normal': normal, 'from': from_}, on, id)
+
+    def simplify(
+        self,
+        *,
+        faces: int | Arg | Ron | None = None,
+        ratio: float | Arg | Ron | None = None,
+        error: float | Arg | Ron | None = None,
+        features: Literal['All', 'Boundary'] | Choice | Arg | Ron | None = None,
+        pin: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        intersections: Literal['Allow', 'Refuse'] | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Remove triangles, and change the surface as little as possible.
+
+        Removes triangles from meshes, and changes the surface as little as possible.
+
+        Edges are collapsed, starting with the edges whose collapse changes the surface least. The change is the mean
+        squared distance of the new vertex to the planes of the original triangles that it replaces (Garland, Heckbert,
+        1997). The step ends when ``faces`` or ``ratio`` is reached, or when every remaining collapse could exceed
+        ``error``. At least one of ``faces``, ``ratio`` and ``error`` must be given. All faces must be triangles.
+
+        The following properties are kept:
+
+        - Topology: holes, handles and separate parts stay. - Lines: the boundary, seams of texture coordinates and
+        normals, borders between face tags or materials, edges with a tag or a crease, and ``features``. A line can lose
+        vertices, but its ends, and the vertices where lines meet, keep their exact positions. - Attributes: they are
+        interpolated, but never across a line. Normals are also interpolated, so that a simplified mesh is shaded like
+        the original. - Vertex tags: vertices with different tags or sharpness are not merged.
+
+        No triangle is turned over. Remaining elements are numbered anew, in the order of their old numbers. If the
+        number of faces cannot be reached, and no ``error`` is given, the step is refused as ``Unreached``, with the
+        reasons; with ``on_refusal: Skip``, the result is kept.
+
+        In a recipe: ``Simplify(ratio: 0.5)``
+
+        :param faces: The number of faces to reach, for each mesh. The result can have one face fewer. A mesh that
+            already has at most this number of faces does not change.
+        :param ratio: The number of faces to reach, as a fraction of the number of faces of each mesh.
+        :param error: The largest allowed distance between the old and the new surface, in scene units: the Hausdorff
+            distance. The limit is guaranteed: the step adds up an upper bound of how far each collapse moves the
+            surface. The true distance is therefore usually much smaller. If omitted, there is no limit.
+        :param features: Edges that are kept as lines, for example ``Sharp(above: 30)``. If omitted, only the lines that
+            are always kept.
+        :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, none.
+        :param intersections: Whether faces may come to intersect other faces, which can happen where parts of the
+            surface are close together. Defaults to Allow.
+        :param on_refusal: What to do if the number of faces cannot be reached. Defaults to Error.
+        """
+        return self._apply('Simplify', {'faces': faces, 'ratio': ratio, 'error': error, 'features': features, 'pin': pin, 'intersections': intersections, 'on_refusal': on_refusal}, on, id)
+
+    def lods(
+        self,
+        from_: str | Arg | Ron,
+        ratios: Sequence[float] | NDArray[Any] | Arg | Ron,
+        *,
+        to: str | Arg | Ron | None = None,
+        features: Literal['All', 'Boundary'] | Choice | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Make simplified copies of an object, its levels of detail.
+
+        Makes simplified copies of an object: its levels of detail.
+
+        The copies are named after the object, for example ``rock_lod1``, ``rock_lod2`` and so on. Each copy is made
+        from the previous one, as by ``Simplify``, and keeps attributes, materials and lines as ``Simplify`` does. If
+        nodes place the object, a node for each copy is added beside each node that places the object.
+
+        In a recipe: ``Lods(from: "mesh", ratios: [0.5, 0.25])``
+
+        :param from_: The name of the object.
+        :param ratios: The number of faces of each copy, as a fraction of the number of faces of the object. Each
+            fraction must be smaller than the previous one.
+        :param to: The names of the copies without their numbers. If omitted, the name of the object and ``_lod``.
+        :param features: Edges that are kept as lines, for example ``Sharp(above: 30)``. If omitted, only the lines that
+            ``Simplify`` always keeps.
+        :param on_refusal: What to do if the number of faces of a copy cannot be reached. Defaults to Error.
+        """
+        return self._apply('Lods', {'from': from_, 'ratios': ratios, 'to': to, 'features': features, 'on_refusal': on_refusal}, None, id)
+
+    def remesh(
+        self,
+        *,
+        length: float | Arg | Ron | None = None,
+        curvature: Mapping[str, Any] | Arg | Ron | None = None,
+        features: Literal['All', 'Boundary'] | Choice | Arg | Ron | None = None,
+        error: float | Arg | Ron | None = None,
+        pin: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        passes: int | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Replace triangles by nearly equilateral triangles of a given size.
+
+        Replaces triangles by nearly equilateral triangles of a given size, on the same surface.
+
+        Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
+        vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target
+        length. All vertices lie on the original surface. The target length is either ``length``, or it follows the
+        ``curvature``: short edges where the surface is curved, long edges where it is flat (Dunyach and others, 2013).
+        One of the two must be given. All faces must be triangles.
+
+        These are kept:
+
+        - Topology: holes, handles and separate parts stay. - Lines: the boundary, seams of texture coordinates and
+        normals, borders between face tags or materials, edges with a tag or a crease, and ``features``. Vertices on a
+        line slide along it. The ends of lines, the vertices where lines meet, and corners where a line turns by more
+        than 40 degrees keep their exact positions. Other sharp edges are rounded. - Attributes: they come from the same
+        place of the original surface, and are never interpolated across a line. - Vertex tags: a new vertex has a tag
+        if all vertices around its place had it. Tagged vertices without tagged neighbors keep their exact positions,
+        and so do vertices with sharpness.
+
+        Each step that would turn a triangle over is refused. Elements are numbered anew. If the result could be further
+        from the original than ``error``, the step is refused as ``Unreached``; with ``on_refusal: Skip``, the mesh then
+        stays as it was.
+
+        In a recipe: ``Remesh(length: 0.5)``
+
+        :param length: The target length of edges, in scene units.
+        :param curvature: Target lengths that follow the curvature, instead of ``length``.
+        :param features: Edges that are kept as lines, for example ``Sharp(above: 30)``. If omitted, none in addition to
+            those above.
+        :param error: The largest allowed distance between the old and the new surface, in scene units: the Hausdorff
+            distance. Edges become shorter than the target length where this is necessary. The distance is measured at
+            the end, in both directions and for all points. If omitted, there is no limit.
+        :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, none.
+        :param passes: The largest number of passes, from 1 to 1000. The step ends earlier if a pass changes almost
+            nothing. Defaults to 10.
+        :param on_refusal: What to do if the result could be further from the original than ``error``. Defaults to
+            Error.
+        """
+        return self._apply('Remesh', {'length': length, 'curvature': curvature, 'features': features, 'error': error, 'pin': pin, 'passes': passes, 'on_refusal': on_refusal}, on, id)
+
+    def smooth(
+        self,
+        by: Choice | Arg | Ron,
+        *,
+        passes: int | Arg | Ron | None = None,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        pin: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        boundary: Literal['Fixed', 'Free'] | Arg | Ron | None = None,
+        keep_volume: bool | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Remove noise by moving vertices.
+
+        Moves vertices so that noise disappears.
+
+        Only vertices in ``vertices`` move, except those in ``pin``. Vertices without faces stay. All other vertices
+        keep their exact positions. Faces can have any number of corners, and degenerate faces are allowed. All elements
+        keep their numbers. Attributes are kept, so textures stretch with the surface, but normals are dropped.
+
+        | ``by`` | use | size | | --- | --- | --- | | ``Laplacian`` | strong smoothing | shrinks | | ``Taubin`` |
+        removing noise | nearly the same | | ``Implicit`` | strong smoothing of dense meshes in one pass | shrinks | |
+        ``Denoise`` | scans of objects with flat sides and sharp edges | nearly the same |
+
+        If ``boundary`` is ``Fixed``, vertices on the boundary stay, so that adjacent objects fit as before.
+
+        In a recipe: ``Smooth(by: Taubin())``
+
+        :param by: The method.
+        :param passes: The number of passes. If omitted, 1 for ``Implicit`` and 10 for the other methods. For
+            ``Denoise``, the number of passes over the normals. At most 10000.
+        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
+        :param pin: Vertices that stay. If omitted, none.
+        :param boundary: How vertices on the boundary move. Defaults to Fixed.
+        :param keep_volume: Whether the moved vertices are finally shifted along their normals, all by the same
+            distance, until the mesh has the volume that it had. The mesh must be closed. Defaults to False.
+        """
+        return self._apply('Smooth', {'by': by, 'passes': passes, 'vertices': vertices, 'pin': pin, 'boundary': boundary, 'keep_volume': keep_volume}, on, id)
+
+    def transfer(
+        self,
+        from_: str | Arg | Ron,
+        attributes: Sequence[str] | NDArray[Any] | Arg | Ron,
+        *,
+        within: float | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Copy attributes from the nearest points of another object.
+
+        Copies attributes from the nearest points of another object.
+
+        An attribute of vertices, corners or faces of the object ``from`` becomes one of the same kind: numbers and
+        vectors of vertices and corners are interpolated inside the face of the nearest point; whole numbers, tags, and
+        attributes that edits do not interpolate are copied from its nearest corner, and values of faces from its face.
+        An attribute that exists already, with the same type of values, is overwritten. Without ``on``, the step acts on
+        all meshes except ``from``.
+
+        All corners of a face take their values from one chart of the source: from faces that are connected without
+        crossing a seam of the attribute. It is the chart nearest to the center of the face, so no triangle is stretched
+        across a seam of texture coordinates.
+
+        Elements further than ``within`` from the source keep their values, or get zeros if the attribute is new, and
+        are counted. For corners, the whole face does.
+
+        In a recipe: ``Transfer(from: "scan", attributes: ["uv", "color"], within: 0.01)``
+
+        :param from_: The name of the object with the attributes.
+        :param attributes: The names of the attributes, for example ``["uv", "color"]``.
+        :param within: The largest distance from the source, in scene units. If omitted, any distance.
+        """
+        return self._apply('Transfer', {'from': from_, 'attributes': attributes, 'within': within}, on, id)
+
+    def move_vertices(
+        self,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron,
+        by: Choice | Arg | Ron,
+        *,
+        falloff: float | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Move vertices, and move nearby vertices by a smaller distance.
+
+        Moves vertices.
+
+        Faces, element numbers and attributes do not change, so textures stretch with the surface. Normals are dropped.
+
+        With ``falloff: r``, vertices near the selected vertices move along. At the distance d from the nearest selected
+        vertex, the movement is multiplied by the weight (1 - (d/r)²)². The weight is 1 at selected vertices and falls
+        smoothly to 0 at the distance r. Distances are straight, not along the surface.
+
+        With ``by: Distance(..)``, each vertex moves along its own normal: the mean of the normals of its faces,
+        weighted by their areas. Vertices without a normal do not move and are counted.
+
+        In a recipe: ``MoveVertices(vertices: Vertices([0]), by: Offset((0, 0, 0.5)))``
+
+        :param vertices: The vertices to move.
+        :param by: How the vertices move.
+        :param falloff: The distance from the selected vertices at which the movement has fallen to 0, in scene units.
+            If omitted, only the selected vertices move.
+        """
+        return self._apply('MoveVertices', {'vertices': vertices, 'by': by, 'falloff': falloff}, on, id)
+
+    def displace(
+        self,
+        by: Choice | Arg | Ron,
+        distance: float | Arg | Ron,
+        *,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Move vertices along their normals by noise or by an attribute.
+
+        Moves vertices along their normals, by amounts that vary over the surface.
+
+        Each vertex moves along its normal by ``distance`` times the value of ``by``. The normal of a vertex is the mean
+        of the normals of its faces, weighted by their areas. Vertices without a normal do not move and are counted.
+        Faces, element numbers and attributes do not change. Normals are dropped.
+
+        The values are computed without functions that differ between machines, so the result is the same everywhere.
+
+        In a recipe: ``Displace(by: Noise(scale: 0.5, seed: 7), distance: 0.1)``
+
+        :param by: The values.
+        :param distance: The distance for the value 1, in scene units. A negative distance moves inwards.
+        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
+        """
+        return self._apply('Displace', {'by': by, 'distance': distance, 'vertices': vertices}, on, id)
+
+    def bend(
+        self,
+        axis: Literal['X', 'Y', 'Z'] | Arg | Ron,
+        angle: float | Arg | Ron,
+        *,
+        towards: Literal['X', 'Y', 'Z'] | Arg | Ron | None = None,
+        about: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        from_: float | Arg | Ron | None = None,
+        to: float | Arg | Ron | None = None,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Bend an axis into an arc of a circle.
+
+        Bends an axis, and everything around it, into an arc of a circle.
+
+        The plane at ``from`` does not move. Between ``from`` and ``to``, the axis becomes an arc that keeps its length
+        and turns by ``angle`` in total. Vertices beyond ``to`` move rigidly. Vertices between the axis and the center
+        of the circle come closer together, and vertices on the other side of the axis move apart. The center is at the
+        distance (to - from) / angle from the axis, with the angle in radians. Parts of the mesh beyond the center turn
+        inside out. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
+
+        Faces, element numbers and attributes do not change, so textures stretch with the surface. Normals are dropped.
+        Only vertices move: refine the mesh first if its faces are large.
+
+        In a recipe: ``Bend(axis: Z, angle: 90)``
+
+        :param axis: The axis that is bent.
+        :param angle: The angle between the ends of the axis, in degrees. A negative angle bends to the other side.
+        :param towards: The axis towards which the upper end bends. If omitted, the axis after ``axis`` in the order x,
+            y, z, x.
+        :param about: A point on the axis. The coordinate of the point along the axis does not matter.
+        :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
+            of the mesh.
+        :param to: The coordinate along the axis at which the deformation is complete. If omitted, the highest
+            coordinate of the mesh. Must not be less than ``from``.
+        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
+        """
+        return self._apply('Bend', {'axis': axis, 'angle': angle, 'towards': towards, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, on, id)
+
+    def twist(
+        self,
+        axis: Literal['X', 'Y', 'Z'] | Arg | Ron,
+        angle: float | Arg | Ron,
+        *,
+        about: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        from_: float | Arg | Ron | None = None,
+        to: float | Arg | Ron | None = None,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Rotate vertices around an axis, by an angle that grows along the axis.
+
+        Rotates vertices around an axis, by an angle that grows along the axis.
+
+        The angle grows linearly from 0 at ``from`` to ``angle`` at ``to``. Below ``from`` and above ``to``, vertices
+        rotate by the angle of the nearer end. A twist keeps volumes, and a twist by the opposite angle undoes the first
+        twist. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
+
+        Faces, element numbers and attributes do not change, so textures stretch with the surface. Normals are dropped.
+        Only vertices move: refine the mesh first if its faces are large.
+
+        In a recipe: ``Twist(axis: Z, angle: 90)``
+
+        :param axis: The axis of the rotation.
+        :param angle: The angle at ``to``, in degrees, counter-clockwise if the axis points to the viewer.
+        :param about: A point on the axis. The coordinate of the point along the axis does not matter.
+        :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
+            of the mesh.
+        :param to: The coordinate along the axis at which the deformation is complete. If omitted, the highest
+            coordinate of the mesh. Must not be less than ``from``.
+        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
+        """
+        return self._apply('Twist', {'axis': axis, 'angle': angle, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, on, id)
+
+    def taper(
+        self,
+        axis: Literal['X', 'Y', 'Z'] | Arg | Ron,
+        factor: float | Arg | Ron,
+        *,
+        about: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        from_: float | Arg | Ron | None = None,
+        to: float | Arg | Ron | None = None,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Scale vertices around an axis, by a factor that changes along the axis.
+
+        Scales vertices towards or away from an axis, by a factor that changes along the axis.
+
+        The factor changes linearly from 1 at ``from`` to ``factor`` at ``to``. Below ``from`` and above ``to``, the
+        factor of the nearer end applies. Heights do not change. Source: Barr, "Global and Local Deformations of Solid
+        Primitives", 1984.
+
+        Faces, element numbers and attributes do not change, so textures stretch with the surface. Normals are dropped.
+        Only vertices move: refine the mesh first if its faces are large.
+
+        In a recipe: ``Taper(axis: Z, factor: 0.5)``
+
+        :param axis: The axis, which keeps its place.
+        :param factor: The factor at ``to``. More than 0: a factor below 1 makes the upper end narrower.
+        :param about: A point on the axis. The coordinate of the point along the axis does not matter.
+        :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
+            of the mesh.
+        :param to: The coordinate along the axis at which the deformation is complete. If omitted, the highest
+            coordinate of the mesh. Must not be less than ``from``.
+        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
+        """
+        return self._apply('Taper', {'axis': axis, 'factor': factor, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, on, id)
+
+    def lattice(
+        self,
+        size: Sequence[int] | NDArray[Any] | Arg | Ron,
+        moves: Sequence[Sequence[Sequence[float] | NDArray[Any] | Sequence[int] | NDArray[Any]] | NDArray[Any]] | NDArray[Any] | Arg | Ron,
+        *,
+        min: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        max: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Deform vertices with a box of control points.
+
+        Deforms vertices with a box of control points.
+
+        The box is divided by ``size`` control points along x, y and z. ``moves`` moves some of them, and the space in
+        the box follows smoothly: each point is a sum of the control points with Bernstein polynomials as weights
+        (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all control points move by the
+        same offset, the box moves by it. A control point attracts the surface, but the surface usually does not reach
+        it, except at the corners of the box.
+
+        Vertices outside the box stay. Faces, numbers and attributes do not change, so textures stretch with the
+        surface. Normals are dropped. Only vertices move: refine the mesh first if its faces are large.
+
+        In a recipe: ``Lattice(size: (3, 3, 3), moves: [((2, 2, 2), (0.5, 0.5, 0.5))])``
+
+        :param size: The number of control points along x, y and z, from 2 to 16 each.
+        :param moves: The control points that move: their numbers along x, y and z, counted from 0, and the offset in
+            scene units. A control point that is listed several times moves by the sum.
+        :param min: The lowest corner of the box. If omitted, that of the bounding box of the mesh.
+        :param max: The highest corner of the box. If omitted, that of the bounding box of the mesh.
+        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
+        """
+        return self._apply('Lattice', {'size': size, 'moves': moves, 'min': min, 'max': max, 'vertices': vertices}, on, id)
+
+    def project(
+        self,
+        onto: str | Arg | Ron,
+        *,
+        along: Literal['Nearest', 'Normal'] | Choice | Arg | Ron | None = None,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        pin: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        distance: float | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Move vertices onto the surface of another object.
+
+        Moves vertices onto the surface of another object (shrinkwrap).
+
+        Only vertices in ``vertices`` move, except those in ``pin``; all others keep their exact positions. Without
+        ``on``, the step acts on all meshes except the object ``onto``, which does not change. Faces, numbers and
+        attributes do not change, so textures stretch with the surface. Normals are dropped.
+
+        Vertices that would move further than ``distance`` stay. With ``Normal`` and ``Direction``, so do vertices whose
+        line misses the surface. The report counts both.
+
+        In a recipe: ``Project(onto: "scan", distance: 0.1)``
+
+        :param onto: The name of the object with the surface.
+        :param along: Where each vertex goes. Defaults to Nearest.
+        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
+        :param pin: Vertices that stay. If omitted, none.
+        :param distance: The largest distance that a vertex moves, in scene units. If omitted, any distance.
+        """
+        return self._apply('Project', {'onto': onto, 'along': along, 'vertices': vertices, 'pin': pin, 'distance': distance}, on, id)
+
+    def measure(
+        self,
+        of: Literal['MeanCurvature', 'GaussianCurvature', 'Area', 'VertexArea', 'MinAngle', 'AspectRatio', 'Thickness'] | Choice | Arg | Ron,
+        *,
+        name: str | Arg | Ron | None = None,
+        missing: float | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Store a quantity of vertices or faces, such as a curvature or a distance, as an attribute.
+
+        Stores a quantity, such as a curvature or a distance, as an attribute of vertices or faces.
+
+        Later steps can select elements by the attribute with ``Where``, ``Displace`` vertices by it, show it in a
+        ``Picture``, and save it to files. It is not updated when the mesh changes. Positions and other attributes do
+        not change. Coordinates are those of the meshes, without nodes. The report states the lowest, the mean and the
+        highest value of each object.
+
+        An attribute of the same name is replaced if it has one number for each of the same elements; otherwise the step
+        fails.
+
+        In a recipe: ``Measure(of: MeanCurvature)``
+
+        :param of: The quantity.
+        :param name: The name of the attribute. If omitted, the name of the quantity in lower case, such as
+            ``mean_curvature``.
+        :param missing: The value of elements that have none, such as the curvature of a vertex without faces. They are
+            counted. If omitted, 0 for quantities that can be negative, and -1 for all others.
+        """
+        return self._apply('Measure', {'of': of, 'name': name, 'missing': missing}, on, id)
+
+    def unwrap(
+        self,
+        *,
+        seams: Literal['All', 'Boundary'] | Choice | Arg | Ron | None = None,
+        max_angle: float | Arg | Ron | None = None,
+        max_stretch: float | Arg | Ron | None = None,
+        page: int | Arg | Ron | None = None,
+        padding: int | Arg | Ron | None = None,
+        uv: str | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Compute texture coordinates without overlaps.
+
+        Computes texture coordinates without overlaps.
+
+        The surface is cut into charts, which are flattened and packed into a square page. Charts grow from flat regions
+        up to ``max_angle``. They are flattened by least squares conformal maps (Levy and others, 2002) and the as-
+        rigid-as-possible method (Liu and others, 2008), and are cut again where they would overlap themselves or exceed
+        ``max_stretch``. All charts of a mesh have one scale, and none is mirrored. A polygon stays in one chart. Each
+        mesh gets a page of its own.
+
+        The coordinates are written to the corner attribute ``uv``, which is replaced if it exists. Edges at which
+        charts meet become its seams. Positions, faces and other attributes stay, except that tangents are removed.
+        Faces without area have no area in the texture and are counted. A polygon that is bent so far that it overlaps
+        itself is refused as ``WrongPlace``: triangulate it first. With ``on_refusal: Skip``, its triangles overlap in
+        the texture.
+
+        In a recipe: ``Unwrap(max_angle: 60)``
+
+        :param seams: Edges that become borders of charts, for example ``Tagged("seam")`` or ``Sharp(above: 60)``. If
+            omitted, only edges that the algorithm chooses.
+        :param max_angle: The largest angle between the normal of a face and the mean normal of its chart, in degrees.
+            Smaller angles give more charts with less stretch. Defaults to 70.0.
+        :param max_stretch: The largest ratio between the scale of areas in a triangle and in its whole chart. Defaults
+            to 4.0.
+        :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size;
+            the size determines how large the padding is. Defaults to 1024.
+        :param padding: The number of empty texels around each chart. Charts are at least twice as far from each other.
+            Defaults to 2.
+        :param uv: The name of the texture coordinates. Defaults to ``uv``.
+        :param on_refusal: What to do if a polygon overlaps itself in the texture. Defaults to Error.
+        """
+        return self._apply('Unwrap', {'seams': seams, 'max_angle': max_angle, 'max_stretch': max_stretch, 'page': page, 'padding': padding, 'uv': uv, 'on_refusal': on_refusal}, on, id)
+
+    def pack_uvs(
+        self,
+        *,
+        uv: str | Arg | Ron | None = None,
+        page: int | Arg | Ron | None = None,
+        padding: int | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Move and scale charts of texture coordinates into one page.
+
+        Moves, turns and scales charts of texture coordinates so that they do not overlap and have one scale.
+
+        A chart is a set of faces that are connected without seams of the texture coordinates. Afterwards, areas in the
+        texture are proportional to areas on the surface, for whole charts. The shape of each chart stays, also if it is
+        stretched, mirrored or overlaps itself; charts that overlap themselves are counted. Charts without area become a
+        point and are counted. Each mesh gets a page of its own. Tangents are removed, because charts are turned.
+
+        In a recipe: ``PackUvs(page: 2048, padding: 4)``
+
+        :param uv: The name of the texture coordinates. Defaults to ``uv``.
+        :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size;
+            the size determines how large the padding is. Defaults to 1024.
+        :param padding: The number of empty texels around each chart. Charts are at least twice as far from each other.
+            Defaults to 2.
+        """
+        return self._apply('PackUvs', {'uv': uv, 'page': page, 'padding': padding}, on, id)
+
+    def picture(
+        self,
+        path: str | os.PathLike[str] | Arg | Ron,
+        *,
+        size: Sequence[int] | NDArray[Any] | Arg | Ron | None = None,
+        camera: Choice | Arg | Ron | None = None,
+        views: Sequence[Choice] | NDArray[Any] | Arg | Ron | None = None,
+        columns: int | Arg | Ron | None = None,
+        style: Mapping[str, Any] | Arg | Ron | None = None,
+        highlight: Literal['All', 'Boundary', 'Isolated', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
+        highlight_width: float | Arg | Ron | None = None,
+        marks: Sequence[Mapping[str, Any]] | NDArray[Any] | Arg | Ron | None = None,
+        color_by: Mapping[str, Any] | Arg | Ron | None = None,
+        turntable: Mapping[str, Any] | Arg | Ron | None = None,
+        images: str | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Draw the scene into an image file.
+
+        Draws the scene into an image file.
+
+        The extension of the file determines the format: ``.png`` for an image; with ``turntable``, ``.gif`` for an
+        animated GIF, and ``.apng`` or ``.png`` for an animated PNG. The file is written only if the whole recipe
+        succeeds. The scene does not change. Drawing needs no GPU and gives the same bytes on every machine.
+
+        In a recipe: ``Picture(path: "a.png", size: (64, 48), highlight: Edges(Sharp(above: 30)), color_by: (of:
+        Valence), style: (wireframe: ()))``
+
+        :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
+            without extension, of the file in the recipe parameter ``name``.
+        :param size: The width and the height of each view in pixels.
+        :param camera: The camera.
+        :param views: Several cameras, in place of ``camera``. The views of the cameras are placed side by side.
+        :param columns: The number of views in a row. If omitted, the number of views, but at most 4.
+        :param style: The style: shading, lines, background.
+        :param highlight: Elements to highlight in orange, as in ``Edges(Sharp(above: 30))`` or
+            ``Faces(Tagged("top"))``.
+        :param highlight_width: The width of highlighted edges and the diameter of highlighted vertices, in pixels. The
+            defaults depend on the height of the picture: 2.8 and 7.5 for 240 pixels, 3.4 and 10 for 480, 4 and 13 for
+            960, 8 and 26 for 1920. If there are many highlighted vertices, they are drawn smaller. Hidden edges are
+            faint, and hidden vertices are rings.
+        :param marks: More elements to highlight, each in its color.
+        :param color_by: Numbers to show as colors of the surface.
+        :param turntable: Makes an animation in which the camera moves once around the scene.
+        :param images: The folder of images that are not next to their model, relative to the folder of the recipe. If
+            omitted, the folder of the recipe. Missing images are not drawn, and are reported.
+        """
+        return self._apply('Picture', {'path': path, 'size': size, 'camera': camera, 'views': views, 'columns': columns, 'style': style, 'highlight': highlight, 'highlight_width': highlight_width, 'marks': marks, 'color_by': color_by, 'turntable': turntable, 'images': images}, on, id)
+
+    def curve_figure(
+        self,
+        path: str | os.PathLike[str] | Arg | Ron,
+        *,
+        t: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        by_level: bool | Arg | Ron | None = None,
+        before: str | Arg | Ron | None = None,
+        width: int | Arg | Ron | None = None,
+        columns: int | Arg | Ron | None = None,
+        scale: int | Arg | Ron | None = None,
+        labels: bool | Arg | Ron | None = None,
+        legend: bool | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Draw de Casteljau's construction of Bezier curves.
+
+        Draws Bezier curves, and de Casteljau's construction of their points, into an image file.
+
+        The figure has a panel for each curve and each ``t``. With ``by_level``, it has instead one panel for each
+        curve, each ``t`` and each level. A panel shows the control polygon, every level of de Casteljau's algorithm in
+        a different color, the point, and the curve, with the same scale in both axes. The extension of the file
+        determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene
+        does not change.
+
+        In a recipe: ``CurveFigure(path: "figure.svg", t: [0.25, 0.5])``
+
+        :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
+            without extension, of the file in the recipe parameter ``name``.
+        :param t: The parameters of the constructed points, from 0 (start) to 1 (end). If empty, only the curves and
+            their control polygons are drawn.
+        :param by_level: Draws a panel for each level of the algorithm, in place of one panel with all levels. Defaults
+            to False.
+        :param before: The name of a curve that shows an earlier state of the other curves. This curve is drawn faintly
+            behind the other curves, with arrows to the control points that moved.
+        :param width: The width of the figure in SVG pixels. The font size is 12 to 19 pixels. Defaults to 640.
+        :param columns: The number of panels in a row. If omitted, the number of values of ``t`` (with ``by_level``, the
+            number of levels), but at most 4.
+        :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to 2.
+        :param labels: Whether points are labeled with their names. Defaults to True.
+        :param legend: Whether there is a legend below the panels. Defaults to True.
+        """
+        return self._apply('CurveFigure', {'path': path, 't': t, 'by_level': by_level, 'before': before, 'width': width, 'columns': columns, 'scale': scale, 'labels': labels, 'legend': legend}, on, id)
+
+    def half_edge_figure(
+        self,
+        path: str | os.PathLike[str] | Arg | Ron,
+        *,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
+        width: int | Arg | Ron | None = None,
+        scale: int | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Draw the half-edges of faces.
+
+        Draws the half-edges of some faces of a mesh into an image file.
+
+        Each half-edge is an arrow beside its edge, inside its face, with its name. A thin curve leads from the head of
+        the arrow to the next half-edge of the face. The twin of a half-edge is on the other side of the edge. Half-
+        edges on the boundary have no face and are gray. The faces are seen along their mean normal. Faces that face
+        away from the viewer are left out and reported. The extension of the file determines the format: ``.svg`` or
+        ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
+
+        A name is a letter and the number of the element: ``v`` for vertices, ``h`` for half-edges, ``f`` for faces.
+        Half-edges ``2e`` and ``2e + 1`` belong to edge ``e``.
+
+        In a recipe: ``HalfEdgeFigure(path: "figure.svg")``
+
+        :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
+            without extension, of the file in the recipe parameter ``name``.
+        :param faces: The faces to draw, at most 200. Defaults to All.
+        :param width: The width of the figure in SVG pixels. Defaults to 640.
+        :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to 2.
+        """
+        return self._apply('HalfEdgeFigure', {'path': path, 'faces': faces, 'width': width, 'scale': scale}, on, id)
+
+    def uv_picture(
+        self,
+        path: str | os.PathLike[str] | Arg | Ron,
+        *,
+        uv: str | Arg | Ron | None = None,
+        fill: Literal['None', 'Charts', 'Stretch'] | Arg | Ron | None = None,
+        edges: bool | Arg | Ron | None = None,
+        width: int | Arg | Ron | None = None,
+        scale: int | Arg | Ron | None = None,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Draw the charts of texture coordinates.
+
+        Draws the charts of the texture coordinates of a mesh into an image file.
+
+        The frame is the page of the texture, with u and v from 0 to 1 and v upwards. Thick lines are the borders of
+        charts, thin lines the other edges. Coordinates outside the page are drawn too, and make the figure higher or
+        its scale smaller. The extension of the file determines the format: ``.svg`` or ``.png``. The file is written
+        only if the whole recipe succeeds. The scene does not change.
+
+        In a recipe: ``UvPicture(path: "uv.svg")``
+
+        :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
+            without extension, of the file in the recipe parameter ``name``.
+        :param uv: The name of the texture coordinates. Defaults to ``uv``.
+        :param fill: What the colors inside charts show. Defaults to Charts.
+        :param edges: Whether edges inside charts are drawn. Defaults to True.
+        :param width: The width of the figure in SVG pixels. Defaults to 640.
+        :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to 2.
+        """
+        return self._apply('UvPicture', {'path': path, 'uv': uv, 'fill': fill, 'edges': edges, 'width': width, 'scale': scale}, on, id)
+
+
+class MeshOperations:
+    """The operations on one mesh."""
+
+    def _apply(
+        self, operation: str, fields: Mapping[str, Any], on: str | Sequence[str] | None, id: str | None
+    ) -> Self:
+        raise NotImplementedError
+
+    def save(
+        self,
+        path: str | os.PathLike[str] | Arg | Ron,
+        *,
+        images: Literal['Embed', 'Copy', 'Keep'] | Arg | Ron | None = None,
+        compress: Literal['Meshopt'] | Arg | Ron | None = None,
+        quantize: Mapping[str, Any] | Arg | Ron | None = None,
+        weight_sets: int | Arg | Ron | None = None,
+        rows: Literal['Vertices', 'Faces', 'Corners'] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Write objects to a file.
+
+        Writes objects to a file in the output folder.
+
+        The extension chooses the format: ``.obj``, ``.gltf``, ``.glb``, ``.ply``, ``.stl`` or ``.off`` for meshes,
+        ``.bez`` for Bezier patches, ``.bzc`` for a curve, and ``.mws`` for a complete scene without any loss. ``.csv``
+        is a table of the positions and attributes of vertices, faces or corners, and ``.npz`` has the arrays of a mesh
+        for ``NumPy``; these cannot be read. A name such as ``a.obj.gz`` compresses the file by gzip. Content that the
+        format cannot store is listed. The file is only created when the whole recipe has succeeded.
+
+        In a recipe: ``Save(path: "a.obj")``
+
+        :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
+            without extension, of the file in the recipe parameter ``name``.
+        :param images: What to do with the images of materials. If omitted, ``.glb`` files embed the images, and for
+            ``.gltf`` and ``.obj`` files, images that are next to their original model are copied next to the written
+            file. OBJ cannot embed images, so embedded images are written to files too.
+        :param compress: How to compress the geometry of ``.glb`` and ``.gltf`` files without loss. If omitted, the
+            geometry is not compressed.
+        :param quantize: The numbers of bits with which the geometry of ``.glb`` and ``.gltf`` files is stored. If
+            omitted, numbers are floats of 32 bits. ``quantize: ()`` uses the default of each attribute. The report
+            lists the largest errors.
+        :param weight_sets: For ``.gltf`` and ``.glb``, the number of sets of four joints that are written for each
+            vertex of a skinned mesh. If omitted, the number of sets in the file that the mesh comes from, or 1 if it
+            does not come from such a file.
+        :param rows: For ``.csv``, the elements that have a row each. If omitted, vertices.
+        """
+        return self._apply('Save', {'path': path, 'images': images, 'compress': compress, 'quantize': quantize, 'weight_sets': weight_sets, 'rows': rows}, None, id)
+
+    def tessellate(
+        self,
+        *,
+        segments: int | Arg | Ron | None = None,
+        faces: Literal['Triangles', 'Quads'] | Arg | Ron | None = None,
+        uvs: bool | Arg | Ron | None = None,
+        normals: bool | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Turn Bezier patches into a mesh.
+
+        Turns Bezier patches into a mesh.
+
+        Acts on all objects that consist of patches, or on the objects in ``on``. Each object becomes one mesh of the
+        same name. Every patch is divided into ``segments`` x ``segments`` cells. Elements are numbered patch after
+        patch. Patches share no vertices, but if they have the same control points on a common side, the positions of
+        their vertices there are equal bit for bit, so that ``Weld(distance: 0)`` joins them. A side whose points
+        coincide, as at the pole of a teapot's lid, becomes one vertex. Patches without area give no faces and are
+        counted. The mesh has UVs and normals only if they are requested.
+
+        In a recipe: ``Tessellate(segments: 3)``
+
+        :param segments: The number of cells along each side of a patch. Defaults to 8.
+        :param faces: The faces that a cell becomes. Defaults to Triangles.
+        :param uvs: Whether to store the parameters (u, v) of each patch as UVs of corners. Each patch covers the whole
+            square from 0 to 1. Defaults to False.
+        :param normals: Whether to store the exact unit normals of the patches as vertex normals. Defaults to False.
+        """
+        return self._apply('Tessellate', {'segments': segments, 'faces': faces, 'uvs': uvs, 'normals': normals}, None, id)
+
+    def sample_curve(
+        self,
+        segments: int | Arg | Ron,
+        *,
+        id: str | None = None,
+    ) -> Self:
+        """Replace curves by polylines through their points.
+
+        Replaces curves by polylines through their points.
+
+        Each curve becomes one polyline with ``segments`` + 1 points in the plane z = 0, at the parameters 0, 1 /
+        segments, ... 1. The first and the last point are exactly the end control points.
+
+        In a recipe: ``SampleCurve(segments: 1)``
+
+        :param segments: The number of straight segments.
+        """
+        return self._apply('SampleCurve', {'segments': segments}, None, id)
+
+    def curve_levels(
+        self,
+        t: float | Arg | Ron,
+        *,
+        id: str | None = None,
+    ) -> Self:
+        """Replace curves by the levels of de Casteljau's algorithm.
+
+        Replaces curves by the levels of de Casteljau's algorithm.
+
+        A curve with n control points becomes n polylines in the plane z = 0. The first polyline is the control polygon
+        with n points. Each following polyline has one point less. The last polyline is the point of the curve at ``t``.
+
+        In a recipe: ``CurveLevels(t: 0)``
+
+        :param t: The parameter of the point, from 0 (the start of the curve) to 1 (its end).
+        """
+        return self._apply('CurveLevels', {'t': t}, None, id)
+
+    def move_control_point(
+        self,
+        index: int | Arg | Ron,
+        to: Sequence[float] | NDArray[Any] | Arg | Ron,
+        *,
+        id: str | None = None,
+    ) -> Self:
+        """Move one control point of curves.
+
+        Moves one control point of curves.
+
+        The other control points do not move. The point of the curve at a parameter t moves in the same direction as the
+        control point. The point of the curve moves as far as the control point, multiplied by the value at t of the
+        Bernstein polynomial of the control point.
+
+        In a recipe: ``MoveControlPoint(index: 1, to: (2, -3.5))``
+
+        :param index: The index of the control point, from 0. Every curve on which the step acts must have a control
+            point with this index.
+        :param to: The new position: ``(x, y)`` in the plane z = 0, in scene units.
+        """
+        return self._apply('MoveControlPoint', {'index': index, 'to': to}, None, id)
+
+    def transform(
+        self,
+        *,
+        scale: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        rotate: Sequence[Mapping[str, Any]] | NDArray[Any] | Arg | Ron | None = None,
+        move: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        about: Literal['Origin', 'Center'] | Choice | Arg | Ron | None = None,
+        space: Literal['Scene', 'Object'] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Scale, rotate, move and mirror objects.
+
+        Scales, rotates and moves objects.
+
+        Points are first scaled, then rotated, then moved. The points of meshes, patches, curves and polylines are
+        changed, unless nodes of a glTF file place the object. An object that nodes place is moved by changing the
+        placements of its nodes, and everything below these nodes moves along. A skinned mesh is moved with its joints.
+        A node whose placement is animated gets a parent, which is moved instead. Without ``on:``, root nodes with
+        cameras and lights also move, unless ``about`` is ``Center``. A curve must stay in the plane z = 0.
+
+        Ids do not change. Normals and the deltas of morph targets are transformed; other attributes do not change. A
+        mirror (one or three negative factors in ``scale``) also reverses the faces, so that they are counter-clockwise
+        seen from outside: the first corner of a face stays first, and the other corners follow in reverse order. In
+        mirrored patches, u and v are exchanged, so that the outside stays the outside. A mirror drops attributes with
+        the rule ``Drop``, which are lost whenever the connectivity changes.
+
+        In a recipe: ``Transform()``
+
+        :param scale: The scale factors along x, y and z. No factor may be 0; a negative factor mirrors.
+        :param rotate: The rotations, applied in order.
+        :param move: The distances to move along x, y and z, in scene units.
+        :param about: The fixed point of scaling and rotation. Defaults to Origin.
+        :param space: The coordinates in which objects move. Defaults to Scene.
+        """
+        return self._apply('Transform', {'scale': scale, 'rotate': rotate, 'move': move, 'about': about, 'space': space}, None, id)
+
+    def weld(
+        self,
+        distance: float | Arg | Ron,
+        *,
+        id: str | None = None,
+    ) -> Self:
+        """Merge vertices that are close together.
+
+        Merges vertices that are close together, and joins the faces at them.
+
+        Vertices at most ``distance`` apart are linked, and vertices that are connected by a chain of links merge into
+        one, even if the ends of the chain are farther apart than ``distance``. The merged vertex has the position and
+        the values of the vertex with the lowest number. The other vertices are removed, and later vertices are
+        renumbered. Edges between the same two vertices become one edge with the values of the first. Corner values stay
+        with their corners, so UV seams are kept.
+
+        If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
+        corners left or would visit a vertex twice. If joined faces have opposite orientations, the smaller group is
+        reversed, provided that all orientations then agree. Reversed faces are counted, and the normals of vertices and
+        corners are dropped. Where the result would still not be manifold, vertices and edges are copied, and the copies
+        are counted: for example, a third face at an edge gets a copy of the edge. If no vertices merge, the mesh does
+        not change.
+
+        In a recipe: ``Weld(distance: 0)``
+
+        :param distance: The largest distance between linked vertices, in scene units. With 0, only vertices at equal
+            positions merge.
+        """
+        return self._apply('Weld', {'distance': distance}, None, id)
+
+    def reverse(
+        self,
+        *,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Reverse the orientation of faces.
+
+        Reverses the orientation of faces, so that their other side is the outside.
+
+        Adjacent faces must have the same orientation, so only whole connected components can be reversed: if a selected
+        face shares an edge with a face that is not selected, the step is refused. No vertex moves, and all elements
+        keep their numbers. The first corner of a face stays first, and the other corners follow in reverse order.
+        Normals are negated. Other attributes stay with their elements, and corner values with their vertex and face.
+
+        In a recipe: ``Reverse()``
+
+        :param faces: The faces to reverse: whole connected components. Defaults to All.
+        """
+        return self._apply('Reverse', {'faces': faces}, None, id)
+
+    def triangulate(
+        self,
+        *,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Cut polygons into triangles.
+
+        Cuts polygons into triangles.
+
+        A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length (the relative
+        difference of their squared lengths is at most 1e-12), it is cut along the diagonal at its vertex with the
+        lowest number. A diagonal that gives a triangle without area, or a triangle that is turned over relative to the
+        normal of the face, is chosen only if the other diagonal is not better. A quadrilateral with a reflex corner is
+        therefore cut at that corner. If a diagonal would join two vertices that are already joined by an edge or
+        another diagonal, the other diagonal is chosen where possible. The remaining duplicate diagonals are counted.
+
+        A face with more corners is projected along its normal, cut by ear clipping, and improved by flipping diagonals
+        until it is a constrained Delaunay triangulation. A face that cannot be triangulated in this way, because it has
+        no area or its sides cross, becomes a triangle fan around its vertex with the lowest number, and is counted.
+
+        The triangles replace their face in the order of the faces and have the values of the face. Vertices and edges
+        keep their numbers. The corners of the triangles have the values of the corners of the face at the same
+        vertices.
+
+        In a recipe: ``Triangulate()``
+
+        :param faces: The faces to cut. Defaults to All.
+        """
+        return self._apply('Triangulate', {'faces': faces}, None, id)
+
+    def flip_edges(
+        self,
+        edges: Literal['All', 'Boundary'] | Choice | Arg | Ron,
+        *,
+        until: Literal['Once', 'Delaunay', 'Valence'] | Arg | Ron | None = None,
+        passes: int | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        seams: Literal['Refuse', 'Drop'] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Flip edges to the other diagonal of their two triangles.
+
+        Replaces the edge between two triangles by the other diagonal of the pair.
+
+        Edges are flipped in order of their numbers. Each flip is checked against the mesh as edited so far. A flip is
+        refused if the edge is on the boundary, if a face beside it is not a triangle, or if the opposite corners of the
+        two triangles are already joined by an edge or are the same vertex. At a seam, a flip is refused unless
+        ``seams`` is ``Drop``. All elements keep their numbers, and no vertex moves. Vertices, edges and faces keep
+        their values. Each triangle gets one new corner. The new corner takes the values that the other triangle has at
+        the same vertex; all other corners keep their values.
+
+        With ``until: Delaunay`` or ``until: Valence``, an edge is flipped only if that improves the mesh. Edges are
+        checked again, pass after pass, until no edge is flipped. Flips with ``until: Delaunay`` or ``until: Valence``
+        neither fold the surface nor create triangles without area. If a flip that would improve the mesh is refused,
+        the step does not fail: the edge is left unchanged, and the report counts the refusal by reason. The report also
+        contains the number of passes, and whether the step stopped because ``passes`` was reached.
+
+        On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from
+        ``edges``, for example with ``Flat(below: 30)`` or ``Not(Tagged("keep"))``.
+
+        In a recipe: ``FlipEdges(edges: All)``
+
+        :param edges: The edges to flip. The edges are selected before the first flip. An edge keeps its number when it
+            is flipped.
+        :param until: Which edges are flipped, and when to stop. Defaults to Once.
+        :param passes: The largest number of passes over the edges. Ignored for ``Once``, which makes one pass. Defaults
+            to 100.
+        :param on_refusal: What to do when a flip is refused. Only for ``Once``. Defaults to Error.
+        :param seams: What to do at seams. Defaults to Refuse.
+        """
+        return self._apply('FlipEdges', {'edges': edges, 'until': until, 'passes': passes, 'on_refusal': on_refusal, 'seams': seams}, None, id)
+
+    def split_edges(
+        self,
+        edges: Literal['All', 'Boundary'] | Choice | Arg | Ron,
+        *,
+        at: float | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Insert a vertex on edges and join it to the opposite corners.
+
+        Inserts a vertex on each edge and joins it to the opposite corners of the triangles beside the edge.
+
+        In a mesh of triangles, a split adds 1 vertex, 3 edges and 2 faces, or 1 vertex, 2 edges and 1 face on the
+        boundary. A face with more than three corners only gains the new vertex as a corner. Edges are split in order of
+        their numbers; new edges are not split again. New vertices are numbered last, in the order of the splits. Values
+        at the new vertex and its corners are interpolated between the ends, on each side of a seam separately.
+
+        In a recipe: ``SplitEdges(edges: All)``
+
+        :param edges: The edges to split.
+        :param at: The position of the new vertex on the edge. From 0 to 1, exclusive. If ``edges`` is ``Between(v,
+            w)``, 0 is at v and 1 is at w. Otherwise 0 is at the end with the lower number. Defaults to 0.5.
+        :param on_refusal: What to do when a split is refused. Defaults to Error.
+        """
+        return self._apply('SplitEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, None, id)
+
+    def collapse_edges(
+        self,
+        edges: Literal['All', 'Boundary'] | Choice | Arg | Ron,
+        *,
+        at: float | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Collapse edges to points.
+
+        Collapses edges: the two ends of each edge become one vertex.
+
+        In a mesh of triangles, a collapse removes 1 vertex, 3 edges and 2 faces or, on the boundary, 1 vertex, 2 edges
+        and 1 face. A face with more than three corners beside the edge only loses a corner. Of the two ends, the vertex
+        with the lower number is kept. Edges are collapsed in order of their numbers. An edge that an earlier collapse
+        removed counts as refused.
+
+        A collapse is refused if it would change the topology of the surface or make elements coincide:
+
+        - ``JoinsBoundaries``: an edge inside the surface joins two boundary vertices. - ``Link``: the ends have a
+        common neighbor that is not a corner of a triangle beside the edge, for example on a tube with three sides or at
+        a hole with three edges. - ``DuplicateEdge``: a second edge joins the ends. - ``RepeatedVertex``: both ends are
+        also corners of a face that is not beside the edge. - ``Vanishes``: the mesh around the edge is a tetrahedron or
+        a single triangle. - ``SameFace``: the same face is on both sides of the edge. - ``SameOpposite``: the two
+        triangles beside the edge share another edge.
+
+        Values at the remaining vertex and its corners are interpolated between the ends, on each side of a seam
+        separately. When two edges become one, the remaining edge has the larger crease of the two, and the tags of
+        both. Normals are dropped.
+
+        In a recipe: ``CollapseEdges(edges: All, on_refusal: Skip)``
+
+        :param edges: The edges to collapse.
+        :param at: The position of the remaining vertex on the edge, from 0 to 1. If ``edges`` is ``Between(v, w)``, 0
+            is at v and 1 is at w. Otherwise 0 is at the end with the lower number. Defaults to 0.5.
+        :param on_refusal: What to do when a collapse is refused. Defaults to Error.
+        """
+        return self._apply('CollapseEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, None, id)
+
+    def dissolve_edges(
+        self,
+        edges: Literal['All', 'Boundary'] | Choice | Arg | Ron,
+        *,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        seams: Literal['Refuse', 'Drop'] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Remove edges and merge the faces beside them.
+
+        Removes edges and merges the faces beside them.
+
+        Edges are removed in order of their numbers. Each removal is checked against the mesh as edited so far. After a
+        removal, the mesh has 1 edge and 1 face less. Of the two faces beside the edge, the one with the lower number is
+        kept, with its values. No vertex is removed or moved. To remove vertices that are left with two edges, use
+        ``DissolveVertices(vertices: Valence(2))`` in a later step. The remaining elements keep their order and their
+        values but are renumbered.
+
+        An edge is refused if it is on the boundary, if the same face is on both of its sides, if one of its ends has
+        only two edges, or if its two faces have common corners other than its ends. An edge that is a seam is refused
+        unless ``seams`` is ``Drop``.
+
+        In a recipe: ``DissolveEdges(edges: Between(0, 1))``
+
+        :param edges: The edges to remove.
+        :param on_refusal: What to do when an edge is refused. Defaults to Error.
+        :param seams: What to do at seams. Defaults to Refuse.
+        """
+        return self._apply('DissolveEdges', {'edges': edges, 'on_refusal': on_refusal, 'seams': seams}, None, id)
+
+    def bevel_edges(
+        self,
+        edges: Literal['All', 'Boundary'] | Choice | Arg | Ron,
+        *,
+        width: float | Arg | Ron | None = None,
+        fraction: float | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Replace edges with faces.
+
+        Replaces edges with faces of constant width.
+
+        A selected edge and both of its ends are removed. In both faces beside the edge, the new face reaches to the
+        same distance, the width. Each other edge at an end is cut where it has this distance, and between two selected
+        edges the vertex moves into the face. If three or more new vertices surround an old vertex, another new face
+        joins them. All edges are beveled together: a cube that is beveled at all edges keeps all of its symmetries.
+
+        The ends of the edges are removed, and later vertices are renumbered. New vertices are numbered last. Faces keep
+        their numbers; new faces are numbered last: those of edges in the order of the edges, then those of vertices.
+        Edges are renumbered.
+
+        Values at new vertices are those at their places in the old faces, so textures do not change. A new face has the
+        values (material, tags) of one of the faces beside it. Which one is not specified, but it is the same in every
+        run. New edges have zero values (no crease, no tags). Normals are dropped.
+
+        An edge is refused if it is on the boundary, if one of its ends has only one other edge, which is not selected,
+        or if the bevels at both ends of an edge would overlap.
+
+        In a recipe: ``BevelEdges(edges: Between(0, 2), width: 0.25)``
+
+        :param edges: The edges to bevel.
+        :param width: The width: the distance of the new edges from the beveled edge in each of its two faces, in scene
+            units.
+        :param fraction: The width as a fraction of the length of the shortest edge at an end of a selected edge, in
+            place of ``width``. From 0 to 1, exclusive.
+        :param on_refusal: What to do when an edge is refused. Defaults to Error.
+        """
+        return self._apply('BevelEdges', {'edges': edges, 'width': width, 'fraction': fraction, 'on_refusal': on_refusal}, None, id)
+
+    def crease(
+        self,
+        sharpness: float | Arg | Ron,
+        *,
+        edges: Literal['All', 'Boundary'] | Choice | Arg | Ron | None = None,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Make edges and vertices sharp for subdivision.
+
+        Makes edges and vertices sharp for subdivision.
+
+        Sets the edge attribute ``crease`` of the selected edges and the vertex attribute ``corner`` of the selected
+        vertices to ``sharpness``. Other elements keep their values, or get 0 if the attribute did not exist. Loop and
+        Catmull-Clark subdivision keep an edge or a vertex sharp for this number of levels and smooth it in later
+        levels. For example, an edge with sharpness 2.5 is sharp for two levels and half sharp in the third. With
+        sharpness 10, an edge is sharp at every level. Boundary edges are always sharp.
+
+        At least one of ``edges`` and ``vertices`` must be given. The geometry does not change. The report counts the
+        elements whose value changed.
+
+        In a recipe: ``Crease(edges: Sharp(above: 40), sharpness: 2.5)``
+
+        :param edges: The edges to change. If omitted, no edges.
+        :param vertices: The vertices to change. If omitted, no vertices.
+        :param sharpness: The number of levels for which the elements stay sharp, from 0 to 10. With 0, creases are
+            removed. With 10, the elements are sharp at every level.
+        """
+        return self._apply('Crease', {'edges': edges, 'vertices': vertices, 'sharpness': sharpness}, None, id)
+
+    def poke_faces(
+        self,
+        *,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
+        distance: float | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Insert a vertex at the center of faces and join it to their corners.
+
+        Inserts a vertex at the center of faces and joins it to their corners.
+
+        A face with n corners becomes n triangles. Each poked face adds 1 vertex, n edges and n - 1 faces. The first
+        triangle keeps the number of the face; the other triangles and the new vertices and edges are numbered last, in
+        order of the faces. The new vertex is at the mean of the corners, moved along the normal of the face by
+        ``distance``. The vertex and corner values of the new vertex are also means, if the type of the attribute allows
+        means. The triangles have the values of their face, and the new edges have zero values (no crease, no tags). If
+        ``distance`` is not 0, normals are dropped.
+
+        A face is refused only if the position of the new vertex would not be finite, or if the mesh already has the
+        largest supported number of elements.
+
+        In a recipe: ``PokeFaces()``
+
+        :param faces: The faces to poke. Defaults to All.
+        :param distance: The distance of the vertex from the center along the normal of the face, in scene units. A
+            negative distance moves the vertex inwards. A face without area has no normal: its vertex is at the center.
+            Defaults to 0.0.
+        :param on_refusal: What to do when a face is refused. Defaults to Error.
+        """
+        return self._apply('PokeFaces', {'faces': faces, 'distance': distance, 'on_refusal': on_refusal}, None, id)
+
+    def split_faces(
+        self,
+        between: Sequence[Sequence[int] | NDArray[Any]] | NDArray[Any] | Arg | Ron,
+        *,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Cut faces in two with edges between their corners.
+
+        Cuts faces in two with edges between their corners.
+
+        Each pair (v, w) of vertices cuts the face that has both vertices as corners. The new edge joins the two
+        vertices. Each cut adds 1 edge and 1 face. Cuts are made in the order of the list, so a face can be cut several
+        times. The part of the face to the right of the line from v to w is the new face, and the other part keeps the
+        number. New edges and faces are numbered last. Corners keep their values, the new face has the values of the old
+        one, and the new edge has zero values (no crease, no tags).
+
+        A cut is refused if the two vertices are the same, if they are already joined by an edge, if no face has both as
+        corners, or if several faces have both as corners, because the cut would be ambiguous.
+
+        In a recipe: ``SplitFaces(between: [])``
+
+        :param between: The cuts: a list of pairs of vertex numbers, for example ``[(0, 2), (5, 9)]``.
+        :param on_refusal: What to do when a cut is refused. Defaults to Error.
+        """
+        return self._apply('SplitFaces', {'between': between, 'on_refusal': on_refusal}, None, id)
+
+    def delete_faces(
+        self,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron,
+        *,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        keep_vertices: bool | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Delete faces and leave holes.
+
+        Removes faces and leaves holes.
+
+        All faces are removed at once, so their order does not matter. Edges left without a face are removed. Vertices
+        that lose their last edge are also removed, unless ``keep_vertices`` is true. Vertices that were isolated before
+        the step are kept. The remaining elements keep their order and their values but are renumbered. To delete edges
+        or vertices together with their faces, use ``FacesBeside(edges)`` or ``FacesAround(vertices)``.
+
+        The removal is refused if the remaining faces around a vertex would form separate fans that meet only at that
+        vertex. With ``on_refusal: Skip``, faces are instead removed one by one, in order of their numbers, in repeated
+        passes until no more of the selected faces can be removed. The selected faces that remain are counted as
+        refused.
+
+        In a recipe: ``DeleteFaces(faces: All)``
+
+        :param faces: The faces to delete.
+        :param on_refusal: What to do when not all faces can be removed. Defaults to Error.
+        :param keep_vertices: Whether to keep vertices that are left without an edge. Defaults to False.
+        """
+        return self._apply('DeleteFaces', {'faces': faces, 'on_refusal': on_refusal, 'keep_vertices': keep_vertices}, None, id)
+
+    def extrude_faces(
+        self,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron,
+        by: Choice | Arg | Ron,
+        *,
+        scale: float | Arg | Ron | None = None,
+        rotate: Sequence[Mapping[str, Any]] | NDArray[Any] | Arg | Ron | None = None,
+        tag: str | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Move faces out of the surface and add side faces.
+
+        Moves faces out of the surface and connects them to their old rim with side faces.
+
+        Selected faces that share an edge form a region and move together, with one normal and one center. A region is
+        first scaled, then rotated, both about the mean of its vertices, and then moved. Side faces with four corners
+        are added along the rim of the region: the edges with a face of the region on one side only. If all faces of an
+        open sheet are extruded, the result is a box that is open where the sheet was. If a region is closed, it has no
+        rim and no normal: its faces only move, and ``by`` must be an ``Offset``.
+
+        The faces keep their numbers, so the same selection can be extruded again in later steps, for example to grow an
+        arm out of a body. Vertices and edges inside a region also keep their numbers. The vertices and edges of the old
+        rim do not move, and the moved faces get a new rim. New side faces are numbered last: by region, in order of the
+        lowest face number in each region, then in order of the faces, then counter-clockwise around each face from its
+        first corner. New vertices are in the same order: each is the copy of the first vertex of its side face.
+
+        A side face has the values of the adjacent moved face (material, tags). The corners of a side face have the
+        values of the corners of the moved face, so textures have no seam there. But each side face shows only one line
+        of the texture, the line along its edge, stretched over the face. The new edges of the rim have the values of
+        the old ones (creases, tags), and the edges between the old and the new rim have zero values (no crease, no
+        tags). Normals are dropped.
+
+        In a recipe: ``ExtrudeFaces(faces: Faces([0]), by: Distance(0.5))``
+
+        :param faces: The faces to extrude.
+        :param by: The distance or offset by which the faces move.
+        :param scale: The factor by which each region is scaled about its center. More than 0. Defaults to 1.0.
+        :param rotate: Rotations of each region about its center, applied in order.
+        :param tag: The name of a tag for the moved faces and their side faces. Faces that already have the tag keep it.
+            If omitted, no faces are tagged.
+        """
+        return self._apply('ExtrudeFaces', {'faces': faces, 'by': by, 'scale': scale, 'rotate': rotate, 'tag': tag}, None, id)
+
+    def inset_faces(
+        self,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron,
+        fraction: float | Arg | Ron,
+        *,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Shrink faces, each with a ring of faces around it.
+
+        Shrinks faces and surrounds each with a ring of faces.
+
+        Each face is inset separately, even if selected faces share edges. The inner face keeps the number of the face,
+        and existing vertices do not move. A face with n corners adds n vertices, 2 n edges and n faces with four
+        corners. New vertices and faces are numbered last: in order of the selected faces, and counter-clockwise around
+        each face from its first corner.
+
+        Values at the new corners and vertices are interpolated between the outer corner and the mean of the face, so
+        textures do not change. The ring has the values of the face (material, tags), and the inner edges have the
+        values of the outer edges. Normals are dropped.
+
+        A face is refused if it is on both sides of one of its edges.
+
+        In a recipe: ``InsetFaces(faces: All, fraction: 0.25)``
+
+        :param faces: The faces to inset.
+        :param fraction: How far the corners of the inner face are from the old corners towards the center of the face.
+            From 0 (the corner) to 1 (the center), exclusive.
+        :param on_refusal: What to do when a face is refused. Defaults to Error.
+        """
+        return self._apply('InsetFaces', {'faces': faces, 'fraction': fraction, 'on_refusal': on_refusal}, None, id)
+
+    def bevel_faces(
+        self,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron,
+        fraction: float | Arg | Ron,
+        distance: float | Arg | Ron,
+        *,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Shrink and raise faces, each with a ring of faces around it.
+
+        Shrinks and raises faces, and surrounds each with a ring of faces.
+
+        Works like ``InsetFaces``, and also moves the inner face along its normal. Each face is beveled separately, even
+        if selected faces share edges. The inner face keeps the number of the face, and existing vertices do not move. A
+        face with n corners adds n vertices, 2 n edges and n faces with four corners. New vertices and faces are
+        numbered last: in order of the selected faces, and counter-clockwise around each face from its first corner. A
+        face without area has no normal, and its inner face is not raised.
+
+        Values at the new corners and vertices are interpolated between the outer corner and the mean of the face. The
+        ring has the values of the face (material, tags), and the inner edges have the values of the outer edges.
+        Normals are dropped.
+
+        A face is refused if it is on both sides of one of its edges.
+
+        In a recipe: ``BevelFaces(faces: All, fraction: 0.25, distance: 0.5)``
+
+        :param faces: The faces to bevel.
+        :param fraction: How far the corners of the inner face are from the old corners towards the center of the face.
+            From 0 (the corner) to 1 (the center), exclusive.
+        :param distance: The distance by which the inner face moves along its normal, in scene units. A negative
+            distance moves the inner face inwards.
+        :param on_refusal: What to do when a face is refused. Defaults to Error.
+        """
+        return self._apply('BevelFaces', {'faces': faces, 'fraction': fraction, 'distance': distance, 'on_refusal': on_refusal}, None, id)
+
+    def dissolve_vertices(
+        self,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron,
+        *,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        seams: Literal['Refuse', 'Drop'] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Remove vertices and merge the faces around them.
+
+        Removes vertices and merges the faces around them.
+
+        Vertices are removed in order of their numbers. Each removal is checked against the mesh as edited so far. All
+        faces around the vertex become one face, which has the number and the values of the face with the lowest number.
+        If the vertex is on the boundary, its two boundary edges become one. If the vertex has only two edges, these
+        edges become one edge, and the faces beside the edge lose a corner. When two edges become one, the edge with the
+        lower number is kept, with its values. The remaining elements keep their order and their values but are
+        renumbered. Normals are dropped.
+
+        A vertex is refused if it is isolated or has a single edge, if a neighbor would be left with a single edge
+        inside a face, if a face would visit a vertex twice or have fewer than three corners, or if an edge would join
+        two vertices that are already joined. At a seam, a vertex is refused unless ``seams`` is ``Drop``.
+
+        In a recipe: ``DissolveVertices(vertices: Vertices([1]))``
+
+        :param vertices: The vertices to remove.
+        :param on_refusal: What to do when a vertex is refused. Defaults to Error.
+        :param seams: What to do at seams. Defaults to Refuse.
+        """
+        return self._apply('DissolveVertices', {'vertices': vertices, 'on_refusal': on_refusal, 'seams': seams}, None, id)
+
+    def bevel_vertices(
+        self,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron,
+        fraction: float | Arg | Ron,
+        *,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Replace vertices with faces.
+
+        Replaces vertices with faces.
+
+        Each edge at a selected vertex is cut at a fraction of the length that it had before the step, and a new face
+        joins the cuts. The new face has as many corners as the vertex had edges. If both ends of an edge are selected,
+        the fraction must be below 0.5. For example, a fraction of 0.25 turns a cube into a truncated cube.
+
+        The selected vertices are removed, and later vertices are renumbered. New vertices are numbered last, in order
+        of the selected vertices and clockwise around each vertex. Faces keep their numbers; new faces are numbered
+        last, in order of the vertices.
+
+        Values at the cuts are interpolated between the ends of the edge, so textures do not change. A new face has the
+        values (material, tags) of one of the faces at the vertex. Which of the faces is not specified, but the choice
+        is the same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
+
+        A vertex is refused if it is on the boundary, if it has fewer than three edges, or if earlier cuts leave too
+        little of one of its edges.
+
+        In a recipe: ``BevelVertices(vertices: All, fraction: 0.25)``
+
+        :param vertices: The vertices to bevel.
+        :param fraction: The distance of the cuts from the vertex, as a fraction of the edge length. From 0 to 1,
+            exclusive.
+        :param on_refusal: What to do when a vertex is refused. Defaults to Error.
+        """
+        return self._apply('BevelVertices', {'vertices': vertices, 'fraction': fraction, 'on_refusal': on_refusal}, None, id)
+
+    def vertex_normals(
+        self,
+        *,
+        weight: Literal['Area', 'Angle', 'Uniform'] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Compute a unit normal for every vertex from the faces around it.
+
+        Computes a unit normal for every vertex, from the faces around it.
+
+        The normals are written to the vertex attribute ``normal``, which is replaced if it exists. Corner normals are
+        removed, because they would contradict the vertex normals. A vertex without faces, or whose face normals cancel
+        each other out, gets the zero vector and is counted.
+
+        In a recipe: ``VertexNormals()``
+
+        :param weight: The weights of the faces around a vertex. Defaults to Area.
+        """
+        return self._apply('VertexNormals', {'weight': weight}, None, id)
+
+    def tangents(
+        self,
+        *,
+        uv: str | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Compute tangents of corners for normal maps.
+
+        Computes tangents for normal maps by the ``MikkTSpace`` algorithm, which many other tools also use.
+
+        The mesh needs texture coordinates and normals, such as the normals that ``VertexNormals`` computes. The
+        tangents are written to the corner attribute ``tangent``, which is replaced if it exists: a unit vector
+        perpendicular to the normal and, as the fourth number, the sign of the bitangent. ``.glb`` and ``.gltf`` files
+        store the attribute as ``TANGENT``. Polygons are triangulated in the same way as for ``.glb`` and ``.gltf``
+        files. Steps that change the shape or the faces remove the tangents. Corners at which the texture coordinates
+        define no direction get an arbitrary tangent and are counted.
+
+        In a recipe: ``Tangents()``
+
+        :param uv: The name of the texture coordinates of the normal map. Defaults to ``uv``.
+        """
+        return self._apply('Tangents', {'uv': uv}, None, id)
+
+    def fill_holes(
+        self,
+        *,
+        around: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        max_edges: int | Arg | Ron | None = None,
+        with_: Literal['Triangles', 'Face'] | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Fill holes with a face or with triangles.
+
+        Covers holes with faces.
+
+        A hole is a boundary loop: a loop of edges with a face on one side only. The outer rim of an open sheet is also
+        a boundary loop; use ``around`` or ``max_edges`` to exclude it. No vertices are added, and existing elements
+        keep their numbers. A hole with n edges gets 1 face with n corners, or n - 2 triangles and n - 3 edges.
+
+        For holes with up to 500 edges, the triangles have the smallest total area. Larger holes are filled by cutting
+        off one corner after the other: always the corner whose two neighbors are closest to each other. If the hole is
+        far from convex, the triangles may overlap. Two vertices that are already joined by an edge are not joined
+        again: if a hole cannot be filled without this edge, it is refused (``DuplicateEdge``). A hole with two edges is
+        also refused (``WrongPlace``); ``Stitch`` closes it.
+
+        New faces have the values of a face beside the hole. New corners have the values of the corner at the same
+        vertex in the adjacent face. Normals are dropped if a hole was filled.
+
+        In a recipe: ``FillHoles()``
+
+        :param around: Fill only holes with at least one of these vertices. Defaults to All.
+        :param max_edges: Fill only holes with at most this number of edges. If omitted, holes of any size.
+        :param with_: The faces that cover a hole. Defaults to Triangles.
+        :param on_refusal: What to do when a hole is refused. Defaults to Error.
+        """
+        return self._apply('FillHoles', {'around': around, 'max_edges': max_edges, 'with': with_, 'on_refusal': on_refusal}, None, id)
+
+    def bridge_loops(
+        self,
+        first: int | Arg | Ron,
+        second: int | Arg | Ron,
+        *,
+        id: str | None = None,
+    ) -> Self:
+        """Join two holes with a band of faces.
+
+        Joins two holes with a band of faces.
+
+        Each hole is given by one of its vertices. An edge joins the two given vertices, and the band goes around both
+        holes from there. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and n - m
+        evenly spread triangles. The step adds n edges and no vertices. The holes may be in one part of the mesh, which
+        then gets a tunnel or a handle, or in two parts of one object. (``Join`` joins two objects into one.)
+
+        New faces have the values of the adjacent faces at the longer hole. New corners have the values of the corners
+        at the same vertices in the adjacent faces. Normals are dropped.
+
+        The step is refused if a vertex is not on the boundary (``NotBoundary``), if both vertices are on the same hole
+        (``WrongPlace``), or if the band would join two vertices that are already joined by an edge (``DuplicateEdge``).
+        If the reason is ``DuplicateEdge``, other start vertices may work.
+
+        In a recipe: ``BridgeLoops(first: 0, second: 5)``
+
+        :param first: The number of a vertex on the first hole.
+        :param second: The number of the vertex on the second hole that is joined to ``first``.
+        """
+        return self._apply('BridgeLoops', {'first': first, 'second': second}, None, id)
+
+    def stitch(
+        self,
+        distance: float | Arg | Ron,
+        *,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Join boundary edges that coincide.
+
+        Joins boundary edges that coincide.
+
+        Two boundary edges coincide if both pairs of corresponding ends are at most ``distance`` apart. Two edges that
+        coincide only with each other form a pair. Choose a distance below the lengths of the edges. An edge that
+        coincides with several edges is refused (``NonManifold``), and none of the coinciding edges are joined. Unlike
+        ``Weld``, this operation never merges vertices inside the surface or vertices whose edges do not coincide.
+
+        Of each pair of vertices or edges, the one with the lower number keeps its position and its values. The other
+        vertex or edge is removed, and later elements are renumbered. Faces and corners do not change: different UVs
+        become a seam. Remaining holes with two edges are also closed.
+
+        A pair is refused if both edges belong to the same face (``SameFace``), if the ends of an edge would become one
+        vertex or a face would visit a vertex twice (``WrongPlace``), or if two edges would join the same vertices
+        (``DuplicateEdge``).
+
+        In a recipe: ``Stitch(distance: 0)``
+
+        :param distance: The largest distance between corresponding ends of two edges, in scene units. With 0, only ends
+            at equal positions are joined.
+        :param on_refusal: What to do when a pair is refused, or when more than two edges coincide. Defaults to Error.
+        """
+        return self._apply('Stitch', {'distance': distance, 'on_refusal': on_refusal}, None, id)
+
+    def cut(
+        self,
+        edges: Literal['All', 'Boundary'] | Choice | Arg | Ron,
+        *,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Open the mesh along edges.
+
+        Opens the mesh along edges.
+
+        The edges may form paths, loops and trees; a loop cuts out a piece. Each edge becomes two edges, one for each
+        side. If the cuts separate the faces around a vertex into several parts, each part gets a separate copy of the
+        vertex. The part that has the face with the lowest number keeps the number of the vertex, and new vertices are
+        numbered last. Faces keep their numbers, and nothing moves. Copies have the values of the originals, and corners
+        keep their values. ``Stitch`` is the inverse.
+
+        All edges are cut at once. An edge is refused if it is on the boundary (``Boundary``), or if the cut would not
+        open the mesh because both ends are inside the mesh and no other cut continues at either end
+        (``DuplicateEdge``).
+
+        In a recipe: ``Cut(edges: All)``
+
+        :param edges: The edges to cut.
+        :param on_refusal: What to do when an edge is refused. Defaults to Error.
+        """
+        return self._apply('Cut', {'edges': edges, 'on_refusal': on_refusal}, None, id)
+
+    def tag_vertices(
+        self,
+        name: str | Arg | Ron,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron,
+        *,
+        id: str | None = None,
+    ) -> Self:
+        """Tag vertices.
+
+        Tags the selected vertices and removes the tag from all other vertices. In later steps, ``Tagged("rim")``
+        selects the vertices with the tag ``rim``.
+
+        New vertices of later edits are not tagged. An existing tag of the same name is replaced. If an attribute of
+        another type has this name, the step fails. The geometry does not change. The report counts the vertices that
+        gained or lost the tag.
+
+        In a recipe: ``TagVertices(name: "some", vertices: Boundary)``
+
+        :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
+        :param vertices: The vertices to tag. An empty selection gives an empty tag.
+        """
+        return self._apply('TagVertices', {'name': name, 'vertices': vertices}, None, id)
+
+    def tag_edges(
+        self,
+        name: str | Arg | Ron,
+        edges: Literal['All', 'Boundary'] | Choice | Arg | Ron,
+        *,
+        id: str | None = None,
+    ) -> Self:
+        """Tag edges.
+
+        Tags the selected edges and removes the tag from all other edges. In later steps, ``Tagged("rim")`` selects the
+        edges with the tag ``rim``.
+
+        The parts of a tagged edge are also tagged when it is split or subdivided. An existing tag of the same name is
+        replaced. If an attribute of another type has this name, the step fails. The geometry does not change. The
+        report counts the edges that gained or lost the tag.
+
+        In a recipe: ``TagEdges(name: "marked", edges: EdgeLoop(Longest(count: 2)))``
+
+        :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
+        :param edges: The edges to tag. An empty selection gives an empty tag.
+        """
+        return self._apply('TagEdges', {'name': name, 'edges': edges}, None, id)
+
+    def tag_faces(
+        self,
+        name: str | Arg | Ron,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron,
+        *,
+        id: str | None = None,
+    ) -> Self:
+        """Tag faces.
+
+        Tags the selected faces and removes the tag from all other faces. In later steps, ``Tagged("rim")`` selects the
+        faces with the tag ``rim``.
+
+        The parts of a tagged face are also tagged when it is split or subdivided. An existing tag of the same name is
+        replaced. If an attribute of another type has this name, the step fails. The geometry does not change. The
+        report counts the faces that gained or lost the tag.
+
+        In a recipe: ``TagFaces(name: "some", faces: Facing(direction: (0, 0, 1), within: 45))``
+
+        :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
+        :param faces: The faces to tag. An empty selection gives an empty tag.
+        """
+        return self._apply('TagFaces', {'name': name, 'faces': faces}, None, id)
+
+    def loop_subdivide(
+        self,
+        *,
+        levels: int | Arg | Ron | None = None,
+        until: Choice | Arg | Ron | None = None,
+        weights: Literal['Warren', 'Loop'] | Arg | Ron | None = None,
+        boundary: Literal['EdgesOnly', 'EdgesAndCorners', 'Fixed'] | Arg | Ron | None = None,
+        creasing: Literal['Uniform', 'Chaikin'] | Arg | Ron | None = None,
+        face_varying: Literal['None', 'CornersOnly', 'CornersPlus1', 'CornersPlus2', 'Boundaries', 'All'] | Arg | Ron | None = None,
+        to_limit: bool | Arg | Ron | None = None,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Split every triangle into four and smooth the surface.
+
+        Splits every triangle into four and smooths the surface, for a number of levels.
+
+        A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles, so V -
+        E + F does not change. Old vertices keep their ids, the vertex on edge e has the id V + e, edge e becomes edges
+        2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
+
+        Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values
+        are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a triangle copy the values
+        of the old edge or triangle. Normals are dropped, because they would be wrong. Edges and vertices that
+        ``Crease`` made sharp stay sharp for a number of levels that is equal to their sharpness.
+
+        In a recipe: ``LoopSubdivide(levels: 2)``
+
+        :param levels: The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With
+            ``until``, the maximum number of levels, which defaults to 16.
+        :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
+        :param weights: The weights at old vertices. Defaults to Warren.
+        :param boundary: How vertices on the boundary move. Defaults to EdgesOnly.
+        :param creasing: How the sharpness of creases decreases from level to level. Defaults to Uniform.
+        :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to All.
+        :param to_limit: Whether to move the vertices of the last level to the limit surface and to store its normals
+            and tangents. Defaults to False.
+        :param faces: The faces to refine. If omitted, all faces. Triangles next to the refined faces are cut in two or
+            four, so that no vertex lies inside an edge, and the surface outside of the refined faces does not move. For
+            the ids of new elements see ``subdivision::refine_faces``.
+        """
+        return self._apply('LoopSubdivide', {'levels': levels, 'until': until, 'weights': weights, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, None, id)
+
+    def catmull_clark(
+        self,
+        *,
+        levels: int | Arg | Ron | None = None,
+        until: Choice | Arg | Ron | None = None,
+        boundary: Literal['EdgesOnly', 'EdgesAndCorners', 'Fixed'] | Arg | Ron | None = None,
+        creasing: Literal['Uniform', 'Chaikin'] | Arg | Ron | None = None,
+        face_varying: Literal['None', 'CornersOnly', 'CornersPlus1', 'CornersPlus2', 'Boundaries', 'All'] | Arg | Ron | None = None,
+        to_limit: bool | Arg | Ron | None = None,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Split every face into quads and smooth the surface.
+
+        Splits every face into quads and smooths the surface, for a number of levels.
+
+        A level creates a quad at each corner of each face. A level turns V vertices, E edges and F faces with C corners
+        in total into V + E + F vertices, 2 E + C edges and C quads, so V - E + F does not change. Old vertices keep
+        their ids, the vertex on edge e has the id V + e, the vertex at the center of face f has the id V + E + f, and
+        edge e becomes edges 2e and 2e + 1. Quads are numbered face by face, in order of the corners.
+
+        Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values
+        are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a face copy the values of
+        the old edge or face. Normals are dropped, because they would be wrong. Edges and vertices that ``Crease`` made
+        sharp stay sharp for a number of levels that is equal to their sharpness.
+
+        In a recipe: ``CatmullClark(levels: 2)``
+
+        :param levels: The number of levels. Each level replaces every corner of a face by a quad. Defaults to 1. With
+            ``until``, the maximum number of levels, which defaults to 16.
+        :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
+        :param boundary: How vertices on the boundary move. Defaults to EdgesOnly.
+        :param creasing: How the sharpness of creases decreases from level to level. Defaults to Uniform.
+        :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to All.
+        :param to_limit: Whether to move the vertices of the last level to the limit surface and to store its normals
+            and tangents. Defaults to False.
+        :param faces: The faces to refine. If omitted, all faces. Faces next to the refined faces get the new vertices
+            on common edges as corners, and the surface outside of the refined faces does not move. For the ids of new
+            elements see ``subdivision::refine_faces``.
+        """
+        return self._apply('CatmullClark', {'levels': levels, 'until': until, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, None, id)
+
+    def midpoint(
+        self,
+        *,
+        levels: int | Arg | Ron | None = None,
+        until: Choice | Arg | Ron | None = None,
+        into: Literal['Triangles', 'Quads'] | Arg | Ron | None = None,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Split every face into smaller faces without moving vertices.
+
+        Splits every face into smaller faces without moving vertices, for a number of levels.
+
+        ``into: Triangles`` requires a mesh of triangles. A level turns V vertices, E edges and F triangles into V + E
+        vertices, 2 E + 3 F edges and 4 F triangles. ``into: Quads`` accepts all polygons and creates a quad at each
+        corner: V vertices, E edges and F faces with C corners in total become V + E + F vertices, 2 E + C edges and C
+        quads. Old vertices keep their ids and positions, the vertex on edge e has the id V + e, and edge e becomes
+        edges 2e and 2e + 1. Triangle f becomes faces 4f to 4f + 3. Quads are numbered face by face, and the vertex at
+        the center of face f has the id V + E + f.
+
+        Vertex attributes are interpolated. Corner values are interpolated within one old face. Parts of an edge or a
+        face copy the values of the old edge or face, including sharpness. Normals are dropped.
+
+        In a recipe: ``Midpoint(levels: 2, into: Quads)``
+
+        :param levels: The number of levels. Each level multiplies the number of faces by about four. Defaults to 1.
+            With ``until``, the maximum number of levels, which defaults to 16.
+        :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
+        :param into: How faces are split. Defaults to Triangles.
+        :param faces: The faces to refine. If omitted, all faces. With ``into: Triangles``, triangles next to the
+            refined faces are cut in two or four. With ``into: Quads``, faces next to the refined faces get the new
+            vertices on common edges as corners. For the ids of new elements see ``subdivision::refine_faces``.
+        """
+        return self._apply('Midpoint', {'levels': levels, 'until': until, 'into': into, 'faces': faces}, None, id)
+
+    def butterfly(
+        self,
+        *,
+        levels: int | Arg | Ron | None = None,
+        until: Choice | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Split every triangle into four and smooth the surface, but keep the old vertices.
+
+        Splits every triangle into four and smooths the surface without moving the old vertices, for a number of levels.
+
+        A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles, so V -
+        E + F does not change. Old vertices keep their ids, the vertex on edge e has the id V + e, edge e becomes edges
+        2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
+
+        Vertex attributes are interpolated with the weights of the positions, and corner values are interpolated
+        linearly within one old triangle. Parts of an edge or a triangle copy the values of the old edge or triangle.
+        Normals are dropped, because they would be wrong. Sharpness has no effect and is copied unchanged.
+
+        In a recipe: ``Butterfly(levels: 1)``
+
+        :param levels: The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With
+            ``until``, the maximum number of levels, which defaults to 16.
+        :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
+        """
+        return self._apply('Butterfly', {'levels': levels, 'until': until}, None, id)
+
+    def sqrt3(
+        self,
+        *,
+        levels: int | Arg | Ron | None = None,
+        until: Choice | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Split every triangle into three, flip the old edges, and smooth the surface.
+
+        Splits every triangle into three, flips the old edges, and smooths the surface, for a number of levels.
+
+        A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles. Every
+        second level adds one more vertex and one more edge for each boundary edge. V - E + F does not change. Old
+        vertices keep their ids, the vertex in face f has the id V + f, and face f becomes faces 3f to 3f + 2. All faces
+        must be triangles. Levels are counted from the start of the step: one step of two levels cuts the boundary
+        edges, but two steps of one level leave the boundary unchanged.
+
+        Vertex attributes are smoothed with the weights of the positions. Corner values are interpolated linearly within
+        one old triangle. A triangle at a flipped edge lies in two old triangles. If the old edge was a seam, the
+        triangle has texture coordinates of both sides, which distorts textures. New triangles copy the values of their
+        old triangle. Parts of a boundary edge copy the values of the edge; other edges have zero values (no crease, no
+        tags). Normals are dropped, because they would be wrong.
+
+        In a recipe: ``Sqrt3(levels: 1)``
+
+        :param levels: The number of levels. Each level multiplies the number of triangles by three. Defaults to 1. With
+            ``until``, the maximum number of levels, which defaults to 16.
+        :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
+        """
+        return self._apply('Sqrt3', {'levels': levels, 'until': until}, None, id)
+
+    def doo_sabin(
+        self,
+        *,
+        levels: int | Arg | Ron | None = None,
+        until: Choice | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Replace every edge and vertex by a face.
+
+        Replaces every edge and vertex by a face and shrinks the old faces, for a number of levels.
+
+        A level turns a closed mesh with V vertices, E edges and F faces into a mesh with 2 E vertices, 4 E edges and V
+        + E + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. V - E + F
+        does not change. The face inside old face f has the id f, the face of edge e has the id F + e, and the faces of
+        vertices follow. Isolated vertices are kept, after all other vertices. Isolated vertices and inner vertices of
+        valence 2 do not become faces.
+
+        Vertex attributes are smoothed with the weights of the positions. Corner values are smoothed within one old
+        face. The new faces of edges and vertices have corner values of several old faces; at a seam, this distorts
+        textures. A face inside an old face copies the values of the old face; the face of an edge or a vertex copies
+        the values of an adjacent face. The two edges along an old edge copy its values; other edges have zero values
+        (no crease, no tags). Normals are dropped, because they would be wrong.
+
+        In a recipe: ``DooSabin(levels: 1)``
+
+        :param levels: The number of levels. Each level multiplies the number of faces by about four. Defaults to 1.
+            With ``until``, the maximum number of levels, which defaults to 16.
+        :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
+        """
+        return self._apply('DooSabin', {'levels': levels, 'until': until}, None, id)
+
+    def bisect(
+        self,
+        normal: Sequence[float] | NDArray[Any] | Arg | Ron,
+        *,
+        point: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        keep: Literal['Both', 'Front', 'Back'] | Arg | Ron | None = None,
+        tag: str | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Cut meshes along a plane.
+
+        Cuts meshes along a plane.
+
+        Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along it.
+        A concave face can be cut several times. A vertex closer to the plane than 1e-9 of the largest extent of the
+        mesh counts as on the plane and is not moved. When an edge is cut, the part at the end with the lower number
+        keeps the number of the edge. When a face is cut, the part with the first corner keeps the number of the face.
+        New elements are numbered last. Attributes are interpolated at the crossings, separately on each side of a seam.
+
+        With ``keep: Front`` or ``keep: Back``, the other side of the plane is removed. A face in the plane belongs to
+        the back if its normal points to the front, because the face then closes the solid behind the plane. Vertices
+        left without a face are removed. If the remaining faces around a vertex form several fans, each fan gets a
+        separate copy of the vertex. No faces are added to close the cut.
+
+        In a recipe: ``Bisect(normal: (0, 0, 1))``
+
+        :param point: A point on the plane.
+        :param normal: The normal of the plane, which points to the front. The length of the normal does not matter but
+            must not be 0.
+        :param keep: The side to keep. Defaults to Both.
+        :param tag: The name of a tag for the edges on the plane. Edges that already have the tag keep it. If omitted,
+            no edges are tagged.
+        """
+        return self._apply('Bisect', {'point': point, 'normal': normal, 'keep': keep, 'tag': tag}, None, id)
+
+    def symmetrize(
+        self,
+        normal: Sequence[float] | NDArray[Any] | Arg | Ron,
+        *,
+        point: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        from_: Literal['Front', 'Back'] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Replace one half of a mesh by the mirror image of the other.
+
+        Replaces one half of a mesh by the mirror image of the other half.
+
+        The mesh is cut along a plane as by ``Bisect``. The half on the side ``from`` is kept and mirrored, and the
+        halves are joined at the plane. Vertices on the plane are moved onto it exactly, so that the result is
+        symmetric. Faces in the plane are removed, because they would be walls inside the result. Where the surface only
+        touches the plane, the halves are not joined.
+
+        The elements of the kept half come first, in their old order, then those of the mirror image. Attributes are
+        copied: both halves have the same texture coordinates, tags and weights of joints. Normals and tangents are
+        dropped.
+
+        In a recipe: ``Symmetrize(normal: (1, 0, 0))``
+
+        :param point: A point on the plane.
+        :param normal: The normal of the plane, which points to the front. Its length does not matter but must not be 0.
+        :param from_: The half that is kept and mirrored. Defaults to Front.
+        """
+        return self._apply('Symmetrize', {'point': point, 'normal': normal, 'from': from_}, None, id)
+
+    def simplify(
+        self,
+        *,
+        faces: int | Arg | Ron | None = None,
+        ratio: float | Arg | Ron | None = None,
+        error: float | Arg | Ron | None = None,
+        features: Literal['All', 'Boundary'] | Choice | Arg | Ron | None = None,
+        pin: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        intersections: Literal['Allow', 'Refuse'] | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Remove triangles, and change the surface as little as possible.
+
+        Removes triangles from meshes, and changes the surface as little as possible.
+
+        Edges are collapsed, starting with the edges whose collapse changes the surface least. The change is the mean
+        squared distance of the new vertex to the planes of the original triangles that it replaces (Garland, Heckbert,
+        1997). The step ends when ``faces`` or ``ratio`` is reached, or when every remaining collapse could exceed
+        ``error``. At least one of ``faces``, ``ratio`` and ``error`` must be given. All faces must be triangles.
+
+        The following properties are kept:
+
+        - Topology: holes, handles and separate parts stay. - Lines: the boundary, seams of texture coordinates and
+        normals, borders between face tags or materials, edges with a tag or a crease, and ``features``. A line can lose
+        vertices, but its ends, and the vertices where lines meet, keep their exact positions. - Attributes: they are
+        interpolated, but never across a line. Normals are also interpolated, so that a simplified mesh is shaded like
+        the original. - Vertex tags: vertices with different tags or sharpness are not merged.
+
+        No triangle is turned over. Remaining elements are numbered anew, in the order of their old numbers. If the
+        number of faces cannot be reached, and no ``error`` is given, the step is refused as ``Unreached``, with the
+        reasons; with ``on_refusal: Skip``, the result is kept.
+
+        In a recipe: ``Simplify(ratio: 0.5)``
+
+        :param faces: The number of faces to reach, for each mesh. The result can have one face fewer. A mesh that
+            already has at most this number of faces does not change.
+        :param ratio: The number of faces to reach, as a fraction of the number of faces of each mesh.
+        :param error: The largest allowed distance between the old and the new surface, in scene units: the Hausdorff
+            distance. The limit is guaranteed: the step adds up an upper bound of how far each collapse moves the
+            surface. The true distance is therefore usually much smaller. If omitted, there is no limit.
+        :param features: Edges that are kept as lines, for example ``Sharp(above: 30)``. If omitted, only the lines that
+            are always kept.
+        :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, none.
+        :param intersections: Whether faces may come to intersect other faces, which can happen where parts of the
+            surface are close together. Defaults to Allow.
+        :param on_refusal: What to do if the number of faces cannot be reached. Defaults to Error.
+        """
+        return self._apply('Simplify', {'faces': faces, 'ratio': ratio, 'error': error, 'features': features, 'pin': pin, 'intersections': intersections, 'on_refusal': on_refusal}, None, id)
+
+    def remesh(
+        self,
+        *,
+        length: float | Arg | Ron | None = None,
+        curvature: Mapping[str, Any] | Arg | Ron | None = None,
+        features: Literal['All', 'Boundary'] | Choice | Arg | Ron | None = None,
+        error: float | Arg | Ron | None = None,
+        pin: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        passes: int | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Replace triangles by nearly equilateral triangles of a given size.
+
+        Replaces triangles by nearly equilateral triangles of a given size, on the same surface.
+
+        Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
+        vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target
+        length. All vertices lie on the original surface. The target length is either ``length``, or it follows the
+        ``curvature``: short edges where the surface is curved, long edges where it is flat (Dunyach and others, 2013).
+        One of the two must be given. All faces must be triangles.
+
+        These are kept:
+
+        - Topology: holes, handles and separate parts stay. - Lines: the boundary, seams of texture coordinates and
+        normals, borders between face tags or materials, edges with a tag or a crease, and ``features``. Vertices on a
+        line slide along it. The ends of lines, the vertices where lines meet, and corners where a line turns by more
+        than 40 degrees keep their exact positions. Other sharp edges are rounded. - Attributes: they come from the same
+        place of the original surface, and are never interpolated across a line. - Vertex tags: a new vertex has a tag
+        if all vertices around its place had it. Tagged vertices without tagged neighbors keep their exact positions,
+        and so do vertices with sharpness.
+
+        Each step that would turn a triangle over is refused. Elements are numbered anew. If the result could be further
+        from the original than ``error``, the step is refused as ``Unreached``; with ``on_refusal: Skip``, the mesh then
+        stays as it was.
+
+        In a recipe: ``Remesh(length: 0.5)``
+
+        :param length: The target length of edges, in scene units.
+        :param curvature: Target lengths that follow the curvature, instead of ``length``.
+        :param features: Edges that are kept as lines, for example ``Sharp(above: 30)``. If omitted, none in addition to
+            those above.
+        :param error: The largest allowed distance between the old and the new surface, in scene units: the Hausdorff
+            distance. Edges become shorter than the target length where this is necessary. The distance is measured at
+            the end, in both directions and for all points. If omitted, there is no limit.
+        :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, none.
+        :param passes: The largest number of passes, from 1 to 1000. The step ends earlier if a pass changes almost
+            nothing. Defaults to 10.
+        :param on_refusal: What to do if the result could be further from the original than ``error``. Defaults to
+            Error.
+        """
+        return self._apply('Remesh', {'length': length, 'curvature': curvature, 'features': features, 'error': error, 'pin': pin, 'passes': passes, 'on_refusal': on_refusal}, None, id)
+
+    def smooth(
+        self,
+        by: Choice | Arg | Ron,
+        *,
+        passes: int | Arg | Ron | None = None,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        pin: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        boundary: Literal['Fixed', 'Free'] | Arg | Ron | None = None,
+        keep_volume: bool | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Remove noise by moving vertices.
+
+        Moves vertices so that noise disappears.
+
+        Only vertices in ``vertices`` move, except those in ``pin``. Vertices without faces stay. All other vertices
+        keep their exact positions. Faces can have any number of corners, and degenerate faces are allowed. All elements
+        keep their numbers. Attributes are kept, so textures stretch with the surface, but normals are dropped.
+
+        | ``by`` | use | size | | --- | --- | --- | | ``Laplacian`` | strong smoothing | shrinks | | ``Taubin`` |
+        removing noise | nearly the same | | ``Implicit`` | strong smoothing of dense meshes in one pass | shrinks | |
+        ``Denoise`` | scans of objects with flat sides and sharp edges | nearly the same |
+
+        If ``boundary`` is ``Fixed``, vertices on the boundary stay, so that adjacent objects fit as before.
+
+        In a recipe: ``Smooth(by: Taubin())``
+
+        :param by: The method.
+        :param passes: The number of passes. If omitted, 1 for ``Implicit`` and 10 for the other methods. For
+            ``Denoise``, the number of passes over the normals. At most 10000.
+        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
+        :param pin: Vertices that stay. If omitted, none.
+        :param boundary: How vertices on the boundary move. Defaults to Fixed.
+        :param keep_volume: Whether the moved vertices are finally shifted along their normals, all by the same
+            distance, until the mesh has the volume that it had. The mesh must be closed. Defaults to False.
+        """
+        return self._apply('Smooth', {'by': by, 'passes': passes, 'vertices': vertices, 'pin': pin, 'boundary': boundary, 'keep_volume': keep_volume}, None, id)
+
+    def transfer(
+        self,
+        from_: "Mesh" | str | Arg | Ron,
+        attributes: Sequence[str] | NDArray[Any] | Arg | Ron,
+        *,
+        within: float | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Copy attributes from the nearest points of another object.
+
+        Copies attributes from the nearest points of another object.
+
+        An attribute of vertices, corners or faces of the object ``from`` becomes one of the same kind: numbers and
+        vectors of vertices and corners are interpolated inside the face of the nearest point; whole numbers, tags, and
+        attributes that edits do not interpolate are copied from its nearest corner, and values of faces from its face.
+        An attribute that exists already, with the same type of values, is overwritten. Without ``on``, the step acts on
+        all meshes except ``from``.
+
+        All corners of a face take their values from one chart of the source: from faces that are connected without
+        crossing a seam of the attribute. It is the chart nearest to the center of the face, so no triangle is stretched
+        across a seam of texture coordinates.
+
+        Elements further than ``within`` from the source keep their values, or get zeros if the attribute is new, and
+        are counted. For corners, the whole face does.
+
+        In a recipe: ``Transfer(from: "scan", attributes: ["uv", "color"], within: 0.01)``
+
+        :param from_: The name of the object with the attributes.
+        :param attributes: The names of the attributes, for example ``["uv", "color"]``.
+        :param within: The largest distance from the source, in scene units. If omitted, any distance.
+        """
+        return self._apply('Transfer', {'from': from_, 'attributes': attributes, 'within': within}, None, id)
+
+    def move_vertices(
+        self,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron,
+        by: Choice | Arg | Ron,
+        *,
+        falloff: float | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Move vertices, and move nearby vertices by a smaller distance.
+
+        Moves vertices.
+
+        Faces, element numbers and attributes do not change, so textures stretch with the surface. Normals are dropped.
+
+        With ``falloff: r``, vertices near the selected vertices move along. At the distance d from the nearest selected
+        vertex, the movement is multiplied by the weight (1 - (d/r)²)². The weight is 1 at selected vertices and falls
+        smoothly to 0 at the distance r. Distances are straight, not along the surface.
+
+        With ``by: Distance(..)``, each vertex moves along its own normal: the mean of the normals of its faces,
+        weighted by their areas. Vertices without a normal do not move and are counted.
+
+        In a recipe: ``MoveVertices(vertices: Vertices([0]), by: Offset((0, 0, 0.5)))``
+
+        :param vertices: The vertices to move.
+        :param by: How the vertices move.
+        :param falloff: The distance from the selected vertices at which the movement has fallen to 0, in scene units.
+            If omitted, only the selected vertices move.
+        """
+        return self._apply('MoveVertices', {'vertices': vertices, 'by': by, 'falloff': falloff}, None, id)
+
+    def displace(
+        self,
+        by: Choice | Arg | Ron,
+        distance: float | Arg | Ron,
+        *,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Move vertices along their normals by noise or by an attribute.
+
+        Moves vertices along their normals, by amounts that vary over the surface.
+
+        Each vertex moves along its normal by ``distance`` times the value of ``by``. The normal of a vertex is the mean
+        of the normals of its faces, weighted by their areas. Vertices without a normal do not move and are counted.
+        Faces, element numbers and attributes do not change. Normals are dropped.
+
+        The values are computed without functions that differ between machines, so the result is the same everywhere.
+
+        In a recipe: ``Displace(by: Noise(scale: 0.5, seed: 7), distance: 0.1)``
+
+        :param by: The values.
+        :param distance: The distance for the value 1, in scene units. A negative distance moves inwards.
+        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
+        """
+        return self._apply('Displace', {'by': by, 'distance': distance, 'vertices': vertices}, None, id)
+
+    def bend(
+        self,
+        axis: Literal['X', 'Y', 'Z'] | Arg | Ron,
+        angle: float | Arg | Ron,
+        *,
+        towards: Literal['X', 'Y', 'Z'] | Arg | Ron | None = None,
+        about: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        from_: float | Arg | Ron | None = None,
+        to: float | Arg | Ron | None = None,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Bend an axis into an arc of a circle.
+
+        Bends an axis, and everything around it, into an arc of a circle.
+
+        The plane at ``from`` does not move. Between ``from`` and ``to``, the axis becomes an arc that keeps its length
+        and turns by ``angle`` in total. Vertices beyond ``to`` move rigidly. Vertices between the axis and the center
+        of the circle come closer together, and vertices on the other side of the axis move apart. The center is at the
+        distance (to - from) / angle from the axis, with the angle in radians. Parts of the mesh beyond the center turn
+        inside out. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
+
+        Faces, element numbers and attributes do not change, so textures stretch with the surface. Normals are dropped.
+        Only vertices move: refine the mesh first if its faces are large.
+
+        In a recipe: ``Bend(axis: Z, angle: 90)``
+
+        :param axis: The axis that is bent.
+        :param angle: The angle between the ends of the axis, in degrees. A negative angle bends to the other side.
+        :param towards: The axis towards which the upper end bends. If omitted, the axis after ``axis`` in the order x,
+            y, z, x.
+        :param about: A point on the axis. The coordinate of the point along the axis does not matter.
+        :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
+            of the mesh.
+        :param to: The coordinate along the axis at which the deformation is complete. If omitted, the highest
+            coordinate of the mesh. Must not be less than ``from``.
+        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
+        """
+        return self._apply('Bend', {'axis': axis, 'angle': angle, 'towards': towards, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, None, id)
+
+    def twist(
+        self,
+        axis: Literal['X', 'Y', 'Z'] | Arg | Ron,
+        angle: float | Arg | Ron,
+        *,
+        about: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        from_: float | Arg | Ron | None = None,
+        to: float | Arg | Ron | None = None,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Rotate vertices around an axis, by an angle that grows along the axis.
+
+        Rotates vertices around an axis, by an angle that grows along the axis.
+
+        The angle grows linearly from 0 at ``from`` to ``angle`` at ``to``. Below ``from`` and above ``to``, vertices
+        rotate by the angle of the nearer end. A twist keeps volumes, and a twist by the opposite angle undoes the first
+        twist. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
+
+        Faces, element numbers and attributes do not change, so textures stretch with the surface. Normals are dropped.
+        Only vertices move: refine the mesh first if its faces are large.
+
+        In a recipe: ``Twist(axis: Z, angle: 90)``
+
+        :param axis: The axis of the rotation.
+        :param angle: The angle at ``to``, in degrees, counter-clockwise if the axis points to the viewer.
+        :param about: A point on the axis. The coordinate of the point along the axis does not matter.
+        :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
+            of the mesh.
+        :param to: The coordinate along the axis at which the deformation is complete. If omitted, the highest
+            coordinate of the mesh. Must not be less than ``from``.
+        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
+        """
+        return self._apply('Twist', {'axis': axis, 'angle': angle, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, None, id)
+
+    def taper(
+        self,
+        axis: Literal['X', 'Y', 'Z'] | Arg | Ron,
+        factor: float | Arg | Ron,
+        *,
+        about: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        from_: float | Arg | Ron | None = None,
+        to: float | Arg | Ron | None = None,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Scale vertices around an axis, by a factor that changes along the axis.
+
+        Scales vertices towards or away from an axis, by a factor that changes along the axis.
+
+        The factor changes linearly from 1 at ``from`` to ``factor`` at ``to``. Below ``from`` and above ``to``, the
+        factor of the nearer end applies. Heights do not change. Source: Barr, "Global and Local Deformations of Solid
+        Primitives", 1984.
+
+        Faces, element numbers and attributes do not change, so textures stretch with the surface. Normals are dropped.
+        Only vertices move: refine the mesh first if its faces are large.
+
+        In a recipe: ``Taper(axis: Z, factor: 0.5)``
+
+        :param axis: The axis, which keeps its place.
+        :param factor: The factor at ``to``. More than 0: a factor below 1 makes the upper end narrower.
+        :param about: A point on the axis. The coordinate of the point along the axis does not matter.
+        :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
+            of the mesh.
+        :param to: The coordinate along the axis at which the deformation is complete. If omitted, the highest
+            coordinate of the mesh. Must not be less than ``from``.
+        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
+        """
+        return self._apply('Taper', {'axis': axis, 'factor': factor, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, None, id)
+
+    def lattice(
+        self,
+        size: Sequence[int] | NDArray[Any] | Arg | Ron,
+        moves: Sequence[Sequence[Sequence[float] | NDArray[Any] | Sequence[int] | NDArray[Any]] | NDArray[Any]] | NDArray[Any] | Arg | Ron,
+        *,
+        min: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        max: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Deform vertices with a box of control points.
+
+        Deforms vertices with a box of control points.
+
+        The box is divided by ``size`` control points along x, y and z. ``moves`` moves some of them, and the space in
+        the box follows smoothly: each point is a sum of the control points with Bernstein polynomials as weights
+        (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all control points move by the
+        same offset, the box moves by it. A control point attracts the surface, but the surface usually does not reach
+        it, except at the corners of the box.
+
+        Vertices outside the box stay. Faces, numbers and attributes do not change, so textures stretch with the
+        surface. Normals are dropped. Only vertices move: refine the mesh first if its faces are large.
+
+        In a recipe: ``Lattice(size: (3, 3, 3), moves: [((2, 2, 2), (0.5, 0.5, 0.5))])``
+
+        :param size: The number of control points along x, y and z, from 2 to 16 each.
+        :param moves: The control points that move: their numbers along x, y and z, counted from 0, and the offset in
+            scene units. A control point that is listed several times moves by the sum.
+        :param min: The lowest corner of the box. If omitted, that of the bounding box of the mesh.
+        :param max: The highest corner of the box. If omitted, that of the bounding box of the mesh.
+        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
+        """
+        return self._apply('Lattice', {'size': size, 'moves': moves, 'min': min, 'max': max, 'vertices': vertices}, None, id)
+
+    def project(
+        self,
+        onto: "Mesh" | str | Arg | Ron,
+        *,
+        along: Literal['Nearest', 'Normal'] | Choice | Arg | Ron | None = None,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        pin: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        distance: float | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Move vertices onto the surface of another object.
+
+        Moves vertices onto the surface of another object (shrinkwrap).
+
+        Only vertices in ``vertices`` move, except those in ``pin``; all others keep their exact positions. Without
+        ``on``, the step acts on all meshes except the object ``onto``, which does not change. Faces, numbers and
+        attributes do not change, so textures stretch with the surface. Normals are dropped.
+
+        Vertices that would move further than ``distance`` stay. With ``Normal`` and ``Direction``, so do vertices whose
+        line misses the surface. The report counts both.
+
+        In a recipe: ``Project(onto: "scan", distance: 0.1)``
+
+        :param onto: The name of the object with the surface.
+        :param along: Where each vertex goes. Defaults to Nearest.
+        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
+        :param pin: Vertices that stay. If omitted, none.
+        :param distance: The largest distance that a vertex moves, in scene units. If omitted, any distance.
+        """
+        return self._apply('Project', {'onto': onto, 'along': along, 'vertices': vertices, 'pin': pin, 'distance': distance}, None, id)
+
+    def measure(
+        self,
+        of: Literal['MeanCurvature', 'GaussianCurvature', 'Area', 'VertexArea', 'MinAngle', 'AspectRatio', 'Thickness'] | Choice | Arg | Ron,
+        *,
+        name: str | Arg | Ron | None = None,
+        missing: float | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Store a quantity of vertices or faces, such as a curvature or a distance, as an attribute.
+
+        Stores a quantity, such as a curvature or a distance, as an attribute of vertices or faces.
+
+        Later steps can select elements by the attribute with ``Where``, ``Displace`` vertices by it, show it in a
+        ``Picture``, and save it to files. It is not updated when the mesh changes. Positions and other attributes do
+        not change. Coordinates are those of the meshes, without nodes. The report states the lowest, the mean and the
+        highest value of each object.
+
+        An attribute of the same name is replaced if it has one number for each of the same elements; otherwise the step
+        fails.
+
+        In a recipe: ``Measure(of: MeanCurvature)``
+
+        :param of: The quantity.
+        :param name: The name of the attribute. If omitted, the name of the quantity in lower case, such as
+            ``mean_curvature``.
+        :param missing: The value of elements that have none, such as the curvature of a vertex without faces. They are
+            counted. If omitted, 0 for quantities that can be negative, and -1 for all others.
+        """
+        return self._apply('Measure', {'of': of, 'name': name, 'missing': missing}, None, id)
+
+    def unwrap(
+        self,
+        *,
+        seams: Literal['All', 'Boundary'] | Choice | Arg | Ron | None = None,
+        max_angle: float | Arg | Ron | None = None,
+        max_stretch: float | Arg | Ron | None = None,
+        page: int | Arg | Ron | None = None,
+        padding: int | Arg | Ron | None = None,
+        uv: str | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Compute texture coordinates without overlaps.
+
+        Computes texture coordinates without overlaps.
+
+        The surface is cut into charts, which are flattened and packed into a square page. Charts grow from flat regions
+        up to ``max_angle``. They are flattened by least squares conformal maps (Levy and others, 2002) and the as-
+        rigid-as-possible method (Liu and others, 2008), and are cut again where they would overlap themselves or exceed
+        ``max_stretch``. All charts of a mesh have one scale, and none is mirrored. A polygon stays in one chart. Each
+        mesh gets a page of its own.
+
+        The coordinates are written to the corner attribute ``uv``, which is replaced if it exists. Edges at which
+        charts meet become its seams. Positions, faces and other attributes stay, except that tangents are removed.
+        Faces without area have no area in the texture and are counted. A polygon that is bent so far that it overlaps
+        itself is refused as ``WrongPlace``: triangulate it first. With ``on_refusal: Skip``, its triangles overlap in
+        the texture.
+
+        In a recipe: ``Unwrap(max_angle: 60)``
+
+        :param seams: Edges that become borders of charts, for example ``Tagged("seam")`` or ``Sharp(above: 60)``. If
+            omitted, only edges that the algorithm chooses.
+        :param max_angle: The largest angle between the normal of a face and the mean normal of its chart, in degrees.
+            Smaller angles give more charts with less stretch. Defaults to 70.0.
+        :param max_stretch: The largest ratio between the scale of areas in a triangle and in its whole chart. Defaults
+            to 4.0.
+        :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size;
+            the size determines how large the padding is. Defaults to 1024.
+        :param padding: The number of empty texels around each chart. Charts are at least twice as far from each other.
+            Defaults to 2.
+        :param uv: The name of the texture coordinates. Defaults to ``uv``.
+        :param on_refusal: What to do if a polygon overlaps itself in the texture. Defaults to Error.
+        """
+        return self._apply('Unwrap', {'seams': seams, 'max_angle': max_angle, 'max_stretch': max_stretch, 'page': page, 'padding': padding, 'uv': uv, 'on_refusal': on_refusal}, None, id)
+
+    def pack_uvs(
+        self,
+        *,
+        uv: str | Arg | Ron | None = None,
+        page: int | Arg | Ron | None = None,
+        padding: int | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Move and scale charts of texture coordinates into one page.
+
+        Moves, turns and scales charts of texture coordinates so that they do not overlap and have one scale.
+
+        A chart is a set of faces that are connected without seams of the texture coordinates. Afterwards, areas in the
+        texture are proportional to areas on the surface, for whole charts. The shape of each chart stays, also if it is
+        stretched, mirrored or overlaps itself; charts that overlap themselves are counted. Charts without area become a
+        point and are counted. Each mesh gets a page of its own. Tangents are removed, because charts are turned.
+
+        In a recipe: ``PackUvs(page: 2048, padding: 4)``
+
+        :param uv: The name of the texture coordinates. Defaults to ``uv``.
+        :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size;
+            the size determines how large the padding is. Defaults to 1024.
+        :param padding: The number of empty texels around each chart. Charts are at least twice as far from each other.
+            Defaults to 2.
+        """
+        return self._apply('PackUvs', {'uv': uv, 'page': page, 'padding': padding}, None, id)
+
+    def picture(
+        self,
+        path: str | os.PathLike[str] | Arg | Ron,
+        *,
+        size: Sequence[int] | NDArray[Any] | Arg | Ron | None = None,
+        camera: Choice | Arg | Ron | None = None,
+        views: Sequence[Choice] | NDArray[Any] | Arg | Ron | None = None,
+        columns: int | Arg | Ron | None = None,
+        style: Mapping[str, Any] | Arg | Ron | None = None,
+        highlight: Literal['All', 'Boundary', 'Isolated', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
+        highlight_width: float | Arg | Ron | None = None,
+        marks: Sequence[Mapping[str, Any]] | NDArray[Any] | Arg | Ron | None = None,
+        color_by: Mapping[str, Any] | Arg | Ron | None = None,
+        turntable: Mapping[str, Any] | Arg | Ron | None = None,
+        images: str | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Draw the scene into an image file.
+
+        Draws the scene into an image file.
+
+        The extension of the file determines the format: ``.png`` for an image; with ``turntable``, ``.gif`` for an
+        animated GIF, and ``.apng`` or ``.png`` for an animated PNG. The file is written only if the whole recipe
+        succeeds. The scene does not change. Drawing needs no GPU and gives the same bytes on every machine.
+
+        In a recipe: ``Picture(path: "a.png", size: (64, 48), highlight: Edges(Sharp(above: 30)), color_by: (of:
+        Valence), style: (wireframe: ()))``
+
+        :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
+            without extension, of the file in the recipe parameter ``name``.
+        :param size: The width and the height of each view in pixels.
+        :param camera: The camera.
+        :param views: Several cameras, in place of ``camera``. The views of the cameras are placed side by side.
+        :param columns: The number of views in a row. If omitted, the number of views, but at most 4.
+        :param style: The style: shading, lines, background.
+        :param highlight: Elements to highlight in orange, as in ``Edges(Sharp(above: 30))`` or
+            ``Faces(Tagged("top"))``.
+        :param highlight_width: The width of highlighted edges and the diameter of highlighted vertices, in pixels. The
+            defaults depend on the height of the picture: 2.8 and 7.5 for 240 pixels, 3.4 and 10 for 480, 4 and 13 for
+            960, 8 and 26 for 1920. If there are many highlighted vertices, they are drawn smaller. Hidden edges are
+            faint, and hidden vertices are rings.
+        :param marks: More elements to highlight, each in its color.
+        :param color_by: Numbers to show as colors of the surface.
+        :param turntable: Makes an animation in which the camera moves once around the scene.
+        :param images: The folder of images that are not next to their model, relative to the folder of the recipe. If
+            omitted, the folder of the recipe. Missing images are not drawn, and are reported.
+        """
+        return self._apply('Picture', {'path': path, 'size': size, 'camera': camera, 'views': views, 'columns': columns, 'style': style, 'highlight': highlight, 'highlight_width': highlight_width, 'marks': marks, 'color_by': color_by, 'turntable': turntable, 'images': images}, None, id)
+
+    def curve_figure(
+        self,
+        path: str | os.PathLike[str] | Arg | Ron,
+        *,
+        t: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
+        by_level: bool | Arg | Ron | None = None,
+        before: str | Arg | Ron | None = None,
+        width: int | Arg | Ron | None = None,
+        columns: int | Arg | Ron | None = None,
+        scale: int | Arg | Ron | None = None,
+        labels: bool | Arg | Ron | None = None,
+        legend: bool | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Draw de Casteljau's construction of Bezier curves.
+
+        Draws Bezier curves, and de Casteljau's construction of their points, into an image file.
+
+        The figure has a panel for each curve and each ``t``. With ``by_level``, it has instead one panel for each
+        curve, each ``t`` and each level. A panel shows the control polygon, every level of de Casteljau's algorithm in
+        a different color, the point, and the curve, with the same scale in both axes. The extension of the file
+        determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene
+        does not change.
+
+        In a recipe: ``CurveFigure(path: "figure.svg", t: [0.25, 0.5])``
+
+        :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
+            without extension, of the file in the recipe parameter ``name``.
+        :param t: The parameters of the constructed points, from 0 (start) to 1 (end). If empty, only the curves and
+            their control polygons are drawn.
+        :param by_level: Draws a panel for each level of the algorithm, in place of one panel with all levels. Defaults
+            to False.
+        :param before: The name of a curve that shows an earlier state of the other curves. This curve is drawn faintly
+            behind the other curves, with arrows to the control points that moved.
+        :param width: The width of the figure in SVG pixels. The font size is 12 to 19 pixels. Defaults to 640.
+        :param columns: The number of panels in a row. If omitted, the number of values of ``t`` (with ``by_level``, the
+            number of levels), but at most 4.
+        :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to 2.
+        :param labels: Whether points are labeled with their names. Defaults to True.
+        :param legend: Whether there is a legend below the panels. Defaults to True.
+        """
+        return self._apply('CurveFigure', {'path': path, 't': t, 'by_level': by_level, 'before': before, 'width': width, 'columns': columns, 'scale': scale, 'labels': labels, 'legend': legend}, None, id)
+
+    def half_edge_figure(
+        self,
+        path: str | os.PathLike[str] | Arg | Ron,
+        *,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
+        width: int | Arg | Ron | None = None,
+        scale: int | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Draw the half-edges of faces.
+
+        Draws the half-edges of some faces of a mesh into an image file.
+
+        Each half-edge is an arrow beside its edge, inside its face, with its name. A thin curve leads from the head of
+        the arrow to the next half-edge of the face. The twin of a half-edge is on the other side of the edge. Half-
+        edges on the boundary have no face and are gray. The faces are seen along their mean normal. Faces that face
+        away from the viewer are left out and reported. The extension of the file determines the format: ``.svg`` or
+        ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
+
+        A name is a letter and the number of the element: ``v`` for vertices, ``h`` for half-edges, ``f`` for faces.
+        Half-edges ``2e`` and ``2e + 1`` belong to edge ``e``.
+
+        In a recipe: ``HalfEdgeFigure(path: "figure.svg")``
+
+        :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
+            without extension, of the file in the recipe parameter ``name``.
+        :param faces: The faces to draw, at most 200. Defaults to All.
+        :param width: The width of the figure in SVG pixels. Defaults to 640.
+        :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to 2.
+        """
+        return self._apply('HalfEdgeFigure', {'path': path, 'faces': faces, 'width': width, 'scale': scale}, None, id)
+
+    def uv_picture(
+        self,
+        path: str | os.PathLike[str] | Arg | Ron,
+        *,
+        uv: str | Arg | Ron | None = None,
+        fill: Literal['None', 'Charts', 'Stretch'] | Arg | Ron | None = None,
+        edges: bool | Arg | Ron | None = None,
+        width: int | Arg | Ron | None = None,
+        scale: int | Arg | Ron | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Draw the charts of texture coordinates.
+
+        Draws the charts of the texture coordinates of a mesh into an image file.
+
+        The frame is the page of the texture, with u and v from 0 to 1 and v upwards. Thick lines are the borders of
+        charts, thin lines the other edges. Coordinates outside the page are drawn too, and make the figure higher or
+        its scale smaller. The extension of the file determines the format: ``.svg`` or ``.png``. The file is written
+        only if the whole recipe succeeds. The scene does not change.
+
+        In a recipe: ``UvPicture(path: "uv.svg")``
+
+        :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
+            without extension, of the file in the recipe parameter ``name``.
+        :param uv: The name of the texture coordinates. Defaults to ``uv``.
+        :param fill: What the colors inside charts show. Defaults to Charts.
+        :param edges: Whether edges inside charts are drawn. Defaults to True.
+        :param width: The width of the figure in SVG pixels. Defaults to 640.
+        :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to 2.
+        """
+        return self._apply('UvPicture', {'path': path, 'uv': uv, 'fill': fill, 'edges': edges, 'width': width, 'scale': scale}, None, id)

@@ -1,0 +1,47 @@
+"""Progress of long computations."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+#: Called with the step, the task, the number of parts that are done, and the number of all parts. An exception cancels.
+Progress = Callable[[str, str, int, int], object]
+
+
+@contextmanager
+def callback(progress: bool | Progress | None) -> Iterator[Progress | None]:
+    """The callable that shows progress: the given one, or a bar of tqdm for `True`."""
+    if progress is None or progress is False:
+        yield None
+        return
+    if progress is not True:
+        yield progress
+        return
+    try:
+        from tqdm.auto import tqdm
+    except ImportError as error:
+        raise ImportError("progress=True needs tqdm: pip install tqdm; or pass a callable") from error
+    with tqdm(total=1.0, bar_format="{desc} {percentage:3.0f}%|{bar}| {elapsed}") as bar:
+
+        def show(step: str, task: str, done: int, total: int) -> None:
+            bar.set_description_str(" ".join(dict.fromkeys(part for part in (step, task) if part)), refresh=False)
+            bar.n = done / max(total, 1)
+            bar.refresh()
+
+        yield show
+
+
+def numbers(values: dict[str, Any]) -> list[tuple[str, str]]:
+    """Values of recipe parameters as plain text, as on the command line."""
+
+    def text(value: Any) -> str:
+        if isinstance(value, bool):
+            return "true" if value else "false"
+        if isinstance(value, tuple | list) or hasattr(value, "tolist"):
+            parts = value.tolist() if hasattr(value, "tolist") else value
+            return f"({', '.join(text(v) for v in parts)})" if isinstance(parts, list | tuple) else text(parts)
+        return str(value)
+
+    return [(name, text(value)) for name, value in values.items()]

@@ -1,0 +1,238 @@
+"""Writes Python values as the text of recipes (RON). The schema of a parameter says how its value is written: a Python
+string is a word such as ``Area`` where the schema lists words, and a text in quotes elsewhere."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from . import _core
+
+Schema = Mapping[str, Any]
+
+
+class Choice:
+    """A value with a name and parameters, such as ``Longest(count: 12)``. Made by the functions of
+    :mod:`meshwright.sel`, :mod:`meshwright.choice` and :mod:`meshwright.expect`."""
+
+    __slots__ = ("args", "fields", "name")
+
+    def __init__(self, name: str, /, *args: Any, **fields: Any) -> None:
+        self.name = name
+        self.args = args
+        self.fields = {k: v for k, v in fields.items() if v is not None}
+
+    def __repr__(self) -> str:
+        return write(self, {})
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Choice) and repr(self) == repr(other)
+
+    def __hash__(self) -> int:
+        return hash(repr(self))
+
+
+class Ron(str):
+    """A text of a recipe that is used as it is."""
+
+    def __repr__(self) -> str:
+        return f"Ron({super().__repr__()})"
+
+
+@dataclass(frozen=True)
+class Arg:
+    """A parameter of a recipe. Made by :func:`meshwright.arg`."""
+
+    name: str
+    declaration: str = field(repr=False)
+
+
+@cache
+def root() -> dict[str, Any]:
+    """The JSON schema of recipes."""
+    schema: dict[str, Any] = json.loads(_core.schema())
+    return schema
+
+
+@cache
+def operations() -> dict[str, dict[str, Any]]:
+    """All operations by their names."""
+    return {entry["name"]: entry for entry in json.loads(_core.operations())}
+
+
+def definition(name: str) -> Schema:
+    """The schema of an operation or of another type of recipes."""
+    found: Schema = root()["$defs"][name]
+    return found
+
+
+def resolve(schema: Schema) -> Schema:
+    """Follows references."""
+    while "$ref" in schema:
+        schema = definition(schema["$ref"].rsplit("/", 1)[1])
+    return schema
+
+
+def options(schema: Schema) -> list[Schema]:
+    """The alternatives of a schema, without ``null``; the schema itself if it has none."""
+    schema = resolve(schema)
+    for key in ("oneOf", "anyOf"):
+        if key in schema:
+            return [option for part in schema[key] for option in options(part)]
+    return [] if schema.get("type") == "null" else [schema]
+
+
+def name_of(option: Schema) -> str | None:
+    """The name of the variant that an alternative describes, if it describes one."""
+    if "const" in option:
+        return str(option["const"])
+    required = option.get("required", [])
+    properties = option.get("properties", {})
+    if option.get("type") == "object" and len(required) == 1 == len(properties):
+        name = str(required[0])
+        return name if name[:1].isupper() else None
+    return None
+
+
+def words(schema: Schema) -> set[str]:
+    """The words that stand for themselves in this place."""
+    found: set[str] = set()
+    for option in options(schema):
+        if isinstance(option.get("const"), str):
+            found.add(option["const"])
+        found.update(word for word in option.get("enum", []) if isinstance(word, str))
+    return found
+
+
+def takes_text(schema: Schema) -> bool:
+    """Whether any text is allowed in this place."""
+    plain = [o for o in options(schema) if "const" not in o and "enum" not in o]
+    kinds = [o.get("type") for o in plain]
+    return any(k == "string" or isinstance(k, list) and "string" in k for k in kinds)
+
+
+def quoted(text: str) -> str:
+    """A text in quotes."""
+    return json.dumps(text, ensure_ascii=False)
+
+
+def number(value: float) -> str:
+    """A number that reads back as the same number."""
+    if value != value or value in (float("inf"), float("-inf")):
+        raise ValueError(f"{value} is not a finite number")
+    text = repr(float(value))
+    return text[:-2] if text.endswith(".0") and "e" not in text else text
+
+
+def field_name(name: str) -> str:
+    """The name of a parameter in recipes: ``from`` for the Python name ``from_``."""
+    return name.removesuffix("_")
+
+
+def struct(fields: Mapping[str, Any], schema: Schema) -> str:
+    """Fields with their names: ``(levels: 2)``."""
+    known = resolve(schema).get("properties", {})
+    parts = []
+    for python_name, value in fields.items():
+        name = field_name(python_name)
+        parts.append(f"{name}: {write(value, known.get(name, {}))}")
+    return f"({', '.join(parts)})"
+
+
+def write_choice(value: Choice, schema: Schema) -> str:
+    """A variant with its parameters."""
+    found: Schema = {}
+    for option in options(schema):
+        if name_of(option) == value.name and "properties" in option:
+            found = resolve(option["properties"][value.name])
+    if not value.args and not value.fields:
+        return f"{value.name}()" if "properties" in found else value.name
+    if value.fields:
+        return value.name + struct(value.fields, found)
+    parts = found.get("prefixItems")
+    if parts and len(parts) == len(value.args) > 1:
+        inner = [write(a, part) for a, part in zip(value.args, parts, strict=True)]
+    elif len(value.args) == 1:
+        inner = [write(value.args[0], found)]
+    else:
+        inner = [write(a, {}) for a in value.args]
+    return f"{value.name}({', '.join(inner)})"
+
+
+def write_list(items: Sequence[Any], schema: Schema) -> str:
+    """A list ``[a, b]``, or a tuple ``(a, b)`` where the schema has a fixed length."""
+    for option in options(schema):
+        parts = option.get("prefixItems")
+        is_fixed = parts or option.get("minItems") is not None and option.get("minItems") == option.get("maxItems")
+        if is_fixed:
+            inner = [write(v, parts[i] if parts and i < len(parts) else option.get("items", {})) for i, v in enumerate(items)]
+            return f"({', '.join(inner)})"
+    lists = [o for o in options(schema) if o.get("type") == "array"]
+    each = lists[0].get("items", {}) if lists else {}
+    inner = [write(v, each) for v in items]
+    if not lists and isinstance(items, tuple):
+        return f"({', '.join(inner)})"
+    return f"[{', '.join(inner)}]"
+
+
+def write(value: Any, schema: Schema) -> str:
+    """A value as the text of a recipe."""
+    if isinstance(value, Ron):
+        return str.__str__(value)
+    if isinstance(value, Arg):
+        return f"arg({quoted(value.name)})"
+    if isinstance(value, Choice):
+        return write_choice(value, schema)
+    if value is None:
+        return "None"
+    if isinstance(value, bool | np.bool_):
+        return "true" if value else "false"
+    if isinstance(value, int | np.integer):
+        return str(int(value))
+    if isinstance(value, float | np.floating):
+        return number(float(value))
+    if isinstance(value, str):
+        if value in words(schema):
+            return value
+        if schema and not takes_text(schema) and options(schema) and words(schema) and value.isidentifier():
+            return value
+        return quoted(value)
+    if hasattr(value, "__fspath__"):
+        return quoted(value.__fspath__())
+    if isinstance(value, np.ndarray):
+        return write_list(value.tolist(), schema)
+    if isinstance(value, Mapping):
+        kinds = [o for o in options(schema) if "properties" in o and name_of(o) is None]
+        if kinds:
+            return struct(value, kinds[0])
+        maps = [o for o in options(schema) if "additionalProperties" in o]
+        each = maps[0]["additionalProperties"] if maps and isinstance(maps[0]["additionalProperties"], dict) else {}
+        inner = [f"{quoted(str(k))}: {write(v, each)}" for k, v in value.items()]
+        return "{" + ", ".join(inner) + "}"
+    if isinstance(value, Sequence):
+        return write_list(value, schema)
+    raise TypeError(f"cannot write {type(value).__name__} in a recipe")
+
+
+def step(operation: str, fields: Mapping[str, Any]) -> str:
+    """A step: ``LoopSubdivide(levels: 2)``. Parameters that are ``None`` are omitted."""
+    given = {name: value for name, value in fields.items() if value is not None}
+    return operation + struct(given, definition(operation))
+
+
+def arguments(value: Any) -> list[Arg]:
+    """The parameters of recipes in a value."""
+    if isinstance(value, Arg):
+        return [value]
+    if isinstance(value, Choice):
+        return arguments([*value.args, *value.fields.values()])
+    if isinstance(value, Mapping):
+        return arguments(list(value.values()))
+    if isinstance(value, list | tuple):
+        return [a for v in value for a in arguments(v)]
+    return []

@@ -1,0 +1,286 @@
+"""Scenes."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Self
+
+from . import _core, _ron
+from ._mesh import Mesh
+from ._operations import SceneOperations
+from ._progress import Progress, callback
+
+EXTENSIONS = (".obj", ".gltf", ".glb", ".ply", ".stl", ".off", ".dae", ".mws", ".bez", ".bzc")
+
+
+class Scene(SceneOperations, Mapping[str, Mesh]):
+    """Named objects, in order, and the nodes that place them. A scene never changes: operations return new scenes.
+
+    A scene is a mapping from names to meshes:
+
+    >>> import meshwright as mw
+    >>> scene = mw.Scene().cube(name="box").torus(name="ring")
+    >>> list(scene)
+    ['box', 'ring']
+    >>> scene["box"].n_faces
+    6
+    """
+
+    def __init__(self, core: _core.Scene | None = None, notes: tuple[str, ...] = ()) -> None:
+        self._core = core if core is not None else _core.Scene()
+        self._notes = notes
+
+    # ---- Objects
+
+    def __getitem__(self, name: str) -> Mesh:
+        if name not in self._core.names():
+            known = ", ".join(f'"{n}"' for n in self) or "none"
+            raise KeyError(f'no object is named "{name}"; objects: {known}')
+        if self._core.kind(name) != "mesh":
+            raise TypeError(f'"{name}" is {self._core.kind(name)}, expected a mesh; tessellate() makes meshes of patches')
+        return Mesh(self._core.only([name]), name, self._notes)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._core.names())
+
+    def __len__(self) -> int:
+        return len(self._core.names())
+
+    def mesh(self, name: str | None = None) -> Mesh:
+        """Returns the only mesh of the scene, or the mesh with this name. Raises `ValueError` if there are several
+        meshes or none, with their names."""
+        if name is not None:
+            return self[name]
+        meshes = [n for n in self if self.kind(n) == "mesh"]
+        if len(meshes) == 1:
+            return self[meshes[0]]
+        if not meshes:
+            others = ", ".join(f'"{n}" ({self.kind(n)})' for n in self) or "no objects"
+            raise ValueError(f"the scene has no mesh: {others}")
+        listed = ", ".join(f'"{n}"' for n in meshes)
+        raise ValueError(f"the scene has {len(meshes)} meshes, expected one: {listed}; use scene[name] or join()")
+
+    def kind(self, name: str) -> str:
+        """The kind of an object: mesh, patches, curve or polylines."""
+        return self._core.kind(name)
+
+    def with_object(self, mesh: Mesh, *, name: str | None = None) -> Self:
+        """Returns the scene with the object of a mesh, which is added under its name or `name`."""
+        return type(self)(self._core.joined(mesh._scene, {mesh.name: name or mesh.name}))
+
+    def only(self, *names: str) -> Self:
+        """Returns the scene with only these objects."""
+        for name in names:
+            self._core.kind(name)
+        return type(self)(self._core.only(list(names)))
+
+    def placed(self) -> Self:
+        """Returns the scene with every object where its nodes show it, and without nodes. An object that several nodes
+        show becomes several objects."""
+        return type(self)(self._core.placed())
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What the last operation reported: repairs, losses and other facts, one line each."""
+        return self._notes
+
+    @cached_property
+    def digest(self) -> str:
+        """The digest of the scene: equal for equal scenes, on every machine, and equal to that of the program."""
+        return self._core.digest()
+
+    # ---- Operations
+
+    def apply(
+        self,
+        operation: str,
+        /,
+        *,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+        progress: bool | Progress | None = None,
+        budget: int | None = None,
+        **parameters: Any,
+    ) -> Self:
+        """Runs an operation by its name in recipes: ``scene.apply("Weld", distance=1e-6)``.
+
+        :param operation: The name of the operation.
+        :param on: The objects that the operation acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :param progress: A callable, or `True` for a bar of tqdm.
+        :param budget: The memory budget for meshes, in bytes. Defaults to 8 GiB.
+        """
+        with callback(progress) as show:
+            return self._run(operation, parameters, on, id, progress=show, budget=budget)[0]
+
+    def _apply(
+        self, operation: str, fields: Mapping[str, Any], on: str | Sequence[str] | None, id: str | None
+    ) -> Self:
+        path = fields.get("path")
+        if operation not in WRITES or not isinstance(path, str | os.PathLike):
+            return self._run(operation, fields, on, id)[0]
+        text = os.fspath(path)
+        if is_address(text):
+            name = f"file.{extension_of(text)}"
+            done, written = self._run(operation, {**fields, "path": name}, on, id, files={})
+            if len(written) != 1:
+                raise ValueError(f"{text} would be several files ({', '.join(written)}): choose .glb or another format")
+            write_bytes(text, written[name])
+            return done
+        file = Path(text)
+        return self._run(operation, {**fields, "path": file.name}, on, id, output=str(file.parent))[0]
+
+    def _run(
+        self,
+        operation: str,
+        fields: Mapping[str, Any],
+        on: str | Sequence[str] | None,
+        id: str | None,
+        *,
+        output: str = "",
+        files: dict[str, bytes] | None = None,
+        progress: Progress | None = None,
+        budget: int | None = None,
+    ) -> tuple[Self, dict[str, bytes]]:
+        if operation not in _ron.operations():
+            raise AttributeError(f"no operation is named {operation}")
+        text = f"(recipe: 1, steps: [\n{whole_step(operation, fields, on, id)}\n])"
+        core, about = self._core.run(text, "", output, files, budget, progress)
+        notes = [line for report in about["reports"] for line in lines_of(json.loads(report))]
+        notes += [warning["message"] for warning in about["warnings"]]
+        return type(self)(core, tuple(notes)), about["written"]
+
+    # ---- Files
+
+    def to_bytes(self, extension: str, **options: Any) -> bytes:
+        """Returns the content of a file of this format, such as ``"glb"``."""
+        name = f"scene.{extension.lstrip('.')}"
+        written = self._run("Save", {"path": name, **options}, None, None, files={})[1]
+        return written[name]
+
+    def render(self, **options: Any) -> bytes:
+        """Draws the scene and returns a PNG file. The options are those of the step `Picture`.
+
+        >>> import meshwright as mw
+        >>> mw.Scene().cube(name="box").render(size=(64, 48))[:4]
+        b'\\x89PNG'
+        """
+        return self._run("Picture", {"path": "picture.png", **options}, None, None, files={})[1]["picture.png"]
+
+    def _repr_png_(self) -> bytes | None:
+        return self.render(size=(640, 480)) if len(self) else None
+
+    # ---- Python
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Scene) and self.digest == other.digest
+
+    def __hash__(self) -> int:
+        return hash(self.digest)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (_unpickle, (self.to_bytes("mws"),))
+
+    def __repr__(self) -> str:
+        parts = [repr(self[n]) if self.kind(n) == "mesh" else f'"{n}": {self.kind(n)}' for n in self]
+        return f"Scene({', '.join(parts)})"
+
+
+#: The operations whose parameter `path` is a file that they write.
+WRITES = {"Save", "Picture", "CurveFigure", "HalfEdgeFigure", "UvPicture"}
+
+
+def whole_step(operation: str, fields: Mapping[str, Any], on: str | Sequence[str] | None, id: str | None) -> str:
+    """A step with its envelope."""
+    step = _ron.step(operation, fields)
+    if on is None and id is None:
+        return step
+    envelope = []
+    if id is not None:
+        envelope.append(f"id: {_ron.quoted(id)}")
+    envelope.append(f"run: {step}")
+    if on is not None:
+        names = [on] if isinstance(on, str) else list(on)
+        envelope.append(f"on: [{', '.join(map(_ron.quoted, names))}]")
+    return f"({', '.join(envelope)})"
+
+
+def lines_of(report: Mapping[str, Any]) -> Iterator[str]:
+    """The lines of the report of a step."""
+    for refused in report["refused"]:
+        yield f"{refused['count']} refused: {refused['first']}"
+    for loss in report["losses"]:
+        yield f"{loss['object']} lost {loss['what']}: {loss['reason']}" if loss["object"] else f"lost {loss['what']}"
+    for change in report["changes"]:
+        yield change["message"]
+    yield from report["notes"]
+
+
+def is_address(path: str) -> bool:
+    """Whether a path is an address such as ``s3://bucket/a.obj``."""
+    return "://" in path
+
+
+def extension_of(path: str) -> str:
+    """The extension of a file name, with a `.gz` after it."""
+    name = path.rsplit("/", 1)[-1]
+    stem, _, extension = name.rpartition(".")
+    if extension == "gz":
+        return f"{stem.rpartition('.')[2]}.gz"
+    return extension
+
+
+def fsspec() -> Any:
+    """The module fsspec."""
+    try:
+        import fsspec
+    except ImportError as error:
+        raise ImportError("addresses such as s3:// need fsspec: pip install fsspec") from error
+    return fsspec
+
+
+def write_bytes(address: str, data: bytes) -> None:
+    """Writes a file at an address."""
+    with fsspec().open(address, "wb") as file:
+        file.write(data)
+
+
+def read(path: str | os.PathLike[str], **options: Any) -> Scene:
+    """Reads a file as a scene. `scene.mesh()` is its only mesh, `scene.notes` what was repaired or left out.
+
+    :param path: The file: .obj, .gltf, .glb, .ply, .stl, .off, .dae, .mws, .bez or .bzc. `s3://` and other addresses
+        need fsspec, and the file must not refer to other files.
+    :param options: The other parameters of the step `Load`, such as `non_manifold`.
+    """
+    text = os.fspath(path)
+    if is_address(text):
+        with fsspec().open(text, "rb") as file:
+            data = file.read()
+        return read_bytes(data, text.rsplit("/", 1)[-1], **options)
+    return Scene()._run("Load", {"path": text, **options}, None, None)[0]
+
+
+def read_bytes(data: bytes, name: str, **options: Any) -> Scene:
+    """Reads the content of a file as a scene.
+
+    >>> import meshwright as mw
+    >>> mw.read_bytes(b"v 0 0 0\\nv 1 0 0\\nv 0 1 0\\nf 1 2 3\\n", "a.obj").mesh().n_faces
+    1
+
+    :param data: The content.
+    :param name: The name of the file, whose extension gives the format.
+    :param options: The other parameters of the step `Load`.
+    """
+    return Scene()._run("Load", {"path": name, **options}, None, None, files={name: bytes(data)})[0]
+
+
+def _unpickle(data: bytes) -> Scene:
+    return read_bytes(data, "scene.mws")
+
+
+def _unpickle_mesh(data: bytes, name: str) -> Mesh:
+    return read_bytes(data, "scene.mws")[name]

@@ -1,0 +1,296 @@
+"""Values of parameters that have parameters themselves.
+
+Generated from the schema of the operations by `generate.py`: do not edit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal
+
+from numpy.typing import NDArray
+
+from ._ron import Arg, Choice, Ron
+
+
+
+def Angles(*, azimuth: float | Arg | Ron, elevation: float | Arg | Ron) -> Choice:
+    """From any direction.
+
+    :param azimuth: The angle from the front towards the right, in degrees.
+    :param elevation: The angle above the horizontal plane, in degrees.
+    """
+    return Choice('Angles', azimuth=azimuth, elevation=elevation)
+
+
+
+def Attribute(*, name: str | Arg | Ron, component: int | Arg | Ron | None = None) -> Choice:
+    """The vertex attribute of this name, which must hold one number for each vertex.
+
+    An attribute. If several domains have an attribute of this name, the first of vertices, faces, corners and edges is
+    used.
+
+    :param name: The name of the attribute.
+    :param component: The index of the component of a vector, from 0. If omitted, the length of the vector.
+    """
+    return Choice('Attribute', name=name, component=component)
+
+
+
+def Denoise(*, angle: float | Arg | Ron | None = None) -> Choice:
+    """Filters the normals of the faces, so that similar normals become equal, then moves the vertices to fit the
+    normals.
+
+    :param angle: Normals that differ by more than this angle hardly affect each other, so that sharper edges stay. From
+        0 to 180 degrees. Defaults to 30.
+    """
+    return Choice('Denoise', angle=angle)
+
+
+
+def Direction(value: Sequence[float] | NDArray[Any] | Arg | Ron, /) -> Choice:
+    """To the first point of the surface in this direction."""
+    return Choice('Direction', value)
+
+
+
+def Distance(*, to: str | Arg | Ron, signed: bool | Arg | Ron | None = None) -> Choice:
+    """The distance along the normal of each region, in scene units.
+
+    A negative distance moves the faces inwards. The normal is the mean of the face normals, weighted by area. By this
+    distance along the normal of each vertex, in scene units. A negative distance moves inwards. The distance from each
+    vertex to the nearest point of another mesh of the scene, in scene units. Unless ````on```` names objects, all
+    meshes but the other mesh are measured.
+
+    :param to: The name of the object with the other mesh.
+    :param signed: Whether distances are negative inside the other mesh: where its winding number is more than 1/2 or
+        less than -1/2. Defaults to False.
+    """
+    return Choice('Distance', to=to, signed=signed)
+
+
+
+def DistanceTo(value: str | Arg | Ron, /) -> Choice:
+    """The distance of each vertex from the nearest point of the meshes of a file, in scene units.
+
+    The path is relative to the folder of the recipe.
+    """
+    return Choice('DistanceTo', value)
+
+
+
+def EdgeLength(*, below: float | Arg | Ron) -> Choice:
+    """Stops as soon as all edges are shorter than ``below``.
+
+    :param below: The length, in scene units.
+    """
+    return Choice('EdgeLength', below=below)
+
+
+
+def Fit(
+    *,
+    from_: Literal['Front', 'Back', 'Left', 'Right', 'Top', 'Bottom', 'Isometric', 'ThreeQuarter'] | Choice | Arg | Ron | None = None,
+    up: Literal['Y', 'Z', 'Auto'] | Arg | Ron | None = None,
+    projection: Literal['Orthographic'] | Choice | Arg | Ron | None = None,
+    margin: float | Arg | Ron | None = None,
+    steady: bool | Arg | Ron | None = None,
+) -> Choice:
+    """Looks from a side, at the distance from which the picture shows the whole scene.
+
+    :param from_: The side from which the camera looks. Defaults to ThreeQuarter.
+    :param up: The axis that points upwards. Defaults to Y.
+    :param projection: The projection.
+    :param margin: The empty margin at each border, as a fraction of the picture. Defaults to 0.05.
+    :param steady: Whether the scale is the same from every direction, as needed for a turntable. Defaults to False.
+    """
+    return Choice('Fit', from_=from_, up=up, projection=projection, margin=margin, steady=steady)
+
+
+
+def Geodesic(*, from_: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron) -> Choice:
+    """The distance along the surface from each vertex to the nearest of some vertices, in scene units, by the heat
+    method (Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013; Sharp, Crane, 2020).
+
+    On fine meshes of smooth surfaces, the mean error is below 1 %. Vertices that no path of edges joins with them have
+    no distance.
+
+    :param from_: The vertices to start from.
+    """
+    return Choice('Geodesic', from_=from_)
+
+
+
+def Implicit(*, time: float | Arg | Ron) -> Choice:
+    """Moves the surface by mean curvature flow for the given time, in one stable step.
+
+    Details smaller than the square root of the time disappear, no matter how dense the mesh is.
+
+    :param time: The time, in squares of the scene unit.
+    """
+    return Choice('Implicit', time=time)
+
+
+
+def Laplacian(
+    *,
+    weights: Literal['Uniform', 'Cotangent'] | Arg | Ron | None = None,
+    factor: float | Arg | Ron | None = None,
+) -> Choice:
+    """Moves each vertex towards the mean of its neighbors.
+
+    :param weights: The weights of the neighbors. Defaults to Uniform.
+    :param factor: The part of the way to the mean. From 0 to 1. Defaults to 0.5.
+    """
+    return Choice('Laplacian', weights=weights, factor=factor)
+
+
+
+def LimitDistance(*, below: float | Arg | Ron) -> Choice:
+    """Stops as soon as every vertex is nearer than ``below`` to its limit position.
+
+    Only for Loop and Catmull-Clark.
+
+    :param below: The distance, in scene units.
+    """
+    return Choice('LimitDistance', below=below)
+
+
+
+def LookAt(
+    *,
+    from_: Sequence[float] | NDArray[Any] | Arg | Ron,
+    to: Sequence[float] | NDArray[Any] | Arg | Ron,
+    up: Literal['Y', 'Z', 'Auto'] | Arg | Ron | None = None,
+    projection: Literal['Orthographic'] | Choice | Arg | Ron | None = None,
+) -> Choice:
+    """Looks from one point to another point.
+
+    :param from_: The position of the camera, ``(x, y, z)``, in scene units.
+    :param to: The point in the middle of the picture, ``(x, y, z)``, in scene units.
+    :param up: The axis that points upwards. Defaults to Y.
+    :param projection: The projection. With ``Orthographic``, the picture is as high, in scene units, as a perspective
+        picture of 30 degrees at the distance of ``to``.
+    """
+    return Choice('LookAt', from_=from_, to=to, up=up, projection=projection)
+
+
+
+def Noise(*, scale: float | Arg | Ron, seed: int | Arg | Ron | None = None) -> Choice:
+    """Smooth noise from -1 to 1 (Perlin, "Improving Noise", 2002).
+
+    The value depends only on the position, so vertices at the same position move by the same amount.
+
+    :param scale: The size of the waves, in scene units.
+    :param seed: The seed. A different seed gives different noise. Defaults to 0.
+    """
+    return Choice('Noise', scale=scale, seed=seed)
+
+
+
+def Occlusion(*, rays: int | Arg | Ron | None = None, seed: int | Arg | Ron | None = None) -> Choice:
+    """The ambient occlusion of each vertex, from 0 (open) to 1 (enclosed): the part of the rays from the vertex that
+    meet the mesh.
+
+    There are more rays near the normal, in proportion to the cosine of the angle.
+
+    :param rays: The number of rays from each vertex. At most 4096. Defaults to 64.
+    :param seed: The seed of the rays. Defaults to 0.
+    """
+    return Choice('Occlusion', rays=rays, seed=seed)
+
+
+
+def Offset(value: Sequence[float] | NDArray[Any] | Arg | Ron, /) -> Choice:
+    """The offset along x, y and z, in scene units.
+
+    By this much along x, y and z, in scene units.
+    """
+    return Choice('Offset', value)
+
+
+
+def Perspective(*, angle: float | Arg | Ron) -> Choice:
+    """Perspective projection, as in a photograph.
+
+    :param angle: The vertical field of view, in degrees.
+    """
+    return Choice('Perspective', angle=angle)
+
+
+
+def Plain(value: str | Arg | Ron, /) -> Choice:
+    """No lighting: the colors are unchanged.
+
+    This color.
+    """
+    return Choice('Plain', value)
+
+
+
+def Point(a: float | Arg, b: float | Arg, c: float | Arg, /) -> Choice:
+    """A point with the coordinates x, y, z."""
+    return Choice('Point', a, b, c)
+
+
+
+def PrincipalCurvature(value: Literal['Largest', 'Smallest'] | Arg | Ron, /) -> Choice:
+    """A principal curvature at each vertex, in 1 / scene unit: an eigenvalue of the curvature tensor of Cohen-Steiner
+    and Morvan, 2003.
+
+    On a cylinder of radius r, they are 0 and 1 / r.
+    """
+    return Choice('PrincipalCurvature', value)
+
+
+
+def Random(*, seed: int | Arg | Ron | None = None) -> Choice:
+    """A random number from -1 to 1 for each vertex, which depends on the number of the vertex.
+
+    :param seed: The seed. A different seed gives different numbers. Defaults to 0.
+    """
+    return Choice('Random', seed=seed)
+
+
+
+def Tag(value: str | Arg | Ron, /) -> Choice:
+    """The first part has the faces with the tag of this name, and the second part all other faces."""
+    return Choice('Tag', value)
+
+
+
+def Taubin(
+    *,
+    weights: Literal['Uniform', 'Cotangent'] | Arg | Ron | None = None,
+    factor: float | Arg | Ron | None = None,
+    pass_band: float | Arg | Ron | None = None,
+) -> Choice:
+    """Moves each vertex towards the mean of its neighbors, then a little further back.
+
+    Removes noise, and keeps larger shapes and the volume nearly unchanged. One pass consists of both steps.
+
+    :param weights: The weights of the neighbors. Defaults to Uniform.
+    :param factor: The part of the way to the mean in the first step. From 0 to 1, exclusive; above about 0.65, the step
+        back amplifies noise. Defaults to 0.33.
+    :param pass_band: The frequency below which shapes are kept. A lower value smooths more. From 0 to 1, exclusive.
+        Defaults to 0.05.
+    """
+    return Choice('Taubin', weights=weights, factor=factor, pass_band=pass_band)
+
+
+
+def To(value: Sequence[float] | NDArray[Any] | Arg | Ron, /) -> Choice:
+    """All by the same offset, which moves the mean of the selected vertices to this point."""
+    return Choice('To', value)
+
+
+
+def Winding(*, of: str | Arg | Ron) -> Choice:
+    """How often another mesh of the scene winds around each vertex: 1 inside, 0 outside, and numbers between them near
+    gaps of the other mesh (Jacobson, Kavan, Sorkine-Hornung, 2013; Barill, Dickson, Schmidt, Levin, Jacobson, 2018).
+
+    The error is usually below 0.001. Unless ````on```` names objects, all meshes but the other mesh are measured.
+
+    :param of: The name of the object with the other mesh.
+    """
+    return Choice('Winding', of=of)

@@ -1,0 +1,462 @@
+"""Selections of vertices, edges and faces, and regions of space.
+
+Generated from the schema of the operations by `generate.py`: do not edit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal
+
+from numpy.typing import NDArray
+
+from ._ron import Arg, Choice, Ron
+
+
+All = Choice('All')
+"""All vertices. All edges. All faces."""
+
+
+def And(
+    value: Sequence[Literal['All', 'Boundary', 'Isolated'] | Choice] | NDArray[Any] | Sequence[Literal['All', 'Boundary'] | Choice] | Sequence[Literal['All', 'Boundary', 'SelfIntersecting'] | Choice] | Arg | Ron,
+    /,
+) -> Choice:
+    """The vertices in all of these selections.
+
+    An empty list selects all vertices. The edges in all of these selections. An empty list selects all edges. The faces
+    in all of these selections. An empty list selects all faces.
+    """
+    return Choice('And', value)
+
+
+
+def Between(a: int | Arg, b: int | Arg, /) -> Choice:
+    """The edge between two vertices, given by their numbers.
+
+    Refused if no edge joins them.
+    """
+    return Choice('Between', a, b)
+
+
+Boundary = Choice('Boundary')
+"""Vertices with a boundary edge. Boundary edges: edges with a face on one side only. Faces with at least one boundary
+edge."""
+
+
+def Box(
+    *,
+    min: Sequence[float] | NDArray[Any] | Arg | Ron,
+    max: Sequence[float] | NDArray[Any] | Arg | Ron,
+) -> Choice:
+    """An axis-aligned box.
+
+    :param min: The corner with the lowest coordinates.
+    :param max: The corner with the highest coordinates.
+    """
+    return Choice('Box', min=min, max=max)
+
+
+
+def Component(
+    value: Literal['All', 'Boundary', 'Isolated'] | Choice | Literal['All', 'Boundary'] | Literal['All', 'Boundary', 'SelfIntersecting'] | Arg | Ron,
+    /,
+) -> Choice:
+    """The vertices of all connected components of the mesh that this selection touches.
+
+    The edges of all connected components of the mesh that this selection touches. The faces of all connected components
+    of the mesh that this selection touches.
+    """
+    return Choice('Component', value)
+
+
+
+def CornersOf(value: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron, /) -> Choice:
+    """The corners of these faces."""
+    return Choice('CornersOf', value)
+
+
+
+def Degree(value: int | Arg | Ron, /) -> Choice:
+    """Faces with this number of corners."""
+    return Choice('Degree', value)
+
+
+
+def EdgeLoop(value: Literal['All', 'Boundary'] | Choice | Arg | Ron, /) -> Choice:
+    """These edges and the edge loops through them.
+
+    A loop goes straight across vertices inside the mesh that have four edges. A loop that starts at a boundary edge
+    follows the boundary.
+    """
+    return Choice('EdgeLoop', value)
+
+
+
+def EdgeRing(value: Literal['All', 'Boundary'] | Choice | Arg | Ron, /) -> Choice:
+    """These edges and the edge rings through them.
+
+    A ring goes from an edge to the opposite edge of each face with four corners.
+    """
+    return Choice('EdgeRing', value)
+
+
+
+def Edges(value: Literal['All', 'Boundary'] | Choice | Arg | Ron, /) -> Choice:
+    """A selection of edges."""
+    return Choice('Edges', value)
+
+
+
+def EdgesAround(value: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron, /) -> Choice:
+    """Edges with at least one end among these vertices."""
+    return Choice('EdgesAround', value)
+
+
+
+def EdgesOf(value: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron, /) -> Choice:
+    """The edges of these faces."""
+    return Choice('EdgesOf', value)
+
+
+
+def EdgesWithin(value: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron, /) -> Choice:
+    """Edges with both ends among these vertices."""
+    return Choice('EdgesWithin', value)
+
+
+
+def EndsOf(value: Literal['All', 'Boundary'] | Choice | Arg | Ron, /) -> Choice:
+    """The ends of these edges."""
+    return Choice('EndsOf', value)
+
+
+
+def Expand(
+    *,
+    to_angle: float | Arg | Ron,
+    of: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron,
+) -> Choice:
+    """These faces and all faces that can be reached from them by crossing only edges at which the normals of the two
+    faces differ by at most the angle ``to_angle``.
+
+    :param to_angle: The largest angle between the normals of two neighboring faces, in degrees, from 0 (flat) to 180.
+    :param of: The faces to start from.
+    """
+    return Choice('Expand', to_angle=to_angle, of=of)
+
+
+
+def Expect(
+    *,
+    count: int | Arg | Ron,
+    of: Literal['All', 'Boundary', 'Isolated'] | Choice | Literal['All', 'Boundary'] | Literal['All', 'Boundary', 'SelfIntersecting'] | Arg | Ron,
+) -> Choice:
+    """All elements of the selection ``of``.
+
+    Refused unless the number of these elements is exactly ````count````.
+
+    :param count: The expected number of vertices.
+    :param of: The selection to count.
+    """
+    return Choice('Expect', count=count, of=of)
+
+
+
+def Faces(
+    value: Sequence[int] | NDArray[Any] | Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron,
+    /,
+) -> Choice:
+    """The faces with these numbers.
+
+    Refused if a face does not exist. A selection of faces.
+    """
+    return Choice('Faces', value)
+
+
+
+def FacesAround(value: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron, /) -> Choice:
+    """Faces with at least one corner among these vertices."""
+    return Choice('FacesAround', value)
+
+
+
+def FacesBeside(value: Literal['All', 'Boundary'] | Choice | Arg | Ron, /) -> Choice:
+    """Faces with at least one of these edges."""
+    return Choice('FacesBeside', value)
+
+
+
+def Facing(*, direction: Sequence[float] | NDArray[Any] | Arg | Ron, within: float | Arg | Ron) -> Choice:
+    """Faces whose normals differ from a direction by at most the angle ``within``.
+
+    :param direction: The direction. The length of the direction does not matter; a zero vector selects no faces.
+    :param within: The largest angle between the normal and the direction, in degrees.
+    """
+    return Choice('Facing', direction=direction, within=within)
+
+
+
+def Flat(*, below: float | Arg | Ron) -> Choice:
+    """Edges at which the normals of the two faces differ by less than the angle ``below``.
+
+    :param below: The angle between the normals of the two faces, in degrees, from 0 (flat) to 180. Boundary edges have
+        no angle and are never flat.
+    """
+    return Choice('Flat', below=below)
+
+
+
+def Grow(
+    value: Literal['All', 'Boundary', 'Isolated'] | Choice | Literal['All', 'Boundary'] | Literal['All', 'Boundary', 'SelfIntersecting'] | Arg | Ron,
+    /,
+) -> Choice:
+    """This selection and the vertices that share an edge with it.
+
+    This selection and the edges that share a vertex with it. This selection and the faces that share a vertex with it.
+    """
+    return Choice('Grow', value)
+
+
+
+def HalfSpace(
+    *,
+    point: Sequence[float] | NDArray[Any] | Arg | Ron,
+    normal: Sequence[float] | NDArray[Any] | Arg | Ron,
+) -> Choice:
+    """One side of a plane: all points p with (p - point) · normal >= 0.
+
+    :param point: A point on the plane.
+    :param normal: The normal of the plane, which points into the region. The length of the normal does not matter.
+    """
+    return Choice('HalfSpace', point=point, normal=normal)
+
+
+
+def Inside(value: Choice | Arg | Ron, /) -> Choice:
+    """Vertices in a region or on its surface.
+
+    Edges whose vertices all lie in a region or on its surface. Faces whose vertices all lie in a region or on its
+    surface.
+    """
+    return Choice('Inside', value)
+
+
+
+def InsideOf(value: str | Arg | Ron, /) -> Choice:
+    """The vertices whose vertices are all inside the mesh of another object, by its name.
+
+    A point is inside if the winding number of the mesh around it is above 1/2 in magnitude; small gaps do no harm. The
+    edges whose vertices are all inside the mesh of another object, by its name. A point is inside if the winding number
+    of the mesh around it is above 1/2 in magnitude; small gaps do no harm. The faces whose vertices are all inside the
+    mesh of another object, by its name. A point is inside if the winding number of the mesh around it is above 1/2 in
+    magnitude; small gaps do no harm.
+    """
+    return Choice('InsideOf', value)
+
+
+Isolated = Choice('Isolated')
+"""Isolated vertices: vertices without edges."""
+
+
+def Longer(*, than: float | Arg | Ron) -> Choice:
+    """Edges longer than the length ``than``.
+
+    :param than: The length, in scene units.
+    """
+    return Choice('Longer', than=than)
+
+
+
+def Longest(
+    *,
+    count: int | Arg | Ron | None = None,
+    of: Literal['All', 'Boundary'] | Choice | Arg | Ron | None = None,
+) -> Choice:
+    """The longest edges.
+
+    If edges are equally long, those with the lower numbers are selected.
+
+    :param count: The number of edges. If fewer are available, all are selected. Defaults to 1.
+    :param of: The selection to choose from. Defaults to All.
+    """
+    return Choice('Longest', count=count, of=of)
+
+
+
+def Material(value: str | Arg | Ron, /) -> Choice:
+    """Faces with the material of this name.
+
+    Refused if the object has no material of this name.
+    """
+    return Choice('Material', value)
+
+
+
+def Nearest(
+    *,
+    to: Sequence[float] | NDArray[Any] | Arg | Ron,
+    count: int | Arg | Ron | None = None,
+    of: Literal['All', 'Boundary', 'Isolated'] | Choice | Literal['All', 'Boundary'] | Literal['All', 'Boundary', 'SelfIntersecting'] | Arg | Ron | None = None,
+) -> Choice:
+    """The vertices nearest to a point.
+
+    If vertices are equally near, those with the lower numbers are selected. The edges whose midpoints are nearest to a
+    point. If edges are equally near, those with the lower numbers are selected. The faces whose centers (the means of
+    their vertices) are nearest to a point. If faces are equally near, those with the lower numbers are selected.
+
+    :param to: The point.
+    :param count: The number of vertices. If fewer are available, all are selected. Defaults to 1.
+    :param of: The selection to choose from. Defaults to All.
+    """
+    return Choice('Nearest', to=to, count=count, of=of)
+
+
+
+def Not(
+    value: Literal['All', 'Boundary', 'Isolated'] | Choice | Literal['All', 'Boundary'] | Literal['All', 'Boundary', 'SelfIntersecting'] | Arg | Ron,
+    /,
+) -> Choice:
+    """The vertices that are not in this selection.
+
+    The edges that are not in this selection. The faces that are not in this selection.
+    """
+    return Choice('Not', value)
+
+
+
+def Or(
+    value: Sequence[Literal['All', 'Boundary', 'Isolated'] | Choice] | NDArray[Any] | Sequence[Literal['All', 'Boundary'] | Choice] | Sequence[Literal['All', 'Boundary', 'SelfIntersecting'] | Choice] | Arg | Ron,
+    /,
+) -> Choice:
+    """The vertices in at least one of these selections.
+
+    An empty list selects none. The edges in at least one of these selections. An empty list selects none. The faces in
+    at least one of these selections. An empty list selects none.
+    """
+    return Choice('Or', value)
+
+
+
+def Path(*, from_: int | Arg | Ron, to: int | Arg | Ron) -> Choice:
+    """The shortest path along edges from one vertex to another.
+
+    Refused if no path exists.
+
+    :param from_: The number of the first vertex.
+    :param to: The number of the last vertex.
+    """
+    return Choice('Path', from_=from_, to=to)
+
+
+
+def Random(
+    *,
+    count: int | Arg | Ron,
+    seed: int | Arg | Ron,
+    of: Literal['All', 'Boundary', 'Isolated'] | Choice | Literal['All', 'Boundary'] | Literal['All', 'Boundary', 'SelfIntersecting'] | Arg | Ron | None = None,
+) -> Choice:
+    """A random choice.
+
+    The same seed in the same step gives the same choice.
+
+    :param count: The number of vertices. If fewer are available, all are selected.
+    :param seed: The seed. A different seed gives a different choice.
+    :param of: The selection to choose from. Defaults to All.
+    """
+    return Choice('Random', count=count, seed=seed, of=of)
+
+
+SelfIntersecting = Choice('SelfIntersecting')
+"""Faces that intersect another face of the object. Neighbors intersect only if they have more points in common than
+their common vertices and edges. Vertices at the same position count as one."""
+
+
+def Sharp(*, above: float | Arg | Ron) -> Choice:
+    """Edges at which the normals of the two faces differ by more than the angle ``above``.
+
+    :param above: The angle between the normals of the two faces, in degrees, from 0 (flat) to 180. Boundary edges have
+        no angle and are never sharp.
+    """
+    return Choice('Sharp', above=above)
+
+
+
+def Shorter(*, than: float | Arg | Ron) -> Choice:
+    """Edges shorter than the length ``than``.
+
+    :param than: The length, in scene units.
+    """
+    return Choice('Shorter', than=than)
+
+
+
+def Shrink(
+    value: Literal['All', 'Boundary', 'Isolated'] | Choice | Literal['All', 'Boundary'] | Literal['All', 'Boundary', 'SelfIntersecting'] | Arg | Ron,
+    /,
+) -> Choice:
+    """This selection without the vertices that share an edge with vertices outside it.
+
+    This selection without the edges that share a vertex with edges outside it. This selection without the faces that
+    share a vertex with faces outside it.
+    """
+    return Choice('Shrink', value)
+
+
+
+def Sphere(*, center: Sequence[float] | NDArray[Any] | Arg | Ron, radius: float | Arg | Ron) -> Choice:
+    """A ball.
+
+    :param center: The center.
+    :param radius: The radius, in scene units.
+    """
+    return Choice('Sphere', center=center, radius=radius)
+
+
+
+def Tagged(value: str | Arg | Ron, /) -> Choice:
+    """The vertices with the tag of this name.
+
+    Refused if no tag has this name. The edges with the tag of this name. Refused if no tag has this name. The faces
+    with the tag of this name. Refused if no tag has this name.
+    """
+    return Choice('Tagged', value)
+
+
+
+def Valence(value: int | Arg | Ron, /) -> Choice:
+    """Vertices with this number of edges."""
+    return Choice('Valence', value)
+
+
+
+def Vertices(
+    value: Sequence[int] | NDArray[Any] | Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron,
+    /,
+) -> Choice:
+    """The vertices with these numbers.
+
+    Refused if a vertex does not exist. A selection of vertices.
+    """
+    return Choice('Vertices', value)
+
+
+
+def Where(
+    *,
+    attribute: str | Arg | Ron,
+    component: int | Arg | Ron | None = None,
+    above: float | Arg | Ron | None = None,
+    below: float | Arg | Ron | None = None,
+) -> Choice:
+    """The vertices whose attribute has a value in a range.
+
+    Refused if no attribute of vertices has this name. The edges whose attribute has a value in a range. Refused if no
+    attribute of edges has this name. The faces whose attribute has a value in a range. Refused if no attribute of faces
+    has this name.
+
+    :param attribute: The name of the attribute.
+    :param component: The component of a vector, from 0. Required for vectors, not allowed for numbers.
+    :param above: Only values above this number. At least one of ``above`` and ``below`` is required.
+    :param below: Only values below this number.
+    """
+    return Choice('Where', attribute=attribute, component=component, above=above, below=below)

@@ -1,0 +1,171 @@
+//! Memory that `NumPy` views without a copy.
+
+use std::ffi::c_int;
+use std::sync::Arc;
+
+use mesh::{Domain, Mesh, Values};
+use pyo3::ffi;
+use pyo3::prelude::*;
+
+/// A read-only view of memory. `numpy.frombuffer` makes an array of it without a copy. The memory is kept alive as long
+/// as a view exists.
+#[pyclass(frozen, module = "meshwright._core")]
+pub(crate) struct Array {
+    memory: Memory,
+    /// The type of the numbers, as `NumPy` writes it.
+    #[pyo3(get)]
+    dtype: &'static str,
+    /// The number of numbers in each row.
+    #[pyo3(get)]
+    columns: usize,
+}
+
+/// Memory that never changes: a part of a shared mesh, or a list of this array alone.
+enum Memory {
+    Part(Arc<Mesh>, Part),
+    Ids(Vec<u32>),
+    Indices(Vec<u64>),
+    Floats(Vec<f64>),
+    Column(Values),
+}
+
+/// A part of a mesh.
+#[derive(Clone)]
+pub(crate) enum Part {
+    Positions,
+    Next,
+    Origin,
+    Face,
+    VertexHalfEdge,
+    FaceHalfEdge,
+    Column(Domain, String),
+}
+
+impl Array {
+    /// Views a part of a mesh. `None` if the mesh has no such column.
+    pub(crate) fn of(mesh: &Arc<Mesh>, part: Part) -> Option<Self> {
+        let (dtype, columns) = match &part {
+            Part::Positions => ("float64", 3),
+            Part::Column(domain, name) => kind(&mesh.attributes().column(*domain, name)?.values),
+            _ => ("uint32", 1),
+        };
+        Some(Self {
+            memory: Memory::Part(mesh.clone(), part),
+            dtype,
+            columns,
+        })
+    }
+
+    pub(crate) fn ids(ids: Vec<u32>) -> Self {
+        Self {
+            memory: Memory::Ids(ids),
+            dtype: "uint32",
+            columns: 1,
+        }
+    }
+
+    pub(crate) fn indices(indices: Vec<u64>) -> Self {
+        Self {
+            memory: Memory::Indices(indices),
+            dtype: "uint64",
+            columns: 1,
+        }
+    }
+
+    pub(crate) fn floats(floats: Vec<f64>) -> Self {
+        Self {
+            memory: Memory::Floats(floats),
+            dtype: "float64",
+            columns: 1,
+        }
+    }
+
+    pub(crate) fn column(values: Values) -> Self {
+        let (dtype, columns) = kind(&values);
+        Self {
+            memory: Memory::Column(values),
+            dtype,
+            columns,
+        }
+    }
+
+    fn bytes(&self) -> &[u8] {
+        match &self.memory {
+            Memory::Ids(ids) => bytemuck::cast_slice(ids),
+            Memory::Indices(indices) => bytemuck::cast_slice(indices),
+            Memory::Floats(floats) => bytemuck::cast_slice(floats),
+            Memory::Column(values) => bytes_of(values),
+            Memory::Part(mesh, part) => {
+                let c = mesh.connectivity();
+                match part {
+                    Part::Positions => bytemuck::cast_slice(mesh.positions()),
+                    Part::Next => bytemuck::cast_slice(&c.next),
+                    Part::Origin => bytemuck::cast_slice(&c.origin),
+                    Part::Face => bytemuck::cast_slice(&c.face),
+                    Part::VertexHalfEdge => bytemuck::cast_slice(&c.vertex_half_edge),
+                    Part::FaceHalfEdge => bytemuck::cast_slice(&c.face_half_edge),
+                    Part::Column(domain, name) => {
+                        let column = mesh.attributes().column(*domain, name);
+                        column.map_or(&[], |column| bytes_of(&column.values))
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn bytes_of(values: &Values) -> &[u8] {
+    match values {
+        Values::Float(v) => bytemuck::cast_slice(v),
+        Values::Vec2(v) => bytemuck::cast_slice(v),
+        Values::Vec3(v) => bytemuck::cast_slice(v),
+        Values::Vec4(v) => bytemuck::cast_slice(v),
+        Values::Int(v) => bytemuck::cast_slice(v),
+        Values::Tag(v) => bytemuck::cast_slice(v),
+    }
+}
+
+/// Returns the type and the number of the components of a value.
+fn kind(values: &Values) -> (&'static str, usize) {
+    let dtype = match values {
+        Values::Int(_) => "int32",
+        Values::Tag(_) => "bool",
+        _ => "float64",
+    };
+    (dtype, values.n_components())
+}
+
+#[pymethods]
+impl Array {
+    fn __len__(&self) -> usize {
+        self.bytes().len()
+    }
+
+    #[expect(
+        unsafe_code,
+        reason = "Python's buffers are pointers; without them each array would be copied"
+    )]
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "the signature is that of PyO3"
+    )]
+    // SAFETY: `PyBuffer_FillInfo` stores the pointer and a reference to `slf` in `view`, and refuses requests for
+    // writable memory. The bytes belong to `slf`, which is frozen, or to a mesh that `slf` shares and never changes, so
+    // they stay valid and constant as long as the reference exists. Python passes a valid `view`.
+    unsafe fn __getbuffer__(
+        slf: Bound<'_, Self>,
+        view: *mut ffi::Py_buffer,
+        flags: c_int,
+    ) -> PyResult<()> {
+        let bytes = slf.get().bytes();
+        let (pointer, len) = (bytes.as_ptr(), isize::try_from(bytes.len())?);
+        let code = unsafe {
+            ffi::PyBuffer_FillInfo(view, slf.as_ptr(), pointer.cast_mut().cast(), len, 1, flags)
+        };
+        if code == 0 {
+            Ok(())
+        } else {
+            Err(PyErr::fetch(slf.py()))
+        }
+    }
+}

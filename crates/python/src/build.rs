@@ -1,0 +1,85 @@
+//! Meshes from arrays.
+
+use std::sync::Arc;
+
+use mesh::{BuildError, DVec2, DVec3, DVec4, NonManifold, Values};
+use pyo3::buffer::{ElementType, PyBuffer, PyUntypedBuffer};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+
+use crate::array::Array;
+use crate::interrupt::run;
+use crate::mesh_views::{Mesh, number};
+
+/// Builds a mesh from positions (`float64`, three for each vertex), the start of the corners of each face and their end
+/// (`uint32`), and the vertex of each corner (`uint32`). Returns the mesh, the repairs in words, and the number of the
+/// face of each polygon.
+#[pyfunction]
+pub(crate) fn from_arrays(
+    py: Python<'_>,
+    positions: &Bound<'_, PyAny>,
+    starts: &Bound<'_, PyAny>,
+    corners: &Bound<'_, PyAny>,
+    repair: bool,
+) -> PyResult<(Mesh, Vec<String>, Array)> {
+    let Values::Vec3(positions) = values_from(positions, 3)? else {
+        return Err(PyTypeError::new_err("positions must be numbers"));
+    };
+    let starts = PyBuffer::<u32>::get(starts)?.to_vec(py)?;
+    let corners = PyBuffer::<u32>::get(corners)?.to_vec(py)?;
+    let non_manifold = if repair {
+        NonManifold::Split
+    } else {
+        NonManifold::RefuseAsGiven
+    };
+    let built = run(py, None, |_| {
+        mesh::build(positions, &starts, &corners, non_manifold)
+    })?;
+    let built = built.map_err(|error: BuildError| PyValueError::new_err(error.to_string()))?;
+    let repairs = built
+        .report
+        .repairs()
+        .into_iter()
+        .chain(built.report.dropped());
+    let repairs = repairs.map(|repair| repair.to_string()).collect();
+    let faces = built
+        .face_of_polygon
+        .into_iter()
+        .map(|f| f.some().map_or(u32::MAX, number));
+    let faces = Array::ids(faces.collect());
+    Ok((Mesh(Arc::new(built.mesh)), repairs, faces))
+}
+
+/// Copies a contiguous buffer of rows with `columns` numbers each.
+pub(crate) fn values_from(buffer: &Bound<'_, PyAny>, columns: usize) -> PyResult<Values> {
+    let py = buffer.py();
+    let untyped = PyUntypedBuffer::get(buffer)?;
+    let kind = ElementType::from_format(untyped.format());
+    let values = match (kind, columns) {
+        (ElementType::Float { bytes: 8 }, 1..=4) => {
+            let flat = PyBuffer::<f64>::get(buffer)?.to_vec(py)?;
+            if flat.len() % columns != 0 {
+                return Err(PyValueError::new_err("the last row is incomplete"));
+            }
+            match columns {
+                1 => Values::Float(flat),
+                2 => Values::Vec2(flat.chunks_exact(2).map(DVec2::from_slice).collect()),
+                3 => Values::Vec3(flat.chunks_exact(3).map(DVec3::from_slice).collect()),
+                _ => Values::Vec4(flat.chunks_exact(4).map(DVec4::from_slice).collect()),
+            }
+        }
+        (ElementType::SignedInteger { bytes: 4 }, 1) => {
+            Values::Int(PyBuffer::<i32>::get(buffer)?.to_vec(py)?)
+        }
+        (ElementType::UnsignedInteger { bytes: 1 }, 1) => {
+            let flags = PyBuffer::<u8>::get(buffer)?.to_vec(py)?;
+            Values::Tag(flags.into_iter().map(|flag| flag != 0).collect())
+        }
+        _ => {
+            return Err(PyTypeError::new_err(
+                "expected numbers of type float64 with 1 to 4 columns, int32 or uint8",
+            ));
+        }
+    };
+    Ok(values)
+}

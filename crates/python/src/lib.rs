@@ -1,0 +1,79 @@
+//! The compiled part of the Python package `meshwright`. The Python sources beside this crate add names, types and
+//! documentation; they are what users call.
+//!
+//! ```text
+//! scenes.rs     Scene: the objects of a scene; runs one step on a scene
+//! mesh_views.rs Mesh: arrays of a mesh; build.rs makes meshes from arrays, edit.rs edits single elements
+//! array.rs      Array: a read-only view of memory for `NumPy`
+//! matrix.rs     sparse matrices
+//! recipes.rs    Recipe: reads, checks and runs a recipe
+//! interrupt.rs  runs work on a thread, so that Ctrl-C and other Python threads work meanwhile
+//! errors.rs     the exceptions
+//! ```
+
+mod array;
+mod build;
+mod edit;
+mod errors;
+mod interrupt;
+mod matrix;
+mod mesh_views;
+mod recipes;
+mod scenes;
+
+use std::ffi::OsString;
+use std::sync::LazyLock;
+
+use engine::Engine;
+use op::Registry;
+use pyo3::prelude::*;
+use recipe::Schemas;
+
+static REGISTRY: LazyLock<Registry> = LazyLock::new(ops_all::registry);
+static SCHEMAS: LazyLock<Schemas<'static>> = LazyLock::new(|| Schemas::new(&REGISTRY));
+static ENGINE: LazyLock<Engine<'static>> = LazyLock::new(|| Engine::new(&REGISTRY));
+
+/// Returns the JSON schema of recipes as text.
+#[pyfunction]
+fn schema() -> String {
+    recipe::schema(&REGISTRY).to_string()
+}
+
+/// Returns the operations as JSON: their names, summaries, examples, and whether they take `on`.
+#[pyfunction]
+fn operations() -> String {
+    let entries = REGISTRY.entries().iter().map(|entry| {
+        serde_json::json!({
+            "name": entry.name,
+            "summary": entry.summary,
+            "example": entry.example,
+            "takes_on": entry.takes_on,
+        })
+    });
+    serde_json::Value::Array(entries.collect()).to_string()
+}
+
+/// Runs the program `meshwright` with these arguments, of which the first is its name, and returns its exit code.
+#[pyfunction]
+#[expect(clippy::needless_pass_by_value, reason = "Python passes a new list")]
+fn program(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
+    py.detach(|| cli::run_with(&REGISTRY, &arguments))
+}
+
+/// The compiled part of the package.
+#[pymodule]
+fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_class::<array::Array>()?;
+    module.add_class::<edit::Editor>()?;
+    module.add_class::<mesh_views::Mesh>()?;
+    module.add_class::<recipes::Recipe>()?;
+    module.add_class::<scenes::Scene>()?;
+    module.add_function(wrap_pyfunction!(schema, module)?)?;
+    module.add_function(wrap_pyfunction!(operations, module)?)?;
+    module.add_function(wrap_pyfunction!(program, module)?)?;
+    module.add_function(wrap_pyfunction!(build::from_arrays, module)?)?;
+    module.add_function(wrap_pyfunction!(matrix::laplacian, module)?)?;
+    module.add_function(wrap_pyfunction!(matrix::subdivision, module)?)?;
+    Ok(())
+}

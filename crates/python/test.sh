@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# Builds the wheel, installs it into a new virtual environment, and tests it there: its tests, the examples in its
+# documentation and in the book, and its types. The wheel is built in the folder and with the profile of the program, so
+# that most crates are compiled once for both.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+folder=$PWD/target/ci/python
+rm -rf "$folder" && mkdir -p "$folder"
+python=${PYTHON:-python3}
+
+"$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))' ||
+    { echo "the Python package needs Python 3.11 or newer: set PYTHON"; exit 1; }
+"$python" -m venv "$folder/tools"
+"$folder/tools/bin/pip" install --quiet 'maturin>=1.9,<2' ||
+    { echo "maturin cannot be installed from PyPI, so the wheel cannot be built: check the network and pip's index"; exit 1; }
+"$folder/tools/bin/maturin" build --release --locked --manifest-path crates/python/Cargo.toml --target-dir target --out "$folder"
+
+"$python" -m venv "$folder/new"
+"$folder/new/bin/pip" install --quiet "$folder"/meshwright-*.whl
+"$folder/new/bin/python" -c 'import meshwright as mw; print(mw.Scene().icosahedron(name="ball").mesh().loop_subdivide(levels=2))'
+"$folder/new/bin/meshwright" ops > /dev/null
+"$folder/new/bin/pip" install --quiet pytest mypy scipy trimesh meshio fsspec 'dask[distributed]' ||
+    { echo "the packages for the tests cannot be installed from PyPI: check the network and pip's index"; exit 1; }
+cd crates/python
+"$folder/new/bin/python" -m pytest --quiet -p no:cacheprovider tests
+"$folder/new/bin/python" -m mypy --cache-dir "$folder/mypy" --strict tests/example.py
+"$folder/new/bin/python" -m mypy.stubtest meshwright._core --mypy-config-file pyproject.toml

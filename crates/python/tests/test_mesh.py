@@ -1,0 +1,221 @@
+"""Meshes: arrays, attributes, operations, edits."""
+
+import copy
+import gc
+import pickle
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import meshwright as mw
+from meshwright import sel
+
+SCENES = Path(__file__).resolve().parents[3] / "scenes"
+
+
+def test_arrays_are_read_only_views(ball: mw.Mesh) -> None:
+    assert ball.vertices.shape == (12, 3) and ball.vertices.dtype == np.float64
+    assert ball.triangles.shape == (20, 3) and ball.triangles.dtype == np.uint32
+    for array in (ball.vertices, ball.triangles, ball.corners, ball.face_starts, *ball.half_edges):
+        assert not array.flags.writeable
+        with pytest.raises(ValueError):
+            array.flags.writeable = True
+    assert ball.half_edges.origin.base is not None
+
+
+def test_positions_are_not_copied(ball: mw.Mesh) -> None:
+    first = np.frombuffer(ball._core.array("positions"))
+    second = np.frombuffer(ball._core.array("positions"))
+    assert first.__array_interface__["data"] == second.__array_interface__["data"]
+
+
+def test_views_outlive_their_mesh() -> None:
+    vertices = mw.Scene().uv_sphere(name="ball").mesh().vertices
+    expected = vertices.copy()
+    gc.collect()
+    big = [mw.Scene().uv_sphere(name="ball").mesh().vertices for _ in range(20)]
+    assert (vertices == expected).all() and len(big) == 20
+
+
+def test_half_edges_obey_the_rules_of_the_kernel(ball: mw.Mesh) -> None:
+    h = np.arange(2 * ball.n_edges)
+    next_, origin, face = ball.half_edges.next, ball.half_edges.origin, ball.half_edges.face
+    assert (origin[next_] == origin[h ^ 1]).all()
+    assert (face[next_] == face).all()
+    assert (np.sort(next_) == h).all()
+
+
+def test_polygons(box: mw.Mesh) -> None:
+    assert box.face_starts.tolist() == list(range(0, 25, 4))
+    assert [len(f) for f in box.faces] == [4] * 6
+    with pytest.raises(ValueError, match="face 0 has 4 corners"):
+        _ = box.triangles
+    again = mw.Mesh.from_arrays(box.vertices, box.corners, face_starts=box.face_starts, name="box")
+    assert (again.corners == box.corners).all()
+    assert (mw.Mesh.from_arrays(box.vertices, box.faces).corners == box.corners).all()
+
+
+def test_faces_of_different_lengths() -> None:
+    m = mw.Mesh.from_arrays([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0, 0]], [[0, 1, 2, 3], [1, 4, 2]])
+    assert m.face_starts.tolist() == [0, 4, 7] and m.defects() == []
+
+
+def test_an_empty_mesh() -> None:
+    m = mw.Mesh.from_arrays([], [])
+    assert (m.n_vertices, m.n_faces, m.vertices.shape, m.triangles.shape) == (0, 0, (0, 3), (0, 3))
+
+
+def test_repairs_are_noted_or_refused() -> None:
+    points, faces = np.eye(5, 3), [[0, 1, 2], [0, 1, 3], [0, 1, 4]]
+    assert any("edge" in note for note in mw.Mesh.from_arrays(points, faces).notes)
+    with pytest.raises(ValueError, match="manifold"):
+        mw.Mesh.from_arrays(points, faces, repair=False)
+
+
+def test_attributes_of_every_domain_come_back(box: mw.Mesh) -> None:
+    rng = np.random.default_rng(0)
+    for domain, n in (("vertex", 8), ("corner", 24), ("edge", 12), ("face", 6)):
+        for values in (
+            rng.random(n),
+            rng.random((n, 2)),
+            rng.random((n, 3)),
+            rng.random((n, 4)),
+            rng.integers(-5, 5, n),
+            rng.random(n) > 0.5,
+        ):
+            m = box.with_attribute("x", values, domain)  # type: ignore[arg-type]
+            assert m.attributes.domain("x") == domain
+            assert np.array_equal(m.attributes["x"], values)
+            assert "x" not in m.without_attribute("x").attributes
+    assert len(box.attributes) == 0
+
+
+def test_the_domain_follows_from_the_number_of_values(box: mw.Mesh) -> None:
+    assert box.with_attribute("x", np.zeros(24)).attributes.domain("x") == "corner"
+    with pytest.raises(ValueError, match="fits no domain"):
+        box.with_attribute("x", np.zeros(7))
+
+
+def test_tags_select(box: mw.Mesh) -> None:
+    m = box.with_attribute("top", np.arange(6) == 2, "face")
+    assert m.tags == [("face", "top")] and m.tag("face", "top").sum() == 1
+    assert m.delete_faces(faces=sel.Tagged("top")).n_faces == 5
+
+
+def test_operations_return_new_meshes(ball: mw.Mesh) -> None:
+    before = ball.digest
+    finer = ball.loop_subdivide(levels=2)
+    assert (finer.n_faces, ball.n_faces, ball.digest) == (320, 20, before)
+    assert finer.simplify(faces=100).n_faces == 100
+    assert ball.apply("LoopSubdivide", levels=2) == finer
+
+
+def test_a_mesh_is_a_parameter(ball: mw.Mesh) -> None:
+    big = ball.transform(scale=(2, 2, 2)).loop_subdivide(levels=3)
+    moved = ball.project(big)
+    assert moved.name == "ball" and moved.n_faces == 20
+    assert np.linalg.norm(moved.vertices, axis=1).min() > 1.1 * np.linalg.norm(ball.vertices, axis=1).max()
+
+
+def test_errors_have_problems(ball: mw.Mesh) -> None:
+    with pytest.raises(mw.RecipeError) as info:
+        ball.loop_subdivide(levels=99)
+    problem = info.value.problems[0]
+    assert problem.severity == "error" and problem.line == 2 and problem.help
+    with pytest.raises(mw.RecipeError, match="is on the boundary"):
+        ball.delete_faces(faces=sel.Faces([0])).flip_edges(edges="Boundary")
+    again = pickle.loads(pickle.dumps(info.value))
+    assert again.problems == info.value.problems
+
+
+def test_an_unknown_parameter_is_an_error_of_python(ball: mw.Mesh) -> None:
+    with pytest.raises(TypeError):
+        ball.loop_subdivide(level=2)  # type: ignore[call-arg]
+    with pytest.raises(mw.RecipeError, match="level"):
+        ball.apply("LoopSubdivide", level=2)
+
+
+def test_edits(ball: mw.Mesh) -> None:
+    with ball.edit() as e:
+        edge = e.edge(*e.edge_vertices(3))
+        e.flip(edge)
+        vertex = e.split(edge, at=0.25)
+        e.move(vertex, [0, 0, 2])
+        e.collapse(e.edge(*e.edge_vertices(edge)))
+        e.delete([e.extrude([15], [0, 0, 1])[0]])
+        e.poke(16)
+    assert e.mesh.defects() == [] and e.mesh.n_vertices == 16
+    assert ball.n_vertices == 12
+
+
+def test_a_refused_edit_names_its_reason(ball: mw.Mesh) -> None:
+    with ball.edit() as e:
+        e.delete([0])
+        boundary = int(np.flatnonzero(e.mesh.half_edges.face == 2**32 - 1)[0]) // 2
+        with pytest.raises(mw.EditError) as info:
+            e.flip(boundary)
+        with pytest.raises(mw.EditError):
+            e.flip(2**32 - 2)
+        for wrong in (-1, 2**32, 2**70):
+            with pytest.raises((OverflowError, ValueError)):
+                e.flip(wrong)
+    assert info.value.reason == "Boundary" and info.value.elements == (f"e{boundary}",)
+
+
+def test_pickles_and_copies(ball: mw.Mesh) -> None:
+    m = ball.with_attribute("heat", np.arange(12.0)).with_attribute("top", np.arange(20) > 3, "face")
+    for again in (pickle.loads(pickle.dumps(m)), copy.deepcopy(m)):
+        assert again == m and again.name == m.name and (again.attributes["heat"] == m.attributes["heat"]).all()
+    scene = m.scene().torus(name="ring")
+    assert pickle.loads(pickle.dumps(scene)) == scene
+
+
+def test_files(tmp_path: Path, ball: mw.Mesh) -> None:
+    for extension in ("obj", "ply", "off", "stl", "glb", "gltf", "mws"):
+        ball.save(tmp_path / f"a.{extension}")
+        again = mw.read(tmp_path / f"a.{extension}").mesh()
+        assert again.n_faces == 20
+    assert mw.read_bytes(ball.scene().to_bytes("ply"), "a.ply").mesh().n_faces == 20
+    with pytest.raises(mw.RecipeError, match="missing.obj"):
+        mw.read(tmp_path / "missing.obj")
+
+
+def test_addresses(ball: mw.Mesh) -> None:
+    pytest.importorskip("fsspec")
+    ball.save("memory://models/a.glb")
+    assert mw.read("memory://models/a.glb").mesh().n_faces == 20
+
+
+def test_the_only_mesh_of_a_scene() -> None:
+    scene = mw.Scene().cube(name="a").cube(name="b")
+    with pytest.raises(ValueError, match='"a", "b"'):
+        scene.mesh()
+    with pytest.raises(KeyError, match="objects"):
+        scene["c"]
+    with pytest.raises(TypeError, match="patches"):
+        mw.read(SCENES / "assets" / "teapot.bez")["teapot"]
+
+
+def test_pictures(ball: mw.Mesh) -> None:
+    assert ball._repr_png_()[:4] == b"\x89PNG"
+
+
+def test_threads_run_at_the_same_time() -> None:
+    big = mw.Scene().icosahedron(name="ball").mesh().loop_subdivide(levels=6)
+    ticks = 0
+    done = threading.Event()
+
+    def work() -> None:
+        big.loop_subdivide(levels=2)
+        done.set()
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    while not done.is_set():
+        ticks += 1
+        time.sleep(0.001)
+    thread.join()
+    assert ticks > 3

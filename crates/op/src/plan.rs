@@ -403,14 +403,16 @@ impl Plan {
             animations: scene.graph().animations.len() as u64,
             ..Self::default()
         };
-        let mut instances: HashMap<&str, u64> = HashMap::new();
-        for object in scene
-            .graph()
-            .nodes()
-            .iter()
-            .filter_map(|n| n.object.as_deref())
-        {
-            *instances.entry(object).or_default() += 1;
+        let mut shown: HashMap<&str, PlannedNodes> = HashMap::new();
+        for node in scene.graph().nodes() {
+            let Some(object) = node.object.as_deref() else {
+                continue;
+            };
+            let first = PlannedNodes {
+                instances: 0,
+                skin: node.skin.map(|skin| skin as u64),
+            };
+            shown.entry(object).or_insert(first).instances += 1;
         }
         for object in scene.objects() {
             let geometry = match &object.geometry {
@@ -427,7 +429,8 @@ impl Plan {
                 Geometry::Polylines(_) => PlannedGeometry::Polylines,
             };
             plan.insert(&object.name, geometry);
-            plan.set_instances_of_last(instances.get(object.name.as_str()).copied().unwrap_or(1));
+            let shown = shown.get(object.name.as_str());
+            plan.set_nodes_of_last(shown.copied().unwrap_or(PlannedNodes::ONE));
         }
         plan
     }

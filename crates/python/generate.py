@@ -1,21 +1,48 @@
 """Writes the Python sources that follow from the schema of the operations: `_operations.py`, `sel.py`, `choice.py` and
-`expect.py`. Run it after the operations have changed; a test compares the files with its output.
+`expect.py`. Run it after the operations or their documentation have changed; a test compares the files with its output.
 
-    python crates/python/generate.py
+    cargo build -p meshwright-python && python crates/python/generate.py
+
+It needs NumPy. It uses the library that cargo built, not an installed package.
 """
 
 from __future__ import annotations
 
+import importlib.machinery
+import importlib.util
 import keyword
 import re
 import sys
 import textwrap
+import types
 from pathlib import Path
 from typing import Any
 
-from meshwright._ron import definition, name_of, operations, options, resolve
-
 FOLDER = Path(__file__).parent / "python" / "meshwright"
+
+
+def use_built_library() -> None:
+    """Makes a package of the sources beside this file and of the library that cargo built."""
+    folder = Path(__file__).resolve().parents[2] / "target" / "debug"
+    found = [path for path in folder.glob("*meshwright_core.*") if path.suffix in (".so", ".dylib", ".dll")]
+    if not found:
+        sys.exit("the library is missing: run cargo build -p meshwright-python")
+    name = "meshwright._core"
+    loader = importlib.machinery.ExtensionFileLoader(name, str(found[0]))
+    spec = importlib.util.spec_from_file_location(name, found[0], loader=loader)
+    assert spec
+    package = types.ModuleType("meshwright")
+    package.__path__ = [str(FOLDER)]
+    sys.modules["meshwright"] = package
+    sys.modules[name] = importlib.util.module_from_spec(spec)
+    loader.exec_module(sys.modules[name])
+
+
+if __name__ == "__main__":
+    use_built_library()
+
+from meshwright._ron import definition, name_of, operations, options, resolve  # noqa: E402
+
 SELECTIONS = ["VertexSelection", "EdgeSelection", "FaceSelection", "Region", "Elements"]
 WIDTH = 100
 

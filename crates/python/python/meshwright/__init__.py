@@ -13,6 +13,7 @@ step of a :class:`Recipe`. :mod:`meshwright.sel` has the selections of vertices,
 """
 
 from . import choice, expect, matrices, sel
+from ._batch import Report, Row, batch
 from ._core import __version__
 from ._editor import Editor
 from ._errors import EditError, Error, Problem, RecipeError
@@ -35,11 +36,14 @@ __all__ = [
     "Problem",
     "Recipe",
     "RecipeError",
+    "Report",
     "Ron",
+    "Row",
     "Scene",
     "Step",
     "__version__",
     "arg",
+    "batch",
     "choice",
     "expect",
     "matrices",

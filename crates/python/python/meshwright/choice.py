@@ -25,7 +25,7 @@ def Angles(*, azimuth: float | Arg | Ron, elevation: float | Arg | Ron) -> Choic
 
 
 def Attribute(*, name: str | Arg | Ron, component: int | Arg | Ron | None = None) -> Choice:
-    """The vertex attribute of this name, which must hold one number for each vertex.
+    """A vertex attribute that holds one number for each vertex.
 
     An attribute. If several domains have an attribute of this name, the first of vertices, faces, corners and edges is
     used.

@@ -19,7 +19,7 @@ python=${PYTHON:-python3}
 "$folder/new/bin/pip" install --quiet "$folder"/meshwright-*.whl
 "$folder/new/bin/python" -c 'import meshwright as mw; print(mw.Scene().icosahedron(name="ball").mesh().loop_subdivide(levels=2))'
 "$folder/new/bin/meshwright" ops > /dev/null
-"$folder/new/bin/pip" install --quiet pytest mypy scipy trimesh meshio fsspec 'dask[distributed]' ||
+"$folder/new/bin/pip" install --quiet pytest mypy scipy trimesh meshio fsspec 'dask[distributed]' nbclient ipykernel ||
     { echo "the packages for the tests cannot be installed from PyPI: check the network and pip's index"; exit 1; }
 cd crates/python
 "$folder/new/bin/python" -m pytest --quiet -p no:cacheprovider tests

@@ -18,6 +18,7 @@ from ._ron import Choice
 if TYPE_CHECKING:
     from ._editor import Editor
     from ._scene import Scene
+    from ._view import View
 
 Domain = Literal["vertex", "corner", "edge", "face"]
 Rule = Literal["interpolate", "normal", "copy", "drop"]
@@ -353,6 +354,17 @@ class Mesh(MeshConversions, MeshOperations):
 
     def _repr_png_(self) -> bytes:
         return self.render(size=(640, 480))
+
+    def view(self, *, color_by: str | None = None, wireframe: bool | None = None, height: int = 480) -> View:
+        """Returns an interactive view for notebooks: drag to turn, scroll to zoom. It needs no network.
+
+        :param color_by: An attribute of vertices or faces that gives the colors.
+        :param wireframe: Whether edges are drawn at first. Defaults to meshes of at most 20,000 faces.
+        :param height: The height in pixels.
+        """
+        from ._view import View
+
+        return View(self, color_by, wireframe, height)
 
     def apply(self, operation: str, /, **parameters: Any) -> Self:
         """Runs an operation by its name in recipes: ``m.apply("LoopSubdivide", levels=2)``."""

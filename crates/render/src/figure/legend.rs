@@ -167,7 +167,7 @@ fn title_height(legend: &Legend) -> f64 {
 }
 
 /// Returns the width and the height of a legend, in whole pixels at scale 1.
-fn legend_size(legend: &Legend) -> DVec2 {
+pub(super) fn legend_size(legend: &Legend) -> DVec2 {
     let labels = labels(&legend.scale);
     let widths = labels.iter().map(|label| text_width(&plain(label)));
     let widest = widths.fold(0.0, f64::max);
@@ -180,7 +180,8 @@ fn legend_size(legend: &Legend) -> DVec2 {
     (size + DVec2::splat(2.0 * PADDING)).ceil()
 }
 
-fn write(svg: &mut Svg, legend: &Legend, corner: DVec2, size: DVec2) {
+/// Writes a legend of this size into a figure. `corner` is the upper left corner.
+pub(super) fn write(svg: &mut Svg, legend: &Legend, corner: DVec2, size: DVec2) {
     svg.rectangle(corner, size, &Paint::fill(BACKGROUND));
     let corner = corner + DVec2::splat(PADDING);
     if !legend.title.is_empty() {
@@ -220,7 +221,9 @@ fn write_bar(svg: &mut Svg, corner: DVec2, [low, high]: [f64; 2], colors: &[Colo
         while y + strip < height && color_at(1.0 - (y + strip + 0.5) / height) == color {
             strip += 1.0;
         }
-        let size = DVec2::new(width, strip);
+        // Each strip extends to the bottom, under the next strips. Otherwise the background would show between strips
+        // whose borders are not at whole pixels of the picture.
+        let size = DVec2::new(width, height - y);
         svg.rectangle(corner + DVec2::Y * y, size, &Paint::fill(color));
         y += strip;
     }

@@ -13,6 +13,7 @@ use geometry::uv::{Charts, aspects, is_border};
 use glam::DVec2;
 use mesh::{HalfEdgeId, Mesh};
 
+use super::legend::{Legend, Scale, legend_size, write};
 use super::{Color, Command, Paint, Svg};
 use crate::ColorMap;
 
@@ -41,8 +42,9 @@ const FAR: f64 = 1e6;
 /// The number of colors of a stretch. Faces of one color are one shape.
 const N_COLORS: usize = 16;
 
-/// Draws the charts of texture coordinates, `width` pixels wide. Coordinates outside the page are drawn too: the figure is
-/// as large as needed. If `edges` is false, only the borders of charts are drawn.
+/// Draws the charts of texture coordinates, `width` pixels wide. Coordinates outside the page are drawn too, so the figure
+/// can be higher than wide. If `edges` is false, only the borders of charts are drawn. Beside colors for the stretch
+/// there is a legend, if it takes at most a third of the width.
 pub fn uv_layout(
     mesh: &Mesh,
     uvs: &[DVec2],
@@ -61,10 +63,15 @@ pub fn uv_layout(
     } else {
         (DVec2::ZERO, DVec2::ONE)
     };
-    let scale = (width - 2.0 * MARGIN).max(1.0) / (high.x - low.x);
+    let legend = (fill == UvFill::Stretch).then(stretch_legend);
+    let legend = legend.map(|legend| (legend_size(&legend), legend));
+    let legend = legend.filter(|(size, _)| size.x <= width / 3.0);
+    let [legend_width, legend_height] =
+        (legend.as_ref()).map_or([0.0; 2], |(size, _)| [size.x, size.y]);
+    let scale = (width - legend_width - 2.0 * MARGIN).max(1.0) / (high.x - low.x);
     // A figure is at most four times as high as wide.
     let scale = scale.min(4.0 * width / (high.y - low.y));
-    let height = (high.y - low.y) * scale + 2.0 * MARGIN;
+    let height = ((high.y - low.y) * scale + 2.0 * MARGIN).max(legend_height);
     let at = |p: DVec2| DVec2::new(p.x - low.x, high.y - p.y) * scale + MARGIN;
     let place = |h: HalfEdgeId| {
         let p = at(uvs[h.index()]);
@@ -104,7 +111,28 @@ pub fn uv_layout(
     svg.group("borders", |svg| {
         svg.path(&lines(true), &Paint::stroke(BORDER, 1.2));
     });
+    if let Some((size, legend)) = legend {
+        write(&mut svg, &legend, DVec2::X * (width - size.x), size);
+    }
     svg
+}
+
+fn stretch_legend() -> Legend {
+    Legend {
+        title: "stretch".to_owned(),
+        scale: Scale::Continuous {
+            low: 1.0,
+            high: MAX_ASPECT,
+            colors: (0..N_COLORS).map(stretch_color).collect(),
+        },
+    }
+}
+
+/// Returns one of the [`N_COLORS`] colors of a stretch.
+fn stretch_color(i: usize) -> Color {
+    let last = (N_COLORS - 1) as f64;
+    let [r, g, b] = ColorMap::Viridis.srgb(i as f64 / last);
+    [r, g, b, 255]
 }
 
 /// Returns the shapes inside the charts, with their colors.
@@ -135,8 +163,7 @@ fn fills(
                 let t = ((aspect - 1.0) / (MAX_ASPECT - 1.0)).clamp(0.0, 1.0);
                 shapes[bin(t)].extend(polygon(triangle.into_iter().map(place)));
             }
-            let last = (N_COLORS - 1) as f64;
-            Box::new(move |i| opaque(ColorMap::Viridis.srgb(i as f64 / last)))
+            Box::new(stretch_color)
         }
     };
     let shapes = shapes.into_iter().enumerate();
@@ -223,7 +250,26 @@ mod tests {
         let colors = |text: &str| text.matches("fill=\"#").count() - 1;
         assert_eq!(colors(&figure(0.0, UvFill::Charts, true).1), 1);
         assert_eq!(colors(&figure(0.1, UvFill::Charts, true).1), 2);
-        assert_eq!(colors(&figure(0.0, UvFill::Stretch, true).1), 1);
+        let (mesh, uvs) = two(0.0);
+        let narrow = uv_layout(
+            &mesh,
+            &uvs,
+            &charts(&mesh, &uvs),
+            120.0,
+            UvFill::Stretch,
+            true,
+        );
+        assert_eq!(colors(&narrow.finish(None)), 1);
         assert_eq!(colors(&figure(0.0, UvFill::None, true).1), 0);
+    }
+
+    #[test]
+    fn a_wide_picture_of_the_stretch_has_a_legend() {
+        let (mesh, uvs) = two(0.0);
+        let charts = charts(&mesh, &uvs);
+        let text = |width, fill| uv_layout(&mesh, &uvs, &charts, width, fill, true).finish(None);
+        assert!(text(400.0, UvFill::Stretch).contains(">stretch<"));
+        assert!(!text(120.0, UvFill::Stretch).contains(">stretch<"));
+        assert!(!text(400.0, UvFill::Charts).contains(">stretch<"));
     }
 }

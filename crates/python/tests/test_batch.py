@@ -61,6 +61,18 @@ def test_a_second_run_does_only_what_is_missing(folder: Path) -> None:
     assert changed == [first[3].input] and rows(first) == rows(second)
 
 
+def test_addresses(folder: Path) -> None:
+    fsspec = pytest.importorskip("fsspec")
+    for i in range(3):
+        with fsspec.open(f"memory://models/a{i}.obj", "wb") as file:
+            file.write((folder / "in" / f"a{i}.obj").read_bytes())
+    found = mw.batch("clean.ron", "memory://models/*.obj", out="out", upload="memory://clean")
+    assert [row.input for row in found] == [f"memory:///models/a{i}.obj" for i in range(3)]
+    assert mw.read("memory://clean/a1.ply").mesh().n_faces == 80
+    local = mw.batch("clean.ron", (folder / "in" / "a1.obj").as_uri(), out="other", upload=(folder / "up").as_uri())
+    assert local[0].digest == found[1].digest and (folder / "up" / "a1.ply").is_file()
+
+
 def test_errors_of_the_whole_batch(folder: Path) -> None:
     with pytest.raises(mw.Error, match="missing.ron"):
         mw.batch("missing.ron", "in/*.obj")

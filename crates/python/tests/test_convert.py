@@ -18,7 +18,7 @@ def model() -> mw.Mesh:
 
 @pytest.mark.parametrize("package", ["trimesh", "meshio", "pyvista", "open3d"])
 def test_there_and_back(package: str, model: mw.Mesh) -> None:
-    pytest.importorskip(package)
+    pytest.importorskip(package, exc_type=ImportError)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         again = getattr(mw.Mesh, f"from_{package}")(getattr(model, f"to_{package}")())

@@ -16,6 +16,7 @@ from typing import Any, Literal
 from ._errors import Error
 from ._progress import numbers
 from ._recipe import Recipe
+from ._scene import fsspec, is_address, write_bytes
 
 #: Parts for each worker: the sizes of files vary, so a worker that is done early takes another part.
 PARTS_PER_WORKER = 8
@@ -91,6 +92,7 @@ def batch(
     parts: int | None = None,
     report: str | os.PathLike[str] | None = None,
     budget: str | None = None,
+    upload: str | None = None,
 ) -> Report:
     """Runs one recipe on many files, several at the same time.
 
@@ -99,7 +101,8 @@ def batch(
     A file that fails is a row of the report, and does not stop the batch.
 
     :param recipe: The recipe, or the path of its file. It needs a parameter of type Path, which receives the input.
-    :param inputs: Files, or patterns: ``*`` and ``?`` match within one folder, ``**`` any number of folders.
+    :param inputs: Files, or patterns: ``*`` and ``?`` match within one folder, ``**`` any number of folders. Addresses such
+        as ``s3://bucket/*.obj`` need fsspec, and are copied to the folder ``inputs`` in `out` first.
     :param engine: "local" uses the processors of this machine; "dask" starts a local cluster of Dask, and a client of Dask
         uses its cluster; "ray" uses Ray. The workers of a cluster need this package, and the same folders.
     :param out: The folder for outputs, and for the state of the batch.
@@ -112,11 +115,19 @@ def batch(
         number of parts.
     :param report: A file for the report: .json, .jsonl or .csv.
     :param budget: The memory budget for meshes of a process, such as "2GiB". Defaults to 8 GiB.
+    :param upload: An address such as ``s3://bucket/clean``, to which outputs are copied at the end.
     """
     folder = Path(out).absolute()
     folder.mkdir(parents=True, exist_ok=True)
     given = [inputs] if isinstance(inputs, str | os.PathLike) else inputs
-    listed = [os.fspath(path) for path in given]
+    addresses: dict[str, str] = {}
+    listed = []
+    for path in [os.fspath(path) for path in given]:
+        if is_address(path):
+            addresses.update(downloaded(path, Path(out) / "inputs"))
+        else:
+            listed.append(path)
+    listed += addresses
     if not listed:
         return Report({}, [])
     arguments = [recipe_file(recipe, folder), "--inputs", *listed, "--out", os.fspath(out)]
@@ -140,7 +151,31 @@ def batch(
             run_program(["batch", "--merge", merged, "--report", copy], os.getcwd())
             shutil.copyfile(copy, report)
     header = json.loads(text)
-    return Report(header, [Row(**row) for row in header.pop("rows")])
+    rows = [Row(**{**row, "input": addresses.get(row["input"], row["input"])}) for row in header.pop("rows")]
+    if upload is not None:
+        for row in rows:
+            for output in row.outputs:
+                file = Path(output["path"])
+                name = file.absolute().relative_to(folder).as_posix()
+                write_bytes(f"{upload.rstrip('/')}/{name}", file.read_bytes())
+    return Report(header, rows)
+
+
+def downloaded(pattern: str, folder: Path) -> dict[str, str]:
+    """Copies the files of an address to a folder. Returns the address of each copy. A file that exists is replaced, which
+    does not repeat its run: results belong to contents."""
+    system, path = fsspec().core.url_to_fs(pattern)
+    found = sorted(system.glob(path)) if any(c in path for c in "*?[") else [path]
+    copies = {}
+    for remote in found:
+        address = system.unstrip_protocol(remote)
+        copy = folder / address.partition("://")[2].lstrip("/")
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        data = system.cat_file(remote)
+        if not copy.is_file() or copy.read_bytes() != data:
+            copy.write_bytes(data)
+        copies[os.fspath(copy)] = address
+    return copies
 
 
 def recipe_file(recipe: Recipe | str | os.PathLike[str], folder: Path) -> str:

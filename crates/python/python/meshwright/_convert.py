@@ -21,7 +21,10 @@ def module(name: str) -> Any:
     """Imports a package, or says how to install it."""
     try:
         return importlib.import_module(name)
-    except ImportError as error:
+    except ModuleNotFoundError as error:
+        # A package that is installed but lacks another package or library says so itself.
+        if error.name not in (name, None):
+            raise
         raise ImportError(f"this conversion needs {name}: pip install {name}") from error
 
 

@@ -245,7 +245,9 @@ def fsspec() -> Any:
 
 def write_bytes(address: str, data: bytes) -> None:
     """Writes a file at an address."""
-    with fsspec().open(address, "wb") as file:
+    # Stores of objects have no folders.
+    options = {"auto_mkdir": True} if address.startswith("file:") else {}
+    with fsspec().open(address, "wb", **options) as file:
         file.write(data)
 
 

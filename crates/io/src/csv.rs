@@ -2,6 +2,7 @@
 //!
 //! | column | content |
 //! | --- | --- |
+//! | `object` | the name of the object, if there are several; the numbers then count from 0 in each object |
 //! | `vertex` | the number of the vertex; with faces, `face`; with corners, both |
 //! | `x`, `y`, `z` | the position; of faces, the mean of the corners |
 //! | name of an attribute | a number, or 0 and 1 for a tag |
@@ -12,13 +13,13 @@
 //! name of another column, its name gets a number.
 
 use mesh::{Domain, FaceId, HalfEdgeId, Mesh};
-use scene::Scene;
+use scene::{Geometry, Object, Scene};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::decimal::{push_number, push_whole};
 use crate::error::Unwritable;
-use crate::joined::joined;
+use crate::joined::{Names, joined};
 use crate::loss::Losses;
 use crate::{SingleFile, WriteOptions, parallel};
 
@@ -51,18 +52,20 @@ impl Rows {
 ///
 /// If an object is not a mesh.
 pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile, Unwritable> {
-    let mut joined = joined(scene, "CSV", false)?;
+    let mut joined = joined(scene, "CSV", Names::Kept)?;
     let (mesh, rows) = (&*joined.mesh, options.rows.unwrap_or_default());
     let domain = rows.domain();
     let mut losses = Losses::of(&joined.name, &mut joined.losses);
     let word = format!("CSV with a row for each {domain}");
     losses.add_columns(mesh, &word, |of, _| of == domain);
-    let mut out = header(mesh, rows);
+    let parts = Parts::of(scene);
+    let mut out = header(mesh, rows, &parts);
     let blocks = match rows {
         Rows::Vertices => parallel::blocks(mesh.n_vertices(), |block| {
             let mut out = Vec::new();
             for v in block {
-                push_whole(&mut out, v);
+                let part = parts.push(&mut out, |part| part.vertices <= v);
+                push_whole(&mut out, v - part.vertices);
                 push_row(&mut out, mesh, domain, v, mesh.positions()[v].to_array());
             }
             out
@@ -70,7 +73,8 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile,
         Rows::Faces => parallel::blocks(mesh.n_faces(), |block| {
             let mut out = Vec::new();
             for f in block {
-                push_whole(&mut out, f);
+                let part = parts.push(&mut out, |part| part.faces <= f);
+                push_whole(&mut out, f - part.faces);
                 let center = mesh.face_center(FaceId::new(f)).to_array();
                 push_row(&mut out, mesh, domain, f, center);
             }
@@ -80,7 +84,8 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile,
             let mut out = Vec::new();
             for f in block {
                 for h in mesh.face_half_edges(FaceId::new(f)) {
-                    push_corner(&mut out, mesh, f, h);
+                    let part = parts.push(&mut out, |part| part.faces <= f);
+                    push_corner(&mut out, mesh, f, h, part);
                 }
             }
             out
@@ -92,11 +97,50 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile,
     Ok((out, joined.losses))
 }
 
-fn push_corner(out: &mut Vec<u8>, mesh: &Mesh, f: usize, h: HalfEdgeId) {
+/// An object, and the number of vertices and faces of the objects before it.
+struct Part {
+    name: String,
+    vertices: usize,
+    faces: usize,
+}
+
+/// The objects, in their order.
+struct Parts(Vec<Part>);
+
+impl Parts {
+    fn of(scene: &Scene) -> Self {
+        let (mut vertices, mut faces) = (0, 0);
+        let part = |object: &Object| {
+            let part = Part {
+                name: quoted(&object.name),
+                vertices,
+                faces,
+            };
+            if let Geometry::Mesh(mesh) = &object.geometry {
+                vertices += mesh.n_vertices();
+                faces += mesh.n_faces();
+            }
+            part
+        };
+        Self(scene.objects().iter().map(part).collect())
+    }
+
+    /// Returns the last part that starts at or before a row. If there are several parts, appends the name of this part.
+    fn push(&self, out: &mut Vec<u8>, has_started: impl Fn(&Part) -> bool) -> &Part {
+        let part = &self.0[self.0.partition_point(has_started) - 1];
+        if self.0.len() > 1 {
+            out.extend_from_slice(part.name.as_bytes());
+            out.push(b',');
+        }
+        part
+    }
+}
+
+fn push_corner(out: &mut Vec<u8>, mesh: &Mesh, f: usize, h: HalfEdgeId, part: &Part) {
     let v = mesh.origin(h);
-    push_whole(out, f);
+    push_whole(out, f - part.faces);
     out.push(b',');
-    push_whole(out, v.index());
+    push_whole(out, v.index() - part.vertices);
     push_row(
         out,
         mesh,
@@ -130,14 +174,15 @@ fn push_value(out: &mut Vec<u8>, x: f64) {
     }
 }
 
-fn header(mesh: &Mesh, rows: Rows) -> Vec<u8> {
+fn header(mesh: &Mesh, rows: Rows, parts: &Parts) -> Vec<u8> {
     let numbers: &[&str] = match rows {
         Rows::Vertices => &["vertex"],
         Rows::Faces => &["face"],
         Rows::Corners => &["face", "vertex"],
     };
-    let mut names: Vec<String> = numbers
-        .iter()
+    let object = ["object"].iter().filter(|_| parts.0.len() > 1);
+    let mut names: Vec<String> = object
+        .chain(numbers)
         .chain(&["x", "y", "z"])
         .map(|&n| n.to_owned())
         .collect();
@@ -151,15 +196,17 @@ fn header(mesh: &Mesh, rows: Rows) -> Vec<u8> {
             names.push(unused(name, |name| names.iter().any(|other| other == name)));
         }
     }
-    let quoted = |name: &String| {
-        if name.contains([',', '"', '\n', '\r']) {
-            format!("\"{}\"", name.replace('"', "\"\""))
-        } else {
-            name.clone()
-        }
-    };
-    let line: Vec<String> = names.iter().map(quoted).collect();
+    let line: Vec<String> = names.iter().map(|name| quoted(name)).collect();
     (line.join(",") + "\n").into_bytes()
+}
+
+/// Returns a name as a field.
+fn quoted(name: &str) -> String {
+    if name.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", name.replace('"', "\"\""))
+    } else {
+        name.to_owned()
+    }
 }
 
 /// Returns the name, or the name with the first number from 2 with which it is not used.

@@ -20,8 +20,18 @@ pub(crate) struct Joined<'a> {
     pub(crate) losses: Vec<Loss>,
 }
 
-/// Joins the meshes of all objects of a scene. If there are several objects and `tags` is set, each face gets a tag:
-/// `o:` followed by the name of its object. Materials are lost.
+/// What becomes of the names of several objects.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Names {
+    /// They are lost.
+    Lost,
+    /// Each face gets a tag: `o:` followed by the name of its object.
+    Tags,
+    /// The format stores them itself.
+    Kept,
+}
+
+/// Joins the meshes of all objects of a scene. Materials are lost.
 ///
 /// # Errors
 ///
@@ -29,7 +39,7 @@ pub(crate) struct Joined<'a> {
 pub(crate) fn joined<'a>(
     scene: &'a Scene,
     format: &str,
-    tags: bool,
+    names: Names,
 ) -> Result<Joined<'a>, Unwritable> {
     let mut meshes = Vec::new();
     let mut losses = Vec::new();
@@ -63,13 +73,16 @@ pub(crate) fn joined<'a>(
         return Err(Unwritable::scene(message));
     }
     let mut losses_of_all = Losses::of(&name, &mut losses);
-    let became = if tags {
-        ": each object became a face tag"
-    } else {
-        ""
-    };
-    let reason = format!("a {format} file stores one mesh{became}");
-    losses_of_all.add(None, "name", meshes.len(), reason);
+    let tags = names == Names::Tags;
+    if names != Names::Kept {
+        let became = if tags {
+            ": each object became a face tag"
+        } else {
+            ""
+        };
+        let reason = format!("a {format} file stores one mesh{became}");
+        losses_of_all.add(None, "name", meshes.len(), reason);
+    }
     let (mut all, mut positions) = (Connectivity::default(), Vec::new());
     for mesh in &meshes {
         all.append(mesh.connectivity());

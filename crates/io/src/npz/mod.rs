@@ -22,7 +22,7 @@ use scene::Scene;
 use crate::SingleFile;
 use crate::csv::unused;
 use crate::error::Unwritable;
-use crate::joined::joined;
+use crate::joined::{Names, joined};
 use zip::Archive;
 
 /// Writes `scene`, and lists what the file does not store.
@@ -31,7 +31,7 @@ use zip::Archive;
 ///
 /// If an object is not a mesh, or if the file would be larger than 4 GiB.
 pub(crate) fn write(scene: &Scene) -> Result<SingleFile, Unwritable> {
-    let joined = joined(scene, "NPZ", false)?;
+    let joined = joined(scene, "NPZ", Names::Lost)?;
     let mesh = &*joined.mesh;
     let mut archive = Archive::default();
     let positions = bytemuck::cast_slice::<DVec3, f64>(mesh.positions());

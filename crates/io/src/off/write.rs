@@ -9,7 +9,7 @@ use scene::Scene;
 use super::read::COLOR_INDEX;
 use crate::decimal::{push_number, push_whole};
 use crate::error::Unwritable;
-use crate::joined::joined;
+use crate::joined::{Names, joined};
 use crate::loss::Losses;
 use crate::writing::{
     FileVertices, NOT_FINITE, finite, is_byte, is_mark, push_comment, to_byte, uvs_of_vertices,
@@ -23,7 +23,7 @@ use crate::{SingleFile, WriteOptions};
 ///
 /// If an object is not a mesh.
 pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile, Unwritable> {
-    let mut joined = joined(scene, "OFF", false)?;
+    let mut joined = joined(scene, "OFF", Names::Lost)?;
     let mut losses = Losses::of(&joined.name, &mut joined.losses);
     let mut out = Vec::new();
     Content::of(&joined.mesh, &mut losses).push(&mut out, options);

@@ -14,7 +14,7 @@ use super::read::plain_rule;
 use super::roles;
 use super::types::Type;
 use crate::error::Unwritable;
-use crate::joined::joined;
+use crate::joined::{Names, joined};
 use crate::loss::Losses;
 use crate::parallel;
 use crate::writing::{
@@ -28,7 +28,7 @@ use crate::{SingleFile, WriteOptions};
 ///
 /// If an object is not a mesh.
 pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile, Unwritable> {
-    let mut joined = joined(scene, "PLY", true)?;
+    let mut joined = joined(scene, "PLY", Names::Tags)?;
     let mesh = &*joined.mesh;
     let mut losses = Losses::of(&joined.name, &mut joined.losses);
     losses.add_columns(mesh, "PLY", |domain, _| domain != Domain::Edge);

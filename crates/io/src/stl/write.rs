@@ -7,7 +7,7 @@ use scene::Scene;
 
 use super::binary::{FACET, HEADER};
 use crate::error::Unwritable;
-use crate::joined::joined;
+use crate::joined::{Names, joined};
 use crate::loss::Losses;
 use crate::parallel;
 use crate::weld::n_merged;
@@ -20,7 +20,7 @@ use crate::{SingleFile, WriteOptions};
 /// If an object is not a mesh, a position exceeds the range of 32-bit numbers, or there are at least 2^32
 /// triangles.
 pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile, Unwritable> {
-    let mut joined = joined(scene, "STL", false)?;
+    let mut joined = joined(scene, "STL", Names::Lost)?;
     let mesh = &*joined.mesh;
     let mut losses = Losses::of(&joined.name, &mut joined.losses);
     losses.add_columns(mesh, "STL", |_, _| false);

@@ -1,4 +1,5 @@
-//! Checks the numbers and names in selections: elements and materials that a mesh certainly does not have.
+//! Checks the numbers and names in selections: elements and materials that a mesh certainly does not have, and objects that
+//! do not exist.
 //!
 //! Selections are recognized by their syntax, as they can be nested in any parameter.
 
@@ -6,6 +7,7 @@ use op::{MeshPlan, Plan};
 use ron_tree::{Call, Diagnostic, Span, Value, ValueKind};
 
 use super::attributes::meshes;
+use super::diagnostic;
 use crate::recipe::RecipeStep;
 use crate::shape::did_you_mean;
 
@@ -14,9 +16,11 @@ enum Named<'v> {
     Vertex(u32),
     Face(u32),
     Material(&'v str),
+    Object(&'v str),
 }
 
-/// Reports each element and each material in the selections of a step that one of its meshes certainly does not have.
+/// Reports each element and each material in the selections of a step that one of its meshes certainly does not have, and
+/// each object that does not exist.
 pub(super) fn missing_elements(step: &RecipeStep, plan: &Plan, found: &mut Vec<Diagnostic>) {
     // If the recipe expects a refusal, the missing element may be the reason for the refusal.
     if plan.incomplete || step.refused.is_some() {
@@ -31,6 +35,11 @@ pub(super) fn missing_elements(step: &RecipeStep, plan: &Plan, found: &mut Vec<D
     let is_target = |object: &str| on.as_ref().is_none_or(|on| on.iter().any(|n| n == object));
     let targets = || meshes(plan.objects()).filter(|(object, _)| is_target(object));
     for (named, span) in named {
+        if let Named::Object(name) = named {
+            let problem = plan.missing(name, []);
+            found.extend(problem.map(|problem| diagnostic(&problem, span)));
+            continue;
+        }
         let missing = targets().find_map(|(object, mesh)| named.missing_in(object, mesh));
         if let Some((message, help)) = missing {
             let error = Diagnostic::error(span, message);
@@ -48,6 +57,7 @@ impl Named<'_> {
         match *self {
             Self::Vertex(number) => mesh.missing_vertex_message(number).map(|m| (m, None)),
             Self::Face(number) => mesh.missing_face_message(number).map(|m| (m, None)),
+            Self::Object(_) => None,
             Self::Material(name) => {
                 let known = mesh.materials.as_ref()?;
                 if known.iter().any(|known| known == name) {
@@ -80,17 +90,25 @@ fn collect<'v>(value: &'v Value, named: &mut Vec<(Named<'v>, Span)>) {
             }
             "Vertices" => add(listed(call), Named::Vertex, named),
             "Faces" => add(listed(call), Named::Face, named),
-            "Material" => {
-                if let Some(name) = call.body.single()
-                    && let Some(text) = name.as_str()
-                {
-                    named.push((Named::Material(text), name.span));
-                }
-            }
+            "Material" => add_name(call, Named::Material, named),
+            "InsideOf" => add_name(call, Named::Object, named),
             _ => {}
         }
     }
     value.parts().for_each(|part| collect(part, named));
+}
+
+/// Adds the name in `Name("..")`.
+fn add_name<'v>(
+    call: &'v Call,
+    name: fn(&'v str) -> Named<'v>,
+    named: &mut Vec<(Named<'v>, Span)>,
+) {
+    if let Some(value) = call.body.single()
+        && let Some(text) = value.as_str()
+    {
+        named.push((name(text), value.span));
+    }
 }
 
 /// Adds the elements with these numbers.

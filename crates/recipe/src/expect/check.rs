@@ -38,6 +38,7 @@ impl Expectation {
                 | Self::EdgeLength { .. }
                 | Self::MinAngle { .. }
                 | Self::MeanMinAngle { .. }
+                | Self::Thickness { .. }
                 | Self::MeanFaceArea { .. }
                 | Self::Position { .. }
                 | Self::Same { .. }
@@ -189,6 +190,7 @@ impl Expectation {
                 }
                 check_number("a mean smallest corner angle", sum / n, [None, *min, *max], 0.0)
             }
+            Self::Thickness { of, min, max } => subject.thickness(of, [None, *min, *max]),
             Self::SelfIntersections { eq, min, max } => {
                 let mut found = 0;
                 for (object, mesh) in subject.meshes()? {

@@ -209,6 +209,17 @@ pub enum Expectation {
         /// At most this value.
         max: Option<f64>,
     },
+    /// The thickness of the solid at each selected vertex, in scene units, as `Measure(of: Thickness, ..)` measures it.
+    /// Infinite where the surface is a sheet. Fails if the selection is empty.
+    Thickness {
+        /// Which vertices.
+        #[serde(default)]
+        of: VertexSelection,
+        /// At least this value.
+        min: Option<f64>,
+        /// At most this value.
+        max: Option<f64>,
+    },
     /// The number of faces that intersect another face of the same object. Neighbors intersect only if they have more points
     /// in common than their common vertices and edges.
     SelfIntersections {
@@ -436,6 +447,7 @@ impl Expectation {
             | Self::EdgeLength { min, max, .. }
             | Self::MinAngle { min, max, .. }
             | Self::MeanMinAngle { min, max, .. }
+            | Self::Thickness { min, max, .. }
             | Self::Attribute { min, max, .. } => min.is_none() && max.is_none(),
             Self::Output {
                 path, tolerance, ..

@@ -88,6 +88,13 @@ impl CheckedMesh<'_> {
                 off.sort_by(|a, b| a.0.total_cmp(&b.0));
                 self.locations(off.into_iter().map(|(_, f)| f))
             }
+            Expectation::Thickness { of, min, max } => {
+                let Ok(thickness) = geometry::thickness(mesh, self.subject.progress) else {
+                    return Vec::new();
+                };
+                let at = |v: VertexId| Some(thickness[v.index()]);
+                self.out_of_bounds(of, at, *min, *max)
+            }
             Expectation::SelfIntersections { .. } => {
                 self.locations(self.selected(&FaceSelection::SelfIntersecting))
             }

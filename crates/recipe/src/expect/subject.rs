@@ -303,6 +303,31 @@ impl<'a> Subject<'a> {
         Ok(smallest)
     }
 
+    pub(super) fn thickness(
+        &self,
+        of: &VertexSelection,
+        bounds: [Option<f64>; 3],
+    ) -> Result<(), Violation> {
+        let mut is_empty = true;
+        for (object, mesh) in self.meshes()? {
+            let vertices = selected(of, object, mesh, *self)?;
+            if vertices.is_empty() {
+                continue;
+            }
+            is_empty = false;
+            let thickness = geometry::thickness(mesh, self.progress);
+            let thickness = thickness.map_err(|cancelled| cancelled.to_string())?;
+            for v in vertices {
+                let what = format_args!("a thickness at {v}");
+                check_number(what, thickness[v.index()], bounds, 0.0)?;
+            }
+        }
+        if is_empty {
+            return Err(Violation::unmet("the selection is empty".to_owned()));
+        }
+        Ok(())
+    }
+
     pub(super) fn mean_area(
         &self,
         of: &FaceSelection,

@@ -51,6 +51,16 @@ fn objects_in_on_must_exist() {
 }
 
 #[test]
+fn objects_in_selections_must_exist() {
+    has_one_error(
+        &steps("Sheet(columns: 2), Lift(by: 1, vertices: Not(InsideOf(\"shet\")))"),
+        "\"shet\"",
+        "no object is named \"shet\"",
+        "objects at this point: \"sheet\"",
+    );
+}
+
+#[test]
 fn objects_in_expectations_must_exist_at_their_step() {
     let text = r#"(recipe: 1, steps: [
             (id: "first", run: Sheet(columns: 2)), Sheet(columns: 2, name: "late"),

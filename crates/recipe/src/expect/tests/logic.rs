@@ -62,6 +62,7 @@ fn an_expectation_without_a_bound_is_an_error() {
         "EdgeLength()",
         "MinAngle(of: All)",
         "MeanMinAngle()",
+        "Thickness()",
         "SelfIntersections()",
         "Not(Faces())",
     ] {

@@ -27,6 +27,20 @@ fn self_intersections_are_counted_by_face() {
 }
 
 #[test]
+fn thickness_is_measured_at_vertices() {
+    holds_and_fails(
+        &cube(),
+        "Thickness(min: 1.999, max: 2.001)",
+        "Thickness(of: Vertices([3]), min: 3)",
+        "expected a thickness at v3 of at least 3, found 2",
+    );
+    assert!(check(&cube(), "Thickness(of: Not(All), min: 0)").is_err());
+    let sheet = scene([("sheet", shapes::square())]);
+    assert_eq!(check(&sheet, "Thickness(min: 1e9)"), Ok(()));
+    assert!(check(&sheet, "Thickness(max: 1e9)").is_err());
+}
+
+#[test]
 fn area_and_volume_are_compared_within_a_tolerance() {
     holds_and_fails(
         &cube(),

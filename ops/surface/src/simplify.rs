@@ -25,8 +25,9 @@ use op::prelude::*;
 /// - Lines: the boundary, seams of texture coordinates and normals, borders between face tags or materials, edges with
 ///   a tag or a crease, and `features`. A line can lose vertices, but its ends, and the vertices where lines meet, keep
 ///   their exact positions.
-/// - Attributes: they are interpolated, but never across a line. Normals are also interpolated, so that a simplified
-///   mesh is shaded like the original.
+/// - Attributes: texture coordinates, normals, colors and other numbers are a part of the change that is kept small (Hoppe,
+///   1999), and new vertices get the values that fit best. Values are never mixed across a line, and no triangle is turned
+///   over in the texture. Normals are kept, so that a simplified mesh is shaded like the original.
 /// - Vertex tags: vertices with different tags or sharpness are not merged.
 ///
 /// No triangle is turned over. Remaining elements are numbered anew, in the order of their old numbers. If the number of

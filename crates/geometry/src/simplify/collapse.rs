@@ -5,8 +5,8 @@ use progress::{Cancelled, Progress};
 use rayon::prelude::*;
 
 use crate::lines::{Kind, inverse_power_of_two, kinds, labels, lines};
-use crate::surface_index::triangle::nearest_on_triangle;
 
+use super::appearance::{Appearance, Around, Pair};
 use super::contact::Contacts;
 use super::quadric::{Quadric, Spread};
 use super::queue::Queue;
@@ -36,8 +36,8 @@ enum State {
 pub(super) struct Collapser<'a> {
     pub(super) mesh: Mesh,
     n_faces: usize,
-    /// Whether vertices or corners have values that are interpolated.
-    has_values: bool,
+    /// The values of vertices and corners that are interpolated, if there are any.
+    pub(super) appearance: Option<Appearance>,
     /// The distances are computed in coordinates around `center`, scaled by a power of two, so that very small and
     /// very large meshes give the same result.
     center: DVec3,
@@ -66,24 +66,30 @@ pub(super) struct Target {
     pub(super) point: DVec3,
     /// The end of the edge that keeps its position; `None` if both ends move.
     pub(super) end: Option<VertexId>,
+    /// The place on the edge, from 0 at its first end to 1, whose values the vertex gets; `None` for the values with the
+    /// least error.
+    t: Option<f64>,
     /// The mean squared distance from the point to the planes of the original triangles that the vertex
-    /// represents, plus the mean squared distance to these triangles, with a small weight.
+    /// represents, plus the mean squared error of its values, plus the mean squared distance to these triangles, with a
+    /// small weight.
     cost: f64,
 }
 
+/// The faces around an edge, and the wedges that become one with their values.
+type Values = (Around, Vec<(Pair, Vec<f64>)>);
+
 impl<'a> Collapser<'a> {
     /// Prepares the simplification of a dense mesh of triangles.
-    pub(super) fn new(mesh: Mesh, options: &'a Options<'a>) -> Self {
+    pub(super) fn new(mut mesh: Mesh, options: &'a Options<'a>) -> Self {
         let [min, max] = crate::bounds(&mesh).unwrap_or_default();
         let center = 0.5 * min + 0.5 * max;
         let scale = inverse_power_of_two((max - min).max_element());
         let lines = lines(&mesh, options.features);
         let kinds = kinds(&mesh, &lines, options.pinned);
+        let place = |mesh: &Mesh, v: VertexId| (mesh.position(v) - center) * scale;
         let mut this = Self {
             n_faces: mesh.n_faces(),
-            has_values: [Domain::Vertex, Domain::Corner]
-                .iter()
-                .any(|&d| !mesh.attributes().of(d).is_empty()),
+            appearance: Appearance::take(&mut mesh, &lines, place),
             center,
             scale,
             quadrics: Vec::new(),
@@ -239,15 +245,12 @@ impl<'a> Collapser<'a> {
             }
             around.extend([a, b].into_iter().flat_map(|v| self.mesh.vertex_faces(v)));
         }
-        let is_inside =
-            self.kinds[a.index()] == Kind::Inside && self.kinds[b.index()] == Kind::Inside;
-        let v = if is_inside && self.has_values {
-            let (corners, weights) = self.nearest_corners([a, b], target.point);
-            self.mesh.collapse_edge_in(e, point, corners, weights)
-        } else {
-            self.mesh.collapse_edge_to(e, point)
-        };
+        let values = self.values_after(e, target)?;
+        let v = self.mesh.collapse_edge_to(e, point);
         let v = v.map_err(|_| Blocked::Topology)?;
+        if let (Some(appearance), Some((around, merged))) = (&mut self.appearance, values) {
+            appearance.merge(&self.mesh, [a, b], v, &around, merged);
+        }
         self.n_faces -= n_removed;
         if let Some(contacts) = &mut self.contacts {
             for f in around {
@@ -288,7 +291,17 @@ impl<'a> Collapser<'a> {
         };
         let planes = self.quadrics[a] + self.quadrics[b];
         let spread = self.spreads[a] + self.spreads[b];
-        let sum = planes + spread.quadric(FIRMNESS);
+        let mut sum = planes + spread.quadric(FIRMNESS);
+        let is_line = self.lines[e.index()];
+        let pairs = self.appearance.as_ref().map(|appearance| {
+            let pairs = appearance.pairs(&self.mesh, e, is_line);
+            (appearance, pairs.into_iter().flatten())
+        });
+        if let (Some((appearance, pairs)), None, false) = (&pairs, end, is_line) {
+            sum = pairs
+                .clone()
+                .fold(sum, |sum, pair| sum + appearance.quadric(pair));
+        }
         let points = ends.map(|v| self.position(v));
         // The bound of the distance needs a boundary vertex that stays.
         let end = end.or_else(|| {
@@ -302,36 +315,46 @@ impl<'a> Collapser<'a> {
             1.0
         };
         let deviation = per_area * planes.at(point);
-        let cost = deviation + ROUNDNESS * per_area * spread.at(point);
+        let t = match end {
+            Some(i) => Some([0.0, 1.0][i]),
+            None => is_line.then(|| along(points, point)),
+        };
+        let error = pairs.map_or(0.0, |(appearance, pairs)| {
+            let error = |pair| match t {
+                Some(t) => appearance.error(pair, point, t),
+                None => appearance.least_error(pair, point),
+            };
+            pairs.map(error).sum()
+        });
+        let cost = deviation + per_area * (error + ROUNDNESS * spread.at(point));
         Ok(Target {
             point,
+            t,
             end: end.map(|i| ends[i]),
             cost,
         })
     }
 
-    /// Among the triangles at the given vertices, finds the one that is nearest to `point`. Returns its
-    /// corners, and the barycentric coordinates of its point nearest to `point`.
-    fn nearest_corners(
-        &self,
-        vertices: [VertexId; 2],
-        point: DVec3,
-    ) -> ([HalfEdgeId; 3], [f64; 3]) {
-        let around = vertices
-            .into_iter()
-            .flat_map(|v| self.mesh.vertex_half_edges(v));
-        let mut nearest: Option<(f64, HalfEdgeId, [f64; 3])> = None;
-        for h in around.filter(|&h| self.mesh.face(h).is_some()) {
-            let triangle = self.triangle(h);
-            let q = nearest_on_triangle(point, &triangle);
-            let distance = q.distance_squared(point);
-            if nearest.is_none_or(|(least, ..)| distance < least) {
-                nearest = Some((distance, h, barycentric(q, triangle)));
-            }
+    /// Returns the faces around an edge, and the wedges that its collapse merges with their new values.
+    fn values_after(&self, e: EdgeId, target: &Target) -> Result<Option<Values>, Blocked> {
+        let Some(appearance) = &self.appearance else {
+            return Ok(None);
+        };
+        let ends = self.mesh.edge_vertices(e);
+        let around = appearance.around(&self.mesh, ends);
+        let pairs = appearance.pairs(&self.mesh, e, self.lines[e.index()]);
+        let merged = pairs.into_iter().flatten().map(|pair| {
+            let values = match target.t {
+                Some(t) => appearance.mixed(pair, t),
+                None => appearance.best(pair, &around, target.point),
+            };
+            (pair, values)
+        });
+        let merged: Vec<(Pair, Vec<f64>)> = merged.collect();
+        if appearance.turns(&around, &merged) {
+            return Err(Blocked::Turned);
         }
-        let (_, h, weights) = nearest.expect("a vertex of an edge has a triangle");
-        let next = self.mesh.next(h);
-        ([h, next, self.mesh.next(next)], weights)
+        Ok(Some((around, merged)))
     }
 
     pub(super) fn position(&self, v: VertexId) -> DVec3 {
@@ -407,17 +430,10 @@ impl<'a> Collapser<'a> {
     }
 }
 
-/// Returns the barycentric coordinates of a point of a triangle; the coordinates of its center if the triangle
-/// has no area.
-fn barycentric(p: DVec3, [a, b, c]: [DVec3; 3]) -> [f64; 3] {
-    let normal = (b - a).cross(c - a);
-    let whole = normal.length_squared();
-    if whole == 0.0 {
-        return [1.0 / 3.0; 3];
-    }
-    let u = (b - p).cross(c - p).dot(normal) / whole;
-    let v = (c - p).cross(a - p).dot(normal) / whole;
-    [u, v, 1.0 - u - v]
+/// Returns the place on an edge that is nearest to `point`, from 0 to 1.
+fn along([a, b]: [DVec3; 2], point: DVec3) -> f64 {
+    let t = (point - a).dot(b - a) / (b - a).length_squared();
+    if t.is_nan() { 0.5 } else { t.clamp(0.0, 1.0) }
 }
 
 /// Returns the point where `quadric` is lowest. If there is no single lowest point, or if it is far from the

@@ -8,6 +8,8 @@
 //! on the distance to the area itself keeps triangles round, similar to Trettner, Kobbelt, "Fast and Robust QEM
 //! Simplification of Large Meshes Using Probabilistic Quadrics", 2020.
 //!
+//! Texture coordinates, normals, colors and other numbers are a part of the cost; see `appearance.rs`.
+//!
 //! Lines of the mesh keep their places:
 //!
 //! ```text
@@ -18,6 +20,7 @@
 //!     |    /  |  \    |            as it is.
 //! ```
 
+mod appearance;
 mod bound;
 mod collapse;
 mod contact;
@@ -71,7 +74,7 @@ pub enum Blocked {
     Lines,
     /// The ends have different tags, whole numbers or sharpness.
     Labels,
-    /// A triangle would turn over, or become degenerate.
+    /// A triangle would turn over or become degenerate, on the surface or in a texture.
     Turned,
     /// The topology of the surface would change.
     Topology,
@@ -117,9 +120,12 @@ pub enum SimplifyError {
 /// Simplifies a mesh of triangles by collapsing edges.
 ///
 /// Keeps the topology: the Euler characteristic, the boundary loops and the graph of lines stay. No triangle is
-/// turned by more than 78° in one collapse. The positions of remaining vertices change, except at pinned
-/// vertices and at ends and meeting points of lines. Attributes of a vertex, including normals, are those at
-/// the nearest point on the collapsed edge. On a seam, each side is treated separately. Isolated vertices stay.
+/// turned by more than 78° in one collapse, and none is turned over in a texture. The positions of remaining vertices
+/// change, except at pinned vertices and at ends and meeting points of lines.
+///
+/// Interpolated attributes of vertices and corners, including normals, are a part of the cost of a collapse. A vertex
+/// inside a region gets the values with the least error, within the range of the values around it. A vertex on a line gets
+/// the values at the nearest point on the collapsed edge, on each side of a seam separately. Isolated vertices stay.
 ///
 /// # Errors
 ///
@@ -157,6 +163,9 @@ pub fn simplify(
         blocked = collapser.blocked();
     }
     let mut mesh = collapser.mesh;
+    if let Some(appearance) = collapser.appearance {
+        appearance.put_back(&mut mesh);
+    }
     mesh.compact();
     Ok(Simplified { mesh, blocked })
 }

@@ -19,11 +19,15 @@ pub(super) struct Quadric {
 impl Quadric {
     /// Returns the squared distance to the plane through `point` with the unit normal `n`, times `weight`.
     pub(super) fn plane(n: DVec3, point: DVec3, weight: f64) -> Self {
-        let offset = -n.dot(point);
+        Self::linear(n, -n.dot(point), weight)
+    }
+
+    /// Returns the square of the linear function g·p + `offset`, times `weight`.
+    pub(super) fn linear(g: DVec3, offset: f64, weight: f64) -> Self {
         Self {
-            diagonal: weight * n * n,
-            mixed: weight * DVec3::new(n.y * n.z, n.x * n.z, n.x * n.y),
-            b: (weight * offset) * n,
+            diagonal: weight * g * g,
+            mixed: weight * DVec3::new(g.y * g.z, g.x * g.z, g.x * g.y),
+            b: (weight * offset) * g,
             c: weight * offset * offset,
         }
     }

@@ -320,6 +320,110 @@ fn what_blocks_is_counted() {
     assert_eq!(pinned.blocked, [(Blocked::Lines, torus.n_edges())]);
 }
 
+/// Sets the texture coordinates of all corners, as a function of the position.
+fn set_uv(mesh: &mut Mesh, at: impl Fn(DVec3) -> DVec2) {
+    let uv = |h| at(mesh.position(mesh.origin(h)));
+    let uvs = mesh.half_edges().map(uv).collect();
+    mesh.set(UV, uvs);
+}
+
+/// Returns the mean distance between the texture coordinates of a mesh in the plane z = 0 and the function `at`.
+fn texture_error(mesh: &Mesh, at: impl Fn(DVec3) -> DVec2) -> f64 {
+    let uv = mesh.get(UV).unwrap();
+    let (mut sum, mut area) = (0.0, 0.0);
+    for f in mesh.faces() {
+        let h: Vec<HalfEdgeId> = mesh.face_half_edges(f).collect();
+        for i in 0..12 {
+            for k in 0..12 - i {
+                let (s, t) = ((f64::from(i) + 0.3) / 12.0, (f64::from(k) + 0.3) / 12.0);
+                let weights = [1.0 - s - t, s, t];
+                let p = (0..3)
+                    .map(|i| weights[i] * mesh.position(mesh.origin(h[i])))
+                    .sum();
+                let q: DVec2 = (0..3).map(|i| weights[i] * uv[h[i].index()]).sum();
+                sum += mesh.face_area(f) * q.distance(at(p));
+                area += mesh.face_area(f);
+            }
+        }
+    }
+    sum / area
+}
+
+#[test]
+fn texture_coordinates_are_a_part_of_the_cost() {
+    // The texture changes quickly at x = 0.5.
+    let at = |p: DVec3| DVec2::new(p.x + 0.2 * libm::tanh(15.0 * (p.x - 0.5)), p.y);
+    let flat = square(32);
+    let mut textured = flat.clone();
+    set_uv(&mut textured, at);
+    let with = simplified(&textured, &to(120)).mesh;
+    // The same number of triangles, placed without regard to the texture, with the best texture coordinates.
+    let mut without = simplified(&flat, &to(120)).mesh;
+    set_uv(&mut without, at);
+    let [with, without] = [with, without].map(|mesh| texture_error(&mesh, at));
+    assert!(with < 0.5 * without, "{with} {without}");
+}
+
+#[test]
+fn no_triangle_is_turned_over_in_the_texture() {
+    let mut mesh = waves();
+    set_uv(&mut mesh, |p| {
+        DVec2::new(p.x * p.x + p.x, p.y + 0.1 * libm::sin(20.0 * p.x))
+    });
+    for n in [600, 200, 60] {
+        let after = simplified(&mesh, &to(n)).mesh;
+        let uv = after.get(UV).unwrap();
+        for f in after.faces() {
+            let h: Vec<DVec2> = after.face_half_edges(f).map(|h| uv[h.index()]).collect();
+            assert!((h[1] - h[0]).perp_dot(h[2] - h[0]) > 0.0, "{n}: {f}");
+        }
+    }
+}
+
+#[test]
+fn colors_stay_in_their_range_and_keep_their_border() {
+    let mut mesh = square(32);
+    let color = |p: &DVec3| mesh::DVec4::splat(if p.x + 0.3 * p.y < 0.6 { 0.0 } else { 1.0 });
+    let colors = mesh.positions().iter().map(color).collect();
+    mesh.set(mesh::COLOR, colors);
+    let after = simplified(&mesh, &to(200)).mesh;
+    let colors = after.get(mesh::COLOR).unwrap();
+    assert!(
+        colors
+            .iter()
+            .all(|c| c.min_element() >= 0.0 && c.max_element() <= 1.0)
+    );
+    let is_wrong = |(p, c): &(&DVec3, &mesh::DVec4)| {
+        let side = p.x + 0.3 * p.y - 0.6;
+        side.abs() > 0.1 && (c.x > 0.5) != (side > 0.0)
+    };
+    assert_eq!(
+        after
+            .positions()
+            .iter()
+            .zip(colors)
+            .filter(is_wrong)
+            .count(),
+        0
+    );
+}
+
+#[test]
+fn values_at_huge_offsets_do_not_disturb_the_surface() {
+    let mut mesh = torus();
+    let expected = simplified(&mesh, &to(400)).mesh;
+    set_uv(&mut mesh, |_| DVec2::splat(1e6));
+    let after = simplified(&mesh, &to(400)).mesh;
+    assert_eq!(after.positions(), expected.positions());
+    assert!(
+        after
+            .get(UV)
+            .unwrap()
+            .iter()
+            .all(|uv| *uv == DVec2::splat(1e6) || *uv == DVec2::ZERO)
+    );
+}
+
 #[test]
 fn normals_stay_of_length_one() {
     let mut mesh = triangles(&shapes::uv_sphere(24, 24));

@@ -1,0 +1,574 @@
+//! Attributes in the cost of a collapse.
+//!
+//! Texture coordinates, normals, colors and other numbers are linear functions on each original triangle. The error of
+//! a value s at a point p is the mean squared difference between s and these functions at p, over the triangles that the
+//! vertex represents. For each p, one s has the least error, and this least error is a quadric in p. Source: Hoppe, "New
+//! Quadric Metric for Simplifying Meshes with Appearance Attributes", 1999.
+//!
+//! ```text
+//!           \   w0  /
+//!            \     /           A wedge is a sector of the faces around a vertex, between two lines. All corners of a
+//!       ======v======          wedge have the same values. Values are never mixed between wedges of one vertex, so
+//!            /     \           they are not mixed across seams.
+//!           /  w1   \
+//! ```
+
+use mesh::{
+    Column, DVec2, DVec3, DVec4, Domain, EdgeId, FaceId, HalfEdgeId, Mesh, Rule, Values, VertexId,
+};
+use rayon::prelude::*;
+
+use super::quadric::Quadric;
+use crate::lines::inverse_power_of_two;
+
+/// The weight of texture coordinates, relative to lengths on the surface. Texture coordinates are scaled so that
+/// triangles have the same total area in the texture as on the surface.
+const TEXTURE: f64 = 0.5;
+
+/// The weight of the difference of two unit normals, relative to the size of the mesh. The weight is small, because normals
+/// follow from the surface: with five times this weight, the mean distance to a model of a rocker arm doubles.
+const NORMAL: f64 = 0.002;
+
+/// The weight of the difference between the lowest and the highest value of another attribute, relative to the size of
+/// the mesh.
+const OTHER: f64 = 0.02;
+
+/// A column whose values are kept by wedge instead of in the mesh.
+struct Taken {
+    domain: Domain,
+    column: Column,
+    /// A power of two, so that scaled values can be scaled back exactly.
+    weight: f64,
+    /// The number of the first component.
+    first: usize,
+    n: usize,
+}
+
+impl Taken {
+    fn is_texture(&self) -> bool {
+        self.domain == Domain::Corner && matches!(self.column.values, Values::Vec2(_))
+    }
+}
+
+/// The attributes of a mesh while it is simplified.
+pub(super) struct Appearance {
+    taken: Vec<Taken>,
+    /// The names of the columns of vertices and corners, in their original order.
+    order: Vec<(Domain, String)>,
+    /// The number of components of all columns together.
+    n: usize,
+    /// By half-edge with a face: the wedge of this corner.
+    wedges: Vec<u32>,
+    /// By wedge: a third of the area of its triangles.
+    areas: Vec<f64>,
+    /// By wedge: the integral of the sum of the squared linear functions.
+    quadrics: Vec<Quadric>,
+    /// By wedge and component: the integral of the gradient and the offset of the linear functions.
+    fits: Vec<DVec4>,
+    /// By wedge and component: the value, times the weight of its column.
+    values: Vec<f64>,
+    /// By component: a value that is subtracted in the linear functions, so that rounding errors are small.
+    bases: Vec<f64>,
+}
+
+/// Two wedges that an edge joins: at the first and at the second end of the edge.
+pub(super) type Pair = [u32; 2];
+
+/// The corners of the faces around an edge before its collapse, with their wedges.
+pub(super) struct Around(Vec<(FaceId, [(VertexId, u32); 3])>);
+
+impl Appearance {
+    /// Takes the interpolated numbers of vertices and corners out of a mesh. Returns `None` if there are none. `place`
+    /// returns the scaled position of a vertex.
+    pub(super) fn take(
+        mesh: &mut Mesh,
+        lines: &[bool],
+        place: impl Fn(&Mesh, VertexId) -> DVec3 + Sync,
+    ) -> Option<Self> {
+        let is_taken = |column: &Column| {
+            matches!(column.rule, Rule::Interpolate | Rule::Normal)
+                && !matches!(column.values, Values::Int(_) | Values::Tag(_))
+        };
+        let mut order = Vec::new();
+        for domain in [Domain::Vertex, Domain::Corner] {
+            let columns = mesh.attributes().of(domain).iter();
+            order.extend(columns.map(|column| (domain, column.name.to_string())));
+        }
+        let (mut taken, mut n) = (Vec::new(), 0);
+        for (domain, name) in &order {
+            let column = mesh.attributes().column(*domain, name);
+            if let Some(column) = column.filter(|column| is_taken(column)).cloned() {
+                mesh.remove_column(*domain, name);
+                let width = column.values.n_components();
+                taken.push(Taken {
+                    weight: weight(mesh, *domain, &column, |v| place(mesh, v)),
+                    domain: *domain,
+                    column,
+                    first: n,
+                    n: width,
+                });
+                n += width;
+            }
+        }
+        if taken.is_empty() {
+            return None;
+        }
+        let (wedges, firsts) = wedges(mesh, lines);
+        let mut this = Self {
+            taken,
+            order,
+            n,
+            wedges,
+            areas: Vec::new(),
+            quadrics: Vec::new(),
+            fits: vec![DVec4::ZERO; n * firsts.len()],
+            values: Vec::with_capacity(n * firsts.len()),
+            bases: Vec::new(),
+        };
+        for &h in &firsts {
+            for taken in &this.taken {
+                let i = match taken.domain {
+                    Domain::Vertex => mesh.origin(h).index(),
+                    _ => h.index(),
+                };
+                let component = |c| taken.weight * taken.column.values.component(i, c);
+                this.values.extend((0..taken.n).map(component));
+            }
+        }
+        this.bases = this.values.iter().copied().take(n).collect();
+        let mut fits = std::mem::take(&mut this.fits);
+        (this.areas, this.quadrics) = firsts
+            .par_iter()
+            .zip(fits.par_chunks_mut(n))
+            .map(|(&first, fits)| this.measure(mesh, lines, first, fits, |v| place(mesh, v)))
+            .unzip();
+        this.fits = fits;
+        Some(this)
+    }
+
+    /// Adds up the linear functions on the triangles of the wedge whose first corner is given. Returns the area of the
+    /// wedge and the integral of the squared functions.
+    fn measure(
+        &self,
+        mesh: &Mesh,
+        lines: &[bool],
+        first: HalfEdgeId,
+        fits: &mut [DVec4],
+        place: impl Fn(VertexId) -> DVec3,
+    ) -> (f64, Quadric) {
+        let (mut total, mut quadric) = (0.0, Quadric::default());
+        for h in corners_from(mesh, lines, first) {
+            let next = mesh.next(h);
+            let corners = [h, next, mesh.next(next)];
+            let [a, b, c] = corners.map(|h| place(mesh.origin(h)));
+            let normal = (b - a).cross(c - a);
+            let twice_area = normal.length();
+            if twice_area > 0.0 {
+                let area = twice_area / 6.0;
+                // The gradients of the barycentric coordinates at b and c.
+                let normal = normal / twice_area;
+                let at_b = normal.cross(a - c) / twice_area;
+                let at_c = normal.cross(b - a) / twice_area;
+                let values = corners.map(|h| self.values_of(self.wedges[h.index()]));
+                total += area;
+                for (i, fit) in fits.iter_mut().enumerate() {
+                    let [s, t, u] = values.map(|values| values[i] - self.bases[i]);
+                    let gradient = (t - s) * at_b + (u - s) * at_c;
+                    let offset = s - gradient.dot(a);
+                    *fit += area * gradient.extend(offset);
+                    quadric = quadric + Quadric::linear(gradient, offset, area);
+                }
+            }
+        }
+        (total, quadric)
+    }
+
+    fn values_of(&self, wedge: u32) -> &[f64] {
+        let first = self.n * wedge as usize;
+        &self.values[first..first + self.n]
+    }
+
+    /// Returns the wedges that an edge joins, on both sides. If the edge is not on a line, both sides are in one wedge,
+    /// which is returned once.
+    pub(super) fn pairs(&self, mesh: &Mesh, e: EdgeId, is_line: bool) -> [Option<Pair>; 2] {
+        let [h, twin] = e.half_edges();
+        let at = |h: HalfEdgeId| self.wedges[h.index()];
+        let pair = mesh.face(h).map(|_| [at(h), at(mesh.next(h))]);
+        let opposite = mesh.face(twin).map(|_| [at(mesh.next(twin)), at(twin)]);
+        if is_line {
+            [pair, opposite]
+        } else {
+            [pair, None]
+        }
+    }
+
+    fn area(&self, [a, b]: Pair) -> f64 {
+        self.areas[a as usize] + self.areas[b as usize]
+    }
+
+    /// Returns the linear function of a component, for the union of two wedges: the integral of the component for any
+    /// point in the place of the vertex.
+    fn fit(&self, [a, b]: Pair, i: usize) -> DVec4 {
+        self.fits[self.n * a as usize + i] + self.fits[self.n * b as usize + i]
+    }
+
+    /// Returns the integral of the squared error of the best values, as a function of the point.
+    pub(super) fn quadric(&self, pair: Pair) -> Quadric {
+        let [a, b] = pair.map(|wedge| self.quadrics[wedge as usize]);
+        let area = self.area(pair);
+        let mut sum = a + b;
+        if area > 0.0 {
+            for i in 0..self.n {
+                let fit = self.fit(pair, i);
+                sum = sum + Quadric::linear(fit.truncate(), fit.w, -1.0 / area);
+            }
+        }
+        sum
+    }
+
+    /// Returns the integral of the squared error at a point, for the best values.
+    pub(super) fn least_error(&self, pair: Pair, point: DVec3) -> f64 {
+        self.quadric(pair).at(point)
+    }
+
+    /// Returns the integral of the squared error at a point, for values between those of the two wedges. `t` is the
+    /// weight of the second wedge.
+    pub(super) fn error(&self, pair: Pair, point: DVec3, t: f64) -> f64 {
+        let [a, b] = pair.map(|wedge| self.values_of(wedge));
+        let area = self.area(pair);
+        let [x, y] = pair.map(|wedge| self.quadrics[wedge as usize]);
+        let mut error = (x + y).at(point);
+        for i in 0..self.n {
+            let value = (1.0 - t) * a[i] + t * b[i] - self.bases[i];
+            error += value * (area * value - 2.0 * self.fit(pair, i).dot(point.extend(1.0)));
+        }
+        if error > 0.0 { error } else { 0.0 }
+    }
+
+    /// Returns values between those of two wedges. `t` is the weight of the second wedge.
+    pub(super) fn mixed(&self, pair: Pair, t: f64) -> Vec<f64> {
+        let [a, b] = pair.map(|wedge| self.values_of(wedge));
+        let mix = |(a, b): (&f64, &f64)| {
+            if t == 0.0 {
+                *a
+            } else if t == 1.0 {
+                *b
+            } else {
+                (1.0 - t) * a + t * b
+            }
+        };
+        let mut values: Vec<f64> = a.iter().zip(b).map(mix).collect();
+        if t > 0.0 && t < 1.0 {
+            self.normalize(&mut values);
+        }
+        values
+    }
+
+    /// Returns the values with the least error at a point, within the range of the values of the wedges around it.
+    pub(super) fn best(&self, pair: Pair, around: &Around, point: DVec3) -> Vec<f64> {
+        let area = self.area(pair);
+        if area.is_nan() || area <= 0.0 {
+            return self.mixed(pair, 0.5);
+        }
+        let mut values: Vec<f64> = (0..self.n)
+            .map(|i| {
+                let value = self.fit(pair, i).dot(point.extend(1.0)) / area + self.bases[i];
+                let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+                for (_, corners) in &around.0 {
+                    for &(_, wedge) in corners {
+                        let value = self.values_of(wedge)[i];
+                        low = low.min(value);
+                        high = high.max(value);
+                    }
+                }
+                value.max(low).min(high)
+            })
+            .collect();
+        self.normalize(&mut values);
+        values
+    }
+
+    fn normalize(&self, values: &mut [f64]) {
+        for taken in &self.taken {
+            let values = &mut values[taken.first..taken.first + taken.n];
+            if taken.column.rule == Rule::Normal {
+                let length = values.iter().map(|x| x * x).sum::<f64>().sqrt() / taken.weight;
+                if length > 0.0 {
+                    values.iter_mut().for_each(|x| *x /= length);
+                }
+            }
+        }
+    }
+
+    /// Returns the faces around two vertices with their wedges.
+    pub(super) fn around(&self, mesh: &Mesh, [a, b]: [VertexId; 2]) -> Around {
+        let mut faces = Vec::new();
+        for (v, other) in [(a, b), (b, a)] {
+            for h in mesh.vertex_half_edges(v) {
+                let next = mesh.next(h);
+                let corners = [h, next, mesh.next(next)];
+                let vertices = corners.map(|h| mesh.origin(h));
+                if let Some(f) = mesh
+                    .face(h)
+                    .filter(|_| v == a || !vertices.contains(&other))
+                {
+                    let corner = |i: usize| (vertices[i], self.wedges[corners[i].index()]);
+                    faces.push((f, [corner(0), corner(1), corner(2)]));
+                }
+            }
+        }
+        Around(faces)
+    }
+
+    /// Whether a collapse would turn a triangle over in the texture. `merged` are the pairs of wedges that become one, with
+    /// their new values.
+    pub(super) fn turns(&self, around: &Around, merged: &[(Pair, Vec<f64>)]) -> bool {
+        let new = |wedge: u32| {
+            let merged = merged.iter().find(|(pair, _)| pair.contains(&wedge));
+            merged.map_or_else(|| self.values_of(wedge), |(_, values)| values)
+        };
+        let textures = self.taken.iter().filter(|taken| taken.is_texture());
+        textures.map(|taken| taken.first).any(|i| {
+            let area = |corners: [&[f64]; 3]| {
+                let [a, b, c] = corners.map(|values| DVec2::new(values[i], values[i + 1]));
+                (b - a).perp_dot(c - a)
+            };
+            around.0.iter().any(|(_, corners)| {
+                let wedges = corners.map(|(_, wedge)| wedge);
+                let is_removed = |(pair, _): &(Pair, _)| pair.iter().all(|w| wedges.contains(w));
+                let before = area(wedges.map(|wedge| self.values_of(wedge)));
+                let after = area(wedges.map(new));
+                before * after <= 0.0 && before != 0.0 && !merged.iter().any(is_removed)
+            })
+        })
+    }
+
+    /// Updates the wedges after a collapse to the vertex `v`. `around` are the faces before the collapse.
+    pub(super) fn merge(
+        &mut self,
+        mesh: &Mesh,
+        ends: [VertexId; 2],
+        v: VertexId,
+        around: &Around,
+        merged: Vec<(Pair, Vec<f64>)>,
+    ) {
+        let mut new_names: Vec<(u32, u32)> = Vec::new();
+        let newest = |names: &[(u32, u32)], wedge: u32| {
+            names
+                .iter()
+                .fold(wedge, |w, &(old, new)| if w == old { new } else { w })
+        };
+        for (pair, values) in merged {
+            let [a, b] = pair.map(|wedge| newest(&new_names, wedge));
+            let (to, from) = (a as usize, b as usize);
+            if a != b {
+                self.areas[to] += self.areas[from];
+                self.quadrics[to] = self.quadrics[to] + self.quadrics[from];
+                for i in 0..self.n {
+                    self.fits[self.n * to + i] = self.fit([a, b], i);
+                }
+                new_names.push((b, a));
+            }
+            self.values[self.n * to..self.n * (to + 1)].copy_from_slice(&values);
+        }
+        for &(f, corners) in &around.0 {
+            if !mesh.has_face(f) {
+                continue;
+            }
+            for h in mesh.face_half_edges(f) {
+                let origin = mesh.origin(h);
+                let is_here = |w: VertexId| w == origin || (origin == v && ends.contains(&w));
+                if let Some(&(_, wedge)) = corners.iter().find(|&&(w, _)| is_here(w)) {
+                    self.wedges[h.index()] = newest(&new_names, wedge);
+                }
+            }
+        }
+    }
+
+    /// Puts the values back into the mesh, in which only elements were removed since they were taken.
+    pub(super) fn put_back(mut self, mesh: &mut Mesh) {
+        for taken in std::mem::take(&mut self.taken) {
+            let mut column = taken.column;
+            for h in mesh.half_edges().filter(|&h| mesh.face(h).is_some()) {
+                let i = match taken.domain {
+                    Domain::Vertex => mesh.origin(h).index(),
+                    _ => h.index(),
+                };
+                let values = &self.values_of(self.wedges[h.index()])[taken.first..];
+                let value = |c: usize| values[c] / taken.weight;
+                match &mut column.values {
+                    Values::Float(v) => v[i] = value(0),
+                    Values::Vec2(v) => v[i] = DVec2::new(value(0), value(1)),
+                    Values::Vec3(v) => v[i] = DVec3::new(value(0), value(1), value(2)),
+                    Values::Vec4(v) => v[i] = DVec4::new(value(0), value(1), value(2), value(3)),
+                    Values::Int(_) | Values::Tag(_) => {}
+                }
+            }
+            mesh.insert_column(taken.domain, column);
+        }
+        for (domain, name) in self.order {
+            if let Some(column) = mesh.remove_column(domain, &name) {
+                mesh.insert_column(domain, column);
+            }
+        }
+    }
+}
+
+/// Returns the weight of a column in the scaled coordinates: a power of two.
+fn weight(mesh: &Mesh, domain: Domain, column: &Column, place: impl Fn(VertexId) -> DVec3) -> f64 {
+    if column.rule == Rule::Normal {
+        return inverse_power_of_two(1.0 / NORMAL);
+    }
+    if let (Domain::Corner, Values::Vec2(uv)) = (domain, &column.values) {
+        let (mut area, mut in_texture) = (0.0, 0.0);
+        for f in mesh.faces() {
+            let h = mesh.face_half_edge(f);
+            let corners = [h, mesh.next(h), mesh.next(mesh.next(h))];
+            let [a, b, c] = corners.map(|h| place(mesh.origin(h)));
+            area += (b - a).cross(c - a).length();
+            let [a, b, c] = corners.map(|h| uv[h.index()]);
+            in_texture += (b - a).perp_dot(c - a).abs();
+        }
+        if area > 0.0 && in_texture > 0.0 {
+            return inverse_power_of_two((in_texture / area).sqrt() / TEXTURE);
+        }
+    }
+    let mut range = 0.0_f64;
+    for c in 0..column.values.n_components() {
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for i in 0..column.values.len() {
+            let value = column.values.component(i, c);
+            low = low.min(value);
+            high = high.max(value);
+        }
+        range = range.max(high - low);
+    }
+    inverse_power_of_two(range / OTHER)
+}
+
+/// Returns the wedge of each corner, and the first corner of each wedge.
+fn wedges(mesh: &Mesh, lines: &[bool]) -> (Vec<u32>, Vec<HalfEdgeId>) {
+    const NONE: u32 = u32::MAX;
+    let mut wedges = vec![NONE; mesh.n_half_edges()];
+    let mut firsts = Vec::new();
+    for h in mesh.half_edges() {
+        if mesh.face(h).is_none() || wedges[h.index()] != NONE {
+            continue;
+        }
+        let mut first = h;
+        while !lines[first.edge().index()] {
+            first = mesh.next(first.twin());
+            if first == h {
+                break;
+            }
+        }
+        let wedge = u32::try_from(firsts.len()).expect("fewer wedges than half-edges");
+        for g in corners_from(mesh, lines, first) {
+            wedges[g.index()] = wedge;
+        }
+        firsts.push(first);
+    }
+    (wedges, firsts)
+}
+
+/// Returns the corners of a wedge, counter-clockwise from its first corner.
+fn corners_from(
+    mesh: &Mesh,
+    lines: &[bool],
+    first: HalfEdgeId,
+) -> impl Iterator<Item = HalfEdgeId> {
+    std::iter::successors(Some(first), move |&h| {
+        let last = mesh.next(mesh.next(h));
+        let next = last.twin();
+        (!lines[last.edge().index()] && next != first).then_some(next)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{square, waves};
+    use super::*;
+    use crate::lines::lines;
+    use mesh::UV;
+    use proptest::prelude::*;
+
+    /// A square with waves and texture coordinates that are not linear, and its appearance.
+    fn taken() -> (Mesh, Appearance) {
+        let mut mesh = waves();
+        let at = |h| {
+            let p = mesh.position(mesh.origin(h));
+            DVec2::new(p.x * p.x + 3.0, p.x * p.y)
+        };
+        let uv = mesh.half_edges().map(at).collect();
+        mesh.set(UV, uv);
+        let lines = lines(&mesh, &[]);
+        let mut without = mesh.clone();
+        let appearance = Appearance::take(&mut without, &lines, |mesh, v| mesh.position(v));
+        assert_eq!(without.attributes().of(Domain::Corner), []);
+        (mesh, appearance.unwrap())
+    }
+
+    proptest! {
+        #[test]
+        fn the_error_is_the_integral_of_squared_differences(
+            e in 0..1500_usize, x in -0.5..1.5, y in -0.5..1.5, z in -0.5..0.5, t in 0.0..1.0,
+        ) {
+            let (mesh, appearance) = taken();
+            let (e, p) = (EdgeId::new(e), DVec3::new(x, y, z));
+            let [Some(pair), _] = appearance.pairs(&mesh, e, false) else {
+                return Ok(());
+            };
+            let uv = mesh.get(UV).unwrap();
+            let weight = appearance.taken[0].weight;
+            let ends = mesh.edge_vertices(e);
+            let values = appearance.mixed(pair, t);
+            let (mut error, mut best, mut total) = (0.0, DVec2::ZERO, 0.0);
+            let mut functions = Vec::new();
+            for h in ends.into_iter().flat_map(|v| mesh.vertex_half_edges(v)) {
+                let Some(f) = mesh.face(h) else { continue };
+                let corners: Vec<HalfEdgeId> = mesh.face_half_edges(f).collect();
+                let [a, b, c] = [0, 1, 2].map(|i| mesh.position(mesh.origin(corners[i])));
+                // The barycentric coordinates of the projection of p.
+                let normal = (b - a).cross(c - a);
+                let part = |q: DVec3, r: DVec3| (r - q).cross(p - q).dot(normal) / normal.length_squared();
+                let weights = [part(b, c), part(c, a), part(a, b)];
+                let value: DVec2 = (0..3).map(|i| weight * weights[i] * uv[corners[i].index()]).sum();
+                let area = mesh.face_area(f) / 3.0;
+                error += area * value.distance_squared(DVec2::new(values[0], values[1]));
+                best += area * value;
+                total += area;
+                functions.push((value, area));
+            }
+            prop_assert!((appearance.error(pair, p, t) - error).abs() < 1e-9 * (1.0 + error));
+            let least: f64 = functions.iter().map(|(value, area)| area * value.distance_squared(best / total)).sum();
+            prop_assert!((appearance.least_error(pair, p) - least).abs() < 1e-9 * (1.0 + least));
+        }
+    }
+
+    #[test]
+    fn values_come_back_bit_for_bit() {
+        let (mesh, appearance) = taken();
+        let mut back = mesh.clone();
+        back.remove_column(Domain::Corner, "uv");
+        appearance.put_back(&mut back);
+        assert_eq!(mesh.get(UV), back.get(UV));
+    }
+
+    #[test]
+    fn a_wedge_is_a_sector_between_lines() {
+        let mesh = square(2);
+        let middle = super::super::tests::middle(&mesh);
+        for (features, n) in [(&[][..], 9), (&middle[..], 12)] {
+            let (wedges, firsts) = wedges(&mesh, &lines(&mesh, features));
+            assert_eq!(firsts.len(), n);
+            let mut used: Vec<u32> = mesh
+                .half_edges()
+                .filter(|&h| mesh.face(h).is_some())
+                .map(|h| wedges[h.index()])
+                .collect();
+            used.sort_unstable();
+            used.dedup();
+            assert_eq!(used.len(), n);
+        }
+    }
+}

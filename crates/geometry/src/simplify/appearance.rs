@@ -249,9 +249,9 @@ impl Appearance {
     pub(super) fn mixed(&self, pair: Pair, t: f64) -> Vec<f64> {
         let [a, b] = pair.map(|wedge| self.values_of(wedge));
         let mix = |(a, b): (&f64, &f64)| {
-            if t == 0.0 {
+            if t <= 0.0 {
                 *a
-            } else if t == 1.0 {
+            } else if t >= 1.0 {
                 *b
             } else {
                 (1.0 - t) * a + t * b

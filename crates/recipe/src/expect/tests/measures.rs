@@ -32,7 +32,7 @@ fn thickness_is_measured_at_vertices() {
         &cube(),
         "Thickness(min: 1.999, max: 2.001)",
         "Thickness(of: Vertices([3]), min: 3)",
-        "expected a thickness at v3 of at least 3, found 2",
+        "expected a thickness at v3 of at least 3, found 1.9999999999999998",
     );
     assert!(check(&cube(), "Thickness(of: Not(All), min: 0)").is_err());
     let sheet = scene([("sheet", shapes::square())]);

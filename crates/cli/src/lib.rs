@@ -87,6 +87,7 @@ pub fn run_with(registry: &Registry, arguments: &[OsString]) -> u8 {
         Command::Upgrade(args) => commands::upgrade::run(&args, registry),
         Command::Cache(args) => commands::cache::run(&args),
         Command::Shrink(args) => commands::shrink::run(&args, &engine),
+        Command::Edit(args) => commands::edit::run(&args),
         Command::New(args) => commands::new::run(&args),
         Command::Expectations { name } => commands::ops::expectations(name.as_deref()),
         Command::Completions { shell } => commands::man::completions(shell),

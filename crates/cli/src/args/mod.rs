@@ -57,6 +57,10 @@ pub(crate) enum Command {
     Batch(BatchArgs),
     /// Run one recipe with many parameter values and tabulate the results
     Sweep(SweepArgs),
+    /// Open the editor, a window that turns every edit into a step of a recipe
+    ///
+    /// The editor is a program of its own, `meshwright-viewer`.
+    Edit(EditArgs),
     /// Write a small commented recipe to start from
     New(NewArgs),
     /// List the operations or the selections, or describe one operation
@@ -90,6 +94,12 @@ pub(crate) enum Command {
     },
     /// Print the manual page
     Man,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct EditArgs {
+    /// A recipe, or a model for a new recipe to load
+    pub(crate) file: Option<PathBuf>,
 }
 
 #[derive(Debug, ClapArgs)]

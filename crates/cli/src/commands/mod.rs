@@ -6,6 +6,7 @@ pub(crate) mod check;
 pub(crate) mod convert;
 pub(crate) mod diff;
 mod diff_runs;
+pub(crate) mod edit;
 pub(crate) mod info;
 pub(crate) mod man;
 pub(crate) mod new;

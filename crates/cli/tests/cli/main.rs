@@ -5,6 +5,7 @@ mod cache;
 mod capsule;
 mod checks;
 mod diff;
+mod edit;
 mod faults;
 mod file_kinds;
 mod files;

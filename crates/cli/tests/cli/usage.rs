@@ -43,6 +43,7 @@ fn help_and_version_are_exit_code_0() {
         "convert",
         "batch",
         "sweep",
+        "edit",
         "new",
         "ops",
         "expectations",

@@ -1,0 +1,359 @@
+//! The widget of a parameter.
+
+use editor::{FieldKind, FieldValue, Limits, PanelField, SelectionText};
+use eframe::egui::{
+    self, Align, Button, Checkbox, ComboBox, DragValue, Id, Layout, Response, RichText, Slider,
+    TextEdit, Ui,
+};
+
+use crate::theme::Colors;
+
+/// A parameter with what its widget needs.
+pub(crate) struct Field<'a> {
+    pub(crate) of: &'a PanelField,
+    /// The value while a slider is dragged, as RON.
+    pub(crate) live: Option<&'a str>,
+    /// The selection that means the picked elements.
+    pub(crate) selection: Option<&'a SelectionText>,
+    /// Distinguishes widgets of parameters with the same name.
+    pub(crate) salt: &'a str,
+}
+
+/// A change of a parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Change {
+    /// A new value as RON.
+    Set(String),
+    /// A value of a slider that is being dragged.
+    Drag(String),
+    /// The default.
+    Reset,
+}
+
+/// The largest range of whole numbers that gets a slider.
+const MAX_SLIDER: f64 = 1000.0;
+
+/// Draws the widget of a parameter.
+pub(crate) fn ui(ui: &mut Ui, field: &Field) -> Option<Change> {
+    let colors = Colors::current(ui);
+    let of = field.of;
+    let mut change = None;
+    ui.add_space(3.0);
+    let is_required = of.is_missing();
+    let name = of.name.replace('_', " ");
+    let wide = is_wide(of);
+    let label = |ui: &mut Ui| {
+        let color = if is_required {
+            colors.bad
+        } else if of.value.is_some() {
+            colors.text
+        } else {
+            colors.weak
+        };
+        let label = ui.label(RichText::new(&name).size(12.5).color(color));
+        let doc = if of.doc.is_empty() {
+            of.type_name.clone()
+        } else {
+            format!("{}\n\n{}", of.doc, of.type_name)
+        };
+        label.on_hover_text(doc)
+    };
+    if wide {
+        ui.horizontal(|ui| {
+            label(ui);
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                reset(ui, of, &mut change);
+                use_picked(ui, field, &mut change);
+            });
+        });
+        change = change.take().or(text(ui, field));
+    } else {
+        ui.horizontal(|ui| {
+            label(ui);
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                reset(ui, of, &mut change);
+                let new = widget(ui, field);
+                change = change.take().or(new);
+            });
+        });
+    }
+    change
+}
+
+/// Whether the widget has a line of its own.
+fn is_wide(of: &PanelField) -> bool {
+    let is_text = |kind: &FieldKind| {
+        matches!(
+            kind,
+            FieldKind::Selection(_) | FieldKind::Other | FieldKind::Text
+        )
+    };
+    of.argument.is_some() || is_text(of.kind.inner()) || of.value.is_some() && of.typed().is_none()
+}
+
+fn reset(ui: &mut Ui, of: &PanelField, change: &mut Option<Change>) {
+    if of.value.is_some() && of.default.is_some() {
+        let button = ui.add(
+            Button::new(
+                RichText::new("reset")
+                    .size(11.0)
+                    .color(Colors::current(ui).weak),
+            )
+            .small()
+            .frame(false),
+        );
+        let doc = format!("Reset to {}", of.default.as_deref().unwrap_or_default());
+        if button
+            .accessible_name(format!("Reset {}", of.name))
+            .on_hover_text(doc)
+            .clicked()
+        {
+            *change = Some(Change::Reset);
+        }
+    }
+}
+
+fn use_picked(ui: &mut Ui, field: &Field, change: &mut Option<Change>) {
+    let FieldKind::Selection(kind) = field.of.kind.inner() else {
+        return;
+    };
+    let Some(selection) = field.selection.filter(|selection| {
+        kind.is_none_or(|kind| kind == selection.kind) && selection.before.is_none()
+    }) else {
+        return;
+    };
+    if ui
+        .small_button("Use picked")
+        .on_hover_text(&selection.text)
+        .clicked()
+    {
+        *change = Some(Change::Set(selection.text.clone()));
+    }
+}
+
+/// The widget of a value with a form.
+fn widget(ui: &mut Ui, field: &Field) -> Option<Change> {
+    let of = field.of;
+    let current = match field.live {
+        Some(live) => FieldValue::read(&of.kind, live),
+        None => of.typed(),
+    };
+    let (kind, optional) = match &of.kind {
+        FieldKind::Optional(inner) => (inner.inner(), true),
+        kind => (kind, false),
+    };
+    let current = match current {
+        Some(FieldValue::None) | None if optional => {
+            let mut is_set = false;
+            let response = ui.add(Checkbox::without_text(&mut is_set));
+            let response = response.accessible_name(format!("Set {}", of.name));
+            return response
+                .changed()
+                .then(|| Change::Set(first(kind).to_ron()));
+        }
+        Some(value) => value,
+        None => first(kind),
+    };
+    let name = of.name.clone();
+    match (kind, current) {
+        (FieldKind::Number(limits), FieldValue::Number(mut x)) => {
+            let response = match range(limits) {
+                Some((min, max)) => ui.add(Slider::new(&mut x, min..=max).max_decimals(4)),
+                None => ui.add(unlimited(&mut x, limits)),
+            };
+            dragged(
+                &response.accessible_name(name),
+                || FieldValue::Number(rounded(x)),
+                limits.allows(x),
+            )
+        }
+        (FieldKind::Integer(limits), FieldValue::Integer(mut n)) => {
+            let response = match range(limits).filter(|(min, max)| max - min <= MAX_SLIDER) {
+                Some((min, max)) => ui.add(Slider::new(&mut n, integer(min)..=integer(max))),
+                None => {
+                    let low = limits.min.map_or(i64::MIN, integer);
+                    let high = limits.max.map_or(i64::MAX, integer);
+                    ui.add(DragValue::new(&mut n).speed(0.1).range(low..=high))
+                }
+            };
+            dragged(
+                &response.accessible_name(name),
+                || FieldValue::Integer(n),
+                true,
+            )
+        }
+        (FieldKind::Bool, FieldValue::Bool(mut is)) => {
+            let response = ui
+                .add(Checkbox::without_text(&mut is))
+                .accessible_name(name);
+            response
+                .changed()
+                .then(|| Change::Set(FieldValue::Bool(is).to_ron()))
+        }
+        (FieldKind::Choice(choices), FieldValue::Choice(current)) => {
+            let mut chosen = None;
+            let combo = ComboBox::from_id_salt((field.salt, &of.name))
+                .selected_text(&current)
+                .show_ui(ui, |ui| {
+                    for (choice, doc) in choices {
+                        let response = ui.selectable_label(*choice == current, choice);
+                        let response = if doc.is_empty() {
+                            response
+                        } else {
+                            response.on_hover_text(doc)
+                        };
+                        if response.clicked() {
+                            chosen = Some(Change::Set(choice.clone()));
+                        }
+                    }
+                });
+            combo.response.accessible_name(name);
+            chosen
+        }
+        (FieldKind::Vector(_), FieldValue::Vector(mut parts)) => {
+            let mut change = None;
+            // The layout is from right to left.
+            for i in (0..parts.len()).rev() {
+                let speed = (parts[i].abs() * 0.01).max(0.01);
+                let axis = ["x", "y", "z"][i.min(2)];
+                let response = ui.add(
+                    DragValue::new(&mut parts[i])
+                        .speed(speed)
+                        .custom_formatter(|x, _| format!("{}", rounded(x))),
+                );
+                let response = response
+                    .accessible_name(format!("{} {axis}", of.name))
+                    .on_hover_text(axis);
+                let now: Vec<f64> = parts.iter().map(|&x| rounded(x)).collect();
+                change = change.or(dragged(&response, || FieldValue::Vector(now), true));
+            }
+            change
+        }
+        _ => None,
+    }
+}
+
+fn unlimited<'a>(x: &'a mut f64, limits: &Limits) -> DragValue<'a> {
+    let speed = (x.abs() * 0.01).max(0.005);
+    let low = limits.min.unwrap_or(f64::NEG_INFINITY);
+    let high = limits.max.unwrap_or(f64::INFINITY);
+    DragValue::new(x)
+        .speed(speed)
+        .range(low..=high)
+        .custom_formatter(|x, _| format!("{}", rounded(x)))
+}
+
+/// Returns the change of a slider or number field: live while it is dragged, and final at the end.
+fn dragged(
+    response: &Response,
+    value: impl FnOnce() -> FieldValue,
+    is_allowed: bool,
+) -> Option<Change> {
+    if response.drag_stopped() && is_allowed {
+        return Some(Change::Set(value().to_ron()));
+    }
+    if !response.changed() || !is_allowed {
+        return None;
+    }
+    let text = value().to_ron();
+    Some(if response.dragged() {
+        Change::Drag(text)
+    } else {
+        Change::Set(text)
+    })
+}
+
+/// Returns the range of a slider. Fractions without a written range are rare: they get a number field.
+fn range(limits: &Limits) -> Option<(f64, f64)> {
+    let (mut min, mut max) = (limits.min?, limits.max?);
+    let margin = (max - min) * 1e-3;
+    if limits.above_min {
+        min += margin;
+    }
+    if limits.below_max {
+        max -= margin;
+    }
+    (max > min && (max - min).is_finite()).then_some((min, max))
+}
+
+/// Returns a first value of a kind, for a parameter that was not set before.
+fn first(kind: &FieldKind) -> FieldValue {
+    let inside = |limits: &Limits| {
+        let (min, max) = (
+            limits.min.unwrap_or(f64::NEG_INFINITY),
+            limits.max.unwrap_or(f64::INFINITY),
+        );
+        if limits.allows(1.0) {
+            1.0
+        } else if min.is_finite() && max.is_finite() {
+            0.5 * (min + max)
+        } else if min.is_finite() {
+            min + 1.0
+        } else {
+            0.0
+        }
+    };
+    match kind {
+        FieldKind::Number(limits) => FieldValue::Number(inside(limits)),
+        FieldKind::Integer(limits) => FieldValue::Integer(integer(inside(limits).round())),
+        FieldKind::Bool => FieldValue::Bool(false),
+        FieldKind::Choice(names) => FieldValue::Choice(
+            names
+                .first()
+                .map_or_else(String::new, |(name, _)| name.clone()),
+        ),
+        FieldKind::Text => FieldValue::Text(String::new()),
+        FieldKind::Vector(n) => FieldValue::Vector(vec![0.0; *n]),
+        FieldKind::Selection(_) => FieldValue::Ron("All".to_owned()),
+        FieldKind::Other | FieldKind::Optional(_) => FieldValue::Ron(String::new()),
+    }
+}
+
+/// Rounds to six significant digits, which is finer than a pixel of a slider.
+fn rounded(x: f64) -> f64 {
+    format!("{x:.5e}").parse().unwrap_or(x)
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "conversions from f64 saturate"
+)]
+fn integer(x: f64) -> i64 {
+    x as i64
+}
+
+/// A text field. The change is complete when Enter is pressed or the field loses the focus.
+fn text(ui: &mut Ui, field: &Field) -> Option<Change> {
+    let of = field.of;
+    let id = Id::unique(("field", field.salt, &of.name));
+    let is_text = matches!(of.kind.inner(), FieldKind::Text) && of.argument.is_none();
+    let current = match of.typed() {
+        Some(FieldValue::Text(text)) if is_text => text,
+        _ => of.current().unwrap_or_default().to_owned(),
+    };
+    let has_focus = ui.memory(|memory| memory.has_focus(id));
+    let mut buffer = ui
+        .data_mut(|data| data.get_temp::<String>(id))
+        .filter(|_| has_focus)
+        .unwrap_or_else(|| current.clone());
+    let hint = if of.is_missing() { "required" } else { "" };
+    let edit = TextEdit::singleline(&mut buffer)
+        .id(id)
+        .font(egui::TextStyle::Monospace)
+        .desired_width(f32::INFINITY)
+        .hint_text(hint);
+    let response = ui.add(edit).accessible_name(of.name.clone());
+    let is_done = response.lost_focus();
+    ui.data_mut(|data| data.insert_temp(id, buffer.clone()));
+    if !is_done || buffer == current {
+        return None;
+    }
+    if buffer.trim().is_empty() && of.default.is_some() {
+        return Some(Change::Reset);
+    }
+    Some(Change::Set(if is_text {
+        FieldValue::Text(buffer).to_ron()
+    } else {
+        buffer
+    }))
+}

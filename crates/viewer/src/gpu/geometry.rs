@@ -1,0 +1,313 @@
+//! Converts an object of a scene to the arrays that the graphics card draws.
+
+use bytemuck::{Pod, Zeroable};
+use glam::DVec3;
+use mesh::{FaceId, Mesh};
+use render::{Channel, Drawing, Part, to_srgb};
+
+/// The largest number of triangles that are drawn from one set of buffers. With this number, no buffer exceeds 128 MiB,
+/// which every graphics card supports.
+pub(super) const CHUNK: usize = 1 << 20;
+
+/// The bit of a corner in [`Chunk::triangles`] that says that the side from this corner to the next is an edge of the
+/// mesh.
+const EDGE: u32 = 1 << 31;
+
+/// Stands for "no normal".
+const NO_NORMAL: u32 = 0x8000_8000;
+
+/// Triangles with their own numbering of points.
+pub(super) struct Chunk {
+    /// Three coordinates for each point, relative to the center of the object.
+    pub(super) points: Vec<f32>,
+    /// Three points for each triangle, with [`EDGE`].
+    pub(super) triangles: Vec<u32>,
+    /// Unit vectors in 4 bytes.
+    pub(super) normals: Vec<u32>,
+    /// sRGB colors.
+    pub(super) colors: Vec<u32>,
+    /// The appearance, with the fields of the uniform `Object` of the shader except for `offset`.
+    pub(super) look: SurfaceLook,
+}
+
+/// The appearance of a chunk.
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+#[repr(C)]
+pub(super) struct SurfaceLook {
+    pub(super) color: [f32; 4],
+    pub(super) back: [f32; 4],
+    pub(super) modes: [u32; 4],
+}
+
+/// A line or a dot.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct LineInstance {
+    /// The ends, relative to the center of the object. Equal for a dot.
+    pub ends: [[f32; 3]; 2],
+    /// The width in pixels, the opacity where the line is hidden, how many pixels the line is moved towards the camera
+    /// in addition to other lines, and an unused number.
+    pub look: [f32; 4],
+    /// sRGB color and opacity.
+    pub color: [u8; 4],
+}
+
+impl LineInstance {
+    /// Creates a line.
+    pub fn new(ends: [DVec3; 2], center: DVec3, width: f32, hidden: f32, color: [u8; 4]) -> Self {
+        Self {
+            ends: ends.map(|p| narrow(p - center)),
+            look: [width, hidden, 0.0, 0.0],
+            color,
+        }
+    }
+}
+
+/// Returns a vector in single precision.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the graphics card computes in single precision"
+)]
+pub(super) fn narrow(p: DVec3) -> [f32; 3] {
+    p.to_array().map(|x| x as f32)
+}
+
+/// Returns the lines of a drawing, relative to `center`.
+pub(super) fn lines(drawing: &Drawing, center: DVec3) -> Vec<LineInstance> {
+    let line = |line: &render::Line| {
+        let [r, g, b, a] = line.color;
+        let color = [to_srgb(r), to_srgb(g), to_srgb(b), byte(a)];
+        LineInstance::new(line.ends, center, line.width, line.hidden, color)
+    };
+    drawing.lines.iter().map(line).collect()
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the number is from 0 to 255"
+)]
+fn byte(x: f32) -> u8 {
+    (x.clamp(0.0, 1.0) * 255.0).round() as u8
+}
+
+/// Splits a part into chunks. If the part is the surface of a mesh, `mesh` is the mesh, so that the sides of triangles
+/// inside of polygons are not drawn as edges.
+pub(super) fn chunks(part: &Part, mesh: Option<&Mesh>, center: DVec3) -> Vec<Chunk> {
+    let all: Vec<u32> = (0..u32::try_from(part.triangles.len()).unwrap_or(u32::MAX)).collect();
+    let mut chunks = Vec::new();
+    // Maps points of the part to points of the chunk. `owner` is the chunk for which an entry is valid.
+    let mut local = vec![0_u32; part.points.len()];
+    let mut owner = vec![0_u32; part.points.len()];
+    let mut number = 0;
+    for (material, triangles) in by_material(part, all) {
+        for triangles in triangles.chunks(CHUNK) {
+            number += 1;
+            let surface = part.materials.get(material);
+            let mut chunk = Chunk {
+                points: Vec::with_capacity(triangles.len() * 2),
+                triangles: Vec::with_capacity(triangles.len() * 3),
+                normals: Vec::new(),
+                colors: Vec::new(),
+                look: look(part, surface),
+            };
+            let mut points = Vec::new();
+            for &t in triangles {
+                let corners = part.triangles[t as usize];
+                let edges = edges(part, mesh, t as usize);
+                for (corner, is_edge) in corners.into_iter().zip(edges) {
+                    let i = corner as usize;
+                    if owner[i] != number {
+                        owner[i] = number;
+                        local[i] = u32::try_from(points.len()).unwrap_or(u32::MAX);
+                        points.push(corner);
+                        chunk.points.extend(narrow(part.points[i] - center));
+                    }
+                    chunk
+                        .triangles
+                        .push(local[i] | if is_edge { EDGE } else { 0 });
+                }
+            }
+            let values = |channel: &Channel, encode: fn([f32; 3]) -> u32| -> Vec<u32> {
+                match channel {
+                    Channel::All(value) => vec![encode(*value)],
+                    Channel::Face(values) => {
+                        let face = |&t: &u32| encode(values[part.face(t as usize)]);
+                        triangles.iter().map(face).collect()
+                    }
+                    Channel::Point(values) => {
+                        points.iter().map(|&p| encode(values[p as usize])).collect()
+                    }
+                    Channel::Corner(values) => {
+                        let corners = triangles.iter().flat_map(|&t| part.corners[t as usize]);
+                        corners.map(|c| encode(values[c as usize])).collect()
+                    }
+                }
+            };
+            chunk.normals = values(&part.normals, encode_normal);
+            chunk.colors = match &part.colors {
+                Channel::All(_) => vec![0],
+                colors => values(colors, encode_color),
+            };
+            chunks.push(chunk);
+        }
+    }
+    chunks
+}
+
+/// Returns the triangles of each material.
+fn by_material(part: &Part, all: Vec<u32>) -> Vec<(usize, Vec<u32>)> {
+    if part.material_of_face.is_empty() {
+        return vec![(0, all)];
+    }
+    let mut groups = vec![Vec::new(); part.materials.len()];
+    for t in all {
+        let material = part.material_of_face[part.face(t as usize)] as usize;
+        if let Some(group) = groups.get_mut(material) {
+            group.push(t);
+        }
+    }
+    let groups = groups.into_iter().enumerate();
+    groups.filter(|(_, group)| !group.is_empty()).collect()
+}
+
+fn look(part: &Part, surface: Option<&render::Surface>) -> SurfaceLook {
+    let base = if let Channel::All(color) = part.colors {
+        color
+    } else {
+        [1.0; 3]
+    };
+    let of_material = surface.map_or([1.0; 4], |s| s.color);
+    let mode = |channel: &Channel| match channel {
+        Channel::All(_) => 0,
+        Channel::Face(_) => 1,
+        Channel::Point(_) => 2,
+        Channel::Corner(_) => 3,
+    };
+    let [r, g, b] = std::array::from_fn(|i| base[i] * of_material[i]);
+    let back = part.back.unwrap_or_default();
+    SurfaceLook {
+        color: [r, g, b, 1.0],
+        back: [
+            back[0],
+            back[1],
+            back[2],
+            if part.back.is_some() { 1.0 } else { 0.0 },
+        ],
+        modes: [
+            mode(&part.normals),
+            mode(&part.colors),
+            u32::from(surface.is_some_and(|s| s.unlit)),
+            0,
+        ],
+    }
+}
+
+/// Whether the sides of a triangle are edges of the mesh.
+fn edges(part: &Part, mesh: Option<&Mesh>, t: usize) -> [bool; 3] {
+    let Some(mesh) = mesh else {
+        return [false; 3];
+    };
+    if part.faces.is_empty() {
+        return [true; 3];
+    }
+    let f = FaceId::new(part.face(t));
+    if mesh.is_triangle(f) {
+        return [true; 3];
+    }
+    let corners = part.triangles[t];
+    let mut sides = [false; 3];
+    for h in mesh.face_half_edges(f) {
+        let (v, w) = (mesh.origin(h).index(), mesh.target(h).index());
+        for k in 0..3 {
+            let (p, q) = (corners[k] as usize, corners[(k + 1) % 3] as usize);
+            sides[k] |= (p, q) == (v, w);
+        }
+    }
+    sides
+}
+
+/// Encodes a direction in 4 bytes. Cigolle et al., "A Survey of Efficient Representations for Independent Unit
+/// Vectors", 2014.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the numbers are clamped to the range of 16 bits"
+)]
+pub(super) fn encode_normal(n: [f32; 3]) -> u32 {
+    let sum = n[0].abs() + n[1].abs() + n[2].abs();
+    if !(sum > 0.0 && sum.is_finite()) {
+        return NO_NORMAL;
+    }
+    let [x, y, z] = n.map(|c| c / sum);
+    let sign = |c: f32| if c >= 0.0 { 1.0 } else { -1.0 };
+    let (x, y) = if z < 0.0 {
+        ((1.0 - y.abs()) * sign(x), (1.0 - x.abs()) * sign(y))
+    } else {
+        (x, y)
+    };
+    let word = |c: f32| u32::from((c.clamp(-1.0, 1.0) * 32767.0).round() as i16 as u16);
+    word(x) | (word(y) << 16)
+}
+
+fn encode_color(color: [f32; 3]) -> u32 {
+    let [r, g, b] = color.map(to_srgb);
+    u32::from_le_bytes([r, g, b, 255])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Decodes as the shader does.
+    fn decode(word: u32) -> DVec3 {
+        let part = |bits: u32| f64::from(bits as u16 as i16) / 32767.0;
+        let (x, y) = (part(word), part(word >> 16));
+        let z = 1.0 - x.abs() - y.abs();
+        let sign = |c: f64| if c >= 0.0 { 1.0 } else { -1.0 };
+        if z < 0.0 {
+            let folded = DVec3::new((1.0 - y.abs()) * sign(x), (1.0 - x.abs()) * sign(y), z);
+            return folded.normalize();
+        }
+        DVec3::new(x, y, z).normalize()
+    }
+
+    #[test]
+    fn normals_of_four_bytes_are_exact_to_a_hundredth_of_a_degree() {
+        for i in -4..=4 {
+            for j in -4..=4 {
+                for k in -4..=4 {
+                    let n = DVec3::new(f64::from(i), f64::from(j), f64::from(k));
+                    if n != DVec3::ZERO {
+                        let found = decode(encode_normal(narrow(n)));
+                        assert!(found.angle_between(n).to_degrees() < 0.01, "{n} {found}");
+                    }
+                }
+            }
+        }
+        assert_eq!(encode_normal([0.0; 3]), NO_NORMAL);
+        assert_eq!(encode_normal([f32::NAN; 3]), NO_NORMAL);
+    }
+
+    #[test]
+    fn the_diagonals_of_quadrilaterals_are_no_edges() {
+        let cube = geometry::shapes::cube();
+        let mut scene = scene::Scene::new();
+        scene
+            .insert(scene::Object::mesh("cube", cube.clone()))
+            .unwrap();
+        let style = render::Style::default();
+        let overlays = render::Overlays::default();
+        let (drawing, _) = render::build(&scene, &style, &overlays, &mut |_| None).unwrap();
+        let chunks = chunks(&drawing.parts[0], Some(&cube), DVec3::ZERO);
+        assert_eq!(chunks.len(), 1);
+        assert_eq!(chunks[0].points.len(), 24);
+        let n_edges = chunks[0]
+            .triangles
+            .iter()
+            .filter(|&&t| t & EDGE != 0)
+            .count();
+        // Each of the 12 edges is the side of two triangles.
+        assert_eq!((chunks[0].triangles.len(), n_edges), (36, 24));
+    }
+}

@@ -1,0 +1,280 @@
+//! The buffers of objects.
+
+use std::sync::Arc;
+
+use bytemuck::{Pod, Zeroable};
+use eframe::wgpu;
+use glam::DVec3;
+use render::{Color, Coloring, Lines, Overlays, PALETTE, PictureError, Shading, Style};
+use scene::{Geometry, Material, Object, Scene};
+use wgpu::util::DeviceExt;
+
+use super::geometry::{self, LineInstance, SurfaceLook};
+use super::pipelines::Pipelines;
+use super::{Look, Wireframe};
+
+/// A corner of a colored triangle on a surface.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub(super) struct PatchVertex {
+    /// The position relative to the center of the object.
+    pub(super) at: [f32; 3],
+    /// sRGB color and opacity.
+    pub(super) color: [u8; 4],
+}
+
+/// Everything that the buffers of an object depend on.
+#[derive(Clone, Debug)]
+pub(super) struct Key {
+    geometry: Geometry,
+    materials: Vec<Material>,
+    color: Color,
+    style: Style,
+    seams: bool,
+    coloring: Option<Coloring>,
+}
+
+impl PartialEq for Key {
+    fn eq(&self, other: &Self) -> bool {
+        // Meshes are compared by address, because comparing their contents takes long.
+        let same_geometry = match (&self.geometry, &other.geometry) {
+            (Geometry::Mesh(a), Geometry::Mesh(b)) => Arc::ptr_eq(a, b),
+            (a, b) => a == b,
+        };
+        same_geometry
+            && self.color == other.color
+            && self.style == other.style
+            && self.seams == other.seams
+            && self.materials == other.materials
+            && same_coloring(self.coloring.as_ref(), other.coloring.as_ref())
+    }
+}
+
+/// Whether two colorings are equal, including values that are NaN.
+fn same_coloring(a: Option<&Coloring>, b: Option<&Coloring>) -> bool {
+    match (a, b) {
+        (Some(a), Some(b)) => {
+            let same = |(x, y): (&f64, &f64)| x.to_bits() == y.to_bits();
+            (a.domain, a.map, a.range) == (b.domain, b.map, b.range)
+                && a.values.len() == b.values.len()
+                && a.values.iter().zip(&b.values).all(same)
+        }
+        (None, None) => true,
+        _ => false,
+    }
+}
+
+impl Key {
+    /// Returns the key of the object with this index in its scene.
+    pub(super) fn new(
+        object: &Object,
+        index: usize,
+        look: &Look,
+        coloring: Option<&Coloring>,
+    ) -> Self {
+        Self {
+            geometry: object.geometry.clone(),
+            materials: object.materials.clone(),
+            color: PALETTE[index % PALETTE.len()],
+            style: style(look, &object.geometry),
+            seams: look.seams,
+            coloring: coloring.cloned(),
+        }
+    }
+}
+
+/// Returns the style of the crate `render` for an object.
+fn style(look: &Look, geometry: &Geometry) -> Style {
+    let line = |color: Color, width: f64, hidden: f64| Lines {
+        width,
+        color,
+        hidden,
+    };
+    let (orange, violet) = (Color::rgb(0xf0, 0x9a, 0x2e), Color::rgb(0xd0, 0x62, 0xd8));
+    let net = if look.is_dark {
+        Color([150, 190, 255, 200])
+    } else {
+        Color([52, 88, 160, 200])
+    };
+    // The wireframe of meshes is drawn by the shader. Patches have a grid of lines.
+    let is_mesh = matches!(geometry, Geometry::Mesh(_));
+    Style {
+        shading: match look.shading {
+            Shading::Flat | Shading::Plain => Shading::Flat,
+            _ => Shading::Smooth,
+        },
+        wireframe: (look.wireframe != Wireframe::None && !is_mesh)
+            .then(|| line(Color([22, 28, 42, 130]), 1.0, 0.0)),
+        boundary: look.boundary.then(|| line(orange, 2.2, 0.25)),
+        creases: look.creases.then(|| line(violet, 2.0, 0.25)),
+        normals: look.normals.then_some(0.05),
+        points: look.vertices.then_some(5.0),
+        control_nets: look.control_nets.then(|| line(net, 1.2, 0.35)),
+        ..Style::default()
+    }
+}
+
+/// The buffers of triangles.
+pub(super) struct ChunkBuffers {
+    pub(super) group: wgpu::BindGroup,
+    pub(super) n_corners: u32,
+    pub(super) look: SurfaceLook,
+}
+
+/// The buffers of an object.
+#[derive(Default)]
+pub(super) struct Uploaded {
+    /// `None` for grids and overlays.
+    pub(super) key: Option<Key>,
+    pub(super) center: DVec3,
+    /// The lowest and the highest coordinates, in scene units.
+    pub(super) bounds: Option<[DVec3; 2]>,
+    pub(super) chunks: Vec<ChunkBuffers>,
+    /// Lines and their number.
+    pub(super) lines: Option<(wgpu::Buffer, u32)>,
+    /// Whether lines are visible where a surface hides them.
+    pub(super) has_hidden: bool,
+    /// Corners of triangles on surfaces and their number.
+    pub(super) patches: Option<(wgpu::Buffer, u32)>,
+}
+
+impl Uploaded {
+    /// Uploads lines and triangles that are not part of an object.
+    pub(super) fn of_lines(
+        device: &wgpu::Device,
+        center: DVec3,
+        lines: &[LineInstance],
+        corners: &[PatchVertex],
+    ) -> Self {
+        Self {
+            center,
+            has_hidden: lines.iter().any(|line| line.look[1] > 0.0),
+            lines: vertices(device, lines),
+            patches: vertices(device, corners),
+            ..Self::default()
+        }
+    }
+
+    /// Returns the number of triangles.
+    pub(super) fn n_triangles(&self) -> usize {
+        self.chunks.iter().map(|c| c.n_corners as usize / 3).sum()
+    }
+}
+
+/// Uploads elements for vertex buffers. Returns the buffer and the number of elements. `None` if there are no elements,
+/// or more than a buffer can hold.
+fn vertices<T: Pod>(device: &wgpu::Device, elements: &[T]) -> Option<(wgpu::Buffer, u32)> {
+    let most = device.limits().max_buffer_size / size_of::<T>() as u64;
+    let most = usize::try_from(most).unwrap_or(usize::MAX);
+    let elements = &elements[..elements.len().min(most)];
+    let n = u32::try_from(elements.len()).ok().filter(|&n| n > 0)?;
+    let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+        label: Some("vertices"),
+        contents: bytemuck::cast_slice(elements),
+        usage: wgpu::BufferUsages::VERTEX,
+    });
+    Some((buffer, n))
+}
+
+/// Converts and uploads an object. Also returns a message for each texture that cannot be drawn.
+pub(super) fn upload(
+    device: &wgpu::Device,
+    pipelines: &Pipelines,
+    object: &Object,
+    key: Key,
+    look: &Look,
+    coloring: Option<&Coloring>,
+) -> Result<(Uploaded, Vec<String>), PictureError> {
+    let scene = alone(object, key.color);
+    let overlays = Overlays {
+        colorings: coloring.cloned().into_iter().collect(),
+        ..Overlays::default()
+    };
+    let (drawing, missing) = render::build(&scene, &key.style, &overlays, &mut |_| None)?;
+    let mut bounds = None;
+    drawing.each_point(&mut |p| {
+        let [min, max] = bounds.unwrap_or([p, p]);
+        bounds = Some([min.min(p), max.max(p)]);
+    });
+    let center = bounds.map_or(DVec3::ZERO, |[min, max]| 0.5 * (min + max));
+    let mesh = object.as_mesh().map(AsRef::as_ref);
+    let mut lines = geometry::lines(&drawing, center);
+    if let Some(mesh) = mesh.filter(|_| look.seams) {
+        for e in mesh.edges().filter(|&e| mesh.is_seam(e)) {
+            let ends = mesh.edge_vertices(e).map(|v| mesh.position(v));
+            lines.push(LineInstance::new(
+                ends,
+                center,
+                2.0,
+                0.2,
+                [60, 190, 200, 255],
+            ));
+        }
+    }
+    let mut chunks = Vec::new();
+    for part in &drawing.parts {
+        for chunk in geometry::chunks(part, mesh, center) {
+            chunks.push(buffers(device, pipelines, &chunk));
+        }
+    }
+    let uploaded = Uploaded {
+        key: Some(key),
+        bounds,
+        chunks,
+        ..Uploaded::of_lines(device, center, &lines, &[])
+    };
+    Ok((uploaded, missing))
+}
+
+/// Returns a scene in which the object has this default color. The default color depends on the place in the list of
+/// objects, so that empty objects are put before the object.
+fn alone(object: &Object, color: Color) -> Scene {
+    let mut scene = Scene::new();
+    let index = PALETTE.iter().position(|&c| c == color).unwrap_or(0);
+    for i in 0..index {
+        // The name differs from the name of the object, because it is longer.
+        let name = format!("{}-{i}", object.name);
+        let empty = Object::new(name, Geometry::Polylines(Vec::new()));
+        scene.insert(empty).unwrap_or_default();
+    }
+    scene.insert(object.clone()).unwrap_or_default();
+    scene
+}
+
+fn buffers(device: &wgpu::Device, pipelines: &Pipelines, chunk: &geometry::Chunk) -> ChunkBuffers {
+    let storage = |label, contents: &[u8]| {
+        // A binding must not be empty.
+        let contents = if contents.is_empty() {
+            &[0; 4]
+        } else {
+            contents
+        };
+        device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some(label),
+            contents,
+            usage: wgpu::BufferUsages::STORAGE,
+        })
+    };
+    let all = [
+        storage("points", bytemuck::cast_slice(&chunk.points)),
+        storage("triangles", bytemuck::cast_slice(&chunk.triangles)),
+        storage("normals", bytemuck::cast_slice(&chunk.normals)),
+        storage("colors", bytemuck::cast_slice(&chunk.colors)),
+    ];
+    let entries: Vec<wgpu::BindGroupEntry> = (0..)
+        .zip(&all)
+        .map(|(binding, buffer)| wgpu::BindGroupEntry {
+            binding,
+            resource: buffer.as_entire_binding(),
+        })
+        .collect();
+    ChunkBuffers {
+        group: device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("chunk"),
+            layout: &pipelines.chunk_layout,
+            entries: &entries,
+        }),
+        n_corners: u32::try_from(chunk.triangles.len()).unwrap_or(0),
+        look: chunk.look,
+    }
+}

@@ -1,0 +1,212 @@
+//! The pipelines: shaders with their state.
+
+use eframe::wgpu;
+
+use super::geometry::LineInstance;
+use super::objects::PatchVertex;
+use super::target::{DEPTH, FORMAT, SAMPLES};
+
+pub(super) struct Pipelines {
+    pub(super) globals_layout: wgpu::BindGroupLayout,
+    pub(super) object_layout: wgpu::BindGroupLayout,
+    pub(super) chunk_layout: wgpu::BindGroupLayout,
+    pub(super) background: wgpu::RenderPipeline,
+    pub(super) surface: wgpu::RenderPipeline,
+    /// Surfaces of which only the lines are drawn.
+    pub(super) wire: wgpu::RenderPipeline,
+    pub(super) line: wgpu::RenderPipeline,
+    /// The parts of lines that surfaces hide.
+    pub(super) hidden: wgpu::RenderPipeline,
+    /// Colored triangles on surfaces.
+    pub(super) patch: wgpu::RenderPipeline,
+}
+
+/// What differs between pipelines.
+struct Kind<'a> {
+    name: &'a str,
+    vertex: &'a str,
+    fragment: &'a str,
+    buffers: &'a [Option<wgpu::VertexBufferLayout<'a>>],
+    is_strip: bool,
+    blends: bool,
+    writes_depth: bool,
+    compare: wgpu::CompareFunction,
+}
+
+impl Pipelines {
+    pub(super) fn new(device: &wgpu::Device) -> Self {
+        let module = device.create_shader_module(wgpu::include_wgsl!("shader.wgsl"));
+        let both = wgpu::ShaderStages::VERTEX_FRAGMENT;
+        let layout = |label, entries: &[wgpu::BindGroupLayoutEntry]| {
+            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some(label),
+                entries,
+            })
+        };
+        let uniform = |has_dynamic_offset| wgpu::BindGroupLayoutEntry {
+            binding: 0,
+            visibility: both,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Uniform,
+                has_dynamic_offset,
+                min_binding_size: None,
+            },
+            count: None,
+        };
+        let storage = |binding| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::VERTEX,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Storage { read_only: true },
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        };
+        let globals_layout = layout("globals", &[uniform(false)]);
+        let object_layout = layout("object", &[uniform(true)]);
+        let chunk_layout = layout("chunk", &[storage(0), storage(1), storage(2), storage(3)]);
+        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: None,
+            bind_group_layouts: &[
+                Some(&globals_layout),
+                Some(&object_layout),
+                Some(&chunk_layout),
+            ],
+            immediate_size: 0,
+        });
+        let lines_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: None,
+            bind_group_layouts: &[Some(&globals_layout), Some(&object_layout)],
+            immediate_size: 0,
+        });
+        let background_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: None,
+            bind_group_layouts: &[Some(&globals_layout)],
+            immediate_size: 0,
+        });
+        let create = |kind: &Kind| create(device, &module, &pipeline_layout, kind);
+        let create_line = |kind: &Kind| self::create(device, &module, &lines_layout, kind);
+        let surface = Kind {
+            name: "surface",
+            vertex: "surface_vertex",
+            fragment: "surface_fragment",
+            buffers: &[],
+            is_strip: false,
+            blends: false,
+            writes_depth: true,
+            compare: wgpu::CompareFunction::Less,
+        };
+        let lines = [Some(wgpu::VertexBufferLayout {
+            array_stride: size_of::<LineInstance>() as u64,
+            step_mode: wgpu::VertexStepMode::Instance,
+            attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Unorm8x4],
+        })];
+        let line = Kind {
+            name: "line",
+            vertex: "line_vertex",
+            fragment: "line_fragment",
+            buffers: &lines,
+            is_strip: true,
+            blends: true,
+            writes_depth: false,
+            compare: wgpu::CompareFunction::LessEqual,
+        };
+        let corners = [Some(wgpu::VertexBufferLayout {
+            array_stride: size_of::<PatchVertex>() as u64,
+            step_mode: wgpu::VertexStepMode::Vertex,
+            attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Unorm8x4],
+        })];
+        Self {
+            background: self::create(
+                device,
+                &module,
+                &background_layout,
+                &Kind {
+                    name: "background",
+                    vertex: "background_vertex",
+                    fragment: "background_fragment",
+                    writes_depth: false,
+                    compare: wgpu::CompareFunction::Always,
+                    ..surface
+                },
+            ),
+            surface: create(&surface),
+            wire: create(&Kind {
+                name: "wire",
+                blends: true,
+                writes_depth: false,
+                compare: wgpu::CompareFunction::Always,
+                ..surface
+            }),
+            line: create_line(&line),
+            hidden: create_line(&Kind {
+                name: "hidden",
+                fragment: "hidden_fragment",
+                compare: wgpu::CompareFunction::Greater,
+                ..line
+            }),
+            patch: create_line(&Kind {
+                name: "patch",
+                vertex: "patch_vertex",
+                fragment: "patch_fragment",
+                buffers: &corners,
+                is_strip: false,
+                compare: wgpu::CompareFunction::LessEqual,
+                ..line
+            }),
+            globals_layout,
+            object_layout,
+            chunk_layout,
+        }
+    }
+}
+
+fn create(
+    device: &wgpu::Device,
+    module: &wgpu::ShaderModule,
+    layout: &wgpu::PipelineLayout,
+    kind: &Kind,
+) -> wgpu::RenderPipeline {
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(kind.name),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some(kind.vertex),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: kind.buffers,
+        },
+        primitive: wgpu::PrimitiveState {
+            topology: if kind.is_strip {
+                wgpu::PrimitiveTopology::TriangleStrip
+            } else {
+                wgpu::PrimitiveTopology::TriangleList
+            },
+            ..wgpu::PrimitiveState::default()
+        },
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: DEPTH,
+            depth_write_enabled: Some(kind.writes_depth),
+            depth_compare: Some(kind.compare),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState::default(),
+        }),
+        multisample: wgpu::MultisampleState {
+            count: SAMPLES,
+            ..wgpu::MultisampleState::default()
+        },
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some(kind.fragment),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            targets: &[Some(wgpu::ColorTargetState {
+                format: FORMAT,
+                blend: kind.blends.then_some(wgpu::BlendState::ALPHA_BLENDING),
+                write_mask: wgpu::ColorWrites::ALL,
+            })],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}

@@ -1,0 +1,107 @@
+//! The window of the editor. It draws what the crate `editor` computes, and forwards input to it.
+//!
+//! - [`App`]: the window's contents, for eframe and for tests.
+//! - [`camera`]: the camera of the view.
+//! - [`gpu`]: draws scenes with the graphics card.
+
+mod app;
+mod bars;
+pub mod camera;
+mod code;
+mod field;
+mod files;
+pub mod gpu;
+mod help;
+mod inspector;
+mod keyboard;
+mod overlay;
+mod palette;
+mod steps_pane;
+mod text_pane;
+pub mod theme;
+mod view_pane;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use eframe::egui;
+
+pub use app::{App, Start};
+
+/// How the program is used.
+const USAGE: &str = "\
+Edits a mesh in a window. Everything that is done becomes a step of a recipe.
+
+Usage: meshwright-viewer [FILE]
+
+FILE is a model or a recipe (.ron). Press H in the window for the list of all keys.";
+
+/// Runs the program with these arguments. Returns 0 if the window was closed, 1 if it could not be opened, and 2 if the
+/// arguments are wrong.
+#[expect(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "this is a program"
+)]
+pub fn run(arguments: &[String]) -> ExitCode {
+    let path = match arguments {
+        [] => None,
+        [flag] if flag == "--help" || flag == "-h" => {
+            println!("{USAGE}");
+            return ExitCode::SUCCESS;
+        }
+        [flag] if flag == "--version" || flag == "-V" => {
+            println!("meshwright-viewer {}", env!("CARGO_PKG_VERSION"));
+            return ExitCode::SUCCESS;
+        }
+        [path] if !path.starts_with('-') || path == "-" => Some(PathBuf::from(path)),
+        _ => {
+            eprintln!("error: expected at most one file, found {arguments:?}\n\n{USAGE}");
+            return ExitCode::from(2);
+        }
+    };
+    let start = Start {
+        path,
+        state_folder: state_folder(),
+    };
+    let options = eframe::NativeOptions {
+        viewport: egui::ViewportBuilder::default()
+            .with_title("Meshwright")
+            .with_app_id("meshwright")
+            .with_inner_size([1440.0, 900.0])
+            .with_min_inner_size([720.0, 480.0])
+            .with_drag_and_drop(true),
+        renderer: eframe::Renderer::Wgpu,
+        ..eframe::NativeOptions::default()
+    };
+    let result = eframe::run_native(
+        "Meshwright",
+        options,
+        Box::new(move |cc| {
+            Ok(Box::new(App::new(
+                &cc.egui_ctx,
+                cc.wgpu_render_state.as_ref(),
+                &start,
+            )))
+        }),
+    );
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!(
+                "error: the window cannot be opened: {error}\n\
+                 help: the window needs a display, and a graphics adapter with Vulkan, Metal, Direct3D 12 or OpenGL ES 3.1. \
+                 On Debian, `apt-get install mesa-vulkan-drivers` installs a software renderer."
+            );
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Returns the folder for recent files and recovery.
+fn state_folder() -> Option<PathBuf> {
+    use etcetera::BaseStrategy;
+    let strategy = etcetera::choose_base_strategy().ok()?;
+    let folder = strategy.state_dir().unwrap_or_else(|| strategy.data_dir());
+    Some(folder.join("meshwright"))
+}

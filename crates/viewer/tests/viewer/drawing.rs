@@ -1,0 +1,321 @@
+//! Pictures of scenes, without a window.
+
+use std::path::Path;
+
+use eframe::egui_wgpu::RenderState;
+use geometry::shapes;
+use glam::DVec2;
+use mesh::{DVec3, Mesh};
+use render::{Image, Shading};
+use scene::{Object, Scene};
+use view::{ColorBy, Quantity};
+use viewer::camera::{Camera, Side, UpAxis};
+use viewer::gpu::{Look, Overlay, OverlayLine, Painter, Wireframe};
+
+use crate::adapter::device;
+
+const SIZE: [u32; 2] = [320, 240];
+
+fn scene(mesh: Mesh) -> Scene {
+    let mut scene = Scene::new();
+    scene.insert(Object::mesh("a", mesh)).unwrap();
+    scene
+}
+
+fn bare() -> Look {
+    Look {
+        wireframe: Wireframe::None,
+        boundary: false,
+        creases: false,
+        grid: false,
+        ..Look::default()
+    }
+}
+
+struct Stage {
+    painter: Painter,
+    camera: Camera,
+}
+
+impl Stage {
+    fn new(state: &RenderState, scene: &Scene, look: &Look) -> Self {
+        let mut painter = Painter::new(&state.device, &state.queue);
+        let messages = painter.set_scene(scene, look);
+        assert!(messages.is_empty(), "{messages:?}");
+        let mut camera = Camera::default();
+        let (center, radius) = painter.extent().unwrap();
+        camera.fit(
+            center,
+            radius,
+            DVec2::new(f64::from(SIZE[0]), f64::from(SIZE[1])),
+        );
+        Self { painter, camera }
+    }
+
+    fn draw(&mut self, look: &Look, overlay: &Overlay) -> Image {
+        self.painter.draw(&self.camera, look, overlay, SIZE, 1.0);
+        self.painter.read().unwrap()
+    }
+}
+
+fn picture(state: &RenderState, scene: &Scene, look: &Look) -> Image {
+    Stage::new(state, scene, look).draw(look, &Overlay::default())
+}
+
+/// Keeps a picture for people to look at.
+fn keep(name: &str, image: &Image) {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("viewer");
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(
+        folder.join(format!("{name}.png")),
+        image.to_png(&[]).unwrap(),
+    )
+    .unwrap();
+}
+
+/// Returns the brightest sum of the channels.
+fn brightest(image: &Image) -> u32 {
+    let sum = |p: &[u8; 4]| p[..3].iter().map(|&c| u32::from(c)).sum();
+    image.pixels.iter().map(sum).max().unwrap()
+}
+
+/// Returns the number of pixels that differ by more than 12 in a channel.
+fn n_different(a: &Image, b: &Image) -> usize {
+    let differs = |(p, q): (&[u8; 4], &[u8; 4])| p.iter().zip(q).any(|(x, y)| x.abs_diff(*y) > 12);
+    a.pixels
+        .iter()
+        .zip(&b.pixels)
+        .filter(|&pair| differs(pair))
+        .count()
+}
+
+#[test]
+fn a_cube_has_the_colors_of_the_renderer_without_a_graphics_card() {
+    let Some(state) = device() else { return };
+    let scene = scene(shapes::cube());
+    for shading in [
+        Shading::Flat,
+        Shading::Smooth,
+        Shading::Matcap,
+        Shading::Plain,
+    ] {
+        let look = Look { shading, ..bare() };
+        let mut stage = Stage::new(&state, &scene, &look);
+        let found = stage.draw(&look, &Overlay::default());
+        keep(&format!("cube-{shading:?}"), &found);
+        let camera = render::Camera::LookAt {
+            from: stage.camera.eye().to_array(),
+            to: stage.camera.target.to_array(),
+            up: render::Up::Y,
+            projection: render::Projection::Perspective { angle: 25.0 },
+        };
+        let style = render::Style {
+            shading,
+            occlusion: 0.0,
+            background: render::Background::Transparent,
+            ..render::Style::default()
+        };
+        let overlays = render::Overlays::default();
+        let (expected, _) = render::picture(
+            &scene,
+            &camera,
+            &style,
+            &overlays,
+            SIZE,
+            1 << 30,
+            &mut |_| None,
+        )
+        .unwrap();
+        let inside = expected.image.pixels.iter().zip(&found.pixels);
+        let inside: Vec<_> = inside.filter(|(e, _)| e[3] == 255).collect();
+        assert!(inside.len() > 8000, "{}", inside.len());
+        let near = |(e, f): &&(&[u8; 4], &[u8; 4])| (0..3).all(|i| e[i].abs_diff(f[i]) <= 3);
+        let n_near = inside.iter().filter(near).count();
+        // The edges between faces are blended differently.
+        assert!(
+            n_near * 100 >= inside.len() * 97,
+            "{shading:?}: {n_near} of {}",
+            inside.len()
+        );
+    }
+}
+
+#[test]
+fn phong_shading_has_a_highlight() {
+    let Some(state) = device() else { return };
+    let ball = scene(shapes::uv_sphere(48, 24));
+    let smooth = picture(&state, &ball, &bare());
+    let phong = picture(
+        &state,
+        &ball,
+        &Look {
+            shading: Shading::Phong,
+            ..bare()
+        },
+    );
+    keep("phong", &phong);
+    assert!(brightest(&phong) > brightest(&smooth) + 40);
+}
+
+#[test]
+fn wireframes_show_the_edges_of_polygons_and_no_diagonals() {
+    let Some(state) = device() else { return };
+    let cube = scene(shapes::cube());
+    let plain = picture(&state, &cube, &bare());
+    let count = |wireframe| {
+        let image = picture(
+            &state,
+            &cube,
+            &Look {
+                wireframe,
+                ..bare()
+            },
+        );
+        keep(&format!("wire-{wireframe:?}"), &image);
+        n_different(&image, &plain)
+    };
+    let on_surface = count(Wireframe::Shaded);
+    // Nine edges are visible, of about 100 pixels.
+    assert!((400..2500).contains(&on_surface), "{on_surface}");
+    assert!(count(Wireframe::HiddenLine) > 5000);
+    assert!(count(Wireframe::Lines) > 5000);
+    // In the middle of each face is a diagonal, if diagonals are drawn.
+    let look = Look {
+        wireframe: Wireframe::Shaded,
+        ..bare()
+    };
+    let mut stage = Stage::new(&state, &cube, &look);
+    stage.camera.look_from(Side::Front);
+    stage.camera.is_perspective = false;
+    let image = stage.draw(&look, &Overlay::default());
+    let at = |x: u32, y: u32| image.pixels[(y * SIZE[0] + x) as usize];
+    assert_eq!(at(160, 120), at(150, 100));
+}
+
+#[test]
+fn an_overlay_line_is_drawn_on_the_edge_with_its_width() {
+    let Some(state) = device() else { return };
+    let cube = scene(shapes::cube());
+    let look = bare();
+    let mut stage = Stage::new(&state, &cube, &look);
+    stage.camera.look_from(Side::Front);
+    stage.camera.is_perspective = false;
+    let [min, max] = geometry::bounds(cube.objects()[0].as_mesh().unwrap()).unwrap();
+    let middle = 0.5 * (min.y + max.y);
+    let line = OverlayLine {
+        ends: [
+            DVec3::new(0.8 * min.x, middle, max.z),
+            DVec3::new(0.8 * max.x, middle, max.z),
+        ],
+        width: 6.0,
+        hidden: 0.0,
+        color: [255, 0, 0, 255],
+    };
+    let overlay = Overlay {
+        lines: vec![line],
+        ..Overlay::default()
+    };
+    let image = stage.draw(&look, &overlay);
+    let red = |y: u32| image.pixels[(y * SIZE[0] + 160) as usize] == [255, 0, 0, 255];
+    let n = (0..SIZE[1]).filter(|&y| red(y)).count();
+    assert!((5..=6).contains(&n), "{n}");
+    // From behind, the cube hides the line.
+    stage.camera.look_from(Side::Back);
+    let image = stage.draw(&look, &overlay);
+    assert!(!image.pixels.contains(&[255, 0, 0, 255]));
+}
+
+#[test]
+fn only_new_objects_are_uploaded() {
+    let Some(state) = device() else { return };
+    let mut scene = scene(shapes::cube());
+    scene
+        .insert(Object::mesh("b", shapes::icosahedron()))
+        .unwrap();
+    let look = Look::default();
+    let mut stage = Stage::new(&state, &scene, &look);
+    assert_eq!(stage.painter.n_uploads(), 2);
+    stage.painter.set_scene(&scene.clone(), &look);
+    assert_eq!(stage.painter.n_uploads(), 2);
+    // A change of one mesh uploads this mesh only.
+    let (geometry, _) = scene.parts_mut("b").unwrap();
+    *geometry = scene::Geometry::Mesh(std::sync::Arc::new(shapes::cube()));
+    stage.painter.set_scene(&scene, &look);
+    assert_eq!(stage.painter.n_uploads(), 3);
+}
+
+#[test]
+fn numbers_are_shown_as_colors() {
+    let Some(state) = device() else { return };
+    let ball = scene(shapes::torus(32, 16, 1.0, 0.4));
+    let plain = picture(&state, &ball, &bare());
+    for of in [
+        Quantity::MeanCurvature,
+        Quantity::Valence,
+        Quantity::Area,
+        Quantity::DihedralAngle,
+    ] {
+        let look = Look {
+            color_by: Some(ColorBy::new(of.clone())),
+            ..bare()
+        };
+        let image = picture(&state, &ball, &look);
+        keep(
+            &format!("color-{}", format!("{of:?}").to_lowercase()),
+            &image,
+        );
+        assert!(n_different(&image, &plain) > 2000, "{of:?}");
+    }
+}
+
+#[test]
+fn views_from_opposite_sides_and_both_upward_axes_differ() {
+    let Some(state) = device() else { return };
+    let mut mesh = shapes::cube();
+    // A wedge has no symmetry.
+    for p in mesh.positions_mut() {
+        *p = DVec3::new(p.x, p.y * (1.0 + p.x), p.z * (1.3 + 0.5 * p.y + 0.2 * p.x));
+    }
+    let wedge = scene(mesh);
+    let look = Look::default();
+    let mut stage = Stage::new(&state, &wedge, &look);
+    let mut images: Vec<Image> = Vec::new();
+    for up in [UpAxis::Y, UpAxis::Z] {
+        for is_perspective in [true, false] {
+            stage.camera.up = up;
+            stage.camera.is_perspective = is_perspective;
+            let image = stage.draw(&look, &Overlay::default());
+            keep(&format!("view-{up:?}-{is_perspective}"), &image);
+            assert!(images.iter().all(|other| n_different(&image, other) > 500));
+            images.push(image);
+        }
+    }
+}
+
+/// Prints the times of conversion and drawing for growing meshes: `cargo test -p meshwright-viewer times -- --ignored`.
+#[test]
+#[ignore = "a measurement"]
+#[expect(clippy::print_stderr, reason = "the result of a measurement")]
+fn times_of_growing_meshes() {
+    let Some(state) = device() else { return };
+    for rings in [50, 160, 500, 1000] {
+        let ball = scene(shapes::uv_sphere(2 * rings, rings));
+        let look = Look {
+            grid: false,
+            ..Look::default()
+        };
+        let begin = std::time::Instant::now();
+        let mut stage = Stage::new(&state, &ball, &look);
+        let upload = begin.elapsed();
+        stage.draw(&look, &Overlay::default());
+        let begin = std::time::Instant::now();
+        let n = 5;
+        for _ in 0..n {
+            stage.camera.orbit(DVec2::new(5.0, 0.0));
+            stage.draw(&look, &Overlay::default());
+        }
+        let frame = begin.elapsed() / n;
+        let triangles = stage.painter.n_triangles();
+        eprintln!("{triangles} triangles: uploaded in {upload:.0?}, frame in {frame:.0?}");
+    }
+}

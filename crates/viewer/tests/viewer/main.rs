@@ -1,0 +1,5 @@
+//! Tests on a graphics adapter, which can be a software renderer. Without an adapter, they say so and pass.
+
+mod adapter;
+mod drawing;
+mod window;

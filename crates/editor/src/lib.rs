@@ -16,25 +16,33 @@
 //! | the results | [`RunState`], [`StepState`], [`ExpectationState`], [`Snapshot`] |
 //! | operations | [`Command`], [`Panel`], [`FieldKind`] |
 //! | picking | [`pick`], [`pick_area`], [`Projection`], [`Indexes`], [`Picked`], [`propose`] |
-//! | half-edges | [`walk`], [`HalfEdgeInfo`] |
+//! | curves and patches | [`control_points`], [`control_net`], [`Editor::move_control_point`] |
+//! | half-edges | [`walk`], [`HalfEdgeInfo`], [`Play`] |
+//! | recovery after a crash | [`recoverable`], [`Editor::recover`] |
 //! | keys | [`Keys`], [`Action`] |
 
+mod curve;
 mod document;
 mod edit;
 mod half_edge;
+mod journal;
 mod keys;
 mod panel;
 mod pick;
+mod play;
 mod run;
 mod select;
 mod text;
 
+pub use curve::{control_net, control_points, de_casteljau};
 pub use document::{Conflict, Document, FileChange};
 pub use edit::{Command, CommandError, Editor, OpenError, SelectionText, Settings, Update, View};
 pub use half_edge::{AttributeInfo, HalfEdgeInfo, Walk, of_element, walk};
+pub use journal::{Recovery, recoverable};
 pub use keys::{Action, Keys, KeysError};
 pub use panel::{FieldKind, FieldValue, Limits, Panel, PanelField};
 pub use pick::{Area, Hit, Indexes, PICK_RADIUS, PickMode, Projection, pick, pick_area};
+pub use play::{Play, PlayedEdit, PointerChange, Pointers};
 pub use run::{
     ExpectationState, FailureState, Progress, RunState, Snapshot, Status, StepState, Verdict, Wake,
 };

@@ -17,6 +17,9 @@ pub struct Command {
     pub parameters: Vec<(String, String)>,
     /// The selection for the first parameter that selects elements and has no value.
     pub selection: Option<SelectionText>,
+    /// The object that the step acts on. If `None`, the object of the selection if the scene has several meshes, and
+    /// otherwise all objects.
+    pub on: Option<String>,
 }
 
 /// A selection for a command.
@@ -56,6 +59,12 @@ pub enum CommandError {
         /// The problem.
         message: String,
     },
+    /// The scene at the cursor is not known, because the run goes on or has failed.
+    #[error("the scene at the cursor is not known: wait for the run, or correct the recipe")]
+    NoScene,
+    /// The object is not a curve, or does not exist.
+    #[error("\"{0}\" is not a curve of the scene at the cursor")]
+    NotCurve(String),
     /// The text cannot be edited.
     #[error(transparent)]
     Text(#[from] TextError),
@@ -199,11 +208,13 @@ impl Editor {
                         })?;
                     // The selection comes first, as people write it.
                     let others: Vec<(String, String)> = command.parameters.clone();
-                    others.iter().for_each(|(other, _)| panel.set(other, None));
+                    for (other, _) in &others {
+                        panel.set(other, None);
+                    }
                     panel.set(&field.name, Some(&text));
-                    others
-                        .iter()
-                        .for_each(|(other, value)| panel.set(other, Some(value)));
+                    for (other, value) in &others {
+                        panel.set(other, Some(value));
+                    }
                     before.clone_from(&selection.before);
                     object = Some(selection.object.clone());
                 }
@@ -230,6 +241,7 @@ impl Editor {
             .filter(|object| object.as_mesh().is_some())
             .count();
         let on = object.filter(|_| entry.takes_on && meshes > 1);
+        let on = command.on.clone().or(on);
         let placed = |step: String| match &on {
             Some(object) => format!("(run: {step}, on: [{}])", string_literal(object)),
             None => step,
@@ -251,11 +263,9 @@ impl Editor {
         let cursor = self.cursor() + steps.len();
         let edits = text::insert_steps(self.text(), &self.outline, self.cursor(), &steps)?;
         self.edit(edits, &command.operation, Some(cursor))?;
-        if !KEEPS_NUMBERS.contains(&command.operation.as_str()) {
-            self.set_picked(None);
-        } else {
-            (self.proposals, self.proposal) = (None, 0);
-        }
+        let keeps_numbers = KEEPS_NUMBERS.contains(&command.operation.as_str());
+        let picked = self.picked.take().filter(|_| keeps_numbers);
+        self.set_picked(picked);
         Ok(())
     }
 

@@ -1,6 +1,7 @@
 //! The editor: a document, its engine thread, the step cursor and the picked elements.
 
 mod command;
+mod record;
 mod steps;
 
 use std::path::{Path, PathBuf};
@@ -15,6 +16,7 @@ use store::Store;
 use web_time::Instant;
 
 use crate::document::{Document, FileChange};
+use crate::journal::{Journal, Recovery};
 use crate::pick::Indexes;
 use crate::run::{Event, Progress, Request, RunState, Runner, Status, Wake};
 use crate::select::{Picked, Proposal, propose};
@@ -31,6 +33,9 @@ pub struct Settings {
     pub budget: u64,
     /// The memory for the scenes after steps, in bytes. Defaults to 4 GiB.
     pub memory: u64,
+    /// The folder of journals, for the recovery of unsaved texts after a crash. If `None`, which is the default, no journal
+    /// is written.
+    pub journals: Option<PathBuf>,
 }
 
 impl Default for Settings {
@@ -39,6 +44,7 @@ impl Default for Settings {
             out: PathBuf::from("out"),
             budget: engine::BUDGET,
             memory: 4 << 30,
+            journals: None,
         }
     }
 }
@@ -59,6 +65,10 @@ pub struct Editor {
     run_version: Option<u64>,
     /// The version of the text of the newest request; `None` for a preview.
     requested: Option<u64>,
+    /// Whether `run` is about the newest request.
+    is_checked: bool,
+    /// Whether the newest request was canceled.
+    is_canceled: bool,
     /// The text that runs in place of the document's text.
     preview: Option<Arc<str>>,
     /// The number of steps of the text before the cursor.
@@ -70,6 +80,7 @@ pub struct Editor {
     proposals: Option<Vec<Proposal>>,
     proposal: usize,
     indexes: Indexes,
+    journal: Option<Journal>,
 }
 
 /// Why a file cannot be opened.
@@ -115,13 +126,14 @@ impl Editor {
             runner: Runner::new(registry.clone(), store.clone()),
             registry,
             store,
-            settings,
             outline: Outline::of(document.text()),
             document,
             run: RunState::default(),
             number: 0,
             run_version: None,
             requested: None,
+            is_checked: false,
+            is_canceled: false,
             preview: None,
             cursor: usize::MAX,
             shown: Arc::default(),
@@ -129,6 +141,8 @@ impl Editor {
             proposals: None,
             proposal: 0,
             indexes: Indexes::new(),
+            journal: settings.journals.as_deref().map(Journal::new),
+            settings,
         };
         editor.show(None);
         editor
@@ -190,6 +204,21 @@ impl Editor {
         self.shown = Arc::default();
         self.run = RunState::default();
         self.show(None);
+    }
+
+    /// Opens an unsaved text that [`recoverable`](crate::recoverable) has found. The document before is dropped. The text
+    /// counts as unsaved, and its old journal is removed.
+    pub fn recover(&mut self, recovery: &Recovery) {
+        self.set_document(recovery.document(&*self.store));
+        self.keep_journal();
+        recovery.discard(&*self.store);
+    }
+
+    /// Writes the journal, if one is kept.
+    fn keep_journal(&mut self) {
+        if let Some(journal) = &mut self.journal {
+            journal.keep(&self.document, &*self.store);
+        }
     }
 
     /// Returns the document.
@@ -263,6 +292,7 @@ impl Editor {
     /// The errors of [`Document::save`].
     pub fn save(&mut self) -> Result<(), String> {
         self.document.save(&*self.store)?;
+        self.keep_journal();
         self.watch();
         Ok(())
     }
@@ -303,7 +333,7 @@ impl Editor {
 
     /// Whether a run goes on or waits.
     pub fn is_running(&self) -> bool {
-        self.run_version != self.requested || self.run.is_running()
+        !self.is_canceled && (!self.is_checked || self.run.is_running())
     }
 
     /// Returns the progress of the run, if a run goes on.
@@ -319,7 +349,7 @@ impl Editor {
         if self.is_running() {
             self.runner.cancel();
             self.run.status = Status::Canceled;
-            self.run_version = self.requested;
+            self.is_canceled = true;
         }
     }
 
@@ -339,6 +369,7 @@ impl Editor {
                 Event::Checked { state, .. } => {
                     self.run = *state;
                     self.run_version = self.requested;
+                    self.is_checked = true;
                     (update.run, update.scene) = (true, true);
                     self.watch();
                 }
@@ -370,6 +401,7 @@ impl Editor {
                     self.run.diagnostics = vec![engine::Diagnostic::without_place(message)];
                     self.run.status = Status::Done;
                     self.run_version = self.requested;
+                    self.is_checked = true;
                     update.run = true;
                 }
                 Event::FilesChanged => {
@@ -419,11 +451,10 @@ impl Editor {
 
     /// Returns the scene that the view shows.
     pub fn view(&self) -> View {
-        let is_of_text = self.run_version == self.requested || self.preview.is_some();
         let (_, is_known) = self.run.result_after(self.cursor);
         View {
             scene: self.shown.clone(),
-            is_current: is_of_text && is_known,
+            is_current: self.is_checked && is_known,
         }
     }
 
@@ -433,7 +464,7 @@ impl Editor {
         match last {
             Some(snapshot) => self.shown = snapshot.scene.clone(),
             // Without a step before the cursor, the scene is empty.
-            None if is_known && self.run_version.is_some() => self.shown = Arc::default(),
+            None if is_known && self.is_checked => self.shown = Arc::default(),
             None => {}
         }
     }
@@ -515,18 +546,16 @@ impl Editor {
     }
 
     fn request(&mut self, keep_outputs: bool) {
+        self.keep_journal();
         self.number += 1;
+        (self.is_canceled, self.is_checked) = (false, false);
         let text = self
             .preview
             .clone()
             .unwrap_or_else(|| self.document.text().clone());
         self.requested = self.preview.is_none().then(|| self.document.version());
         // The state so far is about another text.
-        self.run_version = if self.preview.is_some() {
-            Some(0)
-        } else {
-            None
-        };
+        self.run_version = None;
         self.runner.request(Request {
             number: self.number,
             source: Source::new(self.document.path(), text),
@@ -555,6 +584,17 @@ impl Editor {
                 .chain(self.run.inputs.iter().cloned())
                 .collect(),
         );
+    }
+}
+
+impl Drop for Editor {
+    fn drop(&mut self) {
+        // After a panic, the journal stays, so that the text is offered at the next start.
+        if let Some(journal) = &mut self.journal
+            && !std::thread::panicking()
+        {
+            journal.clear(&*self.store);
+        }
     }
 }
 

@@ -24,8 +24,10 @@ struct Shared {
 
 struct Entry {
     mesh: Weak<Mesh>,
-    /// `None` while the index is built; `Some(None)` for a mesh without faces.
-    index: Option<Option<Arc<SurfaceIndex>>>,
+    /// Whether the index was built.
+    is_built: bool,
+    /// `None` while the index is built, and for a mesh without faces.
+    index: Option<Arc<SurfaceIndex>>,
 }
 
 impl Indexes {
@@ -51,10 +53,11 @@ impl Indexes {
             let mut entries = self.lock();
             entries.retain(|entry| entry.mesh.strong_count() > 0);
             if let Some(entry) = entries.iter().find(|entry| entry.mesh.ptr_eq(&weak)) {
-                return entry.index.clone().flatten();
+                return entry.index.clone();
             }
             entries.push(Entry {
                 mesh: weak.clone(),
+                is_built: false,
                 index: None,
             });
         }
@@ -70,7 +73,7 @@ impl Indexes {
                     .lock()
                     .unwrap_or_else(PoisonError::into_inner);
                 if let Some(entry) = entries.iter_mut().find(|entry| entry.mesh.ptr_eq(&weak)) {
-                    entry.index = Some(index);
+                    (entry.is_built, entry.index) = (true, index);
                 }
             }
             drop(mesh);
@@ -98,12 +101,9 @@ impl Indexes {
         let weak = Arc::downgrade(mesh);
         let mut entries = self.lock();
         loop {
-            match entries.iter().find(|entry| entry.mesh.ptr_eq(&weak)) {
-                Some(Entry { index: None, .. }) => {}
-                Some(Entry {
-                    index: Some(index), ..
-                }) => return index.clone(),
-                None => return None,
+            let entry = entries.iter().find(|entry| entry.mesh.ptr_eq(&weak))?;
+            if entry.is_built {
+                return entry.index.clone();
             }
             entries = self
                 .shared

@@ -211,7 +211,7 @@ impl Search<'_, '_> {
             None => true,
         };
         target.index.visit_boxes(&mut enters, &mut |i| {
-            faces.push(target.index.triangle(i).corners)
+            faces.push(target.index.triangle(i).corners);
         });
         for corners in faces {
             for (k, h) in corners.into_iter().enumerate() {

@@ -35,7 +35,7 @@ impl Projection {
     }
 
     /// Returns the pixel of a point, and its depth from 0 (near) to 1; `None` if the point is not in front of the viewer.
-    pub fn to_pixel(&self, point: DVec3) -> Option<(DVec2, f64)> {
+    pub fn to_pixel(self, point: DVec3) -> Option<(DVec2, f64)> {
         let clip = self.to_clip * point.extend(1.0);
         let scene = clip.truncate() / clip.w;
         let pixel = DVec2::new(scene.x + 1.0, 1.0 - scene.y) * 0.5 * self.size;
@@ -59,7 +59,7 @@ impl Projection {
 
     /// Returns the distance in pixels from a pixel to the segment between two points, and the point of the segment that is
     /// nearest. The part of the segment behind the viewer does not count; `None` if no part is in front.
-    pub(crate) fn to_segment(&self, pixel: DVec2, a: DVec3, b: DVec3) -> Option<(f64, DVec3)> {
+    pub(crate) fn to_segment(self, pixel: DVec2, a: DVec3, b: DVec3) -> Option<(f64, DVec3)> {
         let (mut a, mut b) = (a, b);
         // Clips the segment to the near plane.
         let near = |p: DVec3| (self.to_clip * p.extend(1.0)).z;

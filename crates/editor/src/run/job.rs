@@ -4,9 +4,8 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use engine::{Engine, Failure, Listener, Loaded, Options, Run, StepDone};
-use recipe::Expectation;
-use recipe::Recipe;
+use engine::{Engine, Failure, Listener, Loaded, Options, Outcome, Run, StepDone};
+use recipe::{Expectation, Recipe};
 use scene::Scene;
 use store::Store;
 use web_time::Instant;
@@ -38,136 +37,94 @@ impl Job<'_> {
         snapshots.tick();
         let keys = Keys::of(&loaded, self.store, self.request.budget);
         let mut state = state_of(&loaded);
-        let mut scene = None;
-        let mut known = 0;
-        for (i, key) in keys.steps.iter().enumerate() {
-            let Some(snapshot) = snapshots.get(key) else {
-                break;
-            };
-            scene = Some(snapshot.scene.clone());
-            state.steps[i].result = Some(snapshot);
-            known = i + 1;
-        }
-        for (placed, key) in state.expectations.iter_mut().zip(&keys.expectations) {
-            placed.verdict = snapshots.verdicts.get(key).cloned();
-        }
+        let known = take_known(&mut state, &keys, snapshots);
         let number = self.request.number;
-        let has_errors = loaded.has_errors();
-        if has_errors {
-            let time = begin.elapsed();
-            state.status = Status::Done;
-            let end = self.end_of(&state, &loaded.recipe, None, snapshots, &keys);
-            self.shared.send(Event::Checked {
-                number,
-                state: Box::new(state),
-            });
-            self.shared.send(Event::Done {
-                number,
-                end: Box::new(End { time, ..end }),
-            });
-            return;
-        }
-        let first = self.first_step(&loaded, &state, known);
-        let is_known = first == loaded.recipe.steps.len()
-            && state
-                .expectations
-                .iter()
-                .all(|placed| placed.verdict.is_some())
-            && snapshots.digests.contains_key(&keys.end());
         self.shared.send(Event::Checked {
             number,
             state: Box::new(state.clone()),
         });
-        if is_known && !self.request.keep_outputs {
-            let mut end = self.end_of(&state, &loaded.recipe, None, snapshots, &keys);
-            end.time = begin.elapsed();
-            self.shared.send(Event::Done {
-                number,
-                end: Box::new(end),
-            });
-            return;
-        }
-        let start = match first.checked_sub(1) {
-            None => Scene::new(),
-            Some(_) if first == known => scene.map_or_else(Scene::new, |scene| (*scene).clone()),
-            Some(i) => match &state.steps[i].result {
-                Some(snapshot) => (*snapshot.scene).clone(),
-                None => Scene::new(),
-            },
+        let mut end = if loaded.has_errors() {
+            end_of(&state, &loaded.recipe, Vec::new(), snapshots, &keys)
+        } else {
+            self.run_rest(&loaded, state, known, snapshots, &keys)
         };
-        let follower = Follower {
-            job: self,
-            last: AtomicUsize::new(first),
-            label: Mutex::default(),
-            done: Mutex::default(),
-            results: Mutex::default(),
-            failures: Mutex::default(),
-        };
-        let run = Run {
-            keep_outputs: self.request.keep_outputs,
-            cache: None,
-        };
-        let outcome = loaded.run_from(first, start, run, &follower);
-        let ran = outcome.steps.len();
-        for (i, snapshot) in take(&follower.results) {
-            snapshots.insert(keys.steps[i], snapshot.clone());
-            state.steps[i].result = Some(snapshot);
-        }
-        let failures = take(&follower.failures);
-        let is_whole = !outcome.cancelled && outcome.failures.len() == outcome.unmet.len();
-        for (i, placed) in loaded.recipe.expectations.iter().enumerate() {
-            // Expectations after a step that did not run keep what is known about them.
-            let is_checked = placed.after.map_or(is_whole, |after| {
-                after >= first && (after < first + ran) && (is_whole || after + 1 < first + ran)
-            });
-            let unmet = outcome.unmet.iter().find(|unmet| unmet.expectation == i);
-            let verdict = match unmet {
-                Some(unmet) => Verdict::Fails {
-                    message: outcome.failures[unmet.failure].message.clone(),
-                    places: failures
-                        .get(unmet.failure)
-                        .map_or_else(Vec::new, |f| f.places.clone()),
-                },
-                None if is_checked => Verdict::Holds,
-                None => continue,
-            };
-            state.expectations[i].verdict = Some(verdict.clone());
-            snapshots.verdicts.insert(keys.expectations[i], verdict);
-        }
-        if is_whole {
-            snapshots.digests.insert(keys.end(), outcome.digest);
-        }
-        // Outputs that cannot be written have no event of their own.
-        let mut step_failures: Vec<FailureState> = Vec::new();
-        for (i, diagnostic) in outcome.failures.iter().enumerate() {
-            if outcome.unmet.iter().any(|unmet| unmet.failure == i) {
-                continue;
-            }
-            let found = failures
-                .get(i)
-                .filter(|failure| failure.diagnostic == *diagnostic);
-            step_failures.push(found.cloned().unwrap_or(FailureState {
-                diagnostic: diagnostic.clone(),
-                places: Vec::new(),
-                step: None,
-            }));
-        }
-        let mut end = self.end_of(
-            &state,
-            &loaded.recipe,
-            Some(step_failures),
-            snapshots,
-            &keys,
-        );
-        end.canceled = outcome.cancelled;
-        end.written = outcome.written;
-        end.ran = ran;
         end.time = begin.elapsed();
         snapshots.trim(self.request.memory);
         self.shared.send(Event::Done {
             number,
             end: Box::new(end),
         });
+    }
+
+    /// Runs the steps whose results are not known.
+    fn run_rest(
+        &self,
+        loaded: &Loaded,
+        mut state: RunState,
+        known: usize,
+        snapshots: &mut Snapshots,
+        keys: &Keys,
+    ) -> End {
+        let first = self.first_step(loaded, &state, known);
+        let is_known = first == loaded.recipe.steps.len()
+            && state
+                .expectations
+                .iter()
+                .all(|placed| placed.verdict.is_some())
+            && snapshots.digests.contains_key(&keys.end());
+        if is_known && !self.request.keep_outputs {
+            return end_of(&state, &loaded.recipe, Vec::new(), snapshots, keys);
+        }
+        let before = first
+            .checked_sub(1)
+            .and_then(|i| state.steps[i].result.as_ref());
+        let start = before.map_or_else(Scene::new, |snapshot| (*snapshot.scene).clone());
+        let follower = Follower::new(self, first);
+        let run = Run {
+            keep_outputs: self.request.keep_outputs,
+            cache: None,
+        };
+        let outcome = loaded.run_from(first, start, run, &follower);
+        for (i, snapshot) in take(&follower.results) {
+            snapshots.insert(keys.steps[i], snapshot.clone());
+            state.steps[i].result = Some(snapshot);
+        }
+        let found = take(&follower.failures);
+        let is_whole = !outcome.cancelled && outcome.failures.len() == outcome.unmet.len();
+        take_verdicts(&mut state, &loaded.recipe, &outcome, &found, is_whole);
+        for (placed, key) in state.expectations.iter().zip(&keys.expectations) {
+            if let Some(verdict) = &placed.verdict {
+                snapshots.verdicts.insert(*key, verdict.clone());
+            }
+        }
+        if is_whole {
+            snapshots.digests.insert(keys.end(), outcome.digest);
+        }
+        // The failures of expectations are in the verdicts. Outputs that cannot be written have no event of their own.
+        let is_unmet = |i: usize| outcome.unmet.iter().any(|unmet| unmet.failure == i);
+        let others = outcome
+            .failures
+            .iter()
+            .enumerate()
+            .filter(|(i, _)| !is_unmet(*i));
+        let failures = others.map(|(i, diagnostic)| {
+            let known = found
+                .get(i)
+                .filter(|failure| failure.diagnostic == *diagnostic);
+            known.cloned().unwrap_or_else(|| FailureState {
+                diagnostic: diagnostic.clone(),
+                places: Vec::new(),
+                step: None,
+            })
+        });
+        let ran = outcome.steps.len();
+        let end = end_of(&state, &loaded.recipe, failures.collect(), snapshots, keys);
+        End {
+            canceled: outcome.cancelled,
+            written: outcome.written,
+            ran,
+            ..end
+        }
     }
 
     /// Returns the index of the step that the run starts with, where the results of the first `known` steps are known.
@@ -201,43 +158,86 @@ impl Job<'_> {
         }
         first
     }
+}
 
-    /// Returns the end of a run with everything that is known.
-    fn end_of(
-        &self,
-        state: &RunState,
-        recipe: &Recipe,
-        failures: Option<Vec<FailureState>>,
-        snapshots: &Snapshots,
-        keys: &Keys,
-    ) -> End {
-        let mut failures = failures.unwrap_or_default();
-        for (i, placed) in state.expectations.iter().enumerate() {
-            if let Some(Verdict::Fails { message, places }) = &placed.verdict {
-                let of = &recipe.expectations[i];
-                let diagnostic = engine::Diagnostic::error(of.span, message.clone());
-                failures.push(FailureState {
-                    diagnostic: recipe.located(diagnostic, of.scope),
-                    places: places.clone(),
-                    step: of.after,
-                });
-            }
+/// Adds what is known about the steps and expectations. Returns the number of steps at the start whose results are known.
+fn take_known(state: &mut RunState, keys: &Keys, snapshots: &mut Snapshots) -> usize {
+    let mut known = 0;
+    for (step, key) in state.steps.iter_mut().zip(&keys.steps) {
+        step.result = snapshots.get(key);
+        if step.result.is_none() {
+            break;
         }
-        let is_whole = state.steps.iter().all(|step| step.result.is_some());
-        let digest = snapshots.digests.get::<Key>(&keys.end()).copied();
-        End {
-            canceled: false,
-            failures,
-            verdicts: state
-                .expectations
-                .iter()
-                .map(|placed| placed.verdict.clone())
-                .collect(),
-            digest: digest.filter(|_| is_whole),
-            written: Vec::new(),
-            time: Duration::ZERO,
-            ran: 0,
+        known += 1;
+    }
+    for (placed, key) in state.expectations.iter_mut().zip(&keys.expectations) {
+        placed.verdict = snapshots.verdicts.get(key).cloned();
+    }
+    known
+}
+
+/// Adds the results of the expectations that a run has checked. `is_whole` says whether the run came to its end.
+fn take_verdicts(
+    state: &mut RunState,
+    recipe: &Recipe,
+    outcome: &Outcome,
+    failures: &[FailureState],
+    is_whole: bool,
+) {
+    let ran = outcome.first..outcome.first + outcome.steps.len();
+    for (i, placed) in recipe.expectations.iter().enumerate() {
+        // After the last step of a run that ended early, an expectation may not have been checked.
+        let is_checked = match placed.after {
+            None => is_whole,
+            Some(after) => ran.contains(&after) && (is_whole || after + 1 < ran.end),
+        };
+        let unmet = outcome.unmet.iter().find(|unmet| unmet.expectation == i);
+        let verdict = match unmet {
+            Some(unmet) => Verdict::Fails {
+                message: outcome.failures[unmet.failure].message.clone(),
+                places: failures
+                    .get(unmet.failure)
+                    .map_or_else(Vec::new, |f| f.places.clone()),
+            },
+            None if is_checked => Verdict::Holds,
+            None => continue,
+        };
+        state.expectations[i].verdict = Some(verdict);
+    }
+}
+
+/// Returns the end of a run with everything that is known. `failures` are those of steps and outputs.
+fn end_of(
+    state: &RunState,
+    recipe: &Recipe,
+    mut failures: Vec<FailureState>,
+    snapshots: &Snapshots,
+    keys: &Keys,
+) -> End {
+    for (placed, of) in state.expectations.iter().zip(&recipe.expectations) {
+        if let Some(Verdict::Fails { message, places }) = &placed.verdict {
+            let diagnostic = engine::Diagnostic::error(of.span, message.clone());
+            failures.push(FailureState {
+                diagnostic: recipe.located(diagnostic, of.scope),
+                places: places.clone(),
+                step: of.after,
+            });
         }
+    }
+    let is_whole = state.steps.iter().all(|step| step.result.is_some());
+    let digest = snapshots.digests.get::<Key>(&keys.end()).copied();
+    End {
+        canceled: false,
+        failures,
+        verdicts: state
+            .expectations
+            .iter()
+            .map(|placed| placed.verdict.clone())
+            .collect(),
+        digest: digest.filter(|_| is_whole),
+        written: Vec::new(),
+        time: Duration::ZERO,
+        ran: 0,
     }
 }
 
@@ -294,6 +294,19 @@ struct Follower<'a> {
     done: Mutex<Option<StepDone>>,
     results: Mutex<Vec<(usize, Snapshot)>>,
     failures: Mutex<Vec<FailureState>>,
+}
+
+impl<'a> Follower<'a> {
+    fn new(job: &'a Job<'a>, first: usize) -> Self {
+        Self {
+            job,
+            last: AtomicUsize::new(first),
+            label: Mutex::default(),
+            done: Mutex::default(),
+            results: Mutex::default(),
+            failures: Mutex::default(),
+        }
+    }
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {

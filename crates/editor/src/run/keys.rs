@@ -40,7 +40,7 @@ impl Keys {
                 step.on_loss,
             );
             let files = &files[step.scope];
-            let place = format!("{:?} {:?}", files.input, files.placeholders);
+            let place = format!("{} {:?}", files.input.display(), files.placeholders);
             let known = loaded
                 .forecast
                 .steps
@@ -86,7 +86,7 @@ impl Keys {
 
 /// Returns a text that changes when one of the files changes.
 pub(crate) fn stamps(paths: &[PathBuf], store: &dyn Store) -> String {
-    let stamp = |path: &PathBuf| format!("{path:?} {:?}\n", stamp(path, store));
+    let stamp = |path: &PathBuf| format!("{} {:?}\n", path.display(), stamp(path, store));
     paths.iter().map(stamp).collect()
 }
 

@@ -119,7 +119,7 @@ impl Runner {
         let of_thread = shared.clone();
         let thread = std::thread::Builder::new()
             .name("meshwright engine".to_owned())
-            .spawn(move || serve(&of_thread, &registry, store))
+            .spawn(move || serve(&of_thread, &registry, &store))
             .ok();
         Self { shared, thread }
     }
@@ -188,18 +188,18 @@ impl Drop for Runner {
 }
 
 /// Runs requests until the handle is dropped.
-fn serve(shared: &Shared, registry: &Registry, store: Arc<dyn Store>) {
+fn serve(shared: &Shared, registry: &Registry, store: &Arc<dyn Store>) {
     let engine = Engine::new(registry).with_store(store.clone());
     let mut snapshots = Snapshots::default();
     let mut watched: (Vec<PathBuf>, String) = Default::default();
     loop {
-        let Some((request, cancel)) = next_request(shared, &*store, &mut watched) else {
+        let Some((request, cancel)) = next_request(shared, &**store, &mut watched) else {
             return;
         };
         let number = request.number;
         let job = Job {
             engine: &engine,
-            store: &*store,
+            store: &**store,
             shared,
             cancel: &cancel,
             request: &request,

@@ -18,6 +18,9 @@ pub struct Snapshot {
     pub done: Arc<StepDone>,
 }
 
+/// The maximum number of known digests, and of known results of expectations.
+const MAX_RESULTS: usize = 100_000;
+
 /// The known results. Scenes share their unchanged meshes.
 #[derive(Default)]
 pub(super) struct Snapshots {
@@ -66,7 +69,6 @@ impl Snapshots {
                 self.of_steps.remove(&key);
             }
         }
-        const MAX_RESULTS: usize = 100_000;
         if self.verdicts.len() > MAX_RESULTS {
             self.verdicts.clear();
         }

@@ -1,5 +1,6 @@
 //! Picked elements, and selections of recipes that mean them.
 
+mod change;
 mod picked;
 mod propose;
 

@@ -98,13 +98,9 @@ impl Picked {
             (Selected::Faces(a), Selected::Faces(b)) => a.retain(|f| !b.contains(f)),
             _ => {}
         }
-        if let Some(h) = self
+        self.half_edge = self
             .half_edge
-            .filter(|&h| !self.contains(Element::HalfEdge(h)))
-        {
-            self.half_edge = None;
-            let _ = h;
-        }
+            .filter(|&h| self.contains(Element::HalfEdge(h)));
     }
 
     /// Returns the elements that still exist in a mesh.

@@ -3,7 +3,7 @@
 //! Candidates are proposed in the order of their meaning: tags, the boundary, materials, loops and paths, components,
 //! thresholds, numbers. Each is resolved on the mesh, and only those that give exactly the picked elements are kept.
 
-use mesh::{Domain, EdgeId, FaceId, MATERIAL, Mesh, Values, VertexId};
+use mesh::{Domain, EdgeId, FaceId, Id, MATERIAL, Mesh, Values, VertexId};
 use op::{ElementKind, Selected};
 use recipe::{read_selection, resolve};
 use ron_tree::string_literal;
@@ -71,10 +71,10 @@ struct Candidate {
 
 fn candidates(object: &Object, mesh: &Mesh, elements: &Selected) -> Vec<Candidate> {
     let mut open: Vec<String> = Vec::new();
-    let (domain, kind) = match elements {
-        Selected::Vertices(_) => (Domain::Vertex, ElementKind::Vertices),
-        Selected::Edges(_) => (Domain::Edge, ElementKind::Edges),
-        Selected::Faces(_) => (Domain::Face, ElementKind::Faces),
+    let domain = match elements {
+        Selected::Vertices(_) => Domain::Vertex,
+        Selected::Edges(_) => Domain::Edge,
+        Selected::Faces(_) => Domain::Face,
     };
     for column in mesh.attributes().of(domain) {
         if matches!(column.values, Values::Tag(_)) {
@@ -109,7 +109,6 @@ fn candidates(object: &Object, mesh: &Mesh, elements: &Selected) -> Vec<Candidat
         all.extend(open);
         all.extend(listed);
     }
-    let _ = kind;
     all
 }
 
@@ -132,8 +131,14 @@ fn of_edges(mesh: &Mesh, list: &[EdgeId], open: &mut Vec<String>) {
         open.push(format!("Path(from: {to}, to: {from})"));
     }
     open.push(format!("Component({first})"));
+    let ends = ends(mesh, list);
+    if ends.len() <= MAX_LISTED {
+        open.push(format!("EdgesWithin(Vertices([{}]))", joined(&ends)));
+    }
     let mut picked = vec![false; mesh.domain_len(Domain::Edge)];
-    list.iter().for_each(|e| picked[e.index()] = true);
+    for e in list {
+        picked[e.index()] = true;
+    }
     let angle = |e: EdgeId| mesh.dihedral_angle(e).map(f64::to_degrees);
     if let Some(limit) = threshold(
         mesh.edges()
@@ -165,7 +170,9 @@ fn of_faces(object: &Object, mesh: &Mesh, list: &[FaceId], open: &mut Vec<String
         open.push(format!("Material({})", string_literal(&material.name)));
     }
     let mut picked = vec![false; mesh.domain_len(Domain::Face)];
-    list.iter().for_each(|f| picked[f.index()] = true);
+    for f in list {
+        picked[f.index()] = true;
+    }
     open.push(format!("Component(Faces([{}]))", first.index()));
     if let Some(angle) = spread_angle(mesh, &picked) {
         open.push(format!(
@@ -184,24 +191,39 @@ fn of_faces(object: &Object, mesh: &Mesh, list: &[FaceId], open: &mut Vec<String
 
 /// Returns the numbers of a few elements as a selection.
 fn listed(mesh: &Mesh, elements: &Selected) -> Option<String> {
-    if elements.len() > MAX_LISTED {
-        return None;
-    }
-    let numbers = |list: Vec<usize>| {
-        let list: Vec<String> = list.iter().map(usize::to_string).collect();
-        list.join(", ")
-    };
-    Some(match elements {
-        Selected::Vertices(list) => format!(
-            "Vertices([{}])",
-            numbers(list.iter().map(|v| v.index()).collect())
-        ),
-        Selected::Faces(list) => format!(
-            "Faces([{}])",
-            numbers(list.iter().map(|f| f.index()).collect())
-        ),
+    (elements.len() <= MAX_LISTED).then(|| by_number(mesh, elements))
+}
+
+/// Returns the numbers of elements as a selection.
+fn by_number(mesh: &Mesh, elements: &Selected) -> String {
+    match elements {
+        Selected::Vertices(list) => format!("Vertices([{}])", joined(list)),
+        Selected::Faces(list) => format!("Faces([{}])", joined(list)),
         Selected::Edges(list) => edges_by_ends(mesh, list),
-    })
+    }
+}
+
+fn joined<I: Id>(list: &[I]) -> String {
+    let numbers: Vec<String> = list.iter().map(|id| id.index().to_string()).collect();
+    numbers.join(", ")
+}
+
+/// Returns the ends of edges, in the order of their numbers.
+fn ends(mesh: &Mesh, list: &[EdgeId]) -> Vec<VertexId> {
+    let mut ends: Vec<VertexId> = list.iter().flat_map(|&e| mesh.edge_vertices(e)).collect();
+    ends.sort_unstable();
+    ends.dedup();
+    ends
+}
+
+/// Whether the edges are all edges between their ends.
+fn are_all_within(mesh: &Mesh, list: &[EdgeId], ends: &[VertexId]) -> bool {
+    let mut marks = vec![false; mesh.domain_len(Domain::Vertex)];
+    for v in ends {
+        marks[v.index()] = true;
+    }
+    let is_within = |e: &EdgeId| mesh.edge_vertices(*e).iter().all(|v| marks[v.index()]);
+    mesh.edges().filter(is_within).count() == list.len()
 }
 
 /// Returns a list of edges, each given by its ends.
@@ -233,24 +255,21 @@ fn by_new_tag(mesh: &Mesh, picked: &Picked) -> Proposal {
         .find(|name| !is_used(name))
         .expect("a mesh has finitely many tags");
     let name = string_literal(&name);
-    let numbers = |list: Vec<usize>| {
-        let list: Vec<String> = list.iter().map(usize::to_string).collect();
-        list.join(", ")
-    };
-    let by_number = match &picked.elements {
-        Selected::Vertices(list) => format!(
-            "Vertices([{}])",
-            numbers(list.iter().map(|v| v.index()).collect())
-        ),
-        Selected::Faces(list) => format!(
-            "Faces([{}])",
-            numbers(list.iter().map(|f| f.index()).collect())
-        ),
-        Selected::Edges(list) => edges_by_ends(mesh, list),
+    let numbers = match &picked.elements {
+        // Many edges are named faster by their ends.
+        Selected::Edges(list) => {
+            let ends = ends(mesh, list);
+            if are_all_within(mesh, list, &ends) {
+                format!("EdgesWithin(Vertices([{}]))", joined(&ends))
+            } else {
+                by_number(mesh, &picked.elements)
+            }
+        }
+        elements => by_number(mesh, elements),
     };
     Proposal {
         text: format!("Expect(count: {}, of: Tagged({name}))", picked.len()),
-        before: Some(format!("{operation}(name: {name}, {field}: {by_number})")),
+        before: Some(format!("{operation}(name: {name}, {field}: {numbers})")),
     }
 }
 
@@ -302,7 +321,7 @@ fn threshold(values: impl Iterator<Item = (f64, bool)>) -> Option<String> {
 }
 
 /// Returns the number with the fewest digits that is well between two numbers.
-pub(super) fn short_between(low: f64, high: f64) -> String {
+fn short_between(low: f64, high: f64) -> String {
     let (a, b) = (low + (high - low) * 0.25, high - (high - low) * 0.25);
     let middle = f64::midpoint(low, high);
     for digits in 1..17 {

@@ -235,3 +235,42 @@ fn disabled_steps_do_not_run() {
             .contains("        LoopSubdivide(levels: 1),\n")
     );
 }
+
+#[test]
+fn a_disabled_step_is_not_checked_and_neither_are_expectations_after_it() {
+    let text =
+        "(recipe: 1, params: {\"smooth\": Bool(default: false), \"n\": Int(default: 1)}, steps: [
+        Cube(name: \"a\", triangles: true),
+        (id: \"loop\", run: LoopSubdivide(levels: arg(\"n\")), enabled: arg(\"smooth\")),
+        (run: Nonsense(a: [1, 2]), enabled: false),
+        (run: Repeat(times: 2, steps: [Sqrt3(levels: 1)]), enabled: false),
+    ], expect: [(after: \"loop\", that: Faces(eq: 48)), Faces(max: 100)])";
+    let (mut editor, _) = opened(text);
+    settled(&mut editor);
+    assert_eq!(editor.run().diagnostics, []);
+    assert_eq!(
+        (editor.run().steps.len(), editor.run().expectations.len()),
+        (1, 1)
+    );
+    editor.set_recipe_parameter("smooth", "true").unwrap();
+    settled(&mut editor);
+    assert_eq!(
+        (editor.run().steps.len(), editor.run().expectations.len()),
+        (2, 2)
+    );
+    editor.set_enabled(2, true).unwrap();
+    settle(&mut editor);
+    assert!(editor.run().has_failed());
+    let text = editor
+        .text()
+        .replace("enabled: arg(\"smooth\")", "enabled: 1");
+    editor.set_text(&text);
+    settle(&mut editor);
+    assert!(
+        editor
+            .run()
+            .diagnostics
+            .iter()
+            .any(|d| d.message.contains("`enabled`"))
+    );
+}

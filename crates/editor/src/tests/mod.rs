@@ -1,8 +1,11 @@
 //! Tests that drive the editor.
 
 mod drive;
+mod life;
 mod panels;
 mod picking;
+mod playing;
+mod selecting;
 mod texts;
 
 use std::path::Path;

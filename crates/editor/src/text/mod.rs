@@ -16,7 +16,7 @@ pub use outline::{Outline, ParameterText, StepText};
 pub(crate) use fields::{field_value, set_field};
 pub(crate) use steps::{
     add_expectations, duplicate_step, insert_steps, move_step, remove_step, set_enabled,
-    set_envelope_field,
+    set_envelope_field, unused_id,
 };
 
 /// Edits of a text: spans with the texts that replace them.

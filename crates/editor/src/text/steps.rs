@@ -4,7 +4,7 @@ use ron_tree::{Span, Value, ValueKind};
 
 use super::entries::{insert_entry, line_start, remove_entry, starts_line, tail};
 use super::fields::{entry_spans, set_field};
-use super::{Edits, Outline, TextError};
+use super::{Edits, Outline, StepText, TextError};
 
 impl Outline {
     fn list(&self) -> Result<(Span, Vec<Span>), TextError> {
@@ -69,8 +69,16 @@ pub(crate) fn duplicate_step(
     insert_steps(text, outline, step + 1, &[copy])
 }
 
-/// Returns an id that no step of the text has: `id-2`, `id-3` and so on.
-fn unused_id(outline: &Outline, id: &str) -> String {
+/// Returns an id that no step of the text has: `id` itself, or `id-2`, `id-3` and so on.
+pub(crate) fn unused_id(outline: &Outline, id: &str) -> String {
+    fn is_used(steps: &[StepText], id: &str) -> bool {
+        steps
+            .iter()
+            .any(|step| step.id.as_deref() == Some(id) || is_used(&step.inner, id))
+    }
+    if !is_used(&outline.steps, id) {
+        return id.to_owned();
+    }
     let stem = id
         .trim_end_matches(|c: char| c.is_ascii_digit())
         .trim_end_matches('-');
@@ -79,14 +87,8 @@ fn unused_id(outline: &Outline, id: &str) -> String {
     } else {
         stem
     };
-    let is_used = |new: &String| {
-        outline
-            .steps
-            .iter()
-            .any(|step| step.id.as_ref() == Some(new))
-    };
     let mut ids = (2..).map(|n| format!("{stem}-{n}"));
-    ids.find(|new| !is_used(new))
+    ids.find(|new| !is_used(&outline.steps, new))
         .expect("a text has finitely many ids")
 }
 

@@ -1,0 +1,140 @@
+//! The journal: the unsaved text is written to a folder after every change, and offered after a crash.
+//!
+//! Each editor has a folder of its own in the folder of journals. It is removed when the text is saved and when the editor
+//! is closed.
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use ron_tree::string_literal;
+use serde::Deserialize;
+use store::Store;
+
+use crate::document::Document;
+
+const FILE: &str = "journal.ron";
+
+/// The journal of one editor.
+#[derive(Debug)]
+pub(crate) struct Journal {
+    folder: PathBuf,
+    /// The version of the text that was written last; `None` if the journal has no text.
+    written: Option<u64>,
+}
+
+/// An unsaved text of an editor that was not closed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Recovery {
+    /// The path of the recipe.
+    pub path: PathBuf,
+    /// Whether the recipe has a file.
+    pub has_file: bool,
+    /// The unsaved text.
+    pub text: String,
+    folder: PathBuf,
+}
+
+/// The content of a journal.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Content {
+    path: String,
+    has_file: bool,
+    process: u32,
+    text: String,
+}
+
+impl Journal {
+    /// Creates the journal of an editor in the folder of all journals.
+    pub(crate) fn new(folder: &Path) -> Self {
+        static COUNT: AtomicU32 = AtomicU32::new(0);
+        let number = COUNT.fetch_add(1, Ordering::Relaxed);
+        let folder = folder.join(format!("{}-{number}", std::process::id()));
+        Self {
+            folder,
+            written: None,
+        }
+    }
+
+    /// Writes the text of the document if it is not saved, and removes the journal if it is. A journal that cannot be
+    /// written is left out: the text is still in memory.
+    pub(crate) fn keep(&mut self, document: &Document, store: &dyn Store) {
+        if !document.is_dirty()
+            || document.undo_label().is_none() && document.redo_label().is_none()
+        {
+            return self.clear(store);
+        }
+        if self.written == Some(document.version()) {
+            return;
+        }
+        let path = std::path::absolute(document.path());
+        let path = path.unwrap_or_else(|_| document.path().to_owned());
+        let text = format!(
+            "(path: {}, has_file: {}, process: {}, text: {})\n",
+            string_literal(&path.to_string_lossy()),
+            document.has_file(),
+            std::process::id(),
+            string_literal(document.text()),
+        );
+        if store
+            .write(&self.folder.join(FILE), text.as_bytes())
+            .is_ok()
+        {
+            self.written = Some(document.version());
+        }
+    }
+
+    /// Removes the journal.
+    pub(crate) fn clear(&mut self, store: &dyn Store) {
+        if self.written.take().is_some() {
+            // Removal is best effort: a journal that stays is offered at the next start.
+            let _ = store.remove_folder(&self.folder);
+        }
+    }
+}
+
+/// Returns the unsaved texts of editors that were not closed, such as after a crash, from the folder of journals. Texts of
+/// editors that still run are left out.
+pub fn recoverable(store: &dyn Store, folder: &Path) -> Vec<Recovery> {
+    let folders = store.list(folder).unwrap_or_default();
+    folders
+        .into_iter()
+        .filter_map(|folder| read(store, folder))
+        .collect()
+}
+
+fn read(store: &dyn Store, folder: PathBuf) -> Option<Recovery> {
+    let bytes = store.read(&folder.join(FILE)).ok()?;
+    let content: Content = ron_tree::from_str(std::str::from_utf8(&bytes).ok()?).ok()?;
+    let is_own = content.process == std::process::id();
+    let process = PathBuf::from(format!("/proc/{}", content.process));
+    if !is_own && store.exists(&process) {
+        return None;
+    }
+    Some(Recovery {
+        path: content.path.into(),
+        has_file: content.has_file,
+        text: content.text,
+        folder,
+    })
+}
+
+impl Recovery {
+    /// Removes the text from the folder of journals.
+    pub fn discard(&self, store: &dyn Store) {
+        // A journal that stays is offered again.
+        let _ = store.remove_folder(&self.folder);
+    }
+
+    /// Returns a document with the unsaved text. An undo brings back the text of the file.
+    pub(crate) fn document(&self, store: &dyn Store) -> Document {
+        let opened = self
+            .has_file
+            .then(|| Document::open(store, &self.path).ok());
+        let mut document = opened
+            .flatten()
+            .unwrap_or_else(|| Document::new(&self.path, ""));
+        document.replace(self.text.as_str(), "recover", false);
+        document
+    }
+}

@@ -1,0 +1,241 @@
+//! Plays the local edits of a step one by one, forwards and backwards, with the pointers that each edit changes.
+
+use mesh::{Change, EdgeId, EditError, FaceId, HalfEdgeId, Mesh, VertexId};
+use op::{EdgeSelection, Elements, Selected};
+use recipe::{read_selection, resolve};
+use ron_tree::{Value, ValueKind};
+use scene::{Object, Scene};
+
+/// The maximum number of edits that are played.
+const MAX_EDITS: usize = 10_000;
+
+/// The local edits of a step, at one moment between two of them.
+#[derive(Debug)]
+pub struct Play {
+    mesh: Mesh,
+    edits: Vec<PlayedEdit>,
+    /// For each edit, the change that undoes it if it is done, and that does it otherwise.
+    changes: Vec<Option<Change>>,
+    at: usize,
+}
+
+/// A local edit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlayedEdit {
+    /// What the edit does: `flip e7`.
+    pub name: String,
+    /// The edge.
+    pub edge: EdgeId,
+    /// Why the edit is refused, if it is.
+    pub refused: Option<EditError>,
+    /// The half-edges around the edge whose pointers change, in the order of their numbers.
+    pub pointers: Vec<PointerChange>,
+}
+
+/// The pointers of a half-edge before and after an edit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PointerChange {
+    /// The half-edge.
+    pub half_edge: HalfEdgeId,
+    /// The pointers before the edit; `None` for a new half-edge.
+    pub before: Option<Pointers>,
+    /// The pointers after the edit; `None` for a half-edge that the edit removes.
+    pub after: Option<Pointers>,
+}
+
+/// The pointers of a half-edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pointers {
+    /// The next half-edge.
+    pub next: HalfEdgeId,
+    /// The origin.
+    pub origin: VertexId,
+    /// The face; `None` on the boundary.
+    pub face: Option<FaceId>,
+}
+
+impl Play {
+    /// Returns the edits of a step `FlipEdges`, `SplitEdges` or `CollapseEdges` on an object of the scene before the step, at
+    /// the moment before the first of them. At most the first 10 000 edits are played.
+    ///
+    /// `label` is the label of the step, which seeds random choices. `None` for other operations, for `FlipEdges` with
+    /// `until`, for steps with errors or `arg(..)`, and for objects that are not meshes.
+    pub fn of_step(scene: &Scene, object: &str, run: &Value, label: &str) -> Option<Self> {
+        let object = scene.object(object)?;
+        let mesh = object.as_mesh()?;
+        let edit = Edit::of(run.name()?.0).filter(|_| run.field("until").is_none())?;
+        let text = run.field("edges")?.to_string();
+        let Elements::Edges(selection) =
+            read_selection(&text, Some(op::ElementKind::Edges)).ok()?
+        else {
+            return None;
+        };
+        let at = match run.field("at").map(|at| &at.kind) {
+            None => 0.5,
+            Some(ValueKind::Number(number)) => number.to_float(),
+            Some(_) => return None,
+        };
+        let edges = edges(&selection, scene, object, mesh, label)?;
+        let mut play = Self {
+            mesh: (**mesh).clone(),
+            edits: Vec::new(),
+            changes: Vec::new(),
+            at: 0,
+        };
+        for &edge in edges.iter().take(MAX_EDITS) {
+            let place = selection.place_on(&play.mesh, edge, at);
+            play.record(edit, edge, place);
+        }
+        play.at = play.edits.len();
+        while play.back() {}
+        Some(play)
+    }
+
+    /// Does an edit and records it.
+    fn record(&mut self, edit: Edit, edge: EdgeId, place: f64) {
+        let mesh = &mut self.mesh;
+        let around = half_edges_around(mesh, edge);
+        let before: Vec<_> = around.iter().map(|&h| pointers(mesh, h)).collect();
+        let first_new = mesh.domain_len(mesh::Domain::Corner);
+        mesh.begin();
+        let result = match edit {
+            Edit::Flip => mesh.flip_edge(edge),
+            Edit::Split => mesh
+                .split_edge(edge, place.min(1.0_f64.next_down()))
+                .map(drop),
+            Edit::Collapse => mesh.collapse_edge_at(edge, place).map(drop),
+        };
+        let change = if result.is_ok() {
+            mesh.commit()
+        } else {
+            mesh.rollback();
+            None
+        };
+        let new = (first_new..mesh.domain_len(mesh::Domain::Corner)).map(HalfEdgeId::new);
+        let known = around.into_iter().zip(before);
+        let all = known.chain(new.map(|h| (h, None)));
+        let changed = all.map(|(half_edge, before)| PointerChange {
+            half_edge,
+            before,
+            after: pointers(mesh, half_edge),
+        });
+        self.edits.push(PlayedEdit {
+            name: format!("{} {edge}", edit.word()),
+            edge,
+            refused: result.err(),
+            pointers: changed
+                .filter(|change| change.before != change.after)
+                .collect(),
+        });
+        self.changes.push(change);
+    }
+
+    /// Returns the mesh at this moment. Removed elements are still numbered: the mesh may not be dense.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// Returns all edits.
+    pub fn edits(&self) -> &[PlayedEdit] {
+        &self.edits
+    }
+
+    /// Returns the number of edits that are done.
+    pub fn position(&self) -> usize {
+        self.at
+    }
+
+    /// Does the next edit. Returns whether there was one.
+    pub fn forward(&mut self) -> bool {
+        let can = self.at < self.edits.len();
+        if can {
+            self.turn(self.at);
+            self.at += 1;
+        }
+        can
+    }
+
+    /// Undoes the last edit. Returns whether there was one.
+    pub fn back(&mut self) -> bool {
+        let can = self.at > 0;
+        if can {
+            self.at -= 1;
+            self.turn(self.at);
+        }
+        can
+    }
+
+    fn turn(&mut self, edit: usize) {
+        if let Some(change) = self.changes[edit].take() {
+            self.changes[edit] = Some(self.mesh.revert(change));
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Edit {
+    Flip,
+    Split,
+    Collapse,
+}
+
+impl Edit {
+    fn of(operation: &str) -> Option<Self> {
+        match operation {
+            "FlipEdges" => Some(Self::Flip),
+            "SplitEdges" => Some(Self::Split),
+            "CollapseEdges" => Some(Self::Collapse),
+            _ => None,
+        }
+    }
+
+    fn word(self) -> &'static str {
+        match self {
+            Self::Flip => "flip",
+            Self::Split => "split",
+            Self::Collapse => "collapse",
+        }
+    }
+}
+
+fn edges(
+    selection: &EdgeSelection,
+    scene: &Scene,
+    object: &Object,
+    mesh: &Mesh,
+    label: &str,
+) -> Option<Vec<EdgeId>> {
+    let elements = Elements::Edges(selection.clone());
+    match resolve(&elements, scene, object, mesh, label).ok()? {
+        Selected::Edges(edges) => Some(edges),
+        _ => None,
+    }
+}
+
+/// Returns the half-edges that leave or reach an end of an edge, and those of the faces there, in the order of their
+/// numbers.
+fn half_edges_around(mesh: &Mesh, edge: EdgeId) -> Vec<HalfEdgeId> {
+    if !mesh.has_edge(edge) {
+        return Vec::new();
+    }
+    let mut around = Vec::new();
+    for v in mesh.edge_vertices(edge) {
+        for h in mesh.vertex_half_edges(v) {
+            around.extend([h, h.twin()]);
+            if let Some(f) = mesh.face(h) {
+                around.extend(mesh.face_half_edges(f));
+            }
+        }
+    }
+    around.sort_unstable();
+    around.dedup();
+    around
+}
+
+fn pointers(mesh: &Mesh, h: HalfEdgeId) -> Option<Pointers> {
+    mesh.has_edge(h.edge()).then(|| Pointers {
+        next: mesh.next(h),
+        origin: mesh.origin(h),
+        face: mesh.face(h),
+    })
+}

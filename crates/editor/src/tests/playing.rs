@@ -1,0 +1,47 @@
+use engine::{Engine, Options, Run, Silent, Source};
+use ron_tree::parse;
+use scene::{Object, Scene};
+
+use crate::Play;
+
+#[test]
+fn playing_the_edits_gives_the_mesh_of_the_step_and_back() {
+    let mut scene = Scene::new();
+    scene
+        .insert(Object::mesh("a", geometry::shapes::icosahedron()))
+        .unwrap();
+    let start = scene.objects()[0].as_mesh().unwrap().clone();
+    for text in [
+        "FlipEdges(edges: Random(count: 9, seed: 4), on_refusal: Skip)",
+        "SplitEdges(edges: Between(0, 1), at: 0.25)",
+        "CollapseEdges(edges: Random(count: 6, seed: 1), on_refusal: Skip)",
+    ] {
+        let run = parse(text).value;
+        let name = run.name().unwrap().0;
+        let mut play = Play::of_step(&scene, "a", &run, name).unwrap();
+        assert_eq!((play.mesh(), play.position()), (&*start, 0), "{text}");
+        assert!(
+            play.edits()
+                .iter()
+                .all(|edit| edit.refused.is_some() || !edit.pointers.is_empty())
+        );
+        while play.forward() {
+            assert_eq!(play.mesh().defects(), []);
+        }
+        let registry = ops_all::registry();
+        let recipe = format!("(recipe: 1, steps: [Icosahedron(name: \"a\"), {text}])");
+        let engine = Engine::new(&registry);
+        let loaded = engine.load(&Source::new("a.ron", recipe), &Options::default());
+        let after = loaded
+            .run_from(1, scene.clone(), Run::default(), &Silent)
+            .scene
+            .unwrap();
+        let mut played = play.mesh().clone();
+        played.compact();
+        assert_eq!(played, **after.objects()[0].as_mesh().unwrap(), "{text}");
+        while play.back() {}
+        assert_eq!(play.mesh(), &*start);
+    }
+    let other = parse("PokeFaces()").value;
+    assert!(Play::of_step(&scene, "a", &other, "PokeFaces").is_none());
+}

@@ -2,11 +2,10 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::SystemTime;
 
 use store::Store;
 
-use crate::run::stamp;
+use crate::run::{Stamp, line, stamp};
 
 /// The maximum number of texts in the history.
 const MAX_HISTORY: usize = 10_000;
@@ -25,7 +24,7 @@ pub struct Document {
     /// The text of the file when it was last read or written.
     saved: Option<Arc<str>>,
     /// The stamp of the file when it was last looked at.
-    seen: Option<(u64, Option<SystemTime>)>,
+    seen: Stamp,
     conflict: Option<Conflict>,
     /// Whether the file was removed by another program.
     is_removed: bool,
@@ -112,6 +111,12 @@ impl Document {
     /// Returns the path of the file, or the path that a save suggests.
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// Returns the file with its stamp when it was last looked at, if the recipe has a file.
+    pub(crate) fn seen(&self) -> Option<(PathBuf, String)> {
+        self.has_file
+            .then(|| (self.path.clone(), line(&self.path, self.seen)))
     }
 
     /// Whether the recipe was read from its file or saved to it.

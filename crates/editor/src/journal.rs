@@ -67,8 +67,10 @@ impl Journal {
         if self.written == Some(document.version()) {
             return;
         }
-        let path = std::path::absolute(document.path());
-        let path = path.unwrap_or_else(|_| document.path().to_owned());
+        let absolute = std::path::absolute(document.path())
+            .ok()
+            .filter(|_| store.is_disk());
+        let path = absolute.unwrap_or_else(|| document.path().to_owned());
         let text = format!(
             "(path: {}, has_file: {}, process: {}, text: {})\n",
             string_literal(&path.to_string_lossy()),

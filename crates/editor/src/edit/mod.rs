@@ -568,20 +568,10 @@ impl Editor {
 
     /// Watches the file of the recipe, the recipes that it calls, and its inputs.
     fn watch(&self) {
-        let called = self
-            .run
-            .sources
-            .iter()
-            .skip(1)
-            .map(|source| source.path.clone());
-        let own = self
-            .document
-            .has_file()
-            .then(|| self.document.path().to_owned());
+        let own = self.document.seen();
         self.runner.watch(
             own.into_iter()
-                .chain(called)
-                .chain(self.run.inputs.iter().cloned())
+                .chain(self.run.watched.iter().cloned())
                 .collect(),
         );
     }

@@ -10,7 +10,7 @@ use scene::Scene;
 use store::Store;
 use web_time::Instant;
 
-use super::keys::{Key, Keys};
+use super::keys::{Key, Keys, line, stamp};
 use super::snapshot::{Snapshot, Snapshots};
 use super::state::{
     End, Event, ExpectationState, FailureState, RunState, Status, StepState, Verdict,
@@ -37,6 +37,15 @@ impl Job<'_> {
         snapshots.tick();
         let keys = Keys::of(&loaded, self.store, self.request.budget);
         let mut state = state_of(&loaded);
+        let called = loaded
+            .recipe
+            .sources
+            .iter()
+            .skip(1)
+            .map(|source| &source.path);
+        let watched = called.chain(&loaded.forecast.inputs);
+        let watched = watched.map(|path| (path.clone(), line(path, stamp(path, self.store))));
+        state.watched = watched.collect();
         let known = take_known(&mut state, &keys, snapshots);
         let number = self.request.number;
         self.shared.send(Event::Checked {

@@ -85,16 +85,23 @@ impl Keys {
 }
 
 /// Returns a text that changes when one of the files changes.
-pub(crate) fn stamps(paths: &[PathBuf], store: &dyn Store) -> String {
-    let stamp = |path: &PathBuf| format!("{} {:?}\n", path.display(), stamp(path, store));
-    paths.iter().map(stamp).collect()
+pub(super) fn stamps(paths: &[PathBuf], store: &dyn Store) -> String {
+    paths
+        .iter()
+        .map(|path| line(path, stamp(path, store)))
+        .collect()
 }
 
+/// Returns a text with the stamp of a file.
+pub(crate) fn line(path: &Path, stamp: Stamp) -> String {
+    format!("{} {stamp:?}\n", path.display())
+}
+
+/// A value that changes when a file changes; `None` for a file that does not exist.
+pub(crate) type Stamp = Option<(u64, Option<std::time::SystemTime>)>;
+
 /// Returns a value that changes when the file changes.
-pub(crate) fn stamp(
-    path: &Path,
-    store: &dyn Store,
-) -> Option<(u64, Option<std::time::SystemTime>)> {
+pub(crate) fn stamp(path: &Path, store: &dyn Store) -> Stamp {
     let entry = store.entry(path)?;
     Some((entry.len, entry.modified))
 }

@@ -22,7 +22,7 @@ use op::Registry;
 use store::Store;
 
 use job::Job;
-pub(crate) use keys::stamp;
+pub(crate) use keys::{Stamp, line, stamp};
 use snapshot::Snapshots;
 
 pub use snapshot::Snapshot;
@@ -70,8 +70,8 @@ struct Waiting {
     progress: Option<(u64, Progress)>,
     ends: bool,
     on_event: Option<Wake>,
-    /// The files whose changes are reported.
-    watched: Vec<PathBuf>,
+    /// The files whose changes are reported, and their stamps.
+    watched: Vec<(PathBuf, String)>,
 }
 
 /// How often the files are looked at.
@@ -159,12 +159,9 @@ impl Runner {
         (*of == number).then(|| progress.clone())
     }
 
-    /// Sets the files whose changes are reported.
-    pub(crate) fn watch(&self, files: Vec<PathBuf>) {
-        let mut state = self.shared.lock();
-        if state.watched != files {
-            state.watched = files;
-        }
+    /// Sets the files whose changes are reported. Each has the stamp that the editor has seen.
+    pub(crate) fn watch(&self, files: Vec<(PathBuf, String)>) {
+        self.shared.lock().watched = files;
     }
 
     pub(crate) fn on_event(&self, wake: Wake) {
@@ -191,9 +188,8 @@ impl Drop for Runner {
 fn serve(shared: &Shared, registry: &Registry, store: &Arc<dyn Store>) {
     let engine = Engine::new(registry).with_store(store.clone());
     let mut snapshots = Snapshots::default();
-    let mut watched: (Vec<PathBuf>, String) = Default::default();
     loop {
-        let Some((request, cancel)) = next_request(shared, &**store, &mut watched) else {
+        let Some((request, cancel)) = next_request(shared, &**store) else {
             return;
         };
         let number = request.number;
@@ -212,11 +208,7 @@ fn serve(shared: &Shared, registry: &Registry, store: &Arc<dyn Store>) {
 }
 
 /// Waits for a request, and watches files until it comes. `None` if the thread must end.
-fn next_request(
-    shared: &Shared,
-    store: &dyn Store,
-    watched: &mut (Vec<PathBuf>, String),
-) -> Option<(Request, Arc<AtomicBool>)> {
+fn next_request(shared: &Shared, store: &dyn Store) -> Option<(Request, Arc<AtomicBool>)> {
     let mut state = shared.lock();
     loop {
         if state.ends {
@@ -227,12 +219,22 @@ fn next_request(
             state.cancel = cancel.clone();
             return Some((request, cancel));
         }
-        let files = state.watched.clone();
+        let mut files = state.watched.clone();
         drop(state);
-        let now = keys::stamps(&files, store);
-        let is_changed = files == watched.0 && now != watched.1;
-        *watched = (files, now);
+        let mut is_changed = false;
+        for (path, seen) in &mut files {
+            let now = line(path, stamp(path, store));
+            is_changed |= *seen != now;
+            *seen = now;
+        }
         if is_changed {
+            // The same change is reported once.
+            let mut state = shared.lock();
+            let old = state.watched.iter().map(|(path, _)| path);
+            if old.eq(files.iter().map(|(path, _)| path)) {
+                state.watched = files;
+            }
+            drop(state);
             shared.send(Event::FilesChanged);
         }
         state = shared.lock();

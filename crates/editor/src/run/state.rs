@@ -27,6 +27,8 @@ pub struct RunState {
     pub parameters: Vec<Parameter>,
     /// The files that the recipe reads.
     pub inputs: Vec<PathBuf>,
+    /// The files besides the recipe whose changes matter, with their stamps when the recipe was read.
+    pub(crate) watched: Vec<(PathBuf, String)>,
     /// The files that the run wrote. Empty unless outputs were requested.
     pub written: Vec<PathBuf>,
     /// The digest of the final scene, once the run has ended.

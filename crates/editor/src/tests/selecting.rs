@@ -158,7 +158,7 @@ fn a_selection_of_another_kind_is_converted_and_names_its_object() {
     });
     assert_eq!(
         picture.unwrap(),
-        ["Picture(highlight: Faces(Faces([0])), path: \"a.png\")"]
+        ["(run: Picture(highlight: Faces(Faces([0])), path: \"a.png\"), on: [\"b\"])"]
     );
 }
 

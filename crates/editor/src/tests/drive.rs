@@ -86,7 +86,7 @@ fn a_session_gives_a_recipe_that_replays_to_the_same_digest() {
     editor.save().unwrap();
     assert!(!editor.document().is_dirty());
     assert_eq!(Some(replayed(store, "a.ron")), editor.run().digest);
-    let [v, w] = mesh.edge_vertices(diagonal).map(|v| v.index());
+    let [v, w] = mesh.edge_vertices(diagonal).map(mesh::VertexId::index);
     let (v, w) = (v.min(w), v.max(w));
     let lines: Vec<&str> = editor.text().lines().map(str::trim).collect();
     assert_eq!(lines[..2], ["// A cube.", "("]);

@@ -76,7 +76,7 @@ fn every_required_parameter_without_a_value_is_a_problem() {
     let registry = ops_all::registry();
     for entry in registry.entries() {
         let panel = Panel::new(entry);
-        let missing = panel.fields.iter().any(|field| field.is_missing());
+        let missing = panel.fields.iter().any(crate::PanelField::is_missing);
         assert_eq!(missing, !panel.problems().is_empty(), "{}", entry.name);
     }
 }

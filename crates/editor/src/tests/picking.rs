@@ -106,7 +106,7 @@ fn picks_become_selections_that_mean_exactly_them() {
             .collect()
     };
     let edge = mesh.edges().next().unwrap();
-    let [v, w] = mesh.edge_vertices(edge).map(|v| v.index());
+    let [v, w] = mesh.edge_vertices(edge).map(mesh::VertexId::index);
     let one = texts(&Picked::one("cube", Element::Edge(edge)));
     assert_eq!(one[0], format!("Between({}, {})", v.min(w), v.max(w)));
     let all = Picked::new("cube", op::Selected::Edges(mesh.edges().collect()));

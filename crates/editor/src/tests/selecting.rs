@@ -87,7 +87,7 @@ fn a_proposal_means_exactly_the_picked_elements_and_fails_closed() {
         "Faces([1, 8, 9])"
     );
     let inner = mesh.edges().find(|&e| !mesh.is_boundary_edge(e)).unwrap();
-    let [v, w] = mesh.edge_vertices(inner).map(|v| v.index());
+    let [v, w] = mesh.edge_vertices(inner).map(mesh::VertexId::index);
     let loops = text(&format!("EdgeLoop(Between({v}, {w}))"), ElementKind::Edges);
     assert!(loops.contains("EdgeLoop("), "{loops}");
     // Many elements without a meaning get a tag, which is written once.

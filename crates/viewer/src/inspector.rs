@@ -43,6 +43,7 @@ impl Draft {
             operation: self.panel.operation.clone(),
             parameters: values.collect(),
             selection,
+            ..Command::default()
         }
     }
 }

@@ -84,8 +84,8 @@ impl Mesh {
     ///
     /// # Panics
     ///
-    /// Panics if arrays that belong together differ in length, the number of half-edges is odd, or there are more
-    /// elements than ids can number.
+    /// Panics if arrays that belong together differ in length, the number of half-edges is odd, or the mesh has
+    /// more elements than there are ids.
     pub fn from_arrays(connectivity: Connectivity, positions: Vec<DVec3>) -> Self {
         let mesh = Self {
             connectivity,
@@ -125,8 +125,8 @@ impl Mesh {
         self.n_living(Domain::Face)
     }
 
-    /// Returns the number of values in a column of this domain: the number of all elements, including dead
-    /// ones.
+    /// Returns the number of elements of this domain, including dead ones. Each column of the domain has
+    /// one value for each of them.
     #[inline]
     pub fn domain_len(&self, domain: Domain) -> usize {
         match domain {
@@ -254,8 +254,8 @@ impl Mesh {
         &self.positions
     }
 
-    /// Returns the positions of all vertices mutably. If a [journal](Self::begin) is open, it first copies all
-    /// positions. To move a single vertex, use [`set_position`](Self::set_position).
+    /// Returns the positions of all vertices mutably. If a [journal](Self::begin) is open, all positions are
+    /// first copied to it. To move a single vertex, use [`set_position`](Self::set_position).
     pub fn positions_mut(&mut self) -> &mut [DVec3] {
         if let Some(journal) = &mut self.journal {
             journal.record(|| Entry::Positions(self.positions.clone().into()));
@@ -302,7 +302,7 @@ impl Mesh {
     }
 
     /// Returns the values of an attribute mutably, or `None` as [`get`](Self::get) does. If a
-    /// [journal](Self::begin) is open, it first copies all values.
+    /// [journal](Self::begin) is open, all values are first copied to it.
     pub fn get_mut<I: Id, T: Value>(&mut self, attribute: Attribute<I, T>) -> Option<&mut [T]> {
         let column = self.attributes.column_mut(I::DOMAIN, attribute.name)?;
         if let Some(journal) = &mut self.journal {
@@ -379,7 +379,7 @@ impl Mesh {
         );
     }
 
-    /// Returns the size of the arrays of the mesh in bytes.
+    /// Returns the total size of all arrays of the mesh, in bytes.
     pub fn bytes(&self) -> usize {
         let c = &self.connectivity;
         let attributes: usize = self.attributes.iter().map(|(_, c)| c.values.bytes()).sum();

@@ -7,8 +7,8 @@ use rayon::prelude::*;
 pub const BLOCK: usize = 4096;
 
 /// Returns the sum of `term(i)` for i from 0 to n - 1. Blocks of [`BLOCK`] terms are summed in
-/// parallel, each from its first to its last term; then the block sums are added in order. The
-/// result has the same bits for any number of threads.
+/// parallel, each from its first to its last term; then the block sums are added in order. The result is
+/// identical bit for bit for any number of threads.
 pub fn sum<T>(n: usize, term: impl Fn(usize) -> T + Sync) -> T
 where
     T: Default + Copy + Send + Sync + std::ops::Add<Output = T>,

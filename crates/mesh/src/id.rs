@@ -104,21 +104,21 @@ macro_rules! id {
 }
 
 id!(
-    /// A vertex. Shown as `v12`.
+    /// A vertex. Displayed as `v12`.
     VertexId, "v", Vertex, Vertex
 );
 id!(
-    /// A half-edge: an edge seen from one of its sides, with a direction. Shown as `h12`.
+    /// A half-edge: an edge seen from one of its sides, with a direction. Displayed as `h12`.
     ///
     /// The two halves of edge e are half-edges 2e and 2e + 1.
     HalfEdgeId, "h", Corner, HalfEdge
 );
 id!(
-    /// An edge: a pair of half-edges. Shown as `e12`.
+    /// An edge: a pair of half-edges. Displayed as `e12`.
     EdgeId, "e", Edge, Edge
 );
 id!(
-    /// A face: a polygon of any degree. Shown as `f12`.
+    /// A face: a polygon of any degree. Displayed as `f12`.
     FaceId, "f", Face, Face
 );
 
@@ -156,7 +156,7 @@ impl EdgeId {
 pub enum Domain {
     /// One value for each vertex.
     Vertex,
-    /// One value for each half-edge, which represents the corner of its face at its origin.
+    /// One value for each half-edge. The half-edge represents the corner at its origin, in its face.
     Corner,
     /// One value for each edge.
     Edge,

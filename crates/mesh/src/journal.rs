@@ -283,7 +283,7 @@ impl Mesh {
     /// # Panics
     ///
     /// Panics if a journal is open. If the change belongs to a different mesh or to a different state of it, the
-    /// result is unspecified: an invalid mesh, or a panic if the change names an element that does not exist.
+    /// result is unspecified: an invalid mesh, or a panic if the change refers to an element that does not exist.
     ///
     /// # Examples
     ///
@@ -337,8 +337,8 @@ impl Mesh {
     }
 
     /// Replaces the entries by one copy of the mesh as it was at `begin`, if they have become larger than the
-    /// mesh. Called between edits. Does nothing while inner levels are open, because an inner level lasts for
-    /// one edit only.
+    /// mesh. This function is called between edits. Does nothing while inner levels are open, because an
+    /// inner level lasts for one edit only.
     pub(crate) fn bound_journal(&mut self) {
         let Some(journal) = &self.journal else { return };
         let [level] = journal.levels[..] else { return };

@@ -37,7 +37,7 @@ impl Mesh {
         self.area_vector(f).length()
     }
 
-    /// Returns the unit normal of a face; zero if the face has no area.
+    /// Returns the unit normal of a face; zero if the area of the face is zero.
     pub fn face_normal(&self, f: FaceId) -> DVec3 {
         self.area_vector(f).normalize_or_zero()
     }
@@ -68,7 +68,7 @@ impl Mesh {
     }
 
     /// Returns the angle between the normals of the two faces at an edge, in radians from 0 (flat) to π;
-    /// `None` on the boundary, or if a face has no area.
+    /// `None` on the boundary, or if the area of a face is zero.
     pub fn dihedral_angle(&self, e: crate::EdgeId) -> Option<f64> {
         let [f, g] = self.edge_faces(e);
         let (n, m) = (self.face_normal(f?), self.face_normal(g?));

@@ -15,8 +15,8 @@ pub enum Defect {
     /// The mesh has more elements than there are ids.
     #[error("the mesh has more elements than there are ids")]
     TooMany,
-    /// An entry of an array names an element that does not exist or is dead.
-    #[error("`{array}` of {element} names a missing element")]
+    /// An entry of an array refers to an element that does not exist or is dead.
+    #[error("`{array}` of {element} refers to a missing element")]
     Dangling {
         /// The array.
         array: &'static str,
@@ -97,7 +97,7 @@ impl Mesh {
     /// Returns every broken invariant with its element; an empty list for a valid mesh. Never panics,
     /// whatever the arrays contain. Takes linear time.
     ///
-    /// If array lengths are wrong or entries name missing elements, the invariants that depend on them
+    /// If array lengths are wrong or entries refer to missing elements, the invariants that depend on them
     /// are not checked.
     pub fn defects(&self) -> Vec<Defect> {
         let mut defects = Vec::new();
@@ -231,7 +231,7 @@ impl Mesh {
         }
     }
 
-    /// Checks invariants 3 to 7, provided that every entry names an existing element.
+    /// Checks invariants 3 to 7, provided that every entry refers to an existing element.
     fn check_loops(&self, report: ReportDefect) {
         let mut n_reached = vec![0_u8; self.domain_len(Domain::Corner)];
         let mut corners = vec![0_usize; self.domain_len(Domain::Face)];
@@ -342,7 +342,7 @@ impl Mesh {
     }
 }
 
-/// Reports the entry of `element` in `array` if the element that the entry names does not exist.
+/// Reports the entry of `element` in `array` if the element that the entry refers to does not exist.
 #[inline]
 fn check_entry(
     array: &'static str,

@@ -139,7 +139,7 @@ impl Mesh {
         }
     }
 
-    /// Merges the values of edge `from` into edge `to`, when the two become one edge. The larger number is
+    /// Merges the values of edge `from` into edge `to`, when the two become one edge. The larger value is
     /// kept, and a tag is set if either edge had it. Columns of other types stay as they are.
     pub(crate) fn merge_values(&mut self, from: EdgeId, to: EdgeId) {
         let (source, target) = (from.index(), to.index());
@@ -151,8 +151,8 @@ impl Mesh {
     }
 
     /// Updates the values of corner `to` when an edge at its vertex collapses to the point at `t`. `sides` has,
-    /// for the face on each side of the edge, the corners of the face at both ends of the edge. Corner `to` is
-    /// at the end with number `end` (0 or 1). If `to` has the same value as the corner of one side at this end,
+    /// for the face on each side of the edge, the corners of the face at both ends of the edge. Corner `to` is at
+    /// end `end` of the edge (0 or 1). If `to` has the same value as the corner of one side at this end,
     /// `to` gets the interpolated value of that side. `to` must not be one of the corners in `sides`.
     pub(crate) fn follow_values(
         &mut self,

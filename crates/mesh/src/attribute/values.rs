@@ -178,8 +178,8 @@ impl Values {
         each!(self, v => bytes.extend(bytemuck::bytes_of(&v[i])));
     }
 
-    /// Removes the last value from `bytes`, to which [`push_bytes`](Self::push_bytes) appended it, and stores
-    /// the value at `i`.
+    /// Removes a value that [`push_bytes`](Self::push_bytes) appended from the end of `bytes`, and stores it
+    /// at `i`.
     pub(crate) fn pop_bytes(&mut self, i: usize, bytes: &mut Vec<u8>) {
         each!(self, v => v[i] = pop_value(bytes));
     }

@@ -10,17 +10,17 @@ const MAX_TASKS: usize = 8;
 
 /// The corners at each vertex, in order.
 pub(super) struct Buckets {
-    /// For each vertex the start of its bucket, followed by the end of the last bucket.
+    /// The start of the bucket of each vertex, followed by the end of the last bucket.
     first: Vec<u32>,
     corners: Vec<u32>,
 }
 
 impl Buckets {
-    /// Sorts corners into buckets. `vertices` has the vertex of each corner, which must be below
+    /// Sorts corners into buckets. `vertices` has the vertex of each corner. All vertices must be below
     /// `n_vertices`.
     ///
     /// Each task owns a range of vertices, and selects the corners of these vertices from all corners. So no
-    /// two tasks write to the same place, and the order of the corners does not depend on the number of tasks.
+    /// two tasks write to the same entry, and the order of the corners does not depend on the number of tasks.
     pub(super) fn new(n_vertices: usize, vertices: &[u32]) -> Self {
         let n_tasks = rayon::current_num_threads().min(MAX_TASKS);
         let width = n_vertices.div_ceil(n_tasks).max(1);

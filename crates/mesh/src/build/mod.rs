@@ -2,8 +2,8 @@
 //!
 //! A corner c of a polygon represents the directed side from its vertex a to the next vertex b. The twin of c
 //! is the corner of a side from b to a. The corners are bucketed by vertex. Around each vertex, outgoing sides
-//! are then paired with incoming sides, which also shows whether the faces form one fan. Edges are numbered in
-//! the order in which the polygons first use them. The first half of an edge lies on the polygon that first
+//! are then paired with incoming sides. The pairs also show whether the faces form one fan. Edges are numbered
+//! in the order in which the polygons first use them. The first half of an edge lies on the polygon that first
 //! used it.
 //!
 //! ```text
@@ -17,14 +17,14 @@
 //! - Two polygons that share an edge have a consistent orientation if their sides run along the edge
 //!   in opposite directions. The polygons that are connected through edges with exactly two sides form a part, and
 //!   each part is treated separately. If reversing some of its polygons makes all neighbors consistent, the minority
-//!   is reversed. In a tie, the polygons that agree with the lowest-numbered one stay. If no choice of polygons makes
-//!   all neighbors consistent, none is reversed. The first corner of a reversed polygon stays the first.
+//!   is reversed. In a tie, the polygons that agree with the first one are not reversed. If no choice of polygons
+//!   makes all neighbors consistent, none is reversed. The first corner of a reversed polygon stays the first.
 //! - Two vertices a and b can have more than two sides between them, or two sides that run in the same
 //!   direction even after these reversals. In this case, the k-th side from a to b is paired with the k-th side
 //!   from b to a, in order of corners. Unpaired sides become boundary edges.
 //! - If the faces around a vertex form several fans, the fan of the first corner keeps the vertex. Each
 //!   other fan gets a copy of the vertex, appended after all other vertices.
-//! - A polygon that has fewer than three corners, or that visits a vertex twice, is dropped.
+//! - A polygon that has fewer than three corners, or that contains a vertex twice, is dropped.
 
 mod assemble;
 mod buckets;
@@ -51,12 +51,12 @@ pub use report::{BuildReport, Elements, Repair};
 /// Why a mesh could not be built from polygons.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BuildError {
-    /// A polygon names a vertex that does not exist.
+    /// A polygon refers to a vertex that does not exist.
     #[error("face {face} refers to vertex {vertex}, but there are {n_vertices} vertices")]
     NoSuchVertex {
         /// The index of the polygon.
         face: usize,
-        /// The vertex that the polygon names.
+        /// The vertex that the polygon refers to.
         vertex: u32,
         /// The number of positions in the input.
         n_vertices: usize,
@@ -65,14 +65,14 @@ pub enum BuildError {
     #[error("the position of vertex {0} is not finite")]
     NotFinite(usize),
     /// The mesh would have more elements than there are ids.
-    #[error("{0} {1} exceed the size of a mesh: ids end at 2^32 - 2")]
+    #[error("{0} {1} are too many for a mesh: the highest id is 2^32 - 2")]
     TooLarge(usize, &'static str),
     /// The offsets do not divide the corners into polygons.
     #[error("the offsets of the faces must increase from 0 to the number of corners, {0}")]
     BadOffsets(usize),
-    /// This polygon has fewer than three corners, or visits a vertex twice, and non-manifold input is refused.
+    /// This polygon has fewer than three corners, or contains a vertex twice, and non-manifold input is refused.
     #[error(
-        "the faces are not a manifold: face {0} has fewer than three corners, or visits a vertex twice"
+        "the faces are not a manifold: face {0} has fewer than three corners, or contains a vertex twice"
     )]
     Degenerate(usize),
     /// More than two polygons have a side between these vertices, or the sides of two polygons run in
@@ -91,7 +91,7 @@ pub enum BuildError {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum NonManifold {
     /// Reverse polygons where that makes the orientation consistent, then split edges and vertices until
-    /// the mesh is a manifold, and report both.
+    /// the mesh is a manifold, and report all of these repairs.
     #[default]
     Split,
     /// Like [`Split`](Self::Split), but every polygon keeps its orientation: if two neighbors run along

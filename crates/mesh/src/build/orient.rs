@@ -9,7 +9,7 @@
 //! ```
 //!
 //! Neighbors are polygons that share an edge with exactly two sides. In each part that is connected through
-//! these edges, the minority is reversed; in a tie, the polygons that agree with the first polygon stay.
+//! these edges, the minority is reversed; in a tie, the polygons that agree with the first polygon are not reversed.
 
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 

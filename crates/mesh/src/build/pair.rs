@@ -11,7 +11,7 @@ use super::star::Star;
 use crate::blocks::BLOCK;
 use crate::{HalfEdgeId, VertexId};
 
-/// The pairs of sides, and the places where the polygons are not a manifold.
+/// The pairs of sides, and the vertices and edges at which the polygons are not a manifold.
 pub(super) struct PairedSides {
     /// For each side, the other side of its edge, or `NONE` on the boundary.
     pub(super) twin: Vec<u32>,
@@ -28,8 +28,8 @@ pub(super) struct PairedSides {
 }
 
 /// An outgoing half-edge of a vertex: the side that starts at a corner, the boundary half-edge that is the twin
-/// of such a side, or none. The number is twice the corner for a side, and twice the corner plus one for a
-/// boundary half-edge.
+/// of such a side, or none. The stored value is twice the corner for a side, and twice the corner plus one for
+/// a boundary half-edge.
 #[derive(Clone, Copy, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(transparent)]
 pub(super) struct Outgoing(u32);

@@ -88,8 +88,8 @@ fn faces_of_corners(offsets: &[u32]) -> Vec<u32> {
         .zip(offsets.par_chunks(BLOCK))
         .enumerate()
         .for_each(|(block, (faces, firsts))| {
-            // The polygons go from last to first. Each polygon splits its corners off the end of the unfilled
-            // part.
+            // The loop visits the polygons from last to first. Each polygon splits its corners off the end of
+            // the unfilled part.
             let mut unfilled = faces;
             for (i, first) in firsts.iter().enumerate().rev() {
                 let Some(of_polygon) = unfilled.split_off_mut((first - firsts[0]) as usize..)
@@ -215,7 +215,7 @@ fn first_of<T: Sync>(values: &[T], is_bad: impl Fn(&T) -> bool + Sync) -> Option
     Some(block + values[block..].iter().position(is_bad)?)
 }
 
-/// Whether a polygon has fewer than three corners, or visits a vertex twice.
+/// Whether a polygon has fewer than three corners, or contains a vertex twice.
 fn is_degenerate(polygon: &[u32]) -> bool {
     match polygon {
         [a, b, c] => a == b || b == c || c == a,

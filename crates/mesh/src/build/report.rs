@@ -74,8 +74,8 @@ impl BuildReport {
     pub fn dropped(&self) -> Option<Repair> {
         Repair::new(
             "faces-dropped",
-            "face dropped because it has fewer than 3 corners or visits a vertex twice",
-            "faces dropped because they have fewer than 3 corners or visit a vertex twice",
+            "face dropped because it has fewer than 3 corners or contains a vertex twice",
+            "faces dropped because they have fewer than 3 corners or contain a vertex twice",
             Elements::Faces(self.dropped_faces.clone()),
         )
     }
@@ -204,7 +204,7 @@ mod tests {
              1 part has no consistent orientation (face 4), \
              1 non-manifold edge split (v0-v1), \
              1 copy made of a non-manifold vertex (v2), \
-             1 face dropped because it has fewer than 3 corners or visits a vertex twice (face 5)"
+             1 face dropped because it has fewer than 3 corners or contains a vertex twice (face 5)"
         );
         report.split_edges.push([v(7), v(8)]);
         report.split_vertices.push((v(7), v(10)));
@@ -217,7 +217,7 @@ mod tests {
              2 parts have no consistent orientation (faces 4, 7), \
              2 non-manifold edges split (v0-v1, v7-v8), \
              2 copies made of non-manifold vertices (v2, v7), \
-             2 faces dropped because they have fewer than 3 corners or visit a vertex twice (faces 5, 7)"
+             2 faces dropped because they have fewer than 3 corners or contain a vertex twice (faces 5, 7)"
         );
     }
 

@@ -13,14 +13,15 @@ use super::polygons::{NONE, Polygons, to_id};
 /// The maximum number of corners that are matched by comparing all pairs; more corners are sorted.
 const MAX_COMPARED: usize = 32;
 
-/// The corners at one vertex. Corners are numbered from 0 here, in the order of the input.
+/// The corners at one vertex. In this struct, a corner is identified by its index in the input
+/// order, counted from 0.
 #[derive(Default)]
 pub(super) struct Star {
     /// For each corner, the corner before it in its polygon.
     pub(super) before: Vec<u32>,
     from: Vec<u32>,
     to: Vec<u32>,
-    /// For each corner, the number of the corner that follows clockwise, or `NONE` on the boundary.
+    /// For each corner, the index of the corner that follows clockwise, or `NONE` on the boundary.
     pub(super) after: Vec<u32>,
     /// A corner that has no predecessor, at the start of a fan; 0 if all fans are closed.
     start: usize,
@@ -119,8 +120,8 @@ impl Star {
         self.start = start.unwrap_or(0);
     }
 
-    /// Returns the outgoing half-edge of the fan of the first corner that has no predecessor, or of the lowest
-    /// corner if all fans are closed. `corners` are those passed to [`set`](Self::set).
+    /// Chooses the first corner without a predecessor, or the first corner if all fans are closed. Returns the
+    /// outgoing half-edge of its fan. `corners` are those passed to [`set`](Self::set).
     pub(super) fn outgoing(&self, corners: &[u32]) -> Outgoing {
         if self.is_closed {
             Outgoing::along_side(corners[self.start])
@@ -183,9 +184,9 @@ impl Star {
         fans
     }
 
-    /// Returns the neighbors that share a non-manifold edge with the vertex: several sides run in the same
-    /// direction. Each entry is `(neighbor, number of sides to the neighbor, number of sides from the
-    /// neighbor)`.
+    /// Returns the neighbors that share a non-manifold edge with the vertex: along such an edge, several
+    /// sides run in the same direction. Each entry is `(neighbor, number of sides to the neighbor, number
+    /// of sides from the neighbor)`.
     pub(super) fn non_manifold_edges(&self) -> Vec<(u32, usize, usize)> {
         let sides = self
             .to

@@ -26,9 +26,9 @@ impl Mesh {
     /// within their face, on each side of a seam separately. Each corner of another face at an end of `e` is
     /// compared with the corners of the faces beside `e` at the same end, for each attribute. If two compared
     /// corners have the same value, the corner of the other face gets the new value of the corner beside `e`. A
-    /// corner without such a match keeps its value. When two edges become one, the larger number is kept, so
-    /// that creases stay, and a tag is set if either edge had it. For attributes of other types, the remaining
-    /// edge keeps its value.
+    /// corner without such a match keeps its value. When two edges become one, the larger value is kept, so
+    /// that creases are preserved, and a tag is set if either edge had it. For attributes of other types, the
+    /// remaining edge keeps its value.
     ///
     /// A collapse is refused if it would change the topology of the surface or make two elements coincide. The
     /// test is the link condition of Dey, Edelsbrunner, Guha and Nekhayev ("Topology preserving edge
@@ -42,11 +42,11 @@ impl Mesh {
     ///
     /// - [`EditError::JoinsBoundaries`] if both ends are on the boundary, but `e` is not.
     /// - [`EditError::Link`] if the ends have a common neighbor that is not a corner of a triangle beside `e`,
-    ///   because this neighbor would be joined to v twice. The same error if `e` is a side of a hole with three
-    ///   edges.
+    ///   because this neighbor would be joined to v twice. This error is also returned if `e` is a side of a
+    ///   hole with three edges.
     /// - [`EditError::DuplicateEdge`] if a second edge joins the ends.
     /// - [`EditError::VisitsTwice`] if a face that is not beside `e` has both ends as corners, because this
-    ///   face would visit v twice.
+    ///   face would contain v twice.
     /// - [`EditError::Vanishes`] for the edges of a single triangle, if no faces would be left, or if the
     ///   only faces left at the merged vertex would be two faces back to back, as for a tetrahedron.
     /// - [`EditError::SameFace`] if one face is on both sides of `e`, or if two edges would become one and

@@ -61,7 +61,7 @@ pub fn polygon_parts(n: usize, diagonals: &[[u32; 2]]) -> Option<Vec<Vec<usize>>
 }
 
 impl Mesh {
-    /// Cuts a face along diagonals, given as pairs of corner numbers. The parts are those of [`polygon_parts`].
+    /// Cuts a face along diagonals, given as pairs of corner indices. The parts are those of [`polygon_parts`].
     ///
     /// The diagonals become edges, in order, each from its first corner to its second. The first part keeps
     /// the id and the first corner of the face; the other parts become new faces, in order, with the values
@@ -72,13 +72,13 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::Pinch`] if a diagonal starts and ends at the same vertex, which the face visits twice;
+    /// [`EditError::Pinch`] if a diagonal starts and ends at the same vertex, which the face contains twice;
     /// [`EditError::NoCut`] with the ends of the first diagonal if diagonals cross, repeat or follow a side,
     /// [`EditError::NoSuchFace`], [`EditError::Full`]. The mesh is unchanged.
     ///
     /// # Panics
     ///
-    /// Panics if the face does not have a corner that a diagonal names.
+    /// Panics if a diagonal refers to a corner that the face does not have.
     pub fn cut_face(
         &mut self,
         f: FaceId,

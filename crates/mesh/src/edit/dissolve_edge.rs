@@ -119,7 +119,7 @@ mod tests {
     use crate::{COLOR, MATERIAL, UV, shapes};
     use glam::DVec2;
 
-    /// Returns the reason for which the edit is refused, after checking that the mesh is unchanged.
+    /// Checks that the edit is refused and that the mesh is unchanged. Returns the reason.
     fn refused(mesh: &Mesh, e: EdgeId) -> EditError {
         checked_edit_mesh(mesh, |mesh| mesh.dissolve_edge(e).map(drop)).unwrap_err()
     }

@@ -33,10 +33,10 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// - [`EditError::FewEdges`] with `v` if `v` is isolated or has a single edge. The same error with a
-    ///   neighbor of `v` if the neighbor would be left with a single edge inside the merged face (remove
-    ///   the neighbor first).
-    /// - [`EditError::RepeatedVertex`] if a face visits `v` twice, or two of the merged faces have another vertex in
+    /// - [`EditError::FewEdges`] with `v` if `v` is isolated or has a single edge. This error is also returned, with
+    ///   a neighbor of `v`, if that neighbor would be left with a single edge inside the merged face (remove the
+    ///   neighbor first).
+    /// - [`EditError::RepeatedVertex`] if a face contains `v` twice, or two of the merged faces have another vertex in
     ///   common.
     /// - [`EditError::DuplicateEdge`] if two edges would become one edge, but its ends already share an edge.
     /// - [`EditError::FewCorners`] if a face would be left with fewer than three corners.
@@ -146,7 +146,8 @@ impl Mesh {
         Ok(merged)
     }
 
-    /// Returns the half-edges of the faces of these spokes, except those that start or end at their origin.
+    /// Returns the half-edges of the faces of these spokes, except those that start or end at the common
+    /// origin of the spokes.
     fn rim_around(&self, spokes: impl Iterator<Item = HalfEdgeId>) -> Vec<HalfEdgeId> {
         let mut rim = Vec::new();
         for spoke in spokes.filter(|&h| self.face(h).is_some()) {
@@ -178,8 +179,8 @@ impl Mesh {
         largest
     }
 
-    /// Returns a vertex that the face merged around a vertex would visit twice. `rim` are the half-edges around the other
-    /// faces than that of the spoke `large`, which is not walked around.
+    /// Returns a vertex that the face merged around a vertex would contain twice. `rim` has the half-edges around all
+    /// faces except the face of the spoke `large`, which is not walked around.
     fn repeated_after_merge(
         &self,
         spokes: &[HalfEdgeId],

@@ -29,10 +29,10 @@ impl Mesh {
     /// the first half-edge of each face. Each h adds the vertex v', the edges v'-w' and v-v' in this order, and
     /// the side face, whose half-edge is h.
     ///
-    /// If faces meet only at a vertex, each of their fans gets a separate copy of the vertex. A sheet of which
-    /// all faces are extruded becomes a box that is open where the sheet was. A closed component of which all
-    /// faces are extruded has no rim: it only moves. If two edges of the rim join the same two vertices, their
-    /// copies also join the same two vertices.
+    /// If faces meet only at a vertex, each of their fans gets a separate copy of the vertex. If all faces of a
+    /// sheet are extruded, the sheet becomes a box that is open where the sheet was. If all faces of a closed
+    /// component are extruded, there is no rim, and the component only moves. If two edges of the rim join the
+    /// same two vertices, their copies also join the same two vertices.
     ///
     /// **Attributes.** New vertices and the new edges of the rim have the values of the old ones; the edges
     /// v-v' have zero values. A side face has the values of the face f at its rim edge. The corners of the side

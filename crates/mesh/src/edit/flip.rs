@@ -200,7 +200,7 @@ mod tests {
         }
     }
 
-    /// Returns the reason for which the edit is refused, after checking that the mesh is unchanged.
+    /// Checks that the edit is refused and that the mesh is unchanged. Returns the reason.
     fn refused(mesh: &Mesh, e: EdgeId) -> EditError {
         let mut edited = mesh.clone();
         let reason = edited.flip_edge(e).unwrap_err();

@@ -52,8 +52,8 @@ impl Mesh {
     }
 
     /// Insets a face like [`inset_face`](Self::inset_face), and raises the inner face by `height` along the
-    /// normal of `f`, in scene units. A negative height lowers the inner face. A face without area has no
-    /// normal and stays flat.
+    /// normal of `f`, in scene units. A negative height lowers the inner face. A zero-area face has no normal, so its
+    /// inner face is not raised.
     ///
     /// # Errors
     ///

@@ -73,14 +73,14 @@ pub enum EditError {
     /// The face would be left with fewer than three corners.
     #[error("{0} would have fewer than three corners")]
     FewCorners(FaceId),
-    /// A face would have this vertex as a corner twice, or already has.
-    #[error("one face would have {0} as a corner twice")]
+    /// A face contains this vertex twice, or would contain it twice.
+    #[error("a face would contain {0} twice")]
     RepeatedVertex(VertexId),
     /// No face has both vertices as corners that a new edge could join.
     #[error("no face can be cut from {0} to {1}")]
     NoCut(VertexId, VertexId),
-    /// Several faces have both vertices as corners, or one face has a vertex as a corner several times.
-    #[error("a cut from {0} to {1} is ambiguous: it is possible in several places")]
+    /// Several faces have both vertices as corners, or one face contains a vertex several times.
+    #[error("several cuts from {0} to {1} are possible")]
     SeveralCuts(VertexId, VertexId),
     /// The edit would remove the last faces of a component, or fold two faces onto each other.
     #[error("no valid faces would be left around {0}")]
@@ -130,18 +130,18 @@ pub enum EditError {
     #[error("{0} would start and end at the same vertex")]
     SelfLoop(EdgeId),
     /// Two corners of the face would become one vertex, or are already at one vertex.
-    #[error("{0} would visit {1} twice")]
+    #[error("{0} would contain {1} twice")]
     VisitsTwice(FaceId, VertexId),
     /// The list of elements to edit is empty.
     #[error("the list of elements to edit is empty")]
     NoElements,
     /// The mesh has as many elements as there are ids.
-    #[error("the mesh has too many elements: ids end at 2^32 - 2")]
+    #[error("the mesh has too many elements: the highest id is 2^32 - 2")]
     Full,
 }
 
 impl EditError {
-    /// Returns the elements that the message names, in the same order.
+    /// Returns the elements that the message mentions, in the same order.
     pub fn elements(self) -> Vec<Element> {
         match self {
             Self::NoSuchVertex(v)

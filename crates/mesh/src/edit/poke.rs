@@ -6,7 +6,7 @@ use super::{check_finite, first_repeated};
 use crate::{EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 
 impl Mesh {
-    /// Adds a vertex at the mean of the corners of `f` and joins it to all of them.
+    /// Adds a vertex at the mean of the corners of `f` and joins it to all corners.
     ///
     /// ```text
     ///    d-----c          d-----c
@@ -29,9 +29,9 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::VisitsTwice`] if the face visits a vertex twice, which would be joined to m twice,
-    /// [`EditError::NoSuchFace`], [`EditError::BadNumber`] if the mean of the corners is not finite,
-    /// [`EditError::Full`]. The mesh is unchanged.
+    /// [`EditError::VisitsTwice`] if the face contains a vertex twice, because this vertex would be
+    /// joined to m twice, [`EditError::NoSuchFace`], [`EditError::BadNumber`] if the mean of the
+    /// corners is not finite, [`EditError::Full`]. The mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -74,7 +74,7 @@ impl Mesh {
         self.average_values(&sides, spokes[0]);
 
         for (i, (&side, &spoke)) in sides.iter().zip(&spokes).enumerate() {
-            // The triangle of this corner, the following corner, and m.
+            // The triangle with these three corners: this one, the next one, and m.
             let following = (i + 1) % sides.len();
             let to_m = spokes[following].twin();
             self.copy_values(sides[following], to_m);

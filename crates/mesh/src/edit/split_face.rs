@@ -69,7 +69,7 @@ impl Mesh {
     ///
     /// [`EditError::DuplicateEdge`] if the vertices share an edge, [`EditError::NoCut`] if no face has both
     /// as corners, or if they are the same, [`EditError::SeveralCuts`] if several faces have both as corners,
-    /// or one face visits a vertex twice, [`EditError::NoSuchVertex`], [`EditError::Full`]. The mesh is
+    /// or one face contains a vertex twice, [`EditError::NoSuchVertex`], [`EditError::Full`]. The mesh is
     /// unchanged.
     ///
     /// [`split_face`]: Self::split_face

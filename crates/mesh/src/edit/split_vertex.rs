@@ -24,7 +24,7 @@ impl Mesh {
     ///
     /// [`split_face`](Self::split_face) is the corresponding edit for faces. The inverse is to collapse the new
     /// edge with [`collapse_edge_to`](Self::collapse_edge_to), to the old position. That collapse is always
-    /// allowed, unless two edges joined v to the same vertex or a face visits v twice. To undo a collapse that
+    /// allowed, unless two edges joined v to the same vertex or a face contains v twice. To undo a collapse that
     /// removed triangles, call `split_vertex`, then `split_face`.
     ///
     /// The new vertex is at `position` and has the attributes of v. On each side, both corners at the new edge

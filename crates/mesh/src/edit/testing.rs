@@ -26,7 +26,7 @@ pub(super) fn sample_shapes() -> Vec<Mesh> {
 }
 
 /// Adds UVs and colors that are linear in x and y. The UVs have a seam: on face 0 they are x and y, on the
-/// other faces x + 10 and y + 10. Materials are 5, 6, 6, ... The face column "dropped" has the rule drop.
+/// other faces x + 10 and y + 10. Materials are 5, 6, 6, ... The face column "dropped" has the rule `Drop`.
 pub(super) fn with_attributes(mut mesh: Mesh) -> Mesh {
     let position = |h| mesh.position(mesh.origin(h)).truncate();
     let uv = |h| match mesh.face(h) {
@@ -54,7 +54,7 @@ pub(super) fn with_attributes(mut mesh: Mesh) -> Mesh {
 }
 
 /// Returns a mesh of one face with a hole. Edge e3 joins vertex 0 on the outer boundary to vertex 3 of the
-/// hole. The face is on both sides of e3, and visits both vertices twice.
+/// hole. The face is on both sides of e3, and contains both vertices twice.
 ///
 /// ```text
 ///    2---------1
@@ -72,7 +72,7 @@ pub(super) fn ring() -> Mesh {
     )
 }
 
-/// Returns a square with edge e4 from corner 0 to vertex 4 in the middle, which has no other edge.
+/// Returns a square in which edge e4 joins corner 0 to vertex 4 in the middle. Vertex 4 has no other edge.
 pub(super) fn spur() -> Mesh {
     of_one_face(
         &[[0, 1], [1, 2], [2, 3], [3, 0], [0, 4]],

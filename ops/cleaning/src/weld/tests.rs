@@ -246,7 +246,7 @@ fn small_faces_lose_corners_or_are_removed() {
         [
             "merged 2 vertices",
             "faces that lost corners: 1",
-            "1 face dropped because it has fewer than 3 corners or visits a vertex twice (face 1)"
+            "1 face dropped because it has fewer than 3 corners or contains a vertex twice (face 1)"
         ]
     );
 }

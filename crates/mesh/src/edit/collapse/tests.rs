@@ -46,7 +46,7 @@ fn lowest_first(mut face: Vec<usize>) -> Vec<usize> {
     face
 }
 
-/// Returns the reason for which the edit is refused, after checking that the mesh is unchanged.
+/// Checks that the edit is refused and that the mesh is unchanged. Returns the reason.
 fn refused(mesh: &Mesh, e: EdgeId) -> EditError {
     let mut edited = mesh.clone();
     let reason = edited.collapse_edge(e).unwrap_err();

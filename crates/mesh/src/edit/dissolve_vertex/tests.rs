@@ -9,7 +9,7 @@ fn vertex(v: usize) -> VertexId {
     VertexId::new(v)
 }
 
-/// Returns the reason for which the edit is refused, after checking that the mesh is unchanged.
+/// Checks that the edit is refused and that the mesh is unchanged. Returns the reason.
 fn refused(mesh: &Mesh, v: usize) -> EditError {
     checked_edit_mesh(mesh, |mesh| mesh.dissolve_vertex(vertex(v)).map(drop)).unwrap_err()
 }
@@ -76,8 +76,8 @@ fn it_is_the_inverse_of_split_edge_if_no_triangle_is_cut() {
     }
 }
 
-/// Checks that the meshes are equal after compacting, except for columns with the rule drop and for the choice
-/// of the half-edge of a face or vertex.
+/// Checks that the meshes are equal after compacting, except for columns whose rule is `Drop` and for the
+/// choice of the half-edge of a face or vertex.
 fn assert_same_after_compact(mut mesh: Mesh, shape: &Mesh) {
     mesh.compact();
     assert_eq!(polygons(&mesh), polygons(shape));

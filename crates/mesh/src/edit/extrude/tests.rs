@@ -14,7 +14,7 @@ fn counts(mesh: &Mesh) -> [usize; 3] {
     [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()]
 }
 
-/// Extrudes faces upwards by 1 and checks everything that must be true for any faces.
+/// Extrudes faces upwards by 1 and checks the properties that hold for any faces.
 fn extruded(mesh: &Mesh, numbers: &[usize]) -> (Mesh, Vec<FaceId>) {
     let mut result = mesh.clone();
     let sides = result.extrude_faces(&faces(numbers), DVec3::Z).unwrap();

@@ -4,14 +4,14 @@ use std::f64::consts::PI;
 
 use mesh::{FaceId, Mesh};
 
-/// Returns the smallest corner angle of a face, in radians: π / 3 in an equilateral triangle, 0 in a needle.
+/// Returns the smallest corner angle of a face, in radians: π / 3 for an equilateral triangle, nearly 0 for a needle.
 pub fn min_angle(mesh: &Mesh, f: FaceId) -> f64 {
     let angles = mesh.face_half_edges(f).map(|h| mesh.corner_angle(h));
     angles.fold(f64::INFINITY, f64::min)
 }
 
-/// Returns the aspect ratio of a face: 1 for regular polygons, and more for all other faces. Infinite if the face has no
-/// area.
+/// Returns the aspect ratio of a face: 1 for regular polygons, and more for all other faces. The ratio is infinite if
+/// the area of the face is zero.
 ///
 /// The ratio is l p / (4 a tan(π / n)) for a face with n corners, the longest edge l, the perimeter p and the area a. For
 /// triangles and quads, it is the aspect ratio of Stimpson, Ernst, Knupp, Pébay, Thompson, "The Verdict Geometric Quality

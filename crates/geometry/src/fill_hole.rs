@@ -38,7 +38,7 @@ const SHAPE_WEIGHT: f64 = 1e-6;
 /// term is added to the area of each triangle. The shape term is at most 1e-6 times the mean squared edge
 /// length of the hole.
 ///
-/// In larger holes, the corner whose neighbors are nearest to each other is cut off repeatedly, in a time
+/// In larger holes, the corner whose neighbors are nearest to each other is cut off repeatedly. This takes time
 /// proportional to n log n. Corners that are straight or reflex, as seen along the mean normal, are cut off
 /// last. In a hole that is far from convex, the triangles can overlap.
 ///
@@ -77,7 +77,7 @@ struct Hole<'m> {
     mesh: &'m Mesh,
     vertices: Vec<VertexId>,
     points: Vec<DVec3>,
-    /// The cost that the worst possible shape adds to the area of a triangle.
+    /// The cost that the worst possible triangle shape adds to the area of a triangle.
     shape: f64,
 }
 
@@ -213,7 +213,7 @@ impl<'m> Hole<'m> {
         sides.map(|s| (s[0] - first).cross(s[1] - first)).sum()
     }
 
-    /// Returns the error that names the first existing edge between two vertices that are not neighbors around the
+    /// Returns the error with the first existing edge between two vertices that are not neighbors around the
     /// hole.
     fn duplicate(&self) -> EditError {
         let n = self.points.len();

@@ -64,8 +64,8 @@ impl Laplacian {
     /// are cut into triangles.
     ///
     /// If a triangle is degenerate, the same small length is added to the lengths of all edges, so that the
-    /// triangle inequality holds with a slack of 1e-5 of the mean edge length. So all entries are finite for
-    /// any finite positions. If all triangles have this slack, nothing is added.
+    /// triangle inequality holds with a slack of 1e-5 times the mean edge length. All entries are therefore
+    /// finite for any finite positions. If all triangles have this slack, nothing is added.
     ///
     /// # Errors
     ///
@@ -84,7 +84,7 @@ impl Laplacian {
             let all = (b * FACES..n_faces.min((b + 1) * FACES)).map(FaceId::new);
             all.filter(|&f| mesh.has_face(f))
         };
-        // For each block of faces, the sum and the number of the lengths.
+        // For each block of faces, the sum and the count of the lengths.
         let sums: Result<Vec<[f64; 2]>, Cancelled> = blocks()
             .map(|b| {
                 let (mut sum, mut n, mut pieces) = (0.0, 0.0, Pieces::default());
@@ -163,8 +163,8 @@ fn lengths([a, b, c]: [DVec3; 3]) -> [f64; 3] {
     [b.distance(c), c.distance(a), a.distance(b)]
 }
 
-/// Returns half the cotangents of the angles, and the area, of a triangle. `more` is added to the lengths of
-/// the sides.
+/// Returns half the cotangents of the angles, and the area, of a triangle. The length of each side is increased
+/// by `more`.
 fn half_cotangents(corners: [DVec3; 3], more: f64) -> ([f64; 3], f64) {
     if more == 0.0 {
         let [a, b, c] = corners;

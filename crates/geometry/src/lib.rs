@@ -6,10 +6,11 @@
 //! | [`area`], [`volume`], [`bounds`], [`genus`], [`components`] | measures of whole meshes |
 //! | [`gaussian_curvatures`], [`mean_curvatures`], [`principal_curvatures`] | discrete curvature |
 //! | [`min_angle`], [`aspect_ratio`] | the shape of faces |
-//! | [`geodesic_distances`], [`thickness`], [`occlusion`] | distances along the surface and through the solid; how enclosed vertices are |
+//! | [`geodesic_distances`], [`thickness`], [`occlusion`] | distances along the surface and through the solid;
+//! how enclosed each vertex is |
 //! | [`distance`] | the distance between two surfaces |
 //! | [`surface_index`] | nearest points, rays, intersections and winding numbers of a surface |
-//! | [`predicates`] | exact sides of lines and planes |
+//! | [`predicates`] | exact tests of the side of a line or plane |
 //! | [`merge_vertices`], [`parts`] | merging vertices, splitting a mesh into parts |
 //! | [`triangulate`], [`fill_hole_triangles`] | triangulation of faces and holes |
 //! | [`remesh`](mod@remesh) | nearly equilateral triangles of a given size |

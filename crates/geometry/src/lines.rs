@@ -1,4 +1,5 @@
-//! The edges that simplification and remeshing keep as lines, and what they mean for vertices.
+//! The edges that simplification and remeshing preserve as lines, and how these lines restrict the vertices on
+//! them.
 
 use mesh::{CREASE, Column, Domain, EdgeId, FaceId, Mesh, Values, VertexId};
 use rayon::prelude::*;
@@ -6,11 +7,11 @@ use rayon::prelude::*;
 /// How a vertex may move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
-    /// On no line: it may move anywhere.
+    /// The vertex is on no line, and may move anywhere.
     Inside,
     /// The vertex is on one line, and may merge with its neighbors on the line.
     Line,
-    /// The vertex stays in place: it is pinned, or lies at the end of a line, where lines meet, or where the
+    /// The vertex does not move: it is pinned, or lies at the end of a line, where lines meet, or where the
     /// values on a line change.
     Fixed,
 }

@@ -7,8 +7,8 @@ pub fn area(mesh: &Mesh) -> f64 {
     sum_over_faces(mesh, |f| mesh.face_area(f))
 }
 
-/// Returns the volume inside the mesh. It is negative if the faces are oriented inward. Only meaningful for a
-/// closed mesh.
+/// Returns the volume inside the mesh. The volume is negative if the faces are oriented inward. It is meaningful
+/// only for a closed mesh.
 ///
 /// Each face is triangulated as a fan. The volume is the sum of the signed volumes of the tetrahedra from a
 /// fixed point to these triangles, by the divergence theorem. The point is the center of the bounding box, so
@@ -48,7 +48,7 @@ pub fn bounds(mesh: &Mesh) -> Option<[DVec3; 2]> {
     })
 }
 
-/// Returns the number of handles g of all components together, from χ = 2c - 2g - b. Here c is the number of
+/// Returns the total number of handles g of all components, from χ = 2c - 2g - b. Here c is the number of
 /// components with faces, b the number of boundary loops, and χ the Euler characteristic without isolated
 /// vertices.
 pub fn genus(mesh: &Mesh) -> i64 {
@@ -59,7 +59,7 @@ pub fn genus(mesh: &Mesh) -> i64 {
     (2 * components - count(mesh.n_boundary_loops()) - euler) / 2
 }
 
-/// Returns the component number of each vertex, by vertex index. Components are numbered from 0 in order of
+/// Returns the component index of each vertex, by vertex index. Components are numbered from 0 in order of
 /// their lowest vertices, and an isolated vertex is a separate component. Dead vertices have `usize::MAX`.
 pub fn components(mesh: &Mesh) -> Vec<usize> {
     let mut component = vec![usize::MAX; mesh.positions().len()];
@@ -105,8 +105,8 @@ pub fn valences(mesh: &Mesh) -> Vec<usize> {
     counts
 }
 
-/// Returns the sine and cosine of an angle in degrees. The result is exact for multiples of 90, and has the same bits
-/// on every platform.
+/// Returns the sine and cosine of an angle in degrees. The result is exact for multiples of 90, and is identical bit
+/// for bit on every platform.
 pub fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
     let degrees = degrees % 360.0; // This operation is exact.
     match degrees.abs() {

@@ -17,7 +17,7 @@ use mesh::{Connectivity, Domain, EdgeId, FaceId, HalfEdgeId, Mesh, Sources, Vert
 
 use crate::components;
 
-/// Returns the component number of each face, by face index. Components are numbered from 0 in order of their
+/// Returns the component index of each face, by face index. Components are numbered from 0 in order of their
 /// lowest faces. Dead faces have `usize::MAX`.
 pub fn face_components(mesh: &Mesh) -> Vec<usize> {
     let of_vertex = components(mesh);
@@ -37,8 +37,8 @@ pub fn face_components(mesh: &Mesh) -> Vec<usize> {
 
 /// Returns each component as a separate mesh, in order of the lowest faces.
 ///
-/// Elements keep their order and all their values. Isolated vertices are left out;
-/// [`Mesh::n_isolated_vertices`] counts them. The parts are dense. Takes linear time for any number of
+/// Elements keep their order and all their values. Isolated vertices are left out; [`Mesh::n_isolated_vertices`]
+/// counts them. The parts are dense. The function takes linear time for any number of
 /// components.
 ///
 /// # Examples
@@ -57,19 +57,19 @@ pub fn separated(mesh: &Mesh) -> Vec<Mesh> {
     parts(mesh, &face_components(mesh))
 }
 
-/// Splits the mesh into separate meshes: one part for each number in `part_of_face`, which is indexed by face.
-/// Parts are in ascending order of these numbers. Faces with the number `usize::MAX` and isolated vertices are
-/// left out.
+/// Splits the mesh into separate meshes: one part for each value in `part_of_face`, which is indexed by face.
+/// Parts are in ascending order of these values. Faces with the value `usize::MAX` and isolated vertices are left
+/// out.
 ///
 /// Elements keep their order and their values. An edge between two parts is copied to both. If the faces of a
 /// part form several fans around a vertex, the fan with the lowest boundary half-edge keeps the vertex, and
 /// each of the other fans gets a copy, numbered after all other vertices. A part with a new boundary loses the
-/// columns with [`Rule::Drop`](mesh::Rule::Drop). The parts are dense. Apart from a sort of the faces, takes
-/// linear time for any number of parts.
+/// columns with [`Rule::Drop`](mesh::Rule::Drop). The parts are dense. Apart from sorting the faces, the function
+/// takes linear time for any number of parts.
 ///
 /// # Panics
 ///
-/// Panics if `part_of_face` does not have one number for each face, dead faces included.
+/// Panics if `part_of_face` does not have one value for each face, including dead faces.
 pub fn parts(mesh: &Mesh, part_of_face: &[usize]) -> Vec<Mesh> {
     assert_eq!(
         part_of_face.len(),
@@ -341,7 +341,7 @@ mod tests {
 
     #[test]
     fn each_fan_at_a_shared_vertex_gets_a_separate_vertex() {
-        // A checkerboard.
+        // The parts form a checkerboard.
         let board = shapes::grid(5, 5);
         let color: Vec<usize> = (0..25).map(|f| f % 2).collect();
         for (part, n) in parts(&board, &color).iter().zip([13, 12]) {

@@ -19,20 +19,20 @@ pub struct Sample {
     pub face: FaceId,
 }
 
-/// The number of random candidates for each point that is kept.
+/// The number of random candidates for each returned point.
 const CANDIDATES: usize = 5;
 
-/// Returns exactly `count` points on a surface, spread evenly at random. Polygons are triangulated. Returns no points if the
-/// surface has no area, or an area that is not finite.
+/// Returns exactly `count` points on a surface, spread evenly at random. Polygons are triangulated. Returns no points
+/// if the area of the surface is zero or not finite.
 ///
-/// Random points are distributed by area, five times as many as wanted. Then the point that is most crowded is removed, until
-/// `count` points are left (Yuksel, "Sample Elimination for Generating Poisson Disk Sample Sets", 2015). Distances are
-/// straight, not along the surface. The points are in the order in which they were drawn. They depend only on the mesh, the
-/// number and the seed.
+/// First, five times as many random points as requested are distributed by area. Then the most crowded point is
+/// removed, until `count` points are left (Yuksel, "Sample Elimination for Generating Poisson Disk Sample Sets", 2015).
+/// Distances are Euclidean, not along the surface. The points are in the order in which they were drawn. They depend
+/// only on the mesh, `count` and the seed.
 ///
 /// # Errors
 ///
-/// [`Cancelled`].
+/// [`Cancelled`] if `progress` asks to stop.
 pub fn samples(
     mesh: &Mesh,
     count: usize,
@@ -45,7 +45,7 @@ pub fn samples(
     }
     // The largest radius of `count` disks in a plane of this area, in the densest arrangement.
     let radius = (area / (2.0 * 3.0_f64.sqrt() * count as f64)).sqrt();
-    // Closer points count as if they had this distance, which improves the result.
+    // Points that are closer are treated as if they had this distance, which improves the result.
     let ratio = 1.0 / CANDIDATES as f64;
     let least = 2.0 * radius * (1.0 - ratio * ratio.sqrt()) * 0.65;
     let grid = Grid::new(&candidates, 2.0 * radius);
@@ -71,7 +71,7 @@ pub fn samples(
         let Some((bits, std::cmp::Reverse(i))) = heap.pop() else {
             break;
         };
-        // An entry whose weight has changed since is followed by a newer one.
+        // If the weight of an entry has changed, the queue has a newer entry.
         if !is_kept[i] || bits != f64::to_bits(crowding[i]) {
             continue;
         }
@@ -95,13 +95,13 @@ pub fn samples(
         .collect())
 }
 
-/// The order of removal: the largest weight first, then the lowest number. Weights are not negative, so their bits have their
-/// order.
+/// Returns the sort key for removal: the largest weight first, then the lowest index. Weights are not negative, so they
+/// have the same order as their bits.
 fn entry(weight: f64, i: usize) -> (u64, std::cmp::Reverse<usize>) {
     (weight.to_bits(), std::cmp::Reverse(i))
 }
 
-/// Returns `n` random points, distributed by area, and the area.
+/// Returns `n` random points, distributed by area, and the total area.
 fn candidates(mesh: &Mesh, n: usize, seed: u64) -> (Vec<Sample>, f64) {
     let triangles = triangles(mesh);
     let mut sums = Vec::with_capacity(triangles.len());
@@ -116,7 +116,7 @@ fn candidates(mesh: &Mesh, n: usize, seed: u64) -> (Vec<Sample>, f64) {
         return (Vec::new(), 0.0);
     }
     let sample = |i: usize| {
-        // From 0 to 1, exclusive of 1.
+        // Random numbers from 0 to 1, excluding 1.
         let number = |k: u64| f64::midpoint(random(seed, 3 * i as u64 + k), 1.0);
         let at = number(0) * total;
         let triangle = sums.partition_point(|&sum| sum <= at).min(sums.len() - 1);
@@ -157,12 +157,12 @@ impl Grid {
         }
     }
 
-    /// Calls a function with each other point that is at most the size of a cell away, in a fixed order.
+    /// Calls a function, in a fixed order, with each other point whose distance is at most the size of a cell.
     fn each_near(&self, i: usize, mut each: impl FnMut(usize)) {
         let [x, y, z] = self.cells[i];
         for dx in [-1.0, 0.0, 1.0] {
             for dy in [-1.0, 0.0, 1.0] {
-                // The cells along z follow each other.
+                // Cells that are adjacent along z are consecutive.
                 let first = [x + dx, y + dy, z - 1.0];
                 let last = [x + dx, y + dy, z + 1.0];
                 let from = self
@@ -220,7 +220,7 @@ mod tests {
                 least = least.min(a.position.distance(b.position));
             }
         }
-        // Random points would come about 30 times as close.
+        // Random points would be about 30 times closer to each other.
         assert!(least > 0.6 * 2.0 * radius, "{least} {radius}");
     }
 

@@ -22,7 +22,7 @@ pub fn square() -> Mesh {
 ///    0 ------ 1
 /// ```
 ///
-/// The number of a vertex is (x > 0) + 2 (y > 0) + 4 (z > 0), where a true condition counts as 1. The faces
+/// The id of a vertex is (x > 0) + 2 (y > 0) + 4 (z > 0), where a true condition counts as 1. The faces
 /// are, in order, bottom, top, front, right, back and left.
 pub fn cube() -> Mesh {
     let side = |bit: usize| if bit == 0 { -1.0 } else { 1.0 };

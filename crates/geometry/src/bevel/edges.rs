@@ -6,16 +6,16 @@
 //!      |             |                    | e              beveled edges, the vertex moves into the face (i).
 //! ```
 //!
-//! The new vertices of a vertex are joined by a new face if there are at least three of them. The mesh is built anew from
-//! polygons, and all values are interpolated within the old faces.
+//! If a vertex is replaced by at least three new vertices, a new face joins them. The mesh is rebuilt from polygons,
+//! and all values are interpolated within the old faces.
 
 use mesh::build::{NonManifold, build};
 use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 
 use super::values::{Blend, blended};
 
-/// The least sine that is used to compute the length of a cut. An edge that is almost parallel to a beveled edge would have
-/// to be cut far from its end to reach the width.
+/// The smallest sine that is used to compute the length of a cut. An edge that is almost parallel to a beveled edge
+/// would have to be cut far from its end to reach the width.
 const LEAST_SINE: f64 = 0.25;
 
 /// Why an edge cannot be beveled.
@@ -43,23 +43,25 @@ pub struct Beveled {
 /// Replaces edges by faces of constant width.
 ///
 /// `width` is the distance, in scene units, between a beveled edge and the new edges in both of its faces. Edges that meet
-/// at a vertex are beveled together, so the result does not depend on their order, and has the symmetries of the mesh and
-/// the set. If several edges at a vertex remain, each of them is cut at the distance that gives the width, or at `width`
-/// if it is not beside a beveled edge. The distance is at most four times the width.
+/// at a vertex are beveled together, so the result does not depend on their order. The result has the symmetries that
+/// the mesh and the set of edges have in common. If several edges at a vertex remain, each of them is cut at the
+/// distance from the vertex that gives the width, or at the distance `width` if the edge is not next to a beveled edge.
+/// The distance is at most four times the width.
 ///
-/// The ends of beveled edges die. The other vertices come first, in their old order, followed by the new vertices. Faces
-/// keep their numbers. The new faces of edges follow in the order of the edges, and then the new faces of vertices in the
-/// order of the vertices. Edges are numbered anew; edges that remain keep their values.
+/// The ends of beveled edges are removed. The other vertices come first, in their old order, followed by the new
+/// vertices. Faces keep their ids. The new faces of edges follow in the order of the edges, and then the new faces of
+/// vertices in the order of the vertices. All edges get new ids; edges that remain keep their values.
 ///
-/// New vertices and corners have the values at their places in the old faces. The new face of an edge has the values of
-/// the face of the edge's first half-edge, and that of a vertex has the values of one of its faces.
+/// New vertices and corners have the values that the old faces have at their positions. The new face of an edge has the
+/// values of the face of the edge's first half-edge. The new face of a vertex has the values of one of the faces around
+/// the vertex.
 ///
-/// Edges that cannot be beveled are left out and returned. If edges are too wide for a face, all beveled edges at the two
-/// ends of the edge in question are left out.
+/// Edges that cannot be beveled are left out and returned. If the bevels at the two ends of an edge of a face would
+/// overlap, all beveled edges at these two ends are left out.
 ///
 /// # Panics
 ///
-/// If the mesh is not dense, or an edge does not exist.
+/// Panics if the mesh is not dense, or an edge does not exist.
 pub fn bevel_edges(mesh: &Mesh, edges: &[EdgeId], width: f64) -> Beveled {
     assert!(mesh.is_dense(), "the mesh must be dense");
     let mut refused = Vec::new();
@@ -106,7 +108,7 @@ pub fn shortest_edge_at(mesh: &Mesh, edges: &[EdgeId]) -> f64 {
 #[derive(Clone, Copy)]
 struct Corner {
     vertex: u32,
-    /// Where its values come from. All sources are corners of one old face.
+    /// The source of its values. All source elements are corners of one old face.
     values: Blend<HalfEdgeId>,
 }
 
@@ -123,12 +125,12 @@ struct Bevel<'m> {
     mesh: &'m Mesh,
     chosen: &'m [bool],
     width: f64,
-    /// By vertex: its new number if it stays.
+    /// For each vertex, its new index if it remains.
     kept: Vec<Option<u32>>,
     n_kept: usize,
-    /// By half-edge: the new vertex near its origin.
+    /// For each half-edge, the new vertex near its origin.
     points: Vec<Option<Point>>,
-    /// By half-edge: the number of this vertex.
+    /// For each half-edge, the index of this vertex.
     numbers: Vec<u32>,
 }
 
@@ -176,17 +178,17 @@ impl<'m> Bevel<'m> {
         self.mesh.position(self.mesh.target(h)) - self.mesh.position(self.mesh.origin(h))
     }
 
-    /// The half-edge after `h` counter-clockwise around its origin, if there is a face between them.
+    /// Returns the half-edge after `h` counter-clockwise around its origin, if there is a face between them.
     fn left(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
         self.mesh.face(h).map(|_| self.mesh.prev(h).twin())
     }
 
-    /// The half-edge before `h` counter-clockwise around its origin, if there is a face between them.
+    /// Returns the half-edge before `h` counter-clockwise around its origin, if there is a face between them.
     fn right(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
         self.mesh.face(h.twin()).map(|_| self.mesh.next(h.twin()))
     }
 
-    /// The cut of an edge that stays.
+    /// Returns the cut of an edge that remains.
     fn slide(&self, h: HalfEdgeId) -> Point {
         let along = self.direction(h);
         let length = along.length();
@@ -205,8 +207,8 @@ impl<'m> Bevel<'m> {
         }
     }
 
-    /// The vertex in the corner of the face of `h`, if both edges of the corner are beveled: it has the width as its
-    /// distance from both edges.
+    /// Returns the vertex in the corner of the face of `h`, if both edges of the corner are beveled. The distance of
+    /// this vertex from both edges is the width.
     fn inset(&self, h: HalfEdgeId) -> Option<Point> {
         let g = self.left(h).filter(|&g| self.is_chosen(g))?;
         let [a, b] = [h, g].map(|h| self.direction(h));
@@ -215,12 +217,12 @@ impl<'m> Bevel<'m> {
         let normal = self.mesh.area_vector(self.mesh.face(h)?);
         let cross = a.cross(b);
         let is_reflex = cross.dot(normal) < 0.0;
-        // The half of the angle from a to b through the face.
+        // Half of the angle from a to b through the face.
         let cosine = a.dot(b).clamp(-1.0, 1.0);
         let half_sine = (0.5 - 0.5 * cosine).sqrt();
         let half_cosine = (0.5 + 0.5 * cosine).sqrt();
         let half_cosine = if is_reflex { -half_cosine } else { half_cosine };
-        // The plane of the corner, or that of the face if both edges are on one line.
+        // The normal of the corner, or of the face if both edges are on one line.
         let normal = if cross.length() > 1e-6 {
             if is_reflex { -cross } else { cross }
         } else {
@@ -232,7 +234,7 @@ impl<'m> Bevel<'m> {
         let sine = 2.0 * half_sine * half_cosine;
         let weight = |length: f64| {
             let weight = self.width / (sine * length);
-            // A corner on a line has no weights that give the point; it gets the values of the vertex.
+            // For a corner on a line, no weights give the point; the point gets the values of the vertex.
             if weight.abs() < 1.0 { weight } else { 0.0 }
         };
         Some(Point {
@@ -242,7 +244,7 @@ impl<'m> Bevel<'m> {
         })
     }
 
-    /// The corners that replace the corner of `h`, a half-edge with a face.
+    /// Returns the corners that replace the corner of `h`, a half-edge with a face.
     fn corners(&self, h: HalfEdgeId) -> Vec<Corner> {
         let mesh = self.mesh;
         if let Some(vertex) = self.kept[mesh.origin(h).index()] {
@@ -271,7 +273,7 @@ impl<'m> Bevel<'m> {
         corners
     }
 
-    /// The new polygon of an old face, with the old edges of its sides.
+    /// Returns the new polygon of an old face, with the old edges of its sides.
     fn face(&self, f: FaceId) -> (Vec<Corner>, Vec<EdgeId>) {
         let (mut corners, mut sides) = (Vec::new(), Vec::new());
         for h in self.mesh.face_half_edges(f) {
@@ -287,7 +289,7 @@ impl<'m> Bevel<'m> {
         (corners, sides)
     }
 
-    /// The new polygon of a beveled edge.
+    /// Returns the new polygon of a beveled edge.
     ///
     /// ```text
     ///        face of h
@@ -308,8 +310,8 @@ impl<'m> Bevel<'m> {
         strip.to_vec()
     }
 
-    /// The new polygon of a vertex, counter-clockwise. It has fewer than three corners if no face is needed. Also returns an
-    /// old face at the vertex.
+    /// Returns the new polygon of a vertex, counter-clockwise. The polygon has fewer than three corners if no face is
+    /// needed. Also returns an old face at the vertex.
     fn cap(&self, v: VertexId) -> (Vec<Corner>, Option<FaceId>) {
         let mesh = self.mesh;
         let mut around: Vec<HalfEdgeId> = mesh.vertex_half_edges(v).collect();
@@ -319,7 +321,7 @@ impl<'m> Bevel<'m> {
         let points = around.iter().filter(|h| self.points[h.index()].is_some());
         for &h in points {
             let vertex = self.numbers[h.index()];
-            // The same point in the face to the left or else to the right.
+            // The same point in the face to the left or, if there is none, in the face to the right.
             let corners = match (mesh.face(h), self.right(h)) {
                 (Some(_), _) => self.corners(h),
                 (None, Some(right)) => self.corners(right),
@@ -382,7 +384,7 @@ impl<'m> Bevel<'m> {
         blocked
     }
 
-    /// The ends of the side that replaces `h`, a half-edge with a face.
+    /// Returns the ends of the side that replaces `h`, a half-edge with a face.
     fn side(&self, h: HalfEdgeId) -> [DVec3; 2] {
         let point = |h: HalfEdgeId| self.points[h.index()].map(|point| point.position);
         let from = point(h).or_else(|| point(self.mesh.prev(h).twin()));
@@ -474,7 +476,7 @@ impl<'m> Bevel<'m> {
     }
 }
 
-/// Converts the number of a vertex or a corner. Ids have 32 bits.
+/// Converts the index of a vertex or a corner. Ids have 32 bits.
 fn number(i: usize) -> u32 {
     u32::try_from(i).unwrap_or(u32::MAX)
 }

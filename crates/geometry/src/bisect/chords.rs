@@ -38,7 +38,7 @@ pub(super) fn chords_along_line(corners: &[Corner], normal: DVec3) -> Vec<[u32; 
     let n = corners.len();
     let is_good = |chords: &[[u32; 2]]| {
         let is_one_sided = |part: &Vec<usize>| {
-            // A half-edge number h below n is the side of the polygon that starts at corner h.
+            // A half-edge h below n is the side of the polygon that starts at corner h.
             let sides = part.iter().filter(|&&h| h < n);
             let heights = sides.flat_map(|&i| [corners[i].height, corners[(i + 1) % n].height]);
             let (low, high) = heights.fold((0.0_f64, 0.0_f64), |(low, high), h| {
@@ -77,7 +77,7 @@ fn inside_chords(corners: &[Corner], normal: DVec3) -> Option<Vec<[u32; 2]>> {
             }
         })
         .collect();
-    // Among corners at the same place, those that end an inside interval come first.
+    // Among corners at the same position, those that end an inside interval come first.
     let rank = |i: usize| match sees_inside[i] {
         [true, false] => 0,
         [false, true] => 2,
@@ -140,7 +140,7 @@ fn left_chords(corners: &[Corner]) -> Vec<[u32; 2]> {
     let mut chords: Vec<[u32; 2]> = (0..n)
         .filter(|&i| !is_left(i) && is_left(i + 1))
         .map(|i| {
-            // The polygon has corners to the right too, so each chain ends.
+            // The polygon also has corners to the right, so each chain ends.
             let end = (i + 1..=i + n)
                 .find(|&j| !is_left(j))
                 .expect("a chain ends")

@@ -12,9 +12,9 @@ use crate::bounds;
 use chords::Corner;
 pub use symmetrize::{SymmetrizeError, Symmetrized, symmetrize};
 
-/// Vertices nearer to the plane than this fraction of the largest extent of the mesh count as on the plane.
+/// A vertex counts as on the plane if its distance is at most this fraction of the largest extent of the mesh.
 const RELATIVE_TOLERANCE: f64 = 1e-9;
-/// Vertices nearer to the plane than this fraction of the largest coordinate also count as on the plane,
+/// A vertex also counts as on the plane if its distance is at most this fraction of the largest coordinate,
 /// because rounding errors of coordinates far from the origin have this size.
 const ROUNDING_TOLERANCE: f64 = 1e-14;
 
@@ -42,9 +42,9 @@ pub struct Bisection {
 /// Every edge that crosses the plane gets a vertex at the crossing point. Every face that crosses the plane is
 /// cut along the plane; a concave face can be cut several times. The parts stay connected. A vertex counts as
 /// on the plane if its distance is at most 1e-9 times the largest extent of the mesh or 1e-14 times the largest
-/// coordinate. A vertex on the plane is not moved, and an edge that ends at such a vertex is not split. The
-/// side of a vertex is decided once, for all its edges and faces. A crossing point does not depend on the
-/// direction of its edge.
+/// coordinate. A vertex on the plane is not moved, and an edge that ends at such a vertex is not split. The side
+/// of a vertex is determined once, and is the same for all its edges and faces. A crossing point does not depend
+/// on the direction of its edge.
 ///
 /// Ids change as follows. When an edge is split, the part at the origin of its first half keeps the id of the
 /// edge. The other parts and the crossing points are new, and numbered in the order of the edges. The new edges
@@ -52,7 +52,7 @@ pub struct Bisection {
 /// with its first corner keeps the id of the face; the other parts are new.
 ///
 /// Values are interpolated at crossing points. Corner values are interpolated within their face, so that seams
-/// are kept. Parts of an edge or a face copy its values, and new edges on the plane have zero values.
+/// are preserved. Parts of an edge or a face copy its values, and new edges on the plane have zero values.
 ///
 /// The plane meets a flat face in a line. This line crosses the sides of the face an even number of times, and
 /// the intervals between crossings are alternately inside and outside of the face. On a face that is twisted or
@@ -66,7 +66,7 @@ pub struct Bisection {
 /// # Errors
 ///
 /// [`EditError::BadNumber`] if the normal is zero, if a coordinate is not finite, or if the mesh is so large
-/// that distances are not finite; [`EditError::Pinch`] if a face visits a vertex twice and would be cut from
+/// that distances are not finite; [`EditError::Pinch`] if a face contains a vertex twice and would be cut from
 /// that vertex to itself; [`EditError::Full`]. The mesh is unchanged.
 ///
 /// # Examples
@@ -130,7 +130,7 @@ fn split_across(mesh: &mut Mesh, heights: &mut Vec<f64>) -> Result<(), EditError
     for e in crossing {
         let [a, b] = mesh.edge_vertices(e);
         let [low, high] = [a, b].map(|v| heights[v.index()]);
-        // The weights have the same bits if a and b are swapped.
+        // The weights are identical bit for bit if a and b are swapped.
         let (weight_a, weight_b) = (high / (high - low), low / (low - high));
         let p = weight_a * mesh.position(a) + weight_b * mesh.position(b);
         let new = mesh.insert_vertex(e, weight_b)?;

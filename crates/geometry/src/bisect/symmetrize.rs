@@ -1,4 +1,4 @@
-//! Makes a mesh symmetric: one half is replaced by the mirror image of the other.
+//! Makes a mesh symmetric by replacing one half by the mirror image of the other half.
 
 use mesh::{BuildReport, Column, DVec3, Domain, EditError, Mesh, Value, morph_of};
 
@@ -6,10 +6,10 @@ use super::{bisect, direction, heights};
 use crate::merge::MergeError;
 use crate::{merge_clusters, parts};
 
-/// What [`symmetrize`] did.
+/// The result of [`symmetrize`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Symmetrized {
-    /// The number of faces that were removed, on the other side of the plane and in it.
+    /// The number of removed faces: those behind the plane and those in the plane.
     pub removed: usize,
     /// The number of vertices on the plane at which the two halves are joined.
     pub joined: usize,
@@ -38,10 +38,10 @@ pub enum SymmetrizeError {
 ///     +---'   |                        +---'   |   '---+
 /// ```
 ///
-/// The mesh is cut as by [`bisect`]. Faces behind the plane and faces in the plane are removed. The remaining vertices on the
-/// plane are moved onto it, by at most the tolerance of `bisect`, and boundary vertices on the plane are shared by the two
-/// halves. The first half keeps its order and comes first; the elements of the second half follow in the same order. Values are
-/// copied; deltas of morph targets are mirrored, and normals are removed.
+/// The mesh is cut as by [`bisect`]. Faces behind the plane and faces in the plane are removed. The remaining vertices
+/// that count as on the plane are moved onto it, by at most the tolerance of `bisect`. The two halves share the
+/// boundary vertices on the plane. The original half comes first and keeps its order; the elements of the second half
+/// follow in the same order. Values are copied; deltas of morph targets are mirrored, and normals are removed.
 ///
 /// # Errors
 ///
@@ -135,7 +135,7 @@ mod tests {
     use crate::shapes;
     use mesh::{DVec2, UV};
 
-    /// Whether each vertex has a mirror image with the same bits.
+    /// Whether each vertex has an exact mirror image, bit for bit.
     fn is_symmetric(mesh: &Mesh, axis: usize) -> bool {
         mesh.positions().iter().all(|&p| {
             let mut image = p;
@@ -168,7 +168,7 @@ mod tests {
             (12, 10, 4)
         );
         assert!((crate::volume(&mesh) - 8.0).abs() < 1e-12);
-        // A plane through a face: the face is removed, because it would be a wall inside.
+        // The plane contains a face. The face is removed, because it would become a wall inside the solid.
         let mut mesh = shapes::cube();
         symmetrize(&mut mesh, DVec3::NEG_X, DVec3::X).unwrap();
         assert_eq!((mesh.n_vertices(), mesh.n_faces()), (12, 10));

@@ -6,7 +6,7 @@ use super::*;
 use crate::{area, n_components, shapes};
 use mesh::{CREASE, DVec2, MATERIAL, UV};
 
-/// Cuts the mesh and checks the properties of every cut. Also reverts the cut and repeats it.
+/// Cuts the mesh and checks the properties of every cut. Also reverts and repeats the cut.
 fn cut(before: &Mesh, point: DVec3, normal: DVec3) -> (Mesh, Bisection) {
     let mut mesh = before.clone();
     mesh.begin();
@@ -35,7 +35,7 @@ fn cut(before: &Mesh, point: DVec3, normal: DVec3) -> (Mesh, Bisection) {
     for e in mesh.edges() {
         let on_plane = mesh.edge_vertices(e).map(|v| height(v).abs() <= near);
         assert_eq!(on_plane == [true; 2], cut.edges.binary_search(&e).is_ok());
-        // A cut makes no very short edges.
+        // A cut does not create very short edges.
         assert!(mesh.length(e.half_edges()[0]) > 0.1 * near || on_plane != [false; 2]);
     }
     (mesh, cut)

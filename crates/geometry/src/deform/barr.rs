@@ -47,8 +47,8 @@ impl Frame {
 }
 
 /// Rotates points around the axis, by an angle that grows with the height: (x, y, z) moves to (x cos θ - y sin
-/// θ, x sin θ + y cos θ, z), where θ grows linearly from 0 at `from` to the angle at `to`. The twist keeps all
-/// volumes. The inverse of a twist is the twist by the opposite angle.
+/// θ, x sin θ + y cos θ, z), where θ grows linearly from 0 at `from` to the angle at `to`. The twist preserves
+/// volume. The inverse of a twist is the twist by the opposite angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Twist {
     /// The coordinates.
@@ -58,7 +58,7 @@ pub struct Twist {
 }
 
 impl Twist {
-    /// Returns the place where a point moves to.
+    /// Returns the new position of a point.
     pub fn point(&self, p: DVec3) -> DVec3 {
         let p = self.frame.local(p);
         let (s, c) = sin_cos_degrees(self.angle * self.frame.part(p.z));
@@ -84,7 +84,7 @@ impl Taper {
         (1.0 - part) + self.factor * part
     }
 
-    /// Returns the place where a point moves to.
+    /// Returns the new position of a point.
     pub fn point(&self, p: DVec3) -> DVec3 {
         let p = self.frame.local(p);
         let factor = self.factor_at(p.z);
@@ -103,8 +103,8 @@ impl Taper {
 ///                                              where k = angle / (to - from) is the curvature.
 /// ```
 ///
-/// The plane at `from` stays. Volumes change by the factor 1 - k x. The center of the circle is at x = 1 / k;
-/// beyond the center, the factor is negative and the result is inside out.
+/// Points in the plane at `from` do not move. Volumes change by the factor 1 - k x. The center of the circle is
+/// at x = 1 / k; beyond the center, the factor is negative and the result is inside out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bend {
     /// The coordinates.
@@ -115,7 +115,7 @@ pub struct Bend {
 }
 
 impl Bend {
-    /// Returns the place where a point moves to.
+    /// Returns the new position of a point.
     pub fn point(&self, p: DVec3) -> DVec3 {
         let Frame { from, to, .. } = self.frame;
         let p = self.frame.local(p);

@@ -1,4 +1,4 @@
-//! Weights that fall with the distance from selected points.
+//! Weights that decrease with the distance from selected points.
 
 use mesh::DVec3;
 use rayon::prelude::*;

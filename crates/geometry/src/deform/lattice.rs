@@ -2,9 +2,10 @@
 
 use mesh::DVec3;
 
-/// A box whose control points are moved. A point at the coordinates (s, t, u) of the box, from 0 to 1, moves by the sum over
-/// the control points (i, j, k) of B(i, s) B(j, t) B(k, u) times their offsets, where B are the Bernstein polynomials
-/// (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). Points outside the box stay.
+/// A box whose control points are moved. Let (s, t, u) be the coordinates of a point in the box, from 0 to 1. The
+/// offset of the control point (i, j, k) moves the point with the weight B(i, s) B(j, t) B(k, u), where B are the
+/// Bernstein polynomials (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). Points outside
+/// the box do not move.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lattice {
     /// The lowest corner.
@@ -13,18 +14,18 @@ pub struct Lattice {
     pub max: DVec3,
     /// The number of control points along x, y and z. At least 1.
     pub size: [usize; 3],
-    /// The offsets of the control points: that of (i, j, k) is at `(i * size[1] + j) * size[2] + k`.
+    /// The offsets of the control points. The offset of (i, j, k) is at `(i * size[1] + j) * size[2] + k`.
     pub offsets: Vec<DVec3>,
 }
 
 impl Lattice {
-    /// Returns the place where a point moves to.
+    /// Returns the new position of a point.
     pub fn point(&self, p: DVec3) -> DVec3 {
         if p.cmplt(self.min).any() || p.cmpgt(self.max).any() {
             return p;
         }
         let extent = self.max - self.min;
-        // A flat box has the coordinate 0 across it.
+        // In a direction in which the box has no extent, the coordinate is 0.
         let part = |i: usize| {
             if extent[i] > 0.0 {
                 (p[i] - self.min[i]) / extent[i]

@@ -4,8 +4,8 @@
 //! | --- | --- |
 //! | [`Bend`], [`Twist`], [`Taper`] | maps of space along an axis: Barr, "Global and Local Deformations of Solid Primitives", 1984 |
 //! | [`Lattice`] | a box of control points: Sederberg, Parry, 1986 |
-//! | [`falloff`] | weights that fall with the distance from selected vertices |
-//! | [`noise`] | numbers that look random, with the same bits on every machine |
+//! | [`falloff`] | weights that decrease with the distance from selected vertices |
+//! | [`noise`] | numbers that look random and are identical on every machine |
 //! | [`vertex_directions`] | unit normals to move vertices along |
 
 mod barr;

@@ -1,5 +1,5 @@
 //! Numbers that look random but depend only on their arguments. Only additions and multiplications of integers and
-//! floating-point numbers are used, so that the bits are the same on every machine.
+//! floating-point numbers are used, so that the numbers are identical bit for bit on every machine.
 
 use mesh::DVec3;
 
@@ -18,8 +18,8 @@ fn mixed(x: u64) -> u64 {
     x ^ (x >> 31)
 }
 
-/// Returns smooth noise from -1 to 1 at a point: 0 at all points with integer coordinates, with waves of a
-/// length of about 1 or 2 between these points. The value and its first two derivatives are continuous. Source:
+/// Returns smooth noise from -1 to 1 at a point: 0 at all points with integer coordinates, with wavelengths of
+/// about 1 to 2 between these points. The value and its first two derivatives are continuous. Source:
 /// Perlin, "Improving Noise", 2002; here the directions of the gradients depend on the seed.
 pub fn gradient(seed: u64, p: DVec3) -> f64 {
     let floor = p.floor();

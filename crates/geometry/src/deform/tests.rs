@@ -220,7 +220,7 @@ fn noise_is_bounded_smooth_and_different_for_each_seed() {
     }
     assert!(largest > 0.3 && different > 190, "{largest} {different}");
     assert!(gradient(1, DVec3::splat(1e300)).is_finite());
-    // The numbers have the same bits on every machine.
+    // The numbers are identical bit for bit on every machine.
     assert_eq!(
         gradient(7, DVec3::new(0.25, 1.5, -2.75)).to_bits(),
         0xbfb5_b310_0000_0000

@@ -1,4 +1,4 @@
-//! The distance between two surfaces: the largest distance, with a bound of its error, and the mean distance.
+//! The distance between two surfaces: the largest distance, with a bound on its error, and the mean distance.
 //!
 //! The Hausdorff distance is the largest distance from a point of one surface to the other surface. The largest
 //! distance can be at a point inside a face: for example, a spike of the other surface can end over the middle
@@ -43,13 +43,13 @@ pub struct Distance {
 /// The distances from the points of one surface to another surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OneSided {
-    /// The largest distance found, exact up to rounding. The value is only a lower bound if very many places
-    /// are almost equally near, because the search for a nearest point then stops early.
+    /// The largest distance found, exact up to rounding. The value is only a lower bound if very many triangles
+    /// are almost equally near to a point, because the search for the nearest one then stops early.
     pub largest: f64,
     /// An upper bound of the distances of all points of this surface.
     pub at_most: f64,
     /// The mean distance over the area, computed from samples at the corners and inside the triangles. If the
-    /// surface has no area, it is the mean over the vertices.
+    /// area of the surface is zero, this value is the mean over the vertices.
     pub mean: f64,
     /// The point of this surface with the largest distance.
     pub from: SurfacePoint,
@@ -280,8 +280,8 @@ impl Block {
         Ok(())
     }
 
-    /// Divides a triangle into `rows` rows of smaller triangles and returns the mean of the distances at their
-    /// centers.
+    /// Divides a triangle into `rows` rows of smaller triangles. Returns the mean of the distances at the centers
+    /// of these triangles.
     fn mean_over(
         &mut self,
         piece: &Piece,
@@ -302,8 +302,8 @@ impl Block {
         for i in 0..n {
             ask()?;
             for j in 0..n - i {
-                // Place (i, j) has a smaller triangle with the orientation of the large triangle. Except at the
-                // end of a row, the place also has an inverted small triangle.
+                // Cell (i, j) has a smaller triangle with the orientation of the large triangle. Except at the
+                // end of a row, the cell also has an inverted small triangle.
                 let n_parts = if i + j + 2 <= n { 2 } else { 1 };
                 for shift in [third, 2.0 * third].into_iter().take(n_parts) {
                     let (u, v) = (f64::from(i) + shift, f64::from(j) + shift);
@@ -337,8 +337,8 @@ fn vertex_hits(
     to.nearest_to_all(from.domain_len(Domain::Vertex), position, &|_| ask())
 }
 
-/// Returns the distance from each vertex of `from` to the surface of `to`, by vertex index. NaN for dead
-/// vertices. Returns `None` if `to` has no faces.
+/// Returns the distance from each vertex of `from` to the surface of `to`, by vertex index. The distance is NaN
+/// for dead vertices. Returns `None` if `to` has no faces.
 pub fn vertex_distances(from: &Mesh, to: &Mesh) -> Option<Vec<f64>> {
     let hits = vertex_hits(from, &SurfaceIndex::new(to)?, &|| Ok(())).expect("never cancelled");
     let distance = |hit: Option<Nearest>| hit.map_or(f64::NAN, |hit| hit.distance);

@@ -1,4 +1,4 @@
-//! Pieces of triangles, with upper bounds of their distance to the other surface.
+//! Pieces of triangles, with upper bounds on their distance to the other surface.
 
 use mesh::{DVec3, Element, FaceId};
 use progress::Cancelled;
@@ -76,7 +76,7 @@ impl Piece {
     }
 
     /// Returns an upper bound of the distances from all points of the piece to the other surface. The result is
-    /// the smallest of these bounds:
+    /// the minimum of these bounds:
     ///
     /// 1. The largest distance from a corner of the piece to one triangle of the other surface. The distance
     ///    to a triangle is a convex function, so its maximum over the piece is at a corner.
@@ -145,8 +145,7 @@ impl Piece {
         )
     }
 
-    /// Returns the sample at the center of the piece: the center, and the point of the other surface nearest to
-    /// it.
+    /// Returns the center of the piece, with the point of the other surface that is nearest to the center.
     pub(super) fn middle(&self, to: &SurfaceIndex) -> Sample {
         let [a, b, c] = self.corners;
         let at = (a.at + b.at + c.at) / 3.0;
@@ -154,7 +153,7 @@ impl Piece {
         Sample { at, hit }
     }
 
-    /// Lowers the upper bound if the triangle nearest to the center gives a smaller upper bound. `middle` is
+    /// Lowers the upper bound if the triangle nearest to the center gives a smaller one. `middle` is
     /// the sample at the center.
     pub(super) fn lower(&mut self, middle: &Sample, to: &SurfaceIndex) {
         self.upper = self.upper.min(self.to_triangle(to, middle.hit.triangle));

@@ -1,4 +1,4 @@
-//! A triangulation that is given by the lengths of its sides only, and flips of its edges.
+//! A triangulation that is defined only by the lengths of its sides, and edge flips in it.
 //!
 //! ```text
 //!          k                    k
@@ -24,20 +24,20 @@ const SLACK: f64 = 1e-5;
 /// The largest number of flips for each edge.
 const MAX_FLIPS: usize = 100;
 
-/// Triangles that are glued along their sides. Side k of a triangle joins its corners k and k + 1; its number is three times the
-/// number of the triangle, plus k.
+/// Triangles that are glued along their sides. Side k of a triangle joins its corners k and k + 1. The index of the
+/// side is three times the index of the triangle, plus k.
 pub(super) struct Intrinsic {
     /// The vertices of each triangle.
     pub(super) corners: Vec<[u32; 3]>,
     /// The lengths of the sides.
     pub(super) lengths: Vec<[f64; 3]>,
-    /// The sides that the sides are glued to.
+    /// For each side, the side that it is glued to.
     glued: Vec<[u32; 3]>,
 }
 
 impl Intrinsic {
     /// Creates the triangulation of a mesh whose vertices have the given positions. Polygons are cut into triangles. If a
-    /// triangle is degenerate, the same small length is added to all sides, so that all triangles have an area.
+    /// triangle is degenerate, the same small length is added to all sides, so that all triangles have a positive area.
     pub(super) fn new(mesh: &Mesh, points: &[DVec3]) -> Self {
         let mut corners = Vec::with_capacity(mesh.n_faces());
         // Sides with equal keys are glued: sides on the same edge of the mesh, or on the same diagonal of a face.
@@ -110,8 +110,8 @@ impl Intrinsic {
         }
     }
 
-    /// Flips edges until all are Delaunay: the angles opposite of each edge add up to at most π. The limit of flips is only
-    /// reached because of rounding.
+    /// Flips edges until all edges are Delaunay: the two angles opposite each edge add up to at most π. Only rounding
+    /// errors can make the number of flips reach its limit.
     pub(super) fn flip_to_delaunay(&mut self, progress: &dyn Progress) -> Result<(), Cancelled> {
         let n = self.corners.len();
         let sides = (0..n).flat_map(|t| (0..3).map(move |k| 3 * t + k));
@@ -177,7 +177,7 @@ impl Intrinsic {
             corner(self.corners[u], m + 2),
         );
         let number = |t: usize, k: usize| u32::try_from(3 * t + k % 3).unwrap_or(NONE);
-        // The old and new numbers of the sides lj, jk, ki and il.
+        // The old and new indices of the sides lj, jk, ki and il.
         let moved = [
             (number(u, m + 2), number(t, 1)),
             (number(t, k + 1), number(t, 2)),
@@ -222,7 +222,7 @@ pub(super) fn area([a, b, c]: [f64; 3]) -> f64 {
         .sqrt()
 }
 
-/// Returns the cotangent of the angle opposite of the first side.
+/// Returns the cotangent of the angle opposite the first side.
 pub(super) fn cotangent([a, b, c]: [f64; 3]) -> f64 {
     (b * b + c * c - a * a) / (4.0 * area([a, b, c]))
 }

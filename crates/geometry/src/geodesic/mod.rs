@@ -6,8 +6,9 @@
 //!          . : # : .                   <- <- o -> ->                        2 1 0 1 2
 //! ```
 //!
-//! Sources: Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013, with the Laplacian of the intrinsic Delaunay triangulation of
-//! Sharp, Crane, "A Laplacian for Nonmanifold Triangle Meshes", 2020, so that needles do no harm.
+//! Sources: Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013, and Sharp, Crane, "A Laplacian for Nonmanifold
+//! Triangle Meshes", 2020, for the Laplacian of the intrinsic Delaunay triangulation, which is accurate even if
+//! triangles are needles.
 
 mod intrinsic;
 #[cfg(test)]
@@ -22,15 +23,16 @@ use crate::laplacian::exponent;
 use crate::sparse::{Factor, SolveError, SymmetricMatrix};
 use intrinsic::{Intrinsic, area, cotangent, scaled_points};
 
-/// The least heat whose directions are accurate: well above the smallest numbers.
+/// The smallest heat at which directions are accurate, well above the smallest positive numbers.
 const LEAST_HEAT: f64 = 1e-280;
 
-/// Returns the distance along the surface from each vertex to the nearest vertex with a flag in `is_source`, by vertex index, in
-/// scene units. Infinite for vertices that no path of edges joins with a source, and for dead vertices.
+/// Returns the distance along the surface from each vertex to the nearest source, by vertex index, in scene units.
+/// `is_source` tells which vertices are sources. The distance is infinite for vertices that no path of edges connects
+/// to a source, and for dead vertices.
 ///
-/// The distances are approximate: on fine meshes of smooth surfaces, the mean error is below 1 %. They are finite for any
-/// finite positions, also if triangles are degenerate. Polygons are cut into triangles. The result has the same bits for any number
-/// of threads.
+/// The distances are approximate: on fine meshes of smooth surfaces, the mean error is below 1 %. They are finite for
+/// any finite positions, even if triangles are degenerate. Polygons are cut into triangles. The result is identical bit
+/// for bit for any number of threads.
 ///
 /// # Errors
 ///
@@ -38,7 +40,7 @@ const LEAST_HEAT: f64 = 1e-280;
 ///
 /// # Panics
 ///
-/// If `is_source` does not have one flag for each vertex.
+/// Panics if `is_source` does not have one flag for each vertex.
 pub fn geodesic_distances(
     mesh: &Mesh,
     is_source: &[bool],
@@ -72,7 +74,7 @@ pub fn geodesic_distances(
     Ok(distances)
 }
 
-/// Returns which vertices are in a component with a source.
+/// Returns, for each vertex, whether its component has a source.
 fn reached(mesh: &Mesh, is_source: &[bool]) -> Vec<bool> {
     let component = components(mesh);
     let mut has_source = vec![false; component.len()];
@@ -101,8 +103,8 @@ fn laplacian(surface: &Intrinsic, n: usize) -> (SymmetricMatrix, Vec<f64>) {
     (SymmetricMatrix::from_entries(n, entries), areas)
 }
 
-/// Returns the heat of the vertices after a time, if the pinned vertices always have the heat in `start`. So all sources are equally
-/// hot, also at the ends of a line of sources.
+/// Returns the heat of the vertices after a short time, while the pinned vertices keep their heat in `start`. All
+/// sources are therefore equally hot, even at the ends of a line of sources.
 ///
 /// The time is the square of the mean length of an edge. If a vertex is so far away that no heat arrives, the time is increased.
 fn heat(
@@ -121,7 +123,7 @@ fn heat(
         let mut heat = start.to_vec();
         Factor::with_pins(&matrix, is_pinned, progress)?.solve(&none, &mut heat)?;
         let arrives = |(heat, is_pinned): (&f64, &bool)| *is_pinned || *heat > LEAST_HEAT;
-        // No path is longer than all edges together.
+        // No path is longer than the sum of all edge lengths.
         let is_longest = time > length * length * 1e16;
         if is_longest || heat.iter().zip(is_pinned).all(arrives) {
             return Ok(heat);
@@ -130,14 +132,15 @@ fn heat(
     }
 }
 
-/// Returns, for each vertex, the sum over its triangles of the area times the gradient of the hat function of the vertex times
-/// the direction in which the heat decreases.
+/// Returns, for each vertex, a sum over the triangles around the vertex. Each triangle adds its area times the dot
+/// product of two vectors: the gradient of the hat function of the vertex, and the direction in which the heat
+/// decreases.
 fn flow(surface: &Intrinsic, heat: &[f64], n: usize) -> Vec<f64> {
     let of_triangle = |(corners, &[a, b, c]): (&[u32; 3], &[f64; 3])| {
         // The corners are at (0, 0), (a, 0) and (x, y).
         let x = (a * a + c * c - b * b) / (2.0 * a);
         let y = 2.0 * area([a, b, c]) / a;
-        // The gradients of the hat functions, times twice the area: the opposite sides, turned by a quarter.
+        // The gradients of the hat functions, times twice the area, are the opposite sides, turned by 90°.
         let hats = [[-y, x - a], [y, -x], [0.0, a]];
         let values = corners.map(|v| heat[v as usize]);
         let largest = values.iter().fold(0.0, |max: f64, u| max.max(u.abs()));

@@ -12,7 +12,7 @@ fn distances(mesh: &Mesh, sources: &[usize]) -> Vec<f64> {
     geodesic_distances(mesh, &is_source, &NoProgress).unwrap()
 }
 
-/// Returns the parts of two meshes as one mesh.
+/// Returns one mesh with the elements of two meshes.
 pub(crate) fn together(a: &Mesh, b: &Mesh) -> Mesh {
     let (mut points, mut faces) = (Vec::new(), Vec::new());
     for mesh in [a, b] {
@@ -40,7 +40,7 @@ fn errors(found: &[f64], exact: impl Fn(usize) -> f64) -> [f64; 2] {
     [sum / found.len() as f64, max]
 }
 
-/// Returns a sphere of triangles: an icosahedron whose triangles are divided into four.
+/// Returns a sphere of triangles: an icosahedron whose triangles are repeatedly divided into four.
 fn sphere(levels: u32) -> Mesh {
     let mut mesh = shapes::icosahedron();
     for _ in 0..levels {
@@ -140,7 +140,7 @@ fn vertices_that_cannot_be_reached_are_infinitely_far() {
 
 #[test]
 fn long_surfaces_are_measured_to_their_end() {
-    // A strip that is 3000 edges long: heat of a short time does not reach its end.
+    // The strip is 3000 edges long. In a short time, heat does not reach its end.
     let mut strip = shapes::grid(3000, 1);
     for p in strip.positions_mut() {
         p.x *= 1500.0;

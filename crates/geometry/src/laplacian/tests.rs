@@ -15,7 +15,7 @@ fn noise(i: usize) -> f64 {
     (mixed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
 }
 
-/// A flat grid of quadrilaterals, or of triangles, with moved inner vertices.
+/// Returns a flat grid of quadrilaterals or triangles with moved inner vertices.
 fn uneven_grid(n: u32, triangles: bool) -> Mesh {
     let mut mesh = shapes::grid(n, n);
     if triangles {

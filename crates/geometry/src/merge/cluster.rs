@@ -9,7 +9,7 @@
 //!    +-----+        +---+      otherwise: compare the halves of the larger box
 //! ```
 //!
-//! A grid of cells as wide as the distance would be simpler, but its cell numbers overflow for tiny distances,
+//! A grid of cells as wide as the distance would be simpler, but its cell indices overflow for tiny distances,
 //! and a million points in one cell need a million squared comparisons. In the tree, a box of equal or very
 //! close points becomes a cluster immediately, for any number of points. Only differences of coordinates are
 //! computed, which neither overflow nor lose precision for nearby points.
@@ -158,11 +158,11 @@ impl Reach {
         }
     }
 
-    /// Whether the difference is at most one step. If a difference is at most one step, every difference with
-    /// smaller absolute coordinates is at most one step too.
+    /// Whether the difference is at most one step. If so, every difference with smaller absolute coordinates is
+    /// also at most one step.
     fn covers(&self, difference: DVec3) -> bool {
         if self.squared == 0.0 {
-            // Squares are not compared, because the square of a tiny difference is 0 too.
+            // Squares are not compared, because the square of a tiny difference is also 0.
             difference == DVec3::ZERO
         } else {
             (self.scale * difference).length_squared() <= self.squared
@@ -234,14 +234,14 @@ impl Search<'_> {
         }
     }
 
-    /// Joins `q` with all points of a box. The caller must know that these points belong to the cluster of `q`.
+    /// Joins `q` to all points of a box. The caller must know that these points belong to the cluster of `q`.
     fn join_all(&self, tree: &Tree, q: Point) {
         for p in tree.points {
             self.sets.join(p.index, q.index);
         }
     }
 
-    /// Joins `q` with the points that are one step away from it.
+    /// Joins `q` to the points that are one step away from it.
     fn join_near(&self, points: &[Point], q: Point) {
         for p in points {
             if self.reach.covers(p.at - q.at) {
@@ -295,7 +295,8 @@ mod tests {
     fn a_million_close_points_become_one_cluster_quickly() {
         let equal = vec![DVec3::splat(0.1); 1_000_000];
         assert!(clustered(&equal, 0.0).iter().all(|&low| low == 0));
-        // There are two groups of points: first nearer to each other than the distance, then farther.
+        // There are two groups of points. In the first case the groups are nearer to each other than the
+        // distance, in the second case farther.
         for (apart, expected) in [(0.9, 1), (1.1, 2)] {
             let mut groups: Vec<DVec3> = noise(200_000).iter().map(|&p| p * 1e-3).collect();
             for p in &mut groups[100_000..] {
@@ -346,7 +347,7 @@ mod tests {
     #[test]
     fn clusters_are_the_same_for_any_number_of_threads() {
         let points = noise(100_000);
-        // At about one of these distances, most points of this cloud become connected.
+        // Near one of these distances, most points of this cloud become connected.
         for distance in [0.005, 0.015, 0.02] {
             let with = |threads| {
                 let pool = rayon::ThreadPoolBuilder::new()

@@ -3,7 +3,7 @@
 //! ```text
 //!    +-----+ +-----+            +-----+-----+
 //!    |     a b     |            |     |     |       a and b become the vertex with the lower
-//!    |     | |     |    -->     |     |     |       number, and the two edges become one
+//!    |     | |     |    -->     |     |     |       id, and the two edges become one
 //!    |     c d     |            |     |     |
 //!    +-----+ +-----+            +-----+-----+
 //! ```
@@ -34,7 +34,7 @@ pub struct Merged {
     pub report: BuildReport,
 }
 
-/// The reason why vertices could not be merged. The mesh is unchanged.
+/// Why vertices could not be merged. The mesh is unchanged.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MergeError {
     /// The distance is negative or not finite.
@@ -100,22 +100,22 @@ pub fn merge_vertices(
 ///
 /// The merged vertex has the position and the values of the lowest vertex. The other vertices are removed, and
 /// ids are renumbered without gaps. Edges between the same two vertices become one edge with the values of the
-/// lowest edge. Faces keep their order and values, and corners keep their values, so that seams are kept.
+/// lowest edge. Faces keep their order and values, and corners keep their values, so that seams are preserved.
 ///
 /// A face loses each corner that merges with the next corner of the face. The face is dropped if fewer than
-/// three corners are left or if it would visit a vertex twice. If connected faces then have opposite
+/// three corners are left or if it would contain a vertex twice. If connected faces then have opposite
 /// orientations, and reversing some of them makes all orientations agree, the minority is reversed and normals
 /// are dropped. If the result is still non-manifold, it is split in the same way as in [`build()`]: the third
 /// face at an edge gets a copy of the edge.
 ///
 /// # Errors
 ///
-/// [`BuildError`] if a position is not finite, or if the result could have more vertices than ids can
-/// number. The mesh is unchanged.
+/// [`BuildError`] if a position is not finite, or if the result could have more vertices than there are ids. The
+/// mesh is unchanged.
 ///
 /// # Panics
 ///
-/// Panics if the mesh is not dense, if `lowest` does not have one number for each vertex, or if a number is not the
+/// Panics if the mesh is not dense, if `lowest` does not have one entry for each vertex, or if an entry is not the
 /// index of a vertex.
 pub fn merge_clusters(mesh: &mut Mesh, lowest: &[u32]) -> Result<Merged, BuildError> {
     assert!(mesh.is_dense(), "the mesh must be dense");
@@ -184,7 +184,7 @@ impl Polygons {
                 }
             }
             reduced += usize::from(is_smaller && corners.len() - first >= 3);
-            // There are at most as many corners as before, so ids can number them.
+            // There are at most as many corners as before, so there are enough ids.
             offsets.push(to_u32(corners.len()));
         }
         Self {

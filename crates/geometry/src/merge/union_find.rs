@@ -83,7 +83,7 @@ mod tests {
             .build()
             .unwrap();
         let sets = UnionFind::new(60_000);
-        // Steps of 6 and 10 connect all even numbers with each other, and all odd numbers with each other.
+        // Steps of 6 and 10 connect all even numbers to each other, and all odd numbers to each other.
         pool.install(|| {
             (0..59_990_u32).into_par_iter().for_each(|v| {
                 sets.join(v, v + 10);

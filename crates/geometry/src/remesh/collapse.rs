@@ -10,18 +10,19 @@ use super::original::{Place, Track};
 use super::work::{LONG, SHORT, Work, cross, is_turned, quality};
 use super::{Refused, WHAT};
 
-/// The least quality of a triangle that a collapse makes, unless the triangle was worse before.
+/// The lowest quality that a triangle may have after a collapse, unless its quality was lower before.
 const QUALITY: f64 = 0.3;
 
-/// A collapse is refused if it would move the surface by more than this share of the target length. Without this limit,
-/// tips are cut off: on the bunny of `scenes/assets`, the largest distance falls from 2.9 % of the diagonal to 1.6 %.
+/// A collapse is refused if it would move the surface by more than this fraction of the target length. Without this
+/// limit, tips are cut off: on the bunny of `scenes/assets`, the limit reduces the largest distance from 2.9 % of the
+/// diagonal to 1.6 %.
 const TIP: f64 = 0.15;
 
-/// What becomes of the two edges that a collapse merges beside the collapsed edge.
+/// Two edges that a collapse merges into one, on one side of the collapsed edge.
 struct Merged {
     edges: [EdgeId; 2],
     apex: VertexId,
-    /// The track of the merged edge, seen from the apex.
+    /// The track of the merged edge, in the direction away from the apex.
     track: Option<Track>,
 }
 
@@ -121,7 +122,7 @@ impl Work<'_> {
             }
             let next = self.mesh.next(h);
             let last = self.mesh.next(next);
-            // Both leave the apex.
+            // Both half-edges leave the apex.
             let tracks = [self.track_of(next.twin()), self.track_of(last)];
             if tracks.iter().all(Option::is_some) {
                 return Err(Refused::Lines);

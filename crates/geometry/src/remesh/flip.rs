@@ -7,8 +7,8 @@ use super::work::{Work, cross, is_turned, quality};
 use super::{Refused, WHAT};
 
 impl Work<'_> {
-    /// Flips edges that improve the numbers of edges of vertices, or the angles where these numbers stay the same.
-    /// Returns the number of flips.
+    /// Flips an edge if this improves the valences of vertices, or if it improves the angles and does not worsen
+    /// the valences. Returns the number of flips.
     pub(super) fn flip_all(&mut self, progress: &dyn Progress) -> Result<usize, Cancelled> {
         let mut valences: Vec<i32> = vec![0; self.places.len()];
         for h in self.mesh.half_edges() {

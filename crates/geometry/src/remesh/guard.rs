@@ -1,4 +1,4 @@
-//! The limit of the distance between the original surface and the result.
+//! The limit on the distance between the original surface and the result.
 //!
 //! While the mesh changes, samples of new triangles are compared with the original surface, and removed points with the
 //! new triangles. At the end, the distance is measured for all points of both surfaces.
@@ -13,15 +13,16 @@ use crate::distance::Distance;
 use crate::surface_index::SurfaceIndex;
 use crate::surface_index::triangle::nearest_on_triangle;
 
-/// The share of the limit that samples may use. The rest is for the points between the samples.
+/// The distance of samples may be at most this fraction of the limit. The rest of the limit is left for the
+/// points between the samples.
 const SHARE: f64 = 0.7;
 
-/// The tolerance of the measured distance, as a share of the limit.
+/// The tolerance of the measured distance, as a fraction of the limit.
 const TOLERANCE: f64 = 0.01;
 
 impl Work<'_> {
-    /// Whether a step that replaces triangles could leave the limit. `new` are the new triangles, each with a face of the
-    /// same chart, and `gone` are points of the old triangles.
+    /// Whether a step that replaces triangles could exceed the limit. `new` are the new triangles, each with a face of
+    /// the same chart, and `gone` are points of the old triangles.
     pub(super) fn is_far(&self, new: &[(FaceId, [DVec3; 3])], gone: &[DVec3]) -> bool {
         let Some(limit) = self.limit else {
             return false;
@@ -50,7 +51,8 @@ impl Work<'_> {
     }
 }
 
-/// Measures the distance between the original and the result. Returns it if it is above the limit.
+/// Measures the distance between the original and the result. Returns a bound of this distance if the bound is
+/// above the limit.
 pub(super) fn excess(
     source: &Mesh,
     result: &Mesh,

@@ -37,20 +37,21 @@ use work::Work;
 /// The name of this work in progress reports.
 const WHAT: &str = "remesh";
 
-/// A pass is the last if it changes no edge and moves no vertex by more than this share of its target length.
+/// A pass is the last one if it changes no edge and moves no vertex by more than this fraction of the target
+/// length at the vertex.
 const QUIET: f64 = 0.05;
 
-/// How often the remeshing is repeated with shorter edges if the result is too far from the original.
+/// The number of attempts. If the result is too far from the original, remeshing starts again with shorter edges.
 const ATTEMPTS: u32 = 4;
 
-/// The target length of edges, in scene units. Most edges of the result have between 4/5 and 4/3 of this length.
+/// The target length of edges, in scene units. Most edges of the result are between 4/5 and 4/3 of this length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Length {
     /// The same length everywhere. Must be positive.
     Uniform(f64),
-    /// Short edges where the surface is curved, long edges where it is flat.
+    /// Shorter edges where the surface is curved, longer edges where it is flat.
     Curvature {
-        /// The distance between the surface and the centers of triangles that the length aims at. Must be positive.
+        /// The target distance between the surface and the centers of triangles. Must be positive.
         error: f64,
         /// The smallest length. Must be positive.
         min: f64,
@@ -59,19 +60,19 @@ pub enum Length {
     },
 }
 
-/// What [`remesh`] aims at, and what it keeps.
+/// The options of [`remesh`]: target lengths, limits, and what must be preserved.
 #[derive(Clone, Copy, Debug)]
 pub struct Options<'a> {
     /// The target length of edges.
     pub length: Length,
     /// The largest allowed Hausdorff distance between the original and the new surface, in scene units; `None` sets no
-    /// limit. With a limit, target lengths are shorter where edges of the given length could exceed it, and steps that
-    /// seem to exceed it are refused. At the end, the distance is measured in both directions with a guaranteed bound.
-    /// If the bound is above the limit, remeshing starts again with shorter edges in these places, and fails after
-    /// four attempts.
+    /// limit. With a limit, target lengths are reduced where edges of the given length could exceed the limit, and
+    /// steps that seem to exceed the limit are refused. At the end, the distance is measured in both directions with a
+    /// guaranteed bound. If the bound is above the limit, remeshing starts again with shorter edges where the distance
+    /// is too large. Remeshing fails after four attempts.
     pub error: Option<f64>,
-    /// Edges whose lines are kept, in addition to boundaries, seams, borders of face tags and materials, tagged edges
-    /// and creases.
+    /// Edges that are preserved as lines, in addition to boundaries, seams, borders of face tags and materials, tagged
+    /// edges and creases.
     pub features: &'a [EdgeId],
     /// Vertices that keep their positions.
     pub pinned: &'a [VertexId],
@@ -86,11 +87,11 @@ pub struct Options<'a> {
 pub struct Remeshed {
     /// The new mesh. It is dense.
     pub mesh: Mesh,
-    /// The number of steps.
+    /// The numbers of steps.
     pub counts: Counts,
 }
 
-/// How many steps [`remesh`] did.
+/// The numbers of steps that [`remesh`] performed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// The number of passes.
@@ -108,8 +109,8 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// Returns how many splits, collapses and flips were refused in the last pass, by reason. Flips that would improve
-    /// nothing are not counted.
+    /// Returns the number of splits, collapses and flips that were refused in the last pass, for each reason. Flips
+    /// that would not improve the mesh are not counted.
     pub fn refused(&self) -> impl Iterator<Item = (Refused, usize)> {
         let counts = Refused::ALL.into_iter().zip(self.refused);
         counts.filter(|&(_, count)| count > 0)
@@ -123,9 +124,9 @@ impl Counts {
 /// Why a split, a collapse or a flip was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Refused {
-    /// It would merge lines, or move a vertex off its line or a corner.
+    /// The step would merge lines, move a vertex off its line, or move a corner.
     Lines,
-    /// It would make an edge that is too long.
+    /// The step would make an edge that is too long.
     Long,
     /// A triangle would turn over.
     Turned,
@@ -170,17 +171,17 @@ pub enum RemeshError {
     NotTriangle(FaceId),
     /// The target length is too small for the size of the mesh.
     #[error(
-        "the target lengths need about {needed:.0} faces while the mesh is changed, but at most {max} are possible"
+        "the target lengths need up to about {needed:.0} faces during remeshing, but at most {max} are possible"
     )]
     TooManyFaces {
-        /// An estimate of the number of faces while the mesh is changed.
+        /// An estimate of the largest number of faces during remeshing.
         needed: f64,
         /// The largest number of faces.
         max: usize,
     },
     /// The result would be too far from the original.
     #[error(
-        "the distance between the surfaces could be {reached}, which is above the error {limit}"
+        "the distance between the surfaces could be {reached}, which is above the allowed error {limit}"
     )]
     TooFar {
         /// The bound of the distance in the last attempt, in scene units.
@@ -195,17 +196,18 @@ pub enum RemeshError {
 
 /// Remeshes a mesh of triangles: replaces its triangles by nearly equilateral triangles with edges of a target length.
 ///
-/// Keeps the topology: the Euler characteristic, the boundary loops and the graph of lines stay. No step turns a triangle
-/// by more than 60°. The ends and meeting points of lines, their corners (where they turn by more than 40°), pinned
-/// vertices, vertices with sharpness, and vertices with a tag that none of their triangles and lines has completely, keep
-/// their exact positions. Isolated vertices stay.
+/// The topology is preserved: the Euler characteristic, the boundary loops and the graph of lines do not change. No
+/// step turns a triangle by more than 60°. These vertices keep their exact positions: the ends, meeting points and
+/// corners of lines (a corner is a turn by more than 40°), pinned vertices, vertices with sharpness, and vertices with
+/// a tag that is not set on all vertices of any adjacent triangle or line. Isolated vertices are preserved.
 ///
-/// Attributes come from the same place of the original surface, and never from the other side of a line. Vertex and
-/// corner attributes are interpolated there. A new vertex has a tag if all vertices around its place have it; whole
-/// numbers come from the nearest of them. Face attributes are those of the face at the center of a new face. An edge on a
-/// line has the values of the line; other edges have those of the nearest edge that is not on a line.
+/// Attributes are taken from the same location on the original surface, and never from the other side of a line. Vertex
+/// and corner attributes are interpolated at this location. A new vertex has a tag if all original vertices around its
+/// location have the tag; integers are taken from the nearest of these vertices. A new face gets the values of the
+/// original face at its center. An edge on a line has the values of the line; other edges have the values of the
+/// nearest edge that is not on a line.
 ///
-/// Elements are numbered anew.
+/// All elements get new ids.
 ///
 /// # Errors
 ///
@@ -216,7 +218,7 @@ pub enum RemeshError {
 ///
 /// # Panics
 ///
-/// If the mesh is not dense (see [`Mesh::is_dense`]), or a feature or a pinned vertex does not exist.
+/// Panics if the mesh is not dense (see [`Mesh::is_dense`]), or a feature or a pinned vertex does not exist.
 ///
 /// # Examples
 ///
@@ -293,11 +295,11 @@ fn run(
     Ok((work.finish(progress)?, counts))
 }
 
-/// The largest number of faces: half-edges must have ids, also those that are removed during a pass.
+/// The largest number of faces. All half-edges must have ids, including those that are removed during a pass.
 const MAX_FACES: usize = u32::MAX as usize / 12;
 
 impl Default for Options<'_> {
-    /// Ten passes with edges of length 1 and without limits.
+    /// Returns options with ten passes, edges of length 1 and no limits.
     fn default() -> Self {
         Self {
             length: Length::Uniform(1.0),

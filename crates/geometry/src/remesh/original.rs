@@ -1,9 +1,9 @@
-//! The original surface: its charts and lines, and the place of a vertex on them.
+//! The original surface: its charts and lines, and the location of a vertex on them.
 //!
 //! ```text
 //!     X-------+-------+-------X      Lines divide the surface into charts. A chain (+) is the part of a line between
-//!     |       |   chart 1     |      two corners (X), or a closed line without corners. A place on a chain is an arc
-//!     |chart 0+               |      length from its start.
+//!     |       |   chart 1     |      two corners (X), or a closed line without corners. A parameter of a chain is an
+//!     |chart 0+               |      arc length from its start.
 //!     |       |               |
 //!     X-------X-------+-------X
 //! ```
@@ -25,40 +25,40 @@ const STRAIGHT: f64 = 0.766_044_443_118_978;
 
 /// The original surface.
 pub(super) struct Original<'a> {
-    /// The original mesh, dense.
+    /// The original mesh. It is dense.
     pub(super) source: &'a Mesh,
     /// The same mesh without attributes, in coordinates around `center`, scaled by a power of two. Very small and very
     /// large meshes then give the same result.
     pub(super) mesh: Mesh,
     center: DVec3,
     pub(super) scale: f64,
-    /// By vertex.
+    /// For each vertex, its location.
     pub(super) places: Vec<Place>,
-    /// By vertex: the number of edges that a vertex should have.
+    /// For each vertex, the number of edges that it should have.
     pub(super) valences: Vec<u8>,
-    /// By edge: its chain, if it is a part of a line.
+    /// For each edge, its chain, if the edge is a part of a line.
     pub(super) tracks: Vec<Option<Track>>,
-    /// By face.
+    /// For each face, its chart.
     pub(super) charts: Vec<u32>,
     pub(super) chains: Vec<Chain>,
-    /// By chart: the index of its triangles.
+    /// For each chart, the spatial index of its triangles.
     pub(super) indexes: Vec<SurfaceIndex>,
-    /// By face: the number of its triangle in the index of its chart.
+    /// For each face, its triangle in the spatial index of its chart.
     pub(super) triangles: Vec<u32>,
 }
 
 /// Where a vertex lies on the original surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Place {
-    /// At this vertex, for good.
+    /// At this vertex. The location never changes.
     Corner(VertexId),
     /// On a chain, at this arc length from its start.
     Line { chain: u32, at: f64 },
-    /// Inside a chart, at the nearest point of the chart. The triangle of this number is near.
+    /// Inside a chart, at the nearest point of the chart. The triangle with this index is near the location.
     Inside(u32),
 }
 
-/// The place of an edge on a chain.
+/// The location of an edge on a chain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Track {
     pub(super) chain: u32,
@@ -77,7 +77,8 @@ pub(super) struct Chain {
 }
 
 impl Chain {
-    /// Returns the half-edge at an arc length, and the place on it: 0 at its origin, 1 at its target.
+    /// Returns the half-edge at an arc length, and the parameter along this half-edge: 0 at its origin, 1 at its
+    /// target.
     pub(super) fn locate(&self, at: f64) -> (HalfEdgeId, f64) {
         let i = self.starts.partition_point(|&start| start <= at).max(1) - 1;
         let end = self.starts.get(i + 1).map_or(self.length, |&end| end);
@@ -90,7 +91,7 @@ impl Chain {
         (self.half_edges[i], t)
     }
 
-    /// Returns the arc length of the way from one place to another, in the direction of the chain.
+    /// Returns the arc length from one parameter to another, in the direction of the chain.
     pub(super) fn way(&self, from: f64, to: f64) -> f64 {
         if self.is_closed && to <= from {
             to - from + self.length
@@ -99,7 +100,7 @@ impl Chain {
         }
     }
 
-    /// Returns the place that is `way` after `from`, in the direction of the chain.
+    /// Returns the parameter at the arc length `way` after `from`, in the direction of the chain.
     pub(super) fn after(&self, from: f64, way: f64) -> f64 {
         let at = from + way;
         if self.is_closed && at >= self.length {
@@ -160,7 +161,7 @@ impl<'a> Original<'a> {
         p / self.scale + self.center
     }
 
-    /// Returns the position at a place on a chain.
+    /// Returns the point at parameter `at` of a chain.
     pub(super) fn on_chain(&self, chain: u32, at: f64) -> DVec3 {
         let (h, t) = self.chains[chain as usize].locate(at);
         let [a, b] = [self.mesh.origin(h), self.mesh.target(h)].map(|v| self.mesh.position(v));
@@ -297,7 +298,7 @@ impl<'a> Original<'a> {
 fn kinds_to_places(mesh: &Mesh, kinds: &[Kind]) -> Vec<Place> {
     let place = |v: VertexId| match kinds[v.index()] {
         Kind::Inside if mesh.vertex_half_edge(v).is_some() => Place::Inside(0),
-        // The places on chains are set when the chains are known.
+        // Locations on chains are set after the chains are built.
         _ => Place::Corner(v),
     };
     mesh.vertices().map(place).collect()
@@ -327,11 +328,11 @@ fn fixed_kinds(source: &Mesh, mesh: &Mesh, lines: &[bool], pinned: &[VertexId]) 
             mesh.position(v) - mesh.position(a),
             mesh.position(b) - mesh.position(v),
         );
-        // Lines without length have no direction.
+        // Zero-length edges have no direction.
         let is_straight = x.dot(y) > STRAIGHT * (x.length_squared() * y.length_squared()).sqrt();
         !is_straight
     };
-    // New vertices get a tag if all vertices beside them have it.
+    // A new vertex gets a tag if all vertices beside it have the tag.
     let loses_tag = |v: VertexId, kind: Kind| {
         tags.iter().any(|tag| {
             tag[v.index()]

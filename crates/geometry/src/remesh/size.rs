@@ -10,20 +10,20 @@ use super::original::{Original, Place};
 use super::work::LONG;
 use crate::{gaussian_curvatures, mean_curvatures};
 
-/// How fast target lengths may grow along an edge, as a share of its length. Lengths of neighboring triangles then differ
-/// by at most about this factor.
+/// How fast target lengths may grow along an edge, as a fraction of the length of the edge. The target lengths of
+/// neighboring triangles then differ by at most about this fraction.
 const GROWTH: f64 = 0.5;
 
 /// The target length at each point of the original surface, in its scaled coordinates.
 pub(super) enum Sizes {
     Uniform(f64),
-    /// By vertex of the original surface.
+    /// A value for each vertex of the original surface.
     Varying(Vec<f64>),
 }
 
 impl Sizes {
-    /// Returns the target lengths for a kind of length. `error` is the largest allowed distance between the surfaces, if
-    /// there is one: where edges of the length would leave it, they are shorter.
+    /// Returns the target lengths for a kind of length. `error` is the largest allowed distance between the surfaces,
+    /// if there is one. Where edges of the target length would exceed this distance, the target length is reduced.
     pub(super) fn new(original: &Original, length: Length, error: Option<f64>) -> Self {
         let (error, min, max) = match (length, error) {
             (Length::Uniform(length), None) => return Self::Uniform(length * original.scale),
@@ -52,8 +52,8 @@ impl Sizes {
         *self = Self::Varying(sizes);
     }
 
-    /// Returns an estimate of the largest number of faces while the mesh is changed: twice the area, in triangles of the
-    /// target length, besides the faces of the original.
+    /// Returns an estimate of the largest number of faces during remeshing: twice the number of triangles of the target
+    /// length that cover the area, plus the faces of the original.
     pub(super) fn n_faces(&self, original: &Original) -> f64 {
         let mesh = &original.mesh;
         mesh::blocks::sum(mesh.n_faces(), |f| {
@@ -90,7 +90,7 @@ impl Sizes {
         }
     }
 
-    /// Returns the target length at a place on a chain.
+    /// Returns the target length at parameter `at` of a chain.
     pub(super) fn on_chain(&self, original: &Original, chain: u32, at: f64) -> f64 {
         match self {
             Self::Uniform(size) => *size,
@@ -141,7 +141,8 @@ fn curvatures(original: &Original) -> Vec<f64> {
         .collect()
 }
 
-/// Returns the curvature of a line at a vertex on it: the angle by which it turns, per length. 0 at corners.
+/// Returns the curvature of a line at a vertex on it: the angle by which the line turns, per unit of length. The
+/// curvature is 0 at corners.
 fn line_curvature(original: &Original, v: VertexId) -> f64 {
     let Place::Line { .. } = original.places[v.index()] else {
         return 0.0;

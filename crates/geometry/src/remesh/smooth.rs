@@ -1,4 +1,4 @@
-//! Moving vertices along the surface, so that triangles become even.
+//! Moving vertices along the surface, so that triangles become nearly equilateral.
 
 use mesh::{DVec3, VertexId};
 use progress::{Cancelled, Progress};
@@ -8,10 +8,10 @@ use super::WHAT;
 use super::original::Place;
 use super::work::{Work, cross, is_turned};
 
-/// A vertex that would move by less than this share of its target length stays in place.
+/// A vertex that would move by less than this fraction of its target length is not moved.
 const STILL: f64 = 1e-2;
 
-/// Where a vertex moves.
+/// The movement of a vertex.
 #[derive(Clone, Copy)]
 struct Step {
     point: DVec3,
@@ -20,9 +20,9 @@ struct Step {
 }
 
 impl Work<'_> {
-    /// Moves all vertices once: those inside charts to the mean of the triangles around them, in the tangent plane, and
-    /// then to the nearest point of the original surface; those on lines to the middle between their neighbors.
-    /// Returns the largest movement, as a share of the target length.
+    /// Moves all vertices once. A vertex inside a chart moves in the tangent plane to the mean of the triangles around
+    /// it, and then to the nearest point of the original surface. A vertex on a line moves towards the middle between
+    /// its neighbors on the line. Returns the largest movement, as a fraction of the target length.
     pub(super) fn smooth(&mut self, progress: &dyn Progress) -> Result<f64, Cancelled> {
         progress.report(WHAT, self.counts.passes, self.counts.max_passes)?;
         let n = self.places.len();
@@ -31,7 +31,7 @@ impl Work<'_> {
             .with_min_len(256)
             .map(|v| self.step(VertexId::new(v)))
             .collect();
-        // Taking back the movement of a vertex can turn another triangle. Each round takes back at least one.
+        // Undoing the movement of a vertex can turn another triangle. Each round undoes at least one movement.
         loop {
             progress.report(WHAT, self.counts.passes, self.counts.max_passes)?;
             let position = |v: VertexId| {
@@ -111,7 +111,7 @@ impl Work<'_> {
             }
         }
         let size = self.sizes[v.index()];
-        // The whole way to the middle would swing back and forth.
+        // If each vertex moved all the way to the middle, the vertices would oscillate.
         let way = 0.25 * sum;
         if n != 2 || way.abs() < STILL * size {
             return None;

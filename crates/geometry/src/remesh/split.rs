@@ -9,7 +9,8 @@ use super::work::{LONG, Work, cross, is_turned};
 use super::{Refused, RemeshError, WHAT};
 
 impl Work<'_> {
-    /// Splits edges at their middle until no edge is too long, the longest first. Returns the number of splits.
+    /// Splits edges at their midpoints, the longest first, until no edge is too long. Returns the number of
+    /// splits.
     pub(super) fn split_long(
         &mut self,
         max_faces: usize,
@@ -44,8 +45,8 @@ impl Work<'_> {
         Ok(n_splits)
     }
 
-    /// Splits an edge at its middle; an edge of a line in the middle of its part of the line. Returns false if a triangle
-    /// would turn over.
+    /// Splits an edge at its midpoint. An edge on a line is split at the midpoint of its part of the line. Returns
+    /// false if a triangle would turn over.
     fn split(&mut self, e: EdgeId) -> Result<bool, RemeshError> {
         let track = self.tracks[e.index()];
         let [a, b] = self.mesh.edge_vertices(e);
@@ -78,7 +79,7 @@ impl Work<'_> {
             Place::Inside(hint) => Some(hint),
             _ => None,
         };
-        // Vertices around the edge that lie inside the same chart know a triangle near the edge.
+        // The vertices around the edge that lie inside the same chart store a triangle near the edge.
         let [h, twin] = e.half_edges();
         let around = [h, twin, self.mesh.prev(h), self.mesh.prev(twin)];
         let hint = around.into_iter().find_map(hint).unwrap_or(0);
@@ -106,7 +107,7 @@ impl Work<'_> {
     }
 }
 
-/// Returns the error of a mesh that has reached the largest number of faces.
+/// Returns the error for a mesh that has reached the largest number of faces.
 fn full(n_faces: usize, max: usize) -> RemeshError {
     RemeshError::TooManyFaces {
         needed: n_faces as f64 + 2.0,

@@ -1,8 +1,8 @@
 //! The attributes and exact positions of the result.
 //!
-//! Each element of the result has a place on the original surface: a vertex inside a chart lies on a triangle, a vertex
-//! on a line on an edge. Corners at a line get their values from the side of the line on which they lie, so that
-//! values are never mixed across a seam.
+//! Each element of the result has a location on the original surface: a vertex inside a chart lies on a triangle, and a
+//! vertex on a line lies on an edge. Corners at a line get their values from the side of the line on which they lie, so
+//! that values are never mixed across a seam.
 
 use mesh::{Attributes, Column, DVec3, Domain, EdgeId, FaceId, HalfEdgeId, Mesh, Rule, VertexId};
 use mesh::{VERTEX_SHARPNESS, Values};
@@ -13,7 +13,7 @@ use super::WHAT;
 use super::original::{Original, Place, Track, along};
 use super::work::Work;
 
-/// The elements of the original whose values an element gets, with their weights.
+/// The elements of the original from which an element gets its values, with their weights.
 #[derive(Clone, Copy)]
 struct Blend {
     from: [usize; 3],
@@ -37,8 +37,8 @@ impl Blend {
     }
 }
 
-/// The largest distance of a vertex from its nearest point on the original surface, as a share of the target length,
-/// that is a rounding error.
+/// A distance of a vertex from its nearest point on the original surface is treated as a rounding error if it is at
+/// most this fraction of the target length.
 const ROUNDING: f64 = 1e-9;
 
 impl Work<'_> {
@@ -149,7 +149,8 @@ impl Work<'_> {
         }
     }
 
-    /// Returns the values of a column of vertices. A new vertex has a tag if all vertices around its place have it.
+    /// Returns the values of a column of vertices. A new vertex has a tag if all original vertices around its
+    /// location have the tag.
     fn vertex_values(&self, column: &Column, vertices: &[(DVec3, Blend)]) -> Values {
         let n = vertices.len();
         let is_corner = |i: usize| match self.places[i] {
@@ -173,7 +174,8 @@ impl Work<'_> {
         }
     }
 
-    /// Returns the corners of the source whose values a corner gets; `None` for a half-edge without a face.
+    /// Returns the corners of the source from which a corner gets its values; `None` for a half-edge without a
+    /// face.
     fn corner(&self, h: HalfEdgeId, vertices: &[(DVec3, Blend)]) -> Option<Blend> {
         self.mesh.face(h)?;
         let v = self.mesh.origin(h);
@@ -189,7 +191,7 @@ impl Work<'_> {
                 weights: vertices[v.index()].1.weights,
             });
         }
-        // The corner lies in a sector between two lines. Turns clockwise to the first of them.
+        // The corner lies in a sector between two lines. The loop turns clockwise to the first of these lines.
         let mut first = h;
         let track: Option<Track> = loop {
             if let Some(track) = self.track_of(first) {
@@ -232,8 +234,9 @@ impl Work<'_> {
         }
     }
 
-    /// Returns the edge of the source whose values an edge gets: an edge of its line, or the nearest edge that is not on a
-    /// line, if there is one in the triangle at its middle.
+    /// Returns the edge of the source from which an edge gets its values. For an edge on a line, this is an edge of the
+    /// line. For other edges, it is the nearest edge that is not on a line, if the triangle at the midpoint has such an
+    /// edge.
     fn edge(&self, e: EdgeId) -> Option<EdgeId> {
         if let Some(track) = self.tracks[e.index()] {
             let h = along(e, track);
@@ -261,7 +264,7 @@ impl Work<'_> {
             .map(|(_, e)| e)
     }
 
-    /// Returns the face of the source at the center of a face.
+    /// Returns the face of the source that is at the center of a face of the result.
     fn face(&self, f: FaceId) -> FaceId {
         let [a, b, c] = self.triangle(self.mesh.face_half_edge(f));
         let center = a / 3.0 + b / 3.0 + c / 3.0;
@@ -270,7 +273,7 @@ impl Work<'_> {
         index.triangle(nearest.triangle).face
     }
 
-    /// Returns the number of a triangle of the original surface that is near a face, if one is known.
+    /// Returns the index of a triangle of the original surface that is near a face, if one is known.
     pub(super) fn hint_of(&self, f: FaceId) -> u32 {
         let hint = |v: VertexId| match self.places[v.index()] {
             Place::Inside(hint) => Some(hint),

@@ -1,4 +1,4 @@
-//! The mesh that is remeshed, and the place of each of its elements on the original surface.
+//! The mesh that is remeshed, and the location of each of its elements on the original surface.
 
 use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 
@@ -6,33 +6,33 @@ use super::Counts;
 use super::original::{Original, Place, Track};
 use super::size::Sizes;
 
-/// An edge above this multiple of its target length is split.
+/// An edge longer than this multiple of its target length is split.
 pub(super) const LONG: f64 = 4.0 / 3.0;
 
-/// An edge below this multiple of its target length is collapsed.
+/// An edge shorter than this multiple of its target length is collapsed.
 pub(super) const SHORT: f64 = 4.0 / 5.0;
 
-/// The least cosine of the angle by which one step may turn a triangle.
+/// The smallest cosine of the angle by which one step may turn a triangle.
 pub(super) const TURN: f64 = 0.5;
 
 /// The mesh between two steps.
 pub(super) struct Work<'a> {
     pub(super) original: &'a Original<'a>,
-    /// Without attributes, in the coordinates of the original surface.
+    /// The mesh without attributes, in the coordinates of the original surface.
     pub(super) mesh: Mesh,
     pub(super) target: &'a Sizes,
     pub(super) limit: Option<f64>,
-    /// By vertex.
+    /// For each vertex, its location.
     pub(super) places: Vec<Place>,
-    /// By vertex: the target length of the edges around it.
+    /// For each vertex, the target length of the edges around it.
     pub(super) sizes: Vec<f64>,
-    /// By vertex: the number of edges that it should have.
+    /// For each vertex, the number of edges that it should have.
     pub(super) valences: Vec<u8>,
-    /// By vertex: whether the vertex may lie beside the original surface, because it is new.
+    /// For each vertex, whether it may lie off the original surface, because it is new.
     pub(super) is_off: Vec<bool>,
-    /// By edge.
+    /// For each edge, its location on a chain, if it is a part of a line.
     pub(super) tracks: Vec<Option<Track>>,
-    /// By face.
+    /// For each face, its chart.
     pub(super) charts: Vec<u32>,
     pub(super) counts: Counts,
 }
@@ -81,13 +81,13 @@ impl<'a> Work<'a> {
         self.relative_distance(a, b)
     }
 
-    /// Returns the distance of two vertices, divided by the target length between them.
+    /// Returns the distance between two vertices, divided by the target length between them.
     pub(super) fn relative_distance(&self, a: VertexId, b: VertexId) -> f64 {
         let size = self.sizes[a.index()].min(self.sizes[b.index()]);
         self.mesh.position(a).distance(self.mesh.position(b)) / size
     }
 
-    /// Returns the track of the edge of `h`, with respect to the direction of `h`.
+    /// Returns the track of the edge of `h`, relative to the direction of `h`.
     pub(super) fn track_of(&self, h: HalfEdgeId) -> Option<Track> {
         let track = self.tracks[h.edge().index()]?;
         Some(Track {
@@ -96,7 +96,7 @@ impl<'a> Work<'a> {
         })
     }
 
-    /// Returns the place of the origin of a half-edge on the chain of this half-edge.
+    /// Returns the parameter of the origin of a half-edge on the chain of this half-edge.
     pub(super) fn start(&self, h: HalfEdgeId, track: Track) -> f64 {
         match self.places[self.mesh.origin(h).index()] {
             Place::Line { at, .. } => at,
@@ -105,8 +105,8 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// Returns the vector to the next vertex on the chain, along it: the way from the origin of `h` to its target,
-    /// negative if `h` runs against the chain.
+    /// Returns the signed arc length from the origin of `h` to its target along the chain, negative if `h` runs
+    /// against the chain.
     pub(super) fn way(&self, h: HalfEdgeId, track: Track) -> f64 {
         let chain = &self.original.chains[track.chain as usize];
         let back = Track {
@@ -127,7 +127,7 @@ impl<'a> Work<'a> {
         [h, next, self.mesh.next(next)].map(|h| self.mesh.position(self.mesh.origin(h)))
     }
 
-    /// Returns the chart around a vertex that is inside a chart.
+    /// Returns the chart of a vertex that is inside a chart.
     pub(super) fn chart_at(&self, v: VertexId) -> Option<u32> {
         let h = self.mesh.vertex_half_edge(v)?;
         self.mesh.face(h).map(|f| self.charts[f.index()])
@@ -138,24 +138,25 @@ impl<'a> Work<'a> {
     }
 }
 
-/// Returns the vector with the direction of the normal of a triangle and twice its area as length.
+/// Returns the vector in the direction of the normal of a triangle, with a length of twice its area.
 pub(super) fn cross([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a)
 }
 
-/// Whether a triangle is turned too far by a step, or becomes degenerate. The arguments are its [`cross`] products.
+/// Whether a step turns a triangle too far or makes it degenerate. The arguments are the [`cross`] products of the
+/// triangle before and after the step.
 pub(super) fn is_turned(before: DVec3, after: DVec3) -> bool {
     let cosine = TURN * (before.length_squared() * after.length_squared()).sqrt();
     let is_kept = after.dot(before) > cosine;
     before != DVec3::ZERO && !is_kept
 }
 
-/// Returns the squared sine-like quality of a triangle: from 0, degenerate, to 1, equilateral.
+/// Returns the quality of a triangle, from 0 (degenerate) to 1 (equilateral).
 pub(super) fn quality([a, b, c]: [DVec3; 3]) -> f64 {
     let sides = (b - a).length_squared() + (c - b).length_squared() + (a - c).length_squared();
     let area = cross([a, b, c]).length();
     if sides > 0.0 {
-        // An equilateral triangle with sides 1 has twice the area √3 / 2.
+        // Twice the area of an equilateral triangle with sides of length 1 is √3 / 2.
         2.0 * 3.0_f64.sqrt() * area / sides
     } else {
         0.0

@@ -150,7 +150,8 @@ fn n_turns(triangles: &[[DVec3; 3]]) -> usize {
     triangles.iter().filter(crosses).count()
 }
 
-/// Returns the largest difference of the heights of two triangles in the region that they share, if there is one.
+/// Returns the largest difference of the heights of two triangles in the region that they share. Returns `None`
+/// if there is no such region.
 fn cell_gap(old: &[DVec3; 3], new: &[DVec3; 3]) -> Option<f64> {
     // Clips the old triangle by the side lines of the new triangle. Each cut adds at most one corner.
     let (mut cell, mut n) = ([DVec3::ZERO; 6], 3);

@@ -16,7 +16,7 @@ fn counts(mesh: &Mesh) -> [usize; 3] {
     [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()]
 }
 
-/// An L of height 1: a square of side 2 without its upper right quarter.
+/// Returns a prism of height 1 over an L: a square of side 2 without its upper right quarter.
 fn profile() -> Mesh {
     let outline = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)];
     let at = |z: i32| outline.map(|(x, y)| DVec3::new(x.into(), y.into(), z.into()));
@@ -132,7 +132,7 @@ fn values_are_those_of_their_places_in_the_old_faces() {
         mesh.get(MATERIAL).unwrap()[..16],
         grid.get(MATERIAL).unwrap()[..]
     );
-    // The edges of the boundary keep their values, and no others have any.
+    // The edges of the boundary keep their values, and no other edges have values.
     let sum = |mesh: &Mesh, edges: &mut dyn Iterator<Item = EdgeId>| -> f64 {
         edges.map(|e| mesh.get(CREASE).unwrap()[e.index()]).sum()
     };

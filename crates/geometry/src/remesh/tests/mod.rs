@@ -19,7 +19,7 @@ fn to(length: f64) -> Options<'static> {
     }
 }
 
-/// Remeshes, and checks what holds for each result.
+/// Remeshes, and checks the properties of every result.
 fn remeshed(mesh: &Mesh, options: &Options) -> Remeshed {
     let result = remesh(mesh, options, &NoProgress).unwrap();
     let after = &result.mesh;
@@ -36,7 +36,7 @@ fn ball() -> Mesh {
     triangles(&shapes::uv_sphere(48, 24))
 }
 
-/// A cube from -1 to 1 whose sides have triangles of different sizes.
+/// Returns a cube with corners at ±1, whose sides have triangles of different sizes.
 fn fine_cube() -> Mesh {
     let mut cube = triangles(&shapes::cube());
     for _ in 0..3 {
@@ -65,7 +65,7 @@ fn share<T>(all: impl Iterator<Item = T> + Clone, is_counted: impl Fn(T) -> bool
     all.filter(|_| true).map(is_counted).filter(|&x| x).count() as f64 / n as f64
 }
 
-/// Checks that no face of `after` looks away from the nearest face of `before`.
+/// Checks that no face of `after` points away from the nearest face of `before`.
 fn assert_no_face_is_turned_over(before: &Mesh, after: &Mesh) {
     let index = SurfaceIndex::new(before).unwrap();
     for f in after.faces() {
@@ -94,7 +94,7 @@ fn triangles_are_even_and_near_the_original() {
             (0.8..=4.0 / 3.0).contains(&relative)
         });
         assert!(in_range > 0.95, "{in_range}");
-        // Vertices lie on the original, and the triangles bend by less than their size allows.
+        // Vertices lie on the original, and the triangles are near the original, as their size requires.
         let distance = Distance::between(&mesh, &after, None).unwrap();
         let curvature = if mesh.euler_characteristic() == 2 {
             1.0
@@ -126,7 +126,7 @@ fn a_cube_keeps_its_corners_its_edges_and_its_volume() {
     }
     assert_eq!(crate::bounds(&after), crate::bounds(&cube));
     assert!((crate::volume(&after) - crate::volume(&cube)).abs() < 1e-12);
-    // 12 edges of length 2.
+    // The cube has 12 edges of length 2.
     let sides: f64 = sharp(&after, 80.0)
         .into_iter()
         .map(|e| after.length(e.half_edges()[0]))
@@ -227,7 +227,7 @@ fn curved_places_get_short_edges() {
     assert!((mean / 0.0547 - 1.0).abs() < 0.1, "{mean}");
     let distance = Distance::between(&mesh, &after, None).unwrap();
     assert!(distance.at_most() < 0.004, "{distance:?}");
-    // A bump on a plane.
+    // The mesh is a plane with a bump.
     let mut bump = square(80);
     for p in bump.positions_mut() {
         let r = (p.x - 0.5) * (p.x - 0.5) + (p.y - 0.5) * (p.y - 0.5);
@@ -355,7 +355,7 @@ fn small_and_degenerate_meshes_are_remeshed() {
     assert_eq!(remeshed(&one, &to(5.0)).mesh.n_faces(), 1);
     let many = remeshed(&one, &to(0.1)).mesh;
     assert!((crate::area(&many) - 0.5).abs() < 1e-12 && many.n_faces() > 80);
-    // A needle, a triangle without area, and a triangle without size.
+    // A needle, a triangle with collinear corners, and a triangle with three equal corners.
     for (points, length) in [
         ([(0.0, 0.0), (1.0, 0.0), (0.5, 1e-9)], 0.1),
         ([(0.0, 0.0), (1.0, 0.0), (0.5, 0.0)], 0.1),
@@ -450,7 +450,7 @@ fn it_can_be_cancelled_at_any_report() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
-    /// Any soup of triangles, with degenerate ones and any coordinates.
+    /// The input is any list of triangles, including degenerate ones, with any coordinates.
     #[test]
     fn soups_of_triangles_keep_the_invariants(
         points in proptest::collection::vec((0..4_u8, 0..4_u8, 0..4_u8), 4..24),
@@ -477,7 +477,7 @@ proptest! {
         };
         let after = remeshed(&mesh, &options).mesh;
         prop_assert!(after.n_faces() < 100_000);
-        // The corners of the bounding box are not exceeded.
+        // The result lies inside the bounding box of the original.
         if let (Some([min, max]), Some([low, high])) = (crate::bounds(&mesh), crate::bounds(&after)) {
             let slack = DVec3::splat(1e-12 * scale);
             prop_assert!((low + slack).cmpge(min).all() && (high - slack).cmple(max).all());
@@ -500,6 +500,6 @@ proptest! {
 
 #[test]
 fn the_diagonal_is_that_of_both_boxes() {
-    // The unit in which distances of benchmarks are given.
+    // The benchmarks give distances in units of this diagonal.
     assert!((diagonal(&fine_cube(), &fine_cube()) - 12.0_f64.sqrt()).abs() < 1e-12);
 }

@@ -1,9 +1,9 @@
-//! What becomes of attributes, tags and the lines between them.
+//! Tests of attributes, tags and the lines between them.
 
 use super::*;
 use crate::simplify::tests::middle;
 
-/// Sets texture coordinates: u is x + 10 times the number of the chart of the face, v is y.
+/// Sets texture coordinates: u is x plus 10 times the value of `chart` for the face, and v is y.
 pub(super) fn with_uv(mut mesh: Mesh, chart: impl Fn(DVec3) -> f64) -> Mesh {
     let uv = (0..mesh.n_half_edges()).map(HalfEdgeId::new).map(|h| {
         let p = mesh.position(mesh.origin(h));

@@ -7,8 +7,8 @@
 //!        n----> u  t                w: 1, or -1 if the texture is mirrored
 //! ```
 //!
-//! Source: Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008. All tools that bake or show normal
-//! maps use this algorithm, and a normal map gives correct shading only with the tangents for which it was
+//! Source: Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008. All tools that bake or render normal
+//! maps use this algorithm, because a normal map gives correct shading only with the tangents for which it was
 //! made.
 
 use bevy_mikktspace::{Geometry, Ops, TangentSpace, generate_tangents};
@@ -19,8 +19,8 @@ use crate::triangulate::Cutter;
 /// The tangents of a mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tangents {
-    /// For each half-edge with a face, the unit tangent of its corner and the sign of the bitangent, 1 or -1. Zero for
-    /// other half-edges.
+    /// For each half-edge with a face, the unit tangent of its corner and the sign of the bitangent, 1 or -1. The
+    /// value is zero for other half-edges.
     pub values: Vec<DVec4>,
     /// The number of corners at which texture coordinates define no direction. The tangents of these corners
     /// are arbitrary unit vectors perpendicular to the normals.

@@ -12,14 +12,14 @@
 //! are flipped until the result is a constrained Delaunay triangulation. If ear clipping fails, the polygon
 //! becomes a fan. See [`Cutter`] for the details.
 //!
-//! Corners are numbered from 0 along the face. The corners of a triangle are in ascending order, so a triangle
+//! Corner indices start at 0 and follow the face. The corners of a triangle are in ascending order, so a triangle
 //! has the orientation of the face.
 
 use earcut::{Earcut, Refiner};
 
 use mesh::{DVec3, FaceId, Mesh};
 
-/// The numbers of three corners of a face, in ascending order.
+/// The indices of three corners of a face, in ascending order.
 pub type Triangle = [u32; 3];
 
 /// Squared lengths whose relative difference is at most this number are treated as equal. An area that is
@@ -94,14 +94,14 @@ impl Cut {
 ///
 /// A quadrilateral is cut along its shorter diagonal. If both diagonals are equally long (relative difference
 /// of the squared lengths at most 1e-12), the quadrilateral is cut along the diagonal at its lowest vertex. A
-/// diagonal is avoided if one of its triangles has no area or is flipped, as seen along the face normal. If
+/// diagonal is avoided if one of its triangles has zero area or is flipped, as seen along the face normal. If
 /// both diagonals have this problem, neither is avoided. A quadrilateral with a reflex corner is therefore cut
 /// at that corner.
 ///
 /// A larger face is projected along its normal and cut by ear clipping (Held, "FIST: Fast Industrial-Strength
 /// Triangulation of Polygons", 2001, as implemented by the crate `earcut`). Then diagonals are flipped until
-/// the result is a constrained Delaunay triangulation. Ear clipping can fail if the face has no area or its
-/// sides cross; ear clipping is not tried for faces with more than ten million corners. In these cases the face
+/// the result is a constrained Delaunay triangulation. Ear clipping can fail if the area of the face is zero or
+/// its sides cross. It is not tried for faces with more than ten million corners. In these cases the face
 /// becomes a fan around its lowest vertex.
 ///
 /// # Examples
@@ -327,8 +327,8 @@ fn is_triangulation(n: usize, triangles: &[Triangle]) -> bool {
         return false;
     }
     let n = u32::try_from(n).expect("corners fit 32 bits");
-    // Two lists: the sides whose corner numbers ascend, and the sides whose corner numbers descend. In both,
-    // the lower corner is first.
+    // There are two lists: the sides whose corner indices ascend, and the sides whose corner indices descend. In
+    // both lists, the lower corner of a side comes first.
     let mut ascending: Vec<[u32; 2]> = triangles
         .iter()
         .flat_map(|&[a, b, c]| [[a, b], [b, c]])
@@ -379,12 +379,12 @@ mod tests {
 
     #[test]
     fn skipped_corners_are_inserted_at_their_side() {
-        // A triangle with corners 1, 4, 6 of a polygon with 8.
+        // The triangle has the corners 1, 4 and 6 of a polygon with 8 corners.
         let mut triangles = vec![[1, 4, 6]];
         insert_skipped_corners(8, &mut triangles);
         triangles.sort_unstable();
         assert!(is_triangulation(8, &triangles), "{triangles:?}");
-        // Two triangles that skip corners at all sides except their shared side.
+        // The two triangles skip corners at all sides except their shared side.
         let mut triangles = vec![[0, 2, 4], [0, 4, 6]];
         insert_skipped_corners(8, &mut triangles);
         triangles.sort_unstable();

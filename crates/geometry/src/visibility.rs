@@ -10,19 +10,21 @@ use crate::deform::noise::random;
 use crate::deform::vertex_directions;
 use crate::surface_index::SurfaceIndex;
 
-/// How far rays start from the surface, relative to the diagonal of the bounding box.
+/// The distance from the surface at which rays start, relative to the diagonal of the bounding box.
 const OFFSET: f64 = 1e-7;
-/// How far rays start from the vertex, relative to the shorter edge of the corner.
+/// The distance from the vertex at which rays start, relative to the shorter edge of the corner.
 const INWARD: f64 = 1e-3;
-/// The number of vertices of one task.
+/// The number of vertices that one task processes.
 const BLOCK: usize = 256;
 
-/// Returns the thickness of the solid at each vertex, by index, in scene units: the shortest of the rays that start at the
-/// vertex, one for each face there, and run inward at a right angle to the face until they leave the solid. Infinite
-/// if no ray meets the surface again, as for a sheet, and for vertices whose faces have no area.
+/// Returns the thickness of the solid at each vertex, by index, in scene units: from each face around the vertex, a ray
+/// starts at the vertex and runs inward at a right angle to the face until it leaves the solid. The thickness is the
+/// length of the shortest ray. The thickness is infinite if no ray meets the surface again, as for a sheet, and for
+/// vertices whose faces have zero area.
 ///
-/// In a plate, this is the distance of its sides, also at its edges and corners. Where parts of the surface overlap, entering
-/// another part does not end a ray. Walls thinner than 1e-7 of the bounding box are not found. The mesh must be dense.
+/// In a plate, the thickness is the distance between the two sides of the plate, even at its edges and corners. Where
+/// parts of the surface overlap, a ray does not end when it enters another part. Walls thinner than 1e-7 of the
+/// bounding box are not found. The mesh must be dense.
 ///
 /// # Errors
 ///
@@ -68,11 +70,13 @@ fn behind(mesh: &Mesh, index: &SurfaceIndex, h: HalfEdgeId, f: FaceId, offset: f
     }
 }
 
-/// Returns the ambient occlusion at each vertex, by index: the part of the rays from the vertex that meet the mesh, from 0 (open)
-/// to 1 (enclosed). NaN for vertices without a normal: the sum of the area vectors of their faces.
+/// Returns the ambient occlusion at each vertex, by index: the fraction of the rays from the vertex that meet the mesh,
+/// from 0 (open) to 1 (enclosed). The normal of a vertex is the direction of the sum of the area vectors of its faces.
+/// The occlusion is NaN for vertices without a normal.
 ///
-/// The `rays` directions are distributed about the normal with a density proportional to the cosine of their angle to it, on a lattice
-/// that is turned by a random angle at each vertex; `seed` chooses the angles. The mesh must be dense.
+/// The directions of the rays are distributed about the normal, with a density proportional to the cosine of their
+/// angle to the normal. They form a lattice that is turned by a random angle at each vertex; the angles depend on
+/// `seed`. The mesh must be dense.
 ///
 /// # Errors
 ///
@@ -210,7 +214,7 @@ mod tests {
 
     #[test]
     fn a_wall_hides_half_of_the_sky_and_seeds_hardly_matter() {
-        // A floor whose vertices touch a very high wall: it hides half of the hemisphere, by symmetry.
+        // The vertices of a floor touch a very high wall. By symmetry, the wall hides half of the hemisphere.
         let points = [
             [0.0, 0.0, 0.0],
             [1.0, -1.0, 0.0],

@@ -42,9 +42,9 @@ pub struct Beveled {
 
 /// Replaces edges by faces of constant width.
 ///
-/// `width` is the distance, in scene units, between a beveled edge and the new edges in both of its faces. Edges that meet
-/// at a vertex are beveled together, so the result does not depend on their order. The result has the symmetries that
-/// the mesh and the set of edges have in common. If several edges at a vertex remain, each of them is cut at the
+/// `width` is the distance, in scene units, between a beveled edge and the new edges in both of its faces. Edges that
+/// meet at a vertex are beveled together, so the result does not depend on their order. The result has the symmetries
+/// that the mesh and the set of edges have in common. If several edges at a vertex remain, each of them is cut at the
 /// distance from the vertex that gives the width, or at the distance `width` if the edge is not next to a beveled edge.
 /// The distance is at most four times the width.
 ///

@@ -36,8 +36,9 @@ pub(super) struct Intrinsic {
 }
 
 impl Intrinsic {
-    /// Creates the triangulation of a mesh whose vertices have the given positions. Polygons are cut into triangles. If a
-    /// triangle is degenerate, the same small length is added to all sides, so that all triangles have a positive area.
+    /// Creates the triangulation of a mesh whose vertices have the given positions. Polygons are cut into triangles. If
+    /// a triangle is degenerate, the same small length is added to all sides, so that all triangles have a positive
+    /// area.
     pub(super) fn new(mesh: &Mesh, points: &[DVec3]) -> Self {
         let mut corners = Vec::with_capacity(mesh.n_faces());
         // Sides with equal keys are glued: sides on the same edge of the mesh, or on the same diagonal of a face.

@@ -106,7 +106,8 @@ fn laplacian(surface: &Intrinsic, n: usize) -> (SymmetricMatrix, Vec<f64>) {
 /// Returns the heat of the vertices after a short time, while the pinned vertices keep their heat in `start`. All
 /// sources are therefore equally hot, even at the ends of a line of sources.
 ///
-/// The time is the square of the mean length of an edge. If a vertex is so far away that no heat arrives, the time is increased.
+/// The time is the square of the mean length of an edge. If a vertex is so far away that no heat arrives, the time is
+/// increased.
 fn heat(
     surface: &Intrinsic,
     stiffness: &SymmetricMatrix,

@@ -1,8 +1,8 @@
 //! Remeshing: nearly equilateral triangles of a given size for the same surface.
 //!
 //! Each pass splits long edges, collapses short edges, flips edges so that vertices have six edges, and moves vertices
-//! along the surface: Botsch, Kobbelt, "A Remeshing Approach to Multiresolution Modeling", 2004. All vertices lie on the
-//! original surface: after each movement, a vertex is placed at the nearest point of its chart.
+//! along the surface: Botsch, Kobbelt, "A Remeshing Approach to Multiresolution Modeling", 2004. All vertices lie on
+//! the original surface: after each movement, a vertex is placed at the nearest point of its chart.
 //!
 //! ```text
 //!     +---+-----------+            +-----+-----+

@@ -112,8 +112,8 @@ fn chord(curvature: f64, error: f64) -> f64 {
 }
 
 /// Returns the largest absolute normal curvature at each vertex of the original surface: |H| + √(H² - K). Vertices on
-/// lines get the mean of their neighbors inside charts, because the surface bends across many lines; then all values are
-/// smoothed once.
+/// lines get the mean of their neighbors inside charts, because the surface bends across many lines; then all values
+/// are smoothed once.
 fn curvatures(original: &Original) -> Vec<f64> {
     let mesh = &original.mesh;
     let (gaussian, mean) = (gaussian_curvatures(mesh), mean_curvatures(mesh));

@@ -1,10 +1,10 @@
-//! A bound of the distance by which a collapse moves the surface.
+//! A bound on the distance by which a collapse moves the surface.
 //!
-//! The triangles around an edge, before and after its collapse, are projected along one direction. If the old
-//! and the new triangles cover the same region once, each point of the old triangles forms a pair with the
-//! point of the new triangles above or below it. The distance of a pair is largest at a corner of a cell, where
-//! a cell is the region that one old and one new triangle share. The largest distance of all pairs bounds the
-//! Hausdorff distance in both directions. Source: Cohen, Manocha, Olano, "Simplifying Polygonal Models Using
+//! The triangles around an edge, before and after its collapse, are projected along one direction. If the old and
+//! the new triangles cover the same region once, each point of the old triangles forms a pair with the point
+//! directly above or below it on the new triangles. The distance of a pair is largest at a corner of a cell,
+//! where a cell is the region that one old and one new triangle share. The largest distance of all pairs bounds
+//! the Hausdorff distance in both directions. Source: Cohen, Manocha, Olano, "Simplifying Polygonal Models Using
 //! Successive Mappings", 1997.
 
 use mesh::{DVec3, EdgeId, FaceId};
@@ -16,7 +16,7 @@ use super::collapse::{Collapser, Target};
 
 impl Collapser<'_> {
     /// If there is an error limit, returns the faces that remain around an edge after its collapse, each with a
-    /// bound of its distance to the original surface, in the scaled coordinates of the [`Collapser`].
+    /// bound on its distance to the original surface, in the scaled coordinates of the [`Collapser`].
     pub(super) fn errors_after(
         &self,
         e: EdgeId,
@@ -80,7 +80,7 @@ impl Collapser<'_> {
 
 /// The triangles around an edge before and after its collapse, counter-clockwise.
 struct Patch {
-    /// The triangles before the collapse, each with the bound of its distance to the original surface.
+    /// The triangles before the collapse, each with the bound on its distance to the original surface.
     old: Vec<([DVec3; 3], f64)>,
     /// The triangles after the collapse. The first corner of each triangle is the new vertex.
     new: Vec<[DVec3; 3]>,
@@ -93,8 +93,8 @@ struct Patch {
 const SLACK: f64 = 1e-9;
 
 impl Patch {
-    /// Returns a bound of the distance to the original surface for each new triangle; `None` if no bound is found,
-    /// because the triangles do not cover the same region once in their mean direction.
+    /// Returns a bound on the distance to the original surface for each new triangle. Returns `None` if no bound
+    /// is found because the triangles, projected along their mean normal, do not cover the same region once.
     fn bounds(&self) -> Option<Vec<f64>> {
         let twice_area = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a);
         let sum: DVec3 = self

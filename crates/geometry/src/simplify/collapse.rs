@@ -12,18 +12,18 @@ use super::quadric::{Quadric, Spread};
 use super::queue::Queue;
 use super::{Blocked, Options};
 
-/// The weight, when costs are compared, of the squared distance to the area of the original surface that a
-/// vertex represents. The squared distance to the planes of that area has the weight 1. Without this weight,
-/// triangles become thin where the surface is flat or curved in one direction. On a torus of 1,000,000
-/// triangles reduced to a tenth, one percent of the triangles has an angle below 9° with the weight 1e-6, and
-/// below 15° with 2e-5. The distance to the original is the same.
+/// The weight of the squared distance to the area of the original surface that a vertex represents. This weight
+/// is used to compare costs, where the squared distance to the planes of that area has the weight 1. Without this
+/// weight, triangles become thin where the surface is flat or curved in one direction. On a torus of 1,000,000
+/// triangles reduced to a tenth, one percent of the triangles have an angle below 9° with the weight 1e-6, and
+/// below 15° with 2e-5. The distance to the original is the same for both weights.
 const ROUNDNESS: f64 = 2e-5;
 
 /// The weight that replaces [`ROUNDNESS`] when the new position is chosen. This weight is so small that it
 /// matters only if many positions have the same distance to the planes.
 const FIRMNESS: f64 = 1e-8;
 
-/// The least cosine of the angle by which a collapse may turn a triangle.
+/// The smallest cosine of the angle by which a collapse may turn a triangle.
 const TURN: f64 = 0.2;
 
 /// The state of an edge in the queue.
@@ -48,14 +48,14 @@ pub(super) struct Collapser<'a> {
     kinds: Vec<Kind>,
     /// The pass in which a collapse changed the vertex or one of its neighbors.
     touched: Vec<u32>,
-    /// If there is an error limit, a bound of the distance between each face and the original surface, by face
+    /// If there is an error limit, a bound on the distance between each face and the original surface, by face
     /// index.
     pub(super) errors: Vec<f64>,
     /// Whether each edge belongs to a line, by index.
     lines: Vec<bool>,
     states: Vec<State>,
     queue: Queue,
-    /// If intersections are refused.
+    /// The boxes of the faces, if intersections are refused.
     contacts: Option<Contacts>,
     pub(super) options: &'a Options<'a>,
 }
@@ -303,7 +303,7 @@ impl<'a> Collapser<'a> {
                 .fold(sum, |sum, pair| sum + appearance.quadric(pair));
         }
         let points = ends.map(|v| self.position(v));
-        // The bound of the distance needs a boundary vertex that stays.
+        // The bound on the distance needs a boundary vertex that is not moved.
         let end = end.or_else(|| {
             let is_bounded = self.options.error.is_some() && self.mesh.is_boundary_edge(e);
             is_bounded.then(|| usize::from(sum.at(points[1]) < sum.at(points[0])))

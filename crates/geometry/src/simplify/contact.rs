@@ -1,17 +1,19 @@
-//! Finds the faces that a collapse would make intersect, in a tree of boxes that follows the changes of the mesh.
+//! Tests whether a collapse would make faces intersect, with a tree of boxes that is updated when the mesh
+//! changes.
 
 use mesh::{DVec3, Domain, FaceId, Mesh, VertexId};
 
 use crate::surface_index::{SurfaceIndex, triangles_intersect};
 
-/// A box; the first corner exceeds the second if the box is empty.
+/// The lowest and the highest corner of a box. In an empty box, the first corner exceeds the second.
 type Bounds = [DVec3; 2];
 
 const EMPTY: Bounds = [DVec3::INFINITY, DVec3::NEG_INFINITY];
 
-/// The boxes of all faces in a complete binary tree. Each face keeps its leaf; the boxes above it follow when it changes.
+/// The boxes of all faces in a complete binary tree. Each face keeps its leaf. When a face changes, the boxes above its
+/// leaf are updated.
 pub(super) struct Contacts {
-    /// The children of node i are 2 i and 2 i + 1. The leaves are the second half.
+    /// The children of node i are 2 i and 2 i + 1. The second half of the nodes are the leaves.
     boxes: Vec<Bounds>,
     /// The face of each leaf, in the order of a spatial index, and the leaf of each face.
     faces: Vec<FaceId>,
@@ -40,7 +42,7 @@ impl Contacts {
         })
     }
 
-    /// Updates the box of a face that has changed or does not exist anymore.
+    /// Updates the box of a face that has changed or was removed.
     pub(super) fn update(&mut self, mesh: &Mesh, f: FaceId) {
         let mut i = self.leaf_of_face[f.index()];
         self.boxes[i] = if mesh.has_face(f) {
@@ -58,7 +60,8 @@ impl Contacts {
         }
     }
 
-    /// Whether the faces around `a` and `b` would intersect another face, or each other, if both vertices merged at `point`.
+    /// Whether the faces around `a` and `b` would intersect another face, or each other, if both vertices merged at
+    /// `point`.
     pub(super) fn arise(&self, mesh: &Mesh, [a, b]: [VertexId; 2], point: DVec3) -> bool {
         let mut changed: Vec<FaceId> = Vec::new();
         let mut new: Vec<[DVec3; 3]> = Vec::new();

@@ -39,26 +39,26 @@ pub struct Options<'a> {
     /// last collapse removed two faces, or more if no further edge may be collapsed.
     pub faces: usize,
     /// The largest allowed Hausdorff distance between the original and the simplified surface, in scene units;
-    /// `None` sets no limit. The limit is guaranteed. Each triangle has a bound of its distance to the
-    /// original. A collapse moves the surface, and adds a bound of this movement to the bounds of the triangles
-    /// around it. These sums overestimate the distance: the true distance is usually between a third of the
+    /// `None` sets no limit. The limit is guaranteed. Each triangle has a bound on its distance to the original.
+    /// A collapse moves the surface, and adds a bound on this movement to the bounds of the triangles around the
+    /// collapsed edge. These sums overestimate the distance: the true distance is usually between a third of the
     /// limit and the limit.
     pub error: Option<f64>,
-    /// Edges that are kept as lines, in addition to boundaries, seams, borders of face tags and materials,
+    /// Edges that are preserved as lines, in addition to boundaries, seams, borders of face tags and materials,
     /// tagged edges and creases.
     pub features: &'a [EdgeId],
     /// Vertices that keep their positions.
     pub pinned: &'a [VertexId],
-    /// Whether a collapse is refused if a changed triangle would intersect another one, as
-    /// [`triangles_intersect`](crate::surface_index::triangles_intersect) decides: faces that do not intersect before do not
-    /// intersect afterwards.
+    /// Whether a collapse is refused if a changed triangle would intersect another one, as tested by
+    /// [`triangles_intersect`](crate::surface_index::triangles_intersect). Faces that do not intersect before the
+    /// simplification then do not intersect afterwards.
     pub refuse_intersections: bool,
 }
 
 /// The result of [`simplify`].
 #[derive(Clone, Debug)]
 pub struct Simplified {
-    /// The simplified mesh. The mesh is dense: elements are renumbered in the order of their old numbers.
+    /// The simplified mesh. The mesh is dense: elements get new ids, in the order of their old ids.
     pub mesh: Mesh,
     /// If the mesh has more faces than [`Options::faces`], the number of remaining edges that could not be
     /// collapsed, for each reason.

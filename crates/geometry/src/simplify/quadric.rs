@@ -32,7 +32,7 @@ impl Quadric {
         }
     }
 
-    /// Returns the value at `p`, at least 0.
+    /// Returns the value at `p`, which is at least 0.
     pub(super) fn at(&self, p: DVec3) -> f64 {
         let m = self.mixed;
         let mixed = DVec3::new(
@@ -87,7 +87,7 @@ pub(super) struct Spread {
 }
 
 impl Spread {
-    /// Returns the spread of an area that lies at one point.
+    /// Returns the spread of an area that is concentrated at one point.
     pub(super) fn at_point(point: DVec3, area: f64) -> Self {
         Self {
             area,
@@ -96,7 +96,7 @@ impl Spread {
         }
     }
 
-    /// Returns the integral of the squared distance from `p` over the area, at least 0.
+    /// Returns the integral of the squared distance from `p` over the area. The result is at least 0.
     pub(super) fn at(&self, p: DVec3) -> f64 {
         at_least_zero((self.area * p - 2.0 * self.first).dot(p) + self.second)
     }

@@ -33,7 +33,7 @@ impl Queue {
         }
     }
 
-    /// The number of the current pass. The number changes between two passes, and between two levels.
+    /// Returns the index of the current pass. The index changes between two passes, and between two levels.
     pub(super) fn pass(&self) -> u32 {
         self.pass
     }

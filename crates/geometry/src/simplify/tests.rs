@@ -47,7 +47,7 @@ pub(crate) fn torus() -> Mesh {
     triangles(&shapes::torus(60, 30, 1.0, 0.4))
 }
 
-/// A square of n × n cells in the plane z = 0, from 0 to 1.
+/// Returns a square of n × n cells in the plane z = 0, from 0 to 1.
 pub(crate) fn square(n: u32) -> Mesh {
     let mut mesh = triangles(&shapes::grid(n, n));
     let [min, max] = crate::bounds(&mesh).unwrap();
@@ -57,7 +57,7 @@ pub(crate) fn square(n: u32) -> Mesh {
     mesh
 }
 
-/// Two spheres, one close around the other, in which coarse faces would cross.
+/// Returns two spheres, one just outside the other, so that coarse faces of the two would cross.
 fn nested_spheres() -> Mesh {
     let outer = shapes::fans(&shapes::uv_sphere(40, 20));
     let mut inner = outer.clone();
@@ -171,7 +171,7 @@ fn very_small_and_very_large_meshes_give_the_same_result() {
 
 #[test]
 fn a_seam_stays_and_texture_coordinates_do_not_blend_across_it() {
-    // The texture coordinate u is x left of the line x = 0.5, and x + 10 right of this line.
+    // The texture coordinate u is x to the left of the line x = 0.5, and x + 10 to the right of this line.
     let mut mesh = square(16);
     let uv: Vec<DVec2> = (0..mesh.n_half_edges())
         .map(|h| {
@@ -440,7 +440,7 @@ fn normals_stay_of_length_one() {
     }
 }
 
-/// A square with waves, with a boundary.
+/// Returns a wavy square, which has a boundary.
 pub(crate) fn waves() -> Mesh {
     let mut mesh = square(24);
     for p in mesh.positions_mut() {
@@ -492,7 +492,7 @@ fn it_can_be_cancelled() {
 }
 
 proptest! {
-    /// The input is any list of triangles, with degenerate ones and any coordinates.
+    /// The input is any list of triangles, including degenerate ones, with any coordinates.
     #[test]
     fn soups_of_triangles_keep_the_invariants(
         points in proptest::collection::vec((0..4_u8, 0..4_u8, 0..4_u8), 4..24),

@@ -7,8 +7,8 @@
 //! ```
 //!
 //! Here a, c and n are areas, centers and normals of faces. The length s is the mean distance between centers
-//! of adjacent faces, and t is half the distance between two unit normals with the angle of the method:
-//! sin(angle / 2).
+//! of adjacent faces, and t = sin(angle / 2) is half the distance between two unit normals that enclose the angle
+//! of the method.
 
 use mesh::{DVec3, Domain, FaceId, Mesh, VertexId};
 use progress::{Cancelled, Meter, Progress};
@@ -18,7 +18,7 @@ use super::{SmoothError, Smoother};
 use crate::sin_cos_degrees;
 
 /// At vertices with more faces than this number, only faces that share an edge are neighbors, so that the work
-/// stays in proportion to the number of faces.
+/// stays proportional to the number of faces.
 const MAX_FAN: u8 = 64;
 /// The number of faces between two checks for cancellation.
 const CHECK: usize = 1024;
@@ -49,7 +49,7 @@ pub(super) fn denoise(
     Ok(())
 }
 
-/// Computes a value for each face index; the default value for dead faces.
+/// Computes a value for each face index. Dead faces get the default value.
 fn of_faces<T: Send + Default>(mesh: &Mesh, value: impl Fn(&Mesh, FaceId) -> T + Sync) -> Vec<T> {
     let faces = (0..mesh.domain_len(Domain::Face))
         .into_par_iter()
@@ -90,7 +90,7 @@ fn filtered_normals(
     let spread = spread_of_centers(mesh, &centers);
     // Half of the distance between the ends of two unit normals that enclose this angle.
     let (tolerance, _) = sin_cos_degrees(0.5 * angle);
-    // exp(-|difference|² / 2 s²): a difference of 0 has the weight 1 even if s is 0.
+    // exp(-|difference|² / 2 s²): a difference of 0 gives the weight 1 even if s is 0.
     let falloff = |square: f64, spread: f64| {
         if square == 0.0 {
             1.0

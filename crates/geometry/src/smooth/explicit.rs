@@ -59,7 +59,7 @@ fn neighbors<'a>(
     others.map(move |(w, entry)| (mesh.positions()[w as usize] - p, f64::max(0.0, -entry)))
 }
 
-/// Returns the vector to the mean of the two neighbors on the boundary, where `weight` gives the weight of a
+/// Returns the vector to the weighted mean of the two neighbors on the boundary. `weight` returns the weight of a
 /// neighbor at a given distance.
 fn along_rim(mesh: &Mesh, v: VertexId, weight: impl Fn(f64) -> f64) -> DVec3 {
     let p = mesh.position(v);

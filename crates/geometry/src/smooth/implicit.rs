@@ -25,7 +25,7 @@ pub(super) fn step(
     progress: &dyn Progress,
 ) -> Result<(), SmoothError> {
     let diagonal = bounds(mesh).map_or(0.0, |[min, max]| min.distance(max));
-    // A mesh whose vertices are all at one point does not change.
+    // If all vertices coincide, the mesh does not change.
     if diagonal == 0.0 {
         return Ok(());
     }

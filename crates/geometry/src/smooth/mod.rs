@@ -3,12 +3,13 @@
 //! | method | idea | file |
 //! | --- | --- | --- |
 //! | [`Method::Laplacian`] | move each vertex towards the mean of its neighbors | `explicit.rs` |
-//! | [`Method::Taubin`] | alternate a step that shrinks and one that grows: a low-pass filter | `explicit.rs` |
+//! | [`Method::Taubin`] | a low-pass filter: steps that shrink the mesh alternate with steps that expand it |
+//! `explicit.rs` |
 //! | [`Method::Implicit`] | one backward Euler step of mean curvature flow | `implicit.rs` |
 //! | [`Method::Denoise`] | filter the normals of the faces, then fit the vertices | `denoise.rs` |
 //!
-//! One task computes the new position of a vertex from the positions after the previous pass. The result has
-//! the same bits for any number of threads.
+//! One task computes the new position of a vertex from the positions after the previous pass. The result is
+//! identical bit for bit for any number of threads.
 
 mod denoise;
 mod explicit;
@@ -31,7 +32,7 @@ pub enum Method {
     Laplacian {
         /// The weights of the neighbors.
         weights: Weights,
-        /// From 0 to 1.
+        /// The fraction of the way that a vertex moves, from 0 to 1.
         factor: f64,
     },
     /// Alternates a Laplacian step with `factor` and a Laplacian step with a negative factor μ, for which
@@ -40,7 +41,8 @@ pub enum Method {
     Taubin {
         /// The weights of the neighbors.
         weights: Weights,
-        /// From 0 to 1. Together with `pass_band`, the factor must make the method [stable](Method::is_stable).
+        /// The factor of the first step, from 0 to 1. With this factor and `pass_band`, the method must be
+        /// [stable](Method::is_stable).
         factor: f64,
         /// The frequency below which the filter removes nothing, from 0 to 1. The frequencies of a mesh are
         /// between 0 and 2.
@@ -50,16 +52,16 @@ pub enum Method {
     /// [`Laplacian`](crate::Laplacian) and M has the vertex areas. Source: Desbrun, Meyer, Schröder, Barr,
     /// "Implicit Fairing of Irregular Meshes Using Diffusion and Curvature Flow", 1999.
     Implicit {
-        /// In scene unit². The longest time is 1000 times the squared diagonal of the bounding box; a longer
-        /// time has the same effect.
+        /// The time of the flow, in scene unit². The longest time is 1000 times the squared diagonal of the
+        /// bounding box; a longer time has the same effect.
         time: f64,
     },
-    /// Filters the normals of the faces with weights that fall with the distance and with the angle between
+    /// Filters the normals of the faces with weights that decrease with the distance and with the angle between
     /// normals, then moves the vertices so that the faces have the filtered normals. Sources: Zheng, Fu, Au,
     /// Tai, "Bilateral Normal Filtering for Mesh Denoising", 2011; Sun, Rosin, Martin, Langbein, "Fast and
     /// Effective Feature-Preserving Mesh Denoising", 2007.
     Denoise {
-        /// The angle between two normals at which their weight has fallen to exp(-2) = 0.14, in degrees from 0 to 180.
+        /// The angle between two normals at which their weight is exp(-2) = 0.14, in degrees from 0 to 180.
         angle: f64,
         /// The number of passes that move the vertices.
         vertex_passes: u32,
@@ -90,7 +92,7 @@ pub enum Weights {
     /// The same weight for all vertices that share an edge with the vertex.
     #[default]
     Uniform,
-    /// The weights of the cotangent Laplacian, computed anew for each step. Negative weights count as 0, so
+    /// The weights of the cotangent Laplacian, recomputed for each step. Negative weights count as 0, so
     /// that a vertex stays between its neighbors.
     Cotangent,
 }
@@ -113,20 +115,20 @@ pub struct Smoothing<'a> {
     pub method: Method,
     /// The number of times that the method is applied.
     pub passes: u32,
-    /// Whether each vertex may move, by vertex index. All other vertices keep exactly the same positions.
+    /// Whether each vertex may move, by vertex index. All other vertices keep their exact positions.
     pub is_free: &'a [bool],
     /// How boundary vertices move.
     pub boundary: Boundary,
-    /// Whether, at the end, the free vertices are all moved by the same distance along their normals, so that
-    /// the mesh keeps its volume. The mesh must be closed.
+    /// Whether the volume of the mesh is preserved: at the end, all free vertices are moved by the same distance
+    /// along their normals. The mesh must be closed.
     pub keep_volume: bool,
 }
 
 /// Why a mesh was not smoothed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SmoothError {
-    /// The volume of a mesh with a boundary is not defined.
-    #[error("the volume can only be kept if the mesh is closed, but it has a boundary")]
+    /// The volume cannot be preserved, because the volume of a mesh with a boundary is not defined.
+    #[error("the volume can be preserved only if the mesh is closed, but the mesh has a boundary")]
     NotClosed,
     /// No distance along the normals restores the volume.
     #[error(
@@ -134,7 +136,7 @@ pub enum SmoothError {
          do not keep the volume"
     )]
     Volume {
-        /// The volume before.
+        /// The volume before smoothing.
         before: f64,
         /// The volume found that is nearest to `before`.
         after: f64,
@@ -156,8 +158,8 @@ pub enum SmoothError {
     Cancelled(#[from] Cancelled),
 }
 
-/// Smooths the positions of a mesh. Returns the number of vertices that moved. Faces, ids and attributes stay; normals
-/// that the mesh stores are not updated. Vertices without faces stay.
+/// Smooths the positions of a mesh. Returns the number of vertices that moved. Faces, ids and attributes do not
+/// change; stored normals are not updated. Vertices without faces do not move.
 ///
 /// # Errors
 ///

@@ -62,7 +62,8 @@ fn noisy(mut mesh: Mesh, size: f64) -> Mesh {
     mesh
 }
 
-/// A cube with edges of length 2, whose sides are grids of `n` times `n` squares, each cut into two triangles.
+/// Returns a cube with edges of length 2. Each side is a grid of `n` times `n` squares, and each square is cut
+/// into two triangles.
 fn fine_cube(n: u32) -> Mesh {
     let (mut points, mut polygons) = (Vec::new(), Vec::new());
     for axis in 0..3 {

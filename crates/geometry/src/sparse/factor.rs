@@ -1,8 +1,8 @@
-//! The numbers of the factor L D Lᵀ, and the solution of equations.
+//! The numerical factorization L D Lᵀ, and the solution of equations.
 //!
 //! Each supernode has a front: a dense symmetric matrix of the rows of the supernode. The front is the sum of
-//! entries of the matrix and of the updates U from the children in the tree of supernodes. Eliminating the
-//! pivots P gives the columns of L and the update for the parent:
+//! some entries of the matrix and of the updates U from the children of the supernode in the tree. Eliminating
+//! the pivots P gives the columns of L and the update for the parent:
 //!
 //! ```text
 //!     | P      |   pivots        | L      |
@@ -40,7 +40,8 @@ pub struct Factor<'a> {
     symbolic: Symbolic,
     /// The entries of L of consecutive supernodes. The entries of a supernode are one slice, column by column.
     values: Vec<Vec<f64>>,
-    /// For each supernode, the part of `values` with its entries, and the start of the entries in that part.
+    /// For each supernode, the index of the part of `values` that has its entries, and the start of these entries
+    /// in that part.
     places: Vec<(usize, usize)>,
     diagonal: Vec<f64>,
 }
@@ -135,8 +136,7 @@ impl<'a> Factor<'a> {
         self.symbolic.n_entries()
     }
 
-    /// Computes the numbers of the factor. Returns the entries of L and of D in parts that belong to
-    /// consecutive supernodes.
+    /// Computes the entries of L and D. Returns them in parts; each part belongs to consecutive supernodes.
     #[expect(clippy::type_complexity, reason = "two lists of parts")]
     fn eliminate<I: Iterator<Item = (u32, f64)>>(
         &self,
@@ -188,14 +188,15 @@ impl<'a> Factor<'a> {
         Ok((values, diagonals))
     }
 
-    /// Converts the column of the factor in an error to the row of the matrix.
+    /// Creates the error for a pivot that is not positive. The column of the factor is converted to a row of the
+    /// matrix.
     fn at_row(&self, (column, pivot): (usize, f64)) -> SolveError {
         let row = self.free[self.symbolic.order[column] as usize] as usize;
         SolveError::NotPositiveDefinite { row, pivot }
     }
 
-    /// Solves the equations of the free unknowns for the right-hand side `b`. The pinned entries of `x` are given and
-    /// keep their bits; the free entries are replaced by the solution. The residual of the free rows is checked.
+    /// Solves the equations of the free unknowns for the right-hand side `b`. The pinned entries of `x` are inputs
+    /// and do not change; the free entries are replaced by the solution. The residual of the free rows is checked.
     ///
     /// # Errors
     ///

@@ -9,8 +9,8 @@
 //! | L and D | multifrontal method with dense fronts: Duff, Reid, 1983 | `factor.rs` |
 //! | solutions | substitution, then refinement until the residual is small | `factor.rs` |
 //!
-//! Each number is computed by one task with additions in a fixed order. The result has the same bits for any number of
-//! threads.
+//! Each number is computed by one task with additions in a fixed order. The result is identical bit for bit for any
+//! number of threads.
 
 mod factor;
 mod order;
@@ -91,12 +91,12 @@ pub enum SolveError {
     Residual(f64),
     /// The factorization would not fit into memory.
     #[error(
-        "the factorization needs {needed} numbers, more than the largest supported count, {limit}"
+        "the factorization needs {needed} entries, but at most {limit} are supported"
     )]
     TooLarge {
-        /// The number of entries of the factor.
+        /// The required number of entries of the factor.
         needed: u64,
-        /// The largest supported number.
+        /// The largest supported number of entries.
         limit: u64,
     },
     /// The computation was canceled.
@@ -105,9 +105,9 @@ pub enum SolveError {
 }
 
 impl SymmetricMatrix {
-    /// Creates a matrix with `n` rows from entries (row, column, value) in any order. Give each pair of a row
-    /// and a column only once: the symmetric entry at (column, row) is added automatically. Entries at the same
-    /// place are added up in the order of the list.
+    /// Creates a matrix with `n` rows from entries (row, column, value) in any order. Pass each off-diagonal
+    /// entry only once: the symmetric entry at (column, row) is added automatically. Entries with the same row
+    /// and column are added up in the order of the list.
     ///
     /// # Panics
     ///
@@ -141,8 +141,8 @@ impl SymmetricMatrix {
     }
 
     /// Creates a matrix with `n` rows. `row` appends the entries (column, value) of one row to an empty list,
-    /// in any order; entries of the same column are added up in this order. The entries at (i, j) and (j, i)
-    /// must have the same bits.
+    /// in any order; entries of the same column are added up in this order. The entries at (i, j) and (j, i) must
+    /// be identical bit for bit.
     pub(crate) fn from_rows(n: usize, row: impl Fn(usize, &mut Vec<(u32, f64)>) + Sync) -> Self {
         const ROWS: usize = 4096;
         let blocks: Vec<_> = (0..n.div_ceil(ROWS))

@@ -61,7 +61,7 @@ struct Quotient {
     /// For each variable, the stamp of the last list that contained it.
     mark: Vec<u64>,
     stamp: u64,
-    /// The hash, and the variable, of each member of the new element.
+    /// The hash and the variable of each member of the new element.
     hashes: Vec<(u64, u32)>,
 }
 
@@ -270,7 +270,7 @@ impl Quotient {
     }
 
     /// Whether the lists of `j` have the same lengths as those of `i`, and contain only marked entries.
-    /// Variables and elements have different numbers.
+    /// No number is used for both a variable and an element.
     fn has_marked_lists_like(&self, j: u32, i: u32) -> bool {
         let [i, j] = [i as usize, j as usize];
         let lists = self.variables[j].iter().chain(&self.elements[j]);

@@ -16,7 +16,7 @@ use std::ops::Range;
 
 /// The pattern of the factor of a matrix.
 pub(super) struct Symbolic {
-    /// The row of the matrix that stands at each position of the factor.
+    /// The row of the matrix at each position of the factor.
     pub(super) order: Vec<u32>,
     /// The supernodes, children before their parents. All descendants of a supernode come directly before it.
     pub(super) supernodes: Vec<Supernode>,
@@ -25,7 +25,7 @@ pub(super) struct Symbolic {
 /// A range of columns with the same pattern.
 pub(super) struct Supernode {
     pub(super) columns: Range<usize>,
-    /// All rows in ascending order. The first rows have the same numbers as the columns.
+    /// All rows in ascending order. The first rows are the columns of the supernode.
     pub(super) rows: Vec<u32>,
     /// The parent in the tree: the supernode that contains the first row after the columns.
     pub(super) parent: Option<usize>,
@@ -83,7 +83,7 @@ fn as_row(j: usize) -> u32 {
     u32::try_from(j).expect("rows fit 32 bits")
 }
 
-/// Returns the place of each number in a permutation.
+/// Returns the position of each number in a permutation.
 pub(super) fn inverse(order: &[u32]) -> Vec<u32> {
     let mut position = vec![0; order.len()];
     for (at, &i) in (0..).zip(order) {
@@ -146,7 +146,7 @@ fn postorder(parent: &[u32]) -> Vec<u32> {
     post
 }
 
-/// Returns the number of entries of each column of the factor, with the diagonal.
+/// Returns the number of entries of each column of the factor, including the diagonal.
 fn counts<I: Iterator<Item = u32>>(parent: &[u32], row: impl Fn(usize) -> I) -> Vec<u32> {
     let n = parent.len();
     let (mut counts, mut mark) = (vec![1; n], vec![NONE; n]);

@@ -28,7 +28,7 @@ fn dense_solution(matrix: &SymmetricMatrix, b: &[f64]) -> Vec<f64> {
     x
 }
 
-/// The graph Laplacian of a grid plus `shift` on the diagonal.
+/// Returns the graph Laplacian of a grid, plus `shift` on the diagonal.
 fn grid(side: u32, shift: f64) -> SymmetricMatrix {
     let mut entries = Vec::new();
     let mut edge = |i, j| entries.extend([(i, j, -1.0), (i, i, 1.0), (j, j, 1.0)]);

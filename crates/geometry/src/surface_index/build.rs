@@ -10,13 +10,13 @@ use crate::triangulate::Cutter;
 /// The maximum number of triangles of a leaf.
 const LEAF: usize = 4;
 
-/// A subtree with at most this number of triangles is built by one task.
+/// One task builds a subtree with at most this number of triangles.
 const TASK: usize = 4096;
 
 /// The name of this work in progress reports.
 const WHAT: &str = "build the spatial index";
 
-/// The center of a triangle and the number of the triangle in the order of the faces.
+/// The center of a triangle, and the index of the triangle in the order of the faces.
 type Key = (DVec3, u32);
 
 /// Appends the triangles of a face. A face with at most four corners is triangulated as a fan. A larger face is
@@ -89,7 +89,7 @@ impl SurfaceIndex {
     }
 }
 
-/// A part of the tree that is built.
+/// A part of the tree that one task builds.
 struct Subtree<'a> {
     keys: &'a mut [Key],
     nodes: &'a mut [Node],
@@ -122,7 +122,8 @@ impl Subtree<'_> {
         let (min, max) = bounds(self.keys.iter().map(|key| key.0));
         let axis = (max - min).max_position();
         let middle = n / 2;
-        // With the number as the second key no two are equal, so the halves do not depend on the order of the keys.
+        // The index is the second key, so no two keys are equal, and the halves do not depend on the order of the
+        // keys.
         self.keys.select_nth_unstable_by(middle, |a, b| {
             a.0[axis].total_cmp(&b.0[axis]).then(a.1.cmp(&b.1))
         });
@@ -161,7 +162,7 @@ impl Subtree<'_> {
 
 /// Returns the number of nodes of a tree over `n` triangles.
 fn n_nodes(n: usize) -> usize {
-    /// Returns the numbers for `n` and for `n + 1`.
+    /// Returns the numbers of nodes for `n` and for `n + 1` triangles.
     fn both(n: usize) -> (usize, usize) {
         if n < LEAF {
             return (1, 1);

@@ -9,9 +9,9 @@ use progress::{Cancelled, Progress};
 use super::{SurfaceIndex, unit_scale};
 use crate::predicates::{orient2d, orient3d};
 
-/// Returns the faces of a mesh that intersect another face of it, in ascending order. Polygons are divided into triangles
-/// as in [`SurfaceIndex`], and [`triangles_intersect`] decides: common corners and sides of neighbors do not count, and
-/// corners at the same position are common.
+/// Returns the faces of a mesh that intersect another face of the mesh, in ascending order. Polygons are divided into
+/// triangles as in [`SurfaceIndex`], and the triangles are tested by [`triangles_intersect`]. Common corners and sides
+/// of neighbors do not count as intersections; corners at the same position are common.
 ///
 /// # Errors
 ///
@@ -25,7 +25,8 @@ pub fn self_intersecting_faces(
     };
     let slots = mesh.domain_len(Domain::Face);
     let is_found: Vec<AtomicBool> = (0..slots).map(|_| AtomicBool::new(false)).collect();
-    // The set does not depend on the order in which pairs are visited, and a pair of found faces adds nothing.
+    // The result does not depend on the order of the pairs, so a pair can be skipped if both faces are already
+    // marked.
     let visit = |i: u32, j: u32| {
         let faces = [i, j].map(|i| index.origins[i as usize].face);
         let found = faces.map(|f| &is_found[f.index()]);
@@ -50,12 +51,12 @@ pub fn self_intersecting_faces(
 /// Whether two triangles intersect: whether they have a common point that is not on a common corner or side.
 ///
 /// Corners at the same position are common, and so are sides between two common corners. Neighbors in a mesh therefore
-/// intersect only if they overlap further: if their planes are equal and they lie on the same side of the common side, or
-/// if one passes through the other beside the common corner. Two triangles with the same three corners intersect. A
-/// triangle without area has no intersections: the sides that it shares with its neighbors are theirs too.
+/// intersect only if they have other common points: if their planes are equal and they lie on the same side of the
+/// common side, or if one passes through the other beside the common corner. Two triangles with the same three corners
+/// intersect. A zero-area triangle has no intersections, because its sides are usually also sides of its neighbors.
 ///
-/// The answer is exact for coordinates up to 1e150 in magnitude, if the differences are not below 1e-90 times the largest
-/// coordinate.
+/// The answer is exact for coordinates up to 1e150 in magnitude, if the differences are not below 1e-90 times the
+/// largest coordinate.
 ///
 /// Two triangles have a common point if and only if a side of one of them meets the other. All decisions are signs of
 /// volumes and areas, as in Guigue, Devillers, "Fast and Robust Triangle-Triangle Overlap Test Using Orientation
@@ -96,8 +97,8 @@ fn intersect(s: &[DVec3; 3], t: &[DVec3; 3]) -> bool {
             if sides_of_plane(s, t).is_none() || !has_area(s) || !has_area(t) {
                 return false;
             }
-            // If the triangles have another common point, the ray to it from the common corner leaves one of them
-            // through the opposite side.
+            // If the triangles have another common point, the ray from the common corner to this point leaves one
+            // of the triangles through the opposite side.
             let opposite = |t: &[DVec3; 3], common: [bool; 3]| {
                 let i = common.iter().position(|c| *c).unwrap_or(0);
                 [t[(i + 1) % 3], t[(i + 2) % 3]]
@@ -109,7 +110,7 @@ fn intersect(s: &[DVec3; 3], t: &[DVec3; 3]) -> bool {
                 let i = common.iter().position(|c| !c).unwrap_or(0);
                 [t[i], t[(i + 1) % 3], t[(i + 2) % 3]]
             };
-            // Two corners of a triangle at the same position count as two.
+            // Two corners of a triangle at the same position count as two corners.
             let [p, a, b] = apex(s, in_t);
             let [q, ..] = apex(t, in_s);
             orient3d(p, a, b, q) == Equal && has_area(s) && has_area(t) && {
@@ -121,14 +122,14 @@ fn intersect(s: &[DVec3; 3], t: &[DVec3; 3]) -> bool {
     }
 }
 
-/// Returns on which sides of the plane of `t` the corners of `s` are; `None` if all are strictly on one side.
+/// Returns the side of the plane of `t` on which each corner of `s` lies; `None` if all are strictly on one side.
 fn sides_of_plane(s: &[DVec3; 3], t: &[DVec3; 3]) -> Option<[Ordering; 3]> {
     let sides = s.map(|p| orient3d(t[0], t[1], t[2], p));
     let all_on = |side| sides.iter().all(|s| *s == side);
     (!all_on(Greater) && !all_on(Less)).then_some(sides)
 }
 
-/// Whether a segment and a triangle with an area have a common point.
+/// Whether a segment and a triangle have a common point. The area of the triangle must not be zero.
 fn meets([p, q]: [DVec3; 2], t: &[DVec3; 3]) -> bool {
     let side = |p| orient3d(t[0], t[1], t[2], p);
     let (at_p, at_q) = (side(p), side(q));
@@ -147,8 +148,8 @@ fn meets_flat([p, q]: [DVec3; 2], t: &[DVec3; 3]) -> bool {
         let turns = [0, 1, 2].map(|i| orient2d(t[i], t[(i + 1) % 3], p));
         !(turns.contains(&Greater) && turns.contains(&Less))
     };
-    // A segment that ends outside meets the triangle if and only if it meets two of its sides. It is then not strictly
-    // on one side of both ends of a side, and the other way round.
+    // A segment that ends outside of the triangle meets the triangle if and only if it meets two of its sides. Two
+    // segments meet if neither has both ends strictly on one side of the line of the other.
     let crosses = |a, b| {
         let (at_a, at_b) = (orient2d(p, q, a), orient2d(p, q, b));
         let (at_p, at_q) = (orient2d(a, b, p), orient2d(a, b, q));
@@ -157,7 +158,8 @@ fn meets_flat([p, q]: [DVec3; 2], t: &[DVec3; 3]) -> bool {
     contains(p) || contains(q) || (0..3).any(|i| crosses(t[i], t[(i + 1) % 3]))
 }
 
-/// Returns a projection along an axis in which the triangle has an area, if it has one.
+/// Returns a projection along an axis in which the area of the triangle is not zero, if there is such a
+/// projection.
 fn flatten(t: &[DVec3; 3]) -> impl Fn(DVec3) -> DVec2 + use<> {
     let along = |axis: usize| move |p: DVec3| DVec2::new(p[(axis + 1) % 3], p[(axis + 2) % 3]);
     let axis = (0..3).find(|&axis| {

@@ -11,8 +11,8 @@
 //! assert_eq!(nearest.distance, 1.0);
 //! ```
 //!
-//! The index is a binary tree of axis-aligned boxes. Each inner node has half of the triangles of its parent, by the
-//! order of their centers along the longest side of the box of the centers. The tree depends only on the mesh: it is
+//! The index is a binary tree of axis-aligned boxes. The triangles of a node are sorted by their centers along the
+//! longest side of the box of the centers; each child gets half of them. The tree depends only on the mesh: it is
 //! the same for any number of threads.
 //!
 //! A face with more than three corners is divided into triangles: four corners into a fan, more corners by ear
@@ -35,7 +35,8 @@ pub use nearest::Nearest;
 pub use ray::RayHit;
 pub use winding::Winding;
 
-/// The triangles of a surface in a tree of boxes. The index is a copy: later changes of the mesh do not change it.
+/// The triangles of a surface in a tree of boxes. The index copies the triangles, so later changes of the mesh do
+/// not affect it.
 #[derive(Clone, Debug)]
 pub struct SurfaceIndex {
     nodes: Vec<Node>,
@@ -96,17 +97,17 @@ impl SurfaceIndex {
         Self::build(mesh, faces.into_iter(), &NoProgress).expect("never cancelled")
     }
 
-    /// Returns the number of triangles. Triangles are numbered from 0 in the order of the tree, which is not the order
-    /// of the faces.
+    /// Returns the number of triangles. Triangle indices start at 0 and follow the order of the tree, not the order of
+    /// the faces.
     pub fn n_triangles(&self) -> usize {
         self.positions.len()
     }
 
-    /// Returns a triangle by its number.
+    /// Returns the triangle with an index.
     ///
     /// # Panics
     ///
-    /// Panics if the number is not below [`n_triangles`](Self::n_triangles).
+    /// Panics if the index is not below [`n_triangles`](Self::n_triangles).
     #[inline]
     pub fn triangle(&self, i: u32) -> Triangle {
         let Origin {
@@ -122,7 +123,7 @@ impl SurfaceIndex {
         }
     }
 
-    /// Returns the face that contains a triangle; `None` if there is no triangle of this number.
+    /// Returns the face that contains a triangle; `None` if there is no triangle with this index.
     pub fn face(&self, i: u32) -> Option<FaceId> {
         self.origins.get(i as usize).map(|origin| origin.face)
     }
@@ -132,9 +133,9 @@ impl SurfaceIndex {
         [self.nodes[0].min, self.nodes[0].max]
     }
 
-    /// Calls `found` with the number of each triangle in the boxes that `enters` accepts. `enters` is called with the smallest
-    /// and the largest corner of a box, and only for boxes inside accepted boxes. Triangles in a box of the lowest level
-    /// are all found, also those that a smaller box would leave out.
+    /// Calls `found` with the index of each triangle in the boxes that `enters` accepts. `enters` is called with the
+    /// smallest and the largest corner of a box, and only for boxes inside accepted boxes. In an accepted box of the
+    /// lowest level, all triangles are found, even those that a smaller box would exclude.
     pub fn visit_boxes(
         &self,
         enters: &mut dyn FnMut(DVec3, DVec3) -> bool,
@@ -172,8 +173,9 @@ impl SurfaceIndex {
 
 impl Triangle {
     /// Returns the barycentric coordinates of the point of the triangle that is nearest to `p`: weights of the three
-    /// corners, not negative, with sum 1 up to rounding. The weight of a corner is exactly 0 if the nearest point was
-    /// found on the opposite side. In a triangle without area, the weights are those of a point on a side.
+    /// corners that are not negative and add up to 1, up to rounding. The weight of a corner is exactly 0 if the
+    /// nearest point was found on the opposite side. In a zero-area triangle, the weights are those of a point on a
+    /// side.
     pub fn barycentric(&self, p: DVec3) -> [f64; 3] {
         triangle::nearest_weights(p, &self.positions)
     }
@@ -184,7 +186,7 @@ impl Triangle {
     }
 }
 
-/// Returns a power of two that moves a number near 1. Multiplying by it changes no digits.
+/// Returns a power of two that scales `largest` to a number near 1. Scaling by a power of two is exact.
 fn unit_scale(largest: f64) -> f64 {
     f64::from_bits((2046 - (largest.to_bits() >> 52).clamp(1, 2045)) << 52)
 }

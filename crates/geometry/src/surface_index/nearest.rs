@@ -20,7 +20,7 @@ pub struct Nearest {
     pub lower: f64,
     /// The nearest point.
     pub point: DVec3,
-    /// The number of the triangle that contains the point, for [`SurfaceIndex::triangle`].
+    /// The index of the triangle that contains the point, for [`SurfaceIndex::triangle`].
     pub triangle: u32,
     /// The number of visited nodes.
     pub(crate) visits: u32,
@@ -38,12 +38,13 @@ const WHAT: &str = "find the nearest points";
 
 impl SurfaceIndex {
     /// Returns the point of the surface nearest to `p`. If several triangles are equally near, the answer is one of
-    /// them. `hint` is the number of a triangle that is probably near `p`, for example of the last search; a good hint
-    /// saves time. A hint that is out of range counts as 0.
+    /// them. `hint` is the index of a triangle that is probably near `p`, for example the result of the previous
+    /// search. A good hint saves time. A hint that is out of range counts as 0.
     ///
     /// If `p` is the center of a sphere, all triangles are equally near and the search would visit all of them.
-    /// It stops after a few thousand nodes and takes the nearest point that it found. [`Nearest::lower`] tells how much
-    /// nearer another point could be; for a sphere that is only the difference between its triangles and their boxes.
+    /// The search stops after a few thousand nodes and returns the nearest point found so far. [`Nearest::lower`] is a
+    /// lower bound on the true distance. For a sphere, the bound differs from the distance only by the difference
+    /// between the triangles and their boxes.
     ///
     /// Returns an infinite or undefined distance if `p` is not finite, or if squared coordinates are too large for an
     /// `f64`.
@@ -92,7 +93,7 @@ impl SurfaceIndex {
     }
 
     /// Returns the nearest point for each of the points, in their order. Runs in parallel; the result does not depend
-    /// on the number of threads. It is fastest if consecutive points are near each other.
+    /// on the number of threads. The search is fastest if consecutive points are near each other.
     ///
     /// # Errors
     ///
@@ -127,8 +128,8 @@ impl SurfaceIndex {
         self.nearest_to_all(n, position, &|n| meter.add(n))
     }
 
-    /// Returns the nearest point for each of the points `point(0)` to `point(n - 1)`; `None` where `point` returns `None`.
-    /// Calls `done` with the number of points after a few of them, and stops if it returns an error.
+    /// Returns the nearest point for each of the points `point(0)` to `point(n - 1)`; `None` where `point` returns
+    /// `None`. Calls `done` after every few points with their number, and stops if `done` returns an error.
     pub(crate) fn nearest_to_all(
         &self,
         n: usize,
@@ -179,7 +180,7 @@ impl SurfaceIndex {
         best.found(None, visits)
     }
 
-    /// Tries the triangles of a leaf, or returns the children of an inner node with their squared distances.
+    /// Tests the triangles of a leaf, or returns the children of an inner node with their squared distances.
     fn visit(&self, p: DVec3, i: usize, best: &mut Best) -> Option<[(usize, f64); 2]> {
         let node = &self.nodes[i];
         if node.right == 0 {

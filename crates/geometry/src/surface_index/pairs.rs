@@ -9,13 +9,14 @@ use super::SurfaceIndex;
 /// The search is divided into about this number of tasks.
 const TASKS: usize = 1024;
 
-/// Two subtrees whose triangles are compared. If both are the same subtree of the same index, each pair is visited once.
+/// Two subtrees whose triangles are compared. If both are the same subtree of the same index, each pair is visited
+/// once.
 type Task = (usize, usize);
 
 impl SurfaceIndex {
-    /// Returns all pairs of different triangles of this index whose bounding boxes overlap or touch, and for which `keep`
-    /// returns true, in ascending order. The first number of a pair is the smaller one. Runs in parallel; only the pairs
-    /// that are kept take memory.
+    /// Returns all pairs of different triangles of this index whose bounding boxes overlap or touch, and for which
+    /// `keep` returns true, in ascending order. The first index of a pair is the smaller one. Runs in parallel; only
+    /// the pairs that are kept take memory.
     ///
     /// # Errors
     ///
@@ -28,8 +29,9 @@ impl SurfaceIndex {
         self.search(self, true, &keep, progress)
     }
 
-    /// Returns all pairs of a triangle of this index and a triangle of another one whose bounding boxes overlap or touch,
-    /// and for which `keep` returns true, in ascending order. Runs in parallel; only the pairs that are kept take memory.
+    /// Returns all pairs of a triangle of this index and a triangle of another one whose bounding boxes overlap or
+    /// touch, and for which `keep` returns true, in ascending order. Runs in parallel; only the pairs that are kept
+    /// take memory.
     ///
     /// # Errors
     ///

@@ -12,29 +12,30 @@ use crate::predicates::orient2d;
 /// A point where a ray meets a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayHit {
-    /// How far along the ray the point is, in lengths of the direction; not negative.
+    /// The distance of the point along the ray, as a multiple of the length of the direction. Not negative.
     pub t: f64,
     /// The point.
     pub point: DVec3,
     /// The barycentric coordinates of the point: weights of the corners of the triangle, not negative.
     pub weights: [f64; 3],
-    /// The number of the triangle, for [`SurfaceIndex::triangle`].
+    /// The index of the triangle, for [`SurfaceIndex::triangle`].
     pub triangle: u32,
     /// Whether the ray meets the front of the triangle, from which its corners are in counter-clockwise order.
     pub is_front: bool,
 }
 
 impl SurfaceIndex {
-    /// Returns the first point where a ray meets the surface; of several triangles at the same point, the one with the
-    /// smallest number. `direction` need not have length 1. Points at the origin of the ray count.
+    /// Returns the first point where a ray meets the surface. If the ray meets several triangles at the same point, the
+    /// triangle with the lowest index is returned. `direction` need not have length 1. A point at the origin of the ray
+    /// counts as met.
     ///
-    /// The test is watertight: a ray that meets an inner edge or vertex meets exactly one of the triangles there on each
-    /// passage through the surface, so no ray slips through, and a ray from outside meets a closed surface an even number
-    /// of times. Triangles parallel to the ray are not met. A ray whose direction is zero or not finite meets nothing.
+    /// The test is watertight: if a ray passes through the surface at an inner edge or vertex, it meets exactly one of
+    /// the triangles there. So a ray from outside meets a closed surface an even number of times. Triangles parallel to
+    /// the ray are not met. A ray whose direction is zero or not finite meets nothing.
     ///
-    /// Sources: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", 2013, for the shear that moves the ray into an
-    /// axis; the signs of areas are computed exactly, and an area of zero gets the sign that it has after an infinitely small
-    /// move of the ray.
+    /// Sources: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", 2013, for the shear that moves the ray
+    /// into an axis; the signs of areas are computed exactly, and an area of zero gets the sign that it would have
+    /// after an infinitely small movement of the ray.
     pub fn ray(&self, origin: DVec3, direction: DVec3) -> Option<RayHit> {
         let mut first: Option<RayHit> = None;
         self.visit_ray(origin, direction, &mut |hit| {
@@ -58,7 +59,8 @@ impl SurfaceIndex {
         hits
     }
 
-    /// Returns the first point of each ray, given by origin and direction, as [`ray`](Self::ray) finds it. Runs in parallel.
+    /// Returns the first point of each ray, given by origin and direction, as [`ray`](Self::ray) finds it. Runs in
+    /// parallel.
     ///
     /// # Errors
     ///
@@ -81,7 +83,7 @@ impl SurfaceIndex {
         Ok(hits)
     }
 
-    /// Calls `visit` for hits of the ray. It returns the largest distance at which further hits matter.
+    /// Calls `visit` for hits of the ray. `visit` returns the largest distance at which further hits matter.
     fn visit_ray(&self, origin: DVec3, direction: DVec3, visit: &mut dyn FnMut(RayHit) -> f64) {
         let Some(ray) = Ray::new(origin, direction) else {
             return;
@@ -151,7 +153,7 @@ impl Ray {
         })
     }
 
-    /// Returns a lower bound of the position on the ray where it enters a box; `None` if it passes the box.
+    /// Returns a lower bound of the position on the ray where it enters a box; `None` if the ray misses the box.
     ///
     /// The box is enlarged by a multiple of the rounding error of [`meets`](Self::meets), so that no hit is lost.
     fn enters(&self, node: &Node) -> Option<f64> {
@@ -214,8 +216,8 @@ impl Ray {
     }
 }
 
-/// Returns on which side of the line from `a` to `b` the origin lies. If it lies on the line, the answer is that for the
-/// point (ε, ε²) with an infinitely small ε. `None` if `a` and `b` are equal.
+/// Returns the side of the line from `a` to `b` on which the origin lies. If the origin lies on the line, returns the
+/// side of the point (ε, ε²) with an infinitely small ε. Returns `None` if `a` and `b` are equal.
 fn side_of_origin(a: DVec2, b: DVec2) -> Option<Ordering> {
     let side = orient2d(a, b, DVec2::ZERO);
     if side != Equal {

@@ -30,10 +30,10 @@ pub(crate) fn between_segments([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> f64 {
     on_first.distance(on_second)
 }
 
-/// Returns the point of a triangle that is nearest to `p`, by the Voronoi region that contains `p`. A triangle
-/// without area is treated as its three sides.
+/// Returns the point of a triangle that is nearest to `p`, by the Voronoi region that contains `p`. A zero-area
+/// triangle is treated as its three sides.
 ///
-/// Ericson, "Real-Time Collision Detection", 2005, §5.1.5.
+/// Source: Ericson, "Real-Time Collision Detection", 2005, §5.1.5.
 pub(crate) fn nearest_on_triangle(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> DVec3 {
     let (ab, ac) = (b - a, c - a);
     if ab.cross(ac) == DVec3::ZERO {

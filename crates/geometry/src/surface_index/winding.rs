@@ -10,21 +10,23 @@ use super::{Node, SurfaceIndex, unit_scale};
 
 /// Computes how often a surface winds around a point.
 ///
-/// The winding number is the solid angle of the surface as seen from the point, with sign, divided by 4π. For a closed
-/// surface that faces outward, it is 1 inside and 0 outside; with nested or overlapping parts, the sum for the parts. For
-/// an open surface or a soup of triangles, it changes smoothly beside the gaps, and 1/2 is a good boundary between inside
-/// and outside: Jacobson, Kavan, Sorkine-Hornung, "Robust Inside-Outside Segmentation using Generalized Winding Numbers",
+/// The winding number is the signed solid angle of the surface as seen from the point, divided by 4π. For a closed
+/// surface that faces outward, the winding number is 1 inside and 0 outside. For nested or overlapping parts, the
+/// winding numbers of the parts are added. For an open surface or a list of unconnected triangles, the winding number
+/// changes smoothly near the gaps, and 1/2 is a good boundary between inside and outside: Jacobson, Kavan,
+/// Sorkine-Hornung, "Robust Inside-Outside Segmentation using Generalized Winding Numbers",
 /// 2013.
 ///
-/// Far parts of the surface are replaced by the first three terms of the Taylor series of their solid angle: Barill, Dickson,
-/// Schmidt, Levin, Jacobson, "Fast Winding Numbers for Soups and Clouds", 2018. A part is far if its distance exceeds its
-/// radius by the factor 2. The error of the winding number is usually below 1e-3, and below 0.01 in all tests.
+/// Far parts of the surface are replaced by the first three terms of the Taylor series of their solid angle: Barill,
+/// Dickson, Schmidt, Levin, Jacobson, "Fast Winding Numbers for Soups and Clouds", 2018. A part is far if its distance
+/// is more than twice its radius. The error of the winding number is usually below 1e-3, and below 0.01 in all tests.
 #[derive(Clone, Debug)]
 pub struct Winding<'a> {
     index: &'a SurfaceIndex,
-    /// A power of two that moves the coordinates near 1, so that none of the products overflows or underflows.
+    /// A power of two that scales the coordinates to a size near 1, so that none of the products overflows or
+    /// underflows.
     scale: f64,
-    /// One for each node, of the scaled coordinates. Those of leaves are not used.
+    /// The moments of each node, in the scaled coordinates. The moments of leaves are not used.
     moments: Vec<Moments>,
 }
 
@@ -88,7 +90,8 @@ impl<'a> Winding<'a> {
         })
     }
 
-    /// Returns the winding number at `p`. On a face, it is the mean of both sides, up to rounding. 0 if `p` is not finite.
+    /// Returns the winding number at `p`. On a face, it is the mean of the values on both sides, up to rounding.
+    /// Returns 0 if `p` is not finite.
     pub fn at(&self, p: DVec3) -> f64 {
         let p = p * self.scale;
         if p.is_nan() || p.abs().max_element() > 1e30 {
@@ -122,8 +125,8 @@ impl<'a> Winding<'a> {
         angle / (4.0 * PI)
     }
 
-    /// Whether `p` is inside the surface: whether the magnitude of the winding number exceeds 1/2. The direction in which
-    /// the faces point as a whole does not matter.
+    /// Whether `p` is inside the surface: whether the magnitude of the winding number exceeds 1/2. It does not matter
+    /// whether the faces point inward or outward.
     pub fn contains(&self, p: DVec3) -> bool {
         self.at(p).abs() > 0.5
     }
@@ -208,8 +211,8 @@ impl Moments {
 
     /// Returns the solid angle as seen from a point; `r` leads from the point to the center.
     ///
-    /// The solid angle is ∫ n · f(p) dA with f(p) = p / |p|³, seen from the origin. With R = |r|, the terms of the Taylor
-    /// series of f are
+    /// The solid angle is ∫ n · f(p) dA with f(p) = p / |p|³, seen from the origin. With R = |r|, the terms of
+    /// the Taylor series of f are
     ///
     /// ```text
     /// N · r / R³
@@ -242,10 +245,10 @@ fn zxy(p: DVec3) -> DVec3 {
     DVec3::new(p.z, p.x, p.y)
 }
 
-/// Returns the solid angle of a triangle as seen from the origin, positive if its front faces away from the origin; 0 if
-/// the origin lies in its plane.
+/// Returns the solid angle of a triangle as seen from the origin, positive if its front faces away from the origin.
+/// Returns 0 if the origin lies in the plane of the triangle.
 ///
-/// Van Oosterom, Strackee, "The Solid Angle of a Plane Triangle", 1983.
+/// Source: Van Oosterom, Strackee, "The Solid Angle of a Plane Triangle", 1983.
 fn solid_angle(&[a, b, c]: &[DVec3; 3]) -> f64 {
     let volume = a.dot(b.cross(c));
     if volume == 0.0 {

@@ -5,24 +5,24 @@ use progress::{Cancelled, Progress};
 
 use crate::tangent::triangles;
 
-/// How much a texture is stretched. A small circle on a triangle of the surface becomes an ellipse in the texture. The
-/// aspect is the ratio of its longer to its shorter axis: 1 if angles stay.
+/// Measures of how much a texture is stretched. A small circle on a triangle of the surface becomes an ellipse in the
+/// texture. The aspect is the ratio of the longer to the shorter axis of the ellipse: 1 if angles are preserved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretch {
-    /// The aspect that 95 % of the area of the surface does not exceed. Infinite if more than 5 % of the area has no
-    /// area in the texture.
+    /// The aspect that 95 % of the area of the surface does not exceed. Infinite if more than 5 % of the surface is
+    /// mapped to zero area in the texture.
     pub aspect: f64,
     /// The largest aspect.
     pub max_aspect: f64,
     /// The number of triangles of the texture that are mirrored: clockwise with v upwards.
     pub n_mirrored: usize,
-    /// The ratio of the largest to the smallest scale of area, without 2.5 % of the area at each end. 1 if the texture
-    /// has one scale.
+    /// The ratio of the largest to the smallest area scale, after the 2.5 % of the area with the largest scales and
+    /// the 2.5 % with the smallest scales are excluded. The ratio is 1 if the texture has one scale.
     pub scales: f64,
 }
 
-/// Measures how much a texture is stretched. Triangles without area on the surface are left out. Polygons are
-/// triangulated. Returns `None` if no triangle has an area.
+/// Measures how much a texture is stretched. Triangles with zero area on the surface are ignored. Polygons are
+/// triangulated. Returns `None` if all triangles have zero area.
 pub fn stretch(mesh: &Mesh, uvs: &[DVec2]) -> Option<Stretch> {
     let mut n_mirrored = 0;
     let mut aspects = Vec::new();
@@ -52,7 +52,7 @@ pub fn stretch(mesh: &Mesh, uvs: &[DVec2]) -> Option<Stretch> {
 }
 
 /// Returns the triangles of all faces with their aspects: how much the texture stretches angles, at least 1. Triangles
-/// without area on the surface are left out. See [`Stretch`].
+/// with zero area on the surface are left out. See [`Stretch`].
 pub fn aspects(mesh: &Mesh, uvs: &[DVec2]) -> impl Iterator<Item = ([HalfEdgeId; 3], f64)> {
     triangles(mesh).into_iter().filter_map(|triangle| {
         let (map, _) = jacobian(mesh, uvs, triangle)?;
@@ -60,7 +60,7 @@ pub fn aspects(mesh: &Mesh, uvs: &[DVec2]) -> impl Iterator<Item = ([HalfEdgeId;
     })
 }
 
-/// Returns the value up to which the weights have this sum. Sorts the values.
+/// Returns the value up to which the sum of the weights is `weight`. Sorts the values.
 fn percentile(values: &mut [(f64, f64)], weight: f64) -> f64 {
     values.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut sum = 0.0;
@@ -92,7 +92,8 @@ fn aspect([a, b]: [DVec2; 2]) -> f64 {
     let (e, f, g) = (a.dot(a), a.dot(b), b.dot(b));
     let middle = f64::midpoint(e, g);
     let radius = (((e - g) * (e - g)) / 4.0 + f * f).sqrt();
-    // The product of the singular values is the determinant, which has no cancellation.
+    // The product of the singular values is the determinant, so a division gives the smaller value without
+    // cancellation.
     let long = (middle + radius).sqrt();
     let short = a.perp_dot(b).abs() / long;
     if short > 0.0 {
@@ -111,11 +112,11 @@ struct Flat {
 }
 
 /// Returns the faces that overlap another face, or themselves, in the texture, in ascending order. Triangles that only
-/// share corners or sides do not overlap, and neither do triangles without area.
+/// share corners or sides do not overlap. Triangles with zero area do not overlap others.
 ///
 /// # Errors
 ///
-/// [`Cancelled`].
+/// [`Cancelled`] if `progress` asks to stop.
 pub fn overlapping_faces(
     mesh: &Mesh,
     uvs: &[DVec2],
@@ -135,7 +136,7 @@ pub fn overlapping_faces(
             })
         })
         .collect();
-    // A sweep along u: only triangles whose ranges of u overlap are compared.
+    // The loop sweeps along u: only triangles whose ranges of u overlap are compared.
     flat.sort_by(|a, b| a.low.x.total_cmp(&b.low.x).then(a.face.cmp(&b.face)));
     let mut overlaps = vec![false; flat.len()];
     for (i, a) in flat.iter().enumerate() {

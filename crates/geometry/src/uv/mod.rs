@@ -8,8 +8,8 @@
 //!      +---+             +---+---+---+
 //! ```
 //!
-//! Texture coordinates are values of half-edges, which stand for the corners of faces: one [`DVec2`] for each
-//! half-edge, in the order of their ids. `v` points upwards.
+//! Texture coordinates are values of half-edges, which represent the corners of faces. There is one [`DVec2`] for
+//! each half-edge, in the order of the half-edge ids. `v` points upwards.
 
 mod measure;
 mod pack;
@@ -29,7 +29,7 @@ pub use unwrap::{UnwrapOptions, Unwrapped, unwrap};
 pub struct Page {
     /// The width and height, in texels.
     pub size: u32,
-    /// The number of empty texels around each chart. Charts are twice as far from each other.
+    /// The number of empty texels around each chart. The distance between two charts is at least twice the padding.
     pub padding: u32,
 }
 
@@ -69,7 +69,8 @@ impl UvError {
 /// The charts of texture coordinates.
 #[derive(Clone, Debug, Eq, PartialEq)]
 pub struct Charts {
-    /// For each face, the number of its chart, in the order of the first faces. `u32::MAX` for removed faces.
+    /// For each face, the index of its chart; `u32::MAX` for removed faces. Charts are in the order of their first
+    /// faces.
     pub of_face: Vec<u32>,
     /// The number of charts.
     pub n: usize,
@@ -105,7 +106,7 @@ pub fn charts(mesh: &Mesh, uvs: &[DVec2]) -> Charts {
     }
 }
 
-/// Returns the index of an element as the number of its id.
+/// Converts the index of an element to 32 bits.
 fn number(index: usize) -> u32 {
     u32::try_from(index).expect("elements have 32-bit ids")
 }

@@ -1,4 +1,4 @@
-//! Packing: charts that exist are moved to one page, at one scale.
+//! Packing: existing charts are moved to one page and scaled to one scale.
 
 use std::collections::BTreeMap;
 
@@ -17,11 +17,11 @@ pub struct Packed {
     pub uvs: Vec<DVec2>,
     /// The number of charts.
     pub n_charts: usize,
-    /// The number of charts that have no area, on the surface or in the texture. They become the point (0, 0).
+    /// The number of charts with zero area on the surface or in the texture. All their coordinates become (0, 0).
     pub n_flat: usize,
     /// The number of charts that overlap themselves. They are packed by their convex hulls.
     pub n_overlapping: usize,
-    /// The area of the charts as a part of the page.
+    /// The area of the charts, as a fraction of the page.
     pub coverage: f64,
 }
 
@@ -29,8 +29,8 @@ pub struct Packed {
 struct Chart {
     /// The corners of its triangles.
     triangles: Vec<[HalfEdgeId; 3]>,
-    /// The number that its coordinates are multiplied by so that all charts have one scale. `None` for a chart without
-    /// area.
+    /// The factor by which its coordinates are multiplied, so that all charts have one scale. `None` for a zero-area
+    /// chart.
     scale: Option<f64>,
     /// The middle of its bounding box in the old texture.
     middle: DVec2,
@@ -44,17 +44,17 @@ struct Shape {
     positions: Vec<[f32; 3]>,
     uvs: Vec<[f32; 2]>,
     indices: Vec<u32>,
-    /// The points for which `positions` and `uvs` stand, in 64-bit numbers.
+    /// The points in `positions` and `uvs`, as 64-bit numbers.
     points: Vec<DVec2>,
 }
 
-/// Moves, turns and scales the charts of texture coordinates of a dense mesh, so that they do not overlap each other and
-/// have one scale: areas in the texture are proportional to areas of the surface. Angles and ratios of lengths inside a
-/// chart stay, and mirrored charts stay mirrored.
+/// Moves, turns and scales the charts of texture coordinates of a dense mesh, so that they do not overlap each other
+/// and have one scale: areas in the texture are proportional to areas of the surface. Angles and ratios of lengths
+/// inside a chart are preserved, and mirrored charts remain mirrored.
 ///
 /// # Errors
 ///
-/// [`UvError`].
+/// Returns an [`UvError`] if the charts cannot be packed.
 pub fn pack(
     mesh: &Mesh,
     uvs: &[DVec2],
@@ -90,7 +90,7 @@ pub fn pack(
     }
     let mut atlas = pack_shapes(&shapes, page, progress)?;
     for (shape, output) in shapes.iter_mut().zip(&atlas.meshes) {
-        // A chart that overlaps itself was cut into several.
+        // A chart that overlaps itself was cut into several charts.
         if n_charts(output) != 1 {
             *shape = shape.hull();
             packed.n_overlapping += 1;
@@ -164,7 +164,8 @@ fn n_charts(output: &OutputMesh) -> usize {
 }
 
 impl Shape {
-    /// Creates the shape of triangles whose corners are at `place`. All triangles are counter-clockwise.
+    /// Creates the shape of triangles. `place` returns the position of a corner. All triangles are
+    /// counter-clockwise.
     fn of_triangles(triangles: &[[HalfEdgeId; 3]], place: impl Fn(HalfEdgeId) -> DVec2) -> Self {
         let mut shape = Self::default();
         let mut numbers = BTreeMap::new();
@@ -224,7 +225,7 @@ impl Shape {
     }
 }
 
-/// How a chart moves: `p` goes to `turn * (p - from) + to`, with complex numbers.
+/// The motion of a chart: `p` moves to `turn * (p - from) + to`, in complex numbers.
 struct Motion {
     turn: DVec2,
     from: DVec2,
@@ -232,7 +233,7 @@ struct Motion {
 }
 
 impl Motion {
-    /// Returns the motion of a shape that fits best its packed vertices, with the given scale.
+    /// Returns the motion with the given scale that best maps the points of a shape to its packed vertices.
     fn new(shape: &Shape, output: &OutputMesh, atlas: &Atlas, page: Page, density: f64) -> Self {
         let size = DVec2::new(f64::from(atlas.width), f64::from(atlas.height));
         let size = size / f64::from(page.size);
@@ -246,7 +247,7 @@ impl Motion {
         let n = pairs.len().max(1) as f64;
         let from = pairs.iter().map(|pair| pair[0]).sum::<DVec2>() / n;
         let to = pairs.iter().map(|pair| pair[1]).sum::<DVec2>() / n;
-        // The sum of conj(p - from) (q - to), whose direction is the best rotation.
+        // The direction of the sum of conj(p - from) (q - to) is the best rotation.
         let turn = pairs.iter().fold(DVec2::ZERO, |sum, [p, q]| {
             let (p, q) = (*p - from, *q - to);
             sum + DVec2::new(p.dot(q), p.perp_dot(q))

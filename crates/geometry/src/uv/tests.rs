@@ -22,7 +22,7 @@ fn unwrapped(mesh: &Mesh) -> Unwrapped {
     unwrap(mesh, &options(&[]), &NoProgress).unwrap()
 }
 
-/// A sphere with a lid cut off.
+/// Returns a sphere without its top.
 fn bowl() -> Mesh {
     let mut mesh = shapes::uv_sphere(24, 16);
     let lid: Vec<_> = mesh
@@ -45,7 +45,7 @@ fn models() -> Vec<(&'static str, Mesh)> {
     ]
 }
 
-/// For each texel of a page, how many triangles contain its center.
+/// Returns, for each texel of a page, the number of triangles that contain its center.
 fn raster(mesh: &Mesh, uvs: &[DVec2], size: usize) -> Vec<u8> {
     let mut counts = vec![0; size * size];
     for triangle in crate::tangent::triangles(mesh) {
@@ -246,8 +246,8 @@ fn unwrapping_can_be_cancelled() {
     assert!(overlapping_faces(&mesh, &uvs, &Never).is_err());
 }
 
-/// Texture coordinates that map each face of a cube to the unit square, but the first to a mirrored and the last to a
-/// larger one.
+/// Returns texture coordinates that map each face of a cube to the unit square. The first face is mapped to a
+/// mirrored square, and the last face to a larger one.
 fn stacked(mesh: &Mesh) -> Vec<DVec2> {
     let square = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
     let mut uvs = vec![DVec2::ZERO; mesh.n_half_edges()];
@@ -284,7 +284,7 @@ fn packed_charts_have_one_scale_and_keep_their_shapes() {
         []
     );
     let measured = stretch(&mesh, &packed.uvs).unwrap();
-    // The mirrored face stays mirrored.
+    // The mirrored face remains mirrored.
     assert_eq!(measured.n_mirrored, 2);
     assert!((measured.max_aspect - 1.0).abs() < 1e-9, "{measured:?}");
     assert!((measured.scales - 1.0).abs() < 1e-9, "{measured:?}");

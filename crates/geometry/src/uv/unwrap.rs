@@ -15,7 +15,7 @@ pub struct UnwrapOptions<'a> {
     /// The largest angle between the normal of a face and the mean normal of its chart, in degrees, strictly between 0
     /// and 90.
     pub max_angle: f64,
-    /// The largest ratio between the scales of areas of a triangle and of its chart, at least 1.
+    /// The largest ratio between the area scale of a triangle and that of its chart, at least 1.
     pub max_stretch: f64,
     /// The size of the texture.
     pub page: Page,
@@ -28,9 +28,9 @@ pub struct Unwrapped {
     pub uvs: Vec<DVec2>,
     /// The charts.
     pub charts: Charts,
-    /// The area of the charts as a part of the page.
+    /// The area of the charts, as a fraction of the page.
     pub coverage: f64,
-    /// The faces without area in the texture: their area is zero, or too small for 32-bit numbers.
+    /// The faces whose area in the texture is zero, or too small for 32-bit numbers.
     pub flat: Vec<FaceId>,
     /// The polygons that are bent so far that they overlap themselves in the texture.
     pub bent: Vec<FaceId>,
@@ -38,18 +38,18 @@ pub struct Unwrapped {
 
 /// Computes texture coordinates for all faces of a dense mesh, without overlaps.
 ///
-/// Charts grow from flat regions. Each is flattened by least squares conformal maps (Levy, Petitjean, Ray, Maillot,
-/// "Least Squares Conformal Maps for Automatic Texture Atlas Generation", 2002), then by the as-rigid-as-possible
-/// method (Liu, Zhang, Xu, Gotsman, Gortler, "A Local/Global Approach to Mesh Parameterization", 2008), and split where
-/// it would overlap itself or be stretched too much. Charts have one scale and are packed by their shapes. They are not
-/// mirrored. Polygons stay in one piece.
+/// Charts grow from flat regions. Each chart is flattened by least squares conformal maps (Levy, Petitjean, Ray,
+/// Maillot, "Least Squares Conformal Maps for Automatic Texture Atlas Generation", 2002), then by the
+/// as-rigid-as-possible method (Liu, Zhang, Xu, Gotsman, Gortler, "A Local/Global Approach to Mesh Parameterization",
+/// 2008), and split where it would overlap itself or be stretched too much. All charts have the same scale and are
+/// packed by their shapes. No chart is mirrored, and no polygon is split.
 ///
 /// The computation uses 32-bit positions relative to the bounding box. Its result does not depend on the number of
 /// threads or the processor.
 ///
 /// # Errors
 ///
-/// [`UvError`].
+/// Returns an [`UvError`] if the surface cannot be unwrapped.
 pub fn unwrap(
     mesh: &Mesh,
     options: &UnwrapOptions,
@@ -101,7 +101,7 @@ pub fn unwrap(
     Ok(unwrapped)
 }
 
-/// Returns the texture coordinates of a vertex as computed.
+/// Returns the computed texture coordinates of a vertex.
 fn position(vertex: &OutputVertex) -> DVec2 {
     DVec2::from(vertex.uv.map(f64::from))
 }
@@ -171,7 +171,7 @@ pub(super) fn generate(
             _ => "pack charts",
         };
         let done = report.done as u64;
-        // How often packing is tried is not known before.
+        // The number of packing attempts is not known in advance.
         let total = report.total.map_or(done + 1, |total| total as u64);
         progress.advance(task, done.min(total), total)
     };
@@ -185,7 +185,7 @@ pub(super) fn generate(
 
 /// Returns the positions of all vertices, moved and scaled so that the bounding box has a size of 1.
 fn unit_positions(mesh: &Mesh) -> Vec<[f32; 3]> {
-    // First to a size that cannot overflow.
+    // First scales the coordinates so that later computations cannot overflow.
     let largest = |p: &DVec3| p.abs().max_element();
     let size = mesh.positions().iter().map(largest).fold(0.0, f64::max);
     let size = if size > 0.0 { size } else { 1.0 };

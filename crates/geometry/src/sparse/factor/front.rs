@@ -4,8 +4,8 @@ use rayon::prelude::*;
 
 use crate::sparse::symbolic::Supernode;
 
-/// The number of columns that are updated together, and also the number of columns that are subtracted from
-/// them together.
+/// The number of columns that are updated at a time. This is also the number of columns that are subtracted from
+/// them at a time.
 const TILE: usize = 4;
 /// The number of pivot columns that are updated in parallel.
 const BLOCK: usize = 64;
@@ -14,7 +14,7 @@ const PARALLEL_WORK: usize = 1 << 20;
 
 /// The matrix that the elimination of a supernode subtracts from the front of its parent.
 pub(super) struct Update {
-    /// The rows, in ascending order. The columns have the same numbers as the rows.
+    /// The rows, in ascending order. The columns have the same indices as the rows.
     rows: Vec<u32>,
     /// The lower triangle, column by column.
     values: Vec<f64>,
@@ -26,7 +26,7 @@ pub(super) struct Front {
     pub(super) values: Vec<f64>,
     /// The pivots of all supernodes so far.
     pub(super) pivots: Vec<f64>,
-    /// The place in the front for each row of the matrix. The list is allocated when the first supernode is
+    /// The position in the front of each row of the matrix. The list is allocated when the first supernode is
     /// eliminated.
     place: Vec<u32>,
     n: usize,
@@ -163,7 +163,7 @@ fn axpy(target: &mut [f64], column: &[f64], factor: f64) {
 
 /// Some consecutive columns of a front, each from the diagonal down.
 struct Tile<'a> {
-    /// The number of the first column, which is the row of its first entry.
+    /// The index of the first column, which is the row of its first entry.
     first: usize,
     columns: Vec<&'a mut [f64]>,
 }

@@ -39,9 +39,9 @@ fn is_in([a, b, c]: &[Int; 3], (at, d): Point) -> bool {
     dot(n, from(*a)) == 0 && inside(*a, *b) && inside(*b, *c) && inside(*c, *a)
 }
 
-/// Whether two triangles have a common point that is not on a common corner or side, in rational arithmetic: the common
-/// points are the convex hull of corners of one triangle in the other, points where a side meets the plane of the other
-/// triangle, and points where two sides meet.
+/// Whether two triangles have a common point that is not on a common corner or side, in rational arithmetic. The set of
+/// common points is the convex hull of these points: corners of one triangle that lie in the other, points where a side
+/// meets the plane of the other triangle, and points where two sides meet.
 fn intersect(s: &[Int; 3], t: &[Int; 3]) -> bool {
     if normal(s) == [0; 3] || normal(t) == [0; 3] {
         return false;
@@ -95,7 +95,7 @@ fn triangles_on_a_small_lattice_intersect_as_in_rational_arithmetic() {
             [1.0, 1.0 / power_of_two(700), power_of_two(470), 0.1][(round / 12 % 4) as usize];
         let real = |t: [Int; 3]| t.map(|p| DVec3::from(p.map(|x| x as f64)) * scale);
         let (expected, found) = (intersect(&s, &t), triangles_intersect(&real(s), &real(t)));
-        // Multiples of 0.1 are rounded, and lie no longer on common lines.
+        // Multiples of 0.1 are rounded, so these points no longer lie on common lines.
         if scale != 0.1 {
             assert_eq!(expected, found, "{s:?} {t:?} {scale}");
         }
@@ -116,25 +116,27 @@ fn neighbors_intersect_only_if_they_overlap_further() {
     let at = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
     let [o, x, y] = [DVec3::ZERO, DVec3::X, DVec3::Y];
     let t = [o, x, y];
-    // A common side: across it, folded up, and folded onto the triangle.
+    // The triangles have a common side. The other triangle lies across it, is folded up, or is folded onto the
+    // first one.
     assert!(!triangles_intersect(&t, &[x, o, at(0.5, -1.0, 0.0)]));
     assert!(!triangles_intersect(&t, &[x, o, at(0.5, 0.1, 1e-300)]));
     assert!(triangles_intersect(&t, &[x, o, at(0.5, 0.1, 0.0)]));
-    // A common corner: beside it, through the triangle, along a side.
+    // The triangles have a common corner. The other triangle lies beside the first one, passes through it, or
+    // lies along a side.
     assert!(!triangles_intersect(&t, &[o, -x, -y]));
     assert!(triangles_intersect(
         &t,
         &[o, at(0.2, 0.2, 1.0), at(0.2, 0.2, -1.0)]
     ));
     assert!(triangles_intersect(&t, &[o, at(0.5, 0.0, 0.0), -y]));
-    // The same three corners.
+    // The triangles have the same three corners.
     assert!(triangles_intersect(&t, &[x, o, y]));
-    // Only a point: a corner of one on the other.
+    // The triangles meet only at a point: a corner of one lies on the other.
     assert!(triangles_intersect(
         &t,
         &[at(0.25, 0.25, 0.0), at(0.0, 0.0, 1.0), at(1.0, 0.0, 1.0)]
     ));
-    // No area.
+    // One triangle has zero area.
     assert!(!triangles_intersect(
         &t,
         &[at(0.2, 0.2, 1.0), at(0.2, 0.2, -1.0), at(0.2, 0.2, 0.0)]

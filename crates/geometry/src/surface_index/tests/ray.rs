@@ -57,7 +57,7 @@ fn rays_meet_the_triangles_that_brute_force_finds() {
     }
 }
 
-/// The number of passages inward minus outward, and of all passages.
+/// Returns the number of inward passages minus the number of outward passages, and the number of all passages.
 fn passages(index: &SurfaceIndex, origin: DVec3, direction: DVec3) -> (i64, usize) {
     let hits = index.ray_all(origin, direction);
     let inward = hits
@@ -96,7 +96,7 @@ fn rays_at_vertices_and_edges_of_closed_surfaces_pass_as_often_inward_as_outward
                 assert_eq!((inward, all % 2), (0, 0), "{origin} {target}");
                 n += all;
             }
-            // Along the axes: in the planes of faces and through edges.
+            // These rays run along the axes: in the planes of faces and through edges.
             for axis in DVec3::AXES {
                 for v in &vertices {
                     for direction in [axis, -axis] {
@@ -130,7 +130,7 @@ fn a_ray_without_direction_meets_nothing() {
         assert_eq!(index.ray(DVec3::ZERO, direction), None);
     }
     assert_eq!(index.ray(DVec3::NAN, DVec3::X), None);
-    // Behind the origin, and at the origin.
+    // The surface is behind the origin of the ray, then at the origin.
     assert_eq!(index.ray(DVec3::new(2.0, 0.0, 0.0), DVec3::X), None);
     assert_eq!(
         index.ray(DVec3::new(1.0, 0.3, 0.2), DVec3::X).unwrap().t,

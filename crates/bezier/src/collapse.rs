@@ -55,7 +55,7 @@ impl Sides {
         }
     }
 
-    /// Returns, for each collapsed side, the side with the lowest number in its chain. A chain is a set of
+    /// Returns, for each collapsed side, the side with the lowest index in its chain. A chain is a set of
     /// adjacent collapsed sides, which together become one vertex. For a side that is not collapsed, returns
     /// the side itself.
     pub(crate) fn chains(self) -> [usize; 4] {
@@ -87,7 +87,7 @@ impl Sides {
             .count();
         let corners = corners as u64;
 
-        // A cell with one collapsed side becomes a triangle; a cell with more collapsed sides has no area.
+        // A cell with one collapsed side becomes a triangle; a cell with more collapsed sides has zero area.
         let (n_lost, triangles) = match (n, collapsed) {
             (1, 0 | 1) => (0, collapsed),
             (1, _) => (1, 0),

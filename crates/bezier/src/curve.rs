@@ -118,8 +118,8 @@ impl<P: Point> Curve<P> {
 
     /// Returns all degree + 1 levels of de Casteljau's algorithm at `t`.
     ///
-    /// The first level is the control points. Each level has one point less than the previous level. The only
-    /// point of the last level is the point of the curve.
+    /// The first level consists of the control points. Each level has one point fewer than the previous level.
+    /// The only point of the last level is the point of the curve.
     pub fn levels(&self, t: f64) -> Vec<Vec<P>> {
         let mut levels = vec![self.points.clone()];
         for k in 0..self.degree() {
@@ -160,9 +160,9 @@ impl<P: Point> Curve<P> {
     }
 }
 
-/// Does one step of de Casteljau's algorithm: computes (1 - t) a + t b for each pair of neighbors a, b.
+/// Performs one step of de Casteljau's algorithm: computes (1 - t) a + t b for each pair of neighbors a, b.
 ///
-/// Returns one point less than `points`; an empty list if `points` has at most one point.
+/// Returns one point fewer than `points`; an empty list if `points` has at most one point.
 pub fn one_step<P: Point>(points: &[P], t: f64) -> Vec<P> {
     let weights = Weights::at(t);
     points

@@ -43,7 +43,7 @@ pub enum BezierError {
     /// The number of segments of a tessellation is 0.
     #[error("expected at least 1 segment per side, found 0")]
     NoSegments,
-    /// The tessellation would have more elements than 32-bit ids can number. A count that exceeds 64 bits is
+    /// The tessellation would have more elements than there are 32-bit ids. A count that exceeds 64 bits is
     /// replaced by the largest 64-bit number.
     #[error(
         "expected at most {} vertices, faces and face corners each, found {} vertices, {} faces and {} face corners",

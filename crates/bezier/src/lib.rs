@@ -1,7 +1,7 @@
 //! Bezier curves and patches: de Casteljau's algorithm, derivatives, exact normals, and tessellation of
 //! patches into polygons.
 //!
-//! The crate works on points and numbers only. The crate does not depend on meshes, files or operations.
+//! The crate works only on points and numbers. It does not depend on meshes, files or operations.
 //!
 //! - A **Bezier curve** of degree n is a weighted mean of n + 1 *control points*: c(t) is the
 //!   sum of `p_i B(n, i)(t)` with the Bernstein polynomials B(n, i). See [`Curve`], in 2D and 3D.

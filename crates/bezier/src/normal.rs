@@ -20,18 +20,18 @@
 //! where Nk is the first nonzero coefficient. At a regular point, Nk is N0 = du x dv. On a collapsed edge v =
 //! 0, where du = 0 along the edge, the first nonzero coefficient is N1 = duv x dv, with the mixed derivative
 //! duv. On the edge v = 1, the line into the patch has b = -1, and N1 = -duv x dv. Collapsed corners, and edges
-//! along which N1 is zero too, need N2 and higher coefficients. N has degree 5 in u and in v, so N10 is the
-//! last.
+//! along which N1 is also zero, need N2 and higher coefficients. N has degree 5 in u and in v, so N10 is the last
+//! coefficient.
 //!
 //! The line runs straight across the edge, or along the diagonal from a corner. If the limit exists, it is
 //! the same along every line. If the limit does not exist (at the tip of a cone at the corner of a patch,
 //! or at a cusp), the result is the limit along this line. If N is zero along the whole line, two more
-//! lines beside it are tried; if N is zero along these too, the point has no normal.
+//! lines beside it are tried; if N is also zero along these lines, the point has no normal.
 //!
 //! Before the coefficients are compared with zero, the derivatives along u are divided by the largest
 //! difference of control points that are neighbors along u, and the derivatives along v by the largest
 //! difference along v. A coefficient of at most [`VANISHING`] is then treated as zero. Because of this scaling,
-//! thin and tiny patches get normals too.
+//! even thin and tiny patches get normals.
 
 use glam::{DVec2, DVec3};
 
@@ -40,8 +40,8 @@ use crate::patch::size;
 /// The largest coefficient of the scaled normal that is treated as zero.
 ///
 /// The value is well above the rounding errors of the coefficients (1e-14), and above the coefficients at an
-/// edge that is collapsed only within the tolerance of [`tessellate`](crate::tessellate()). So close to a pole
-/// (within 1e-10 of the size of the patch), the next coefficient gives a better normal anyway.
+/// edge that is collapsed only within the tolerance of [`tessellate`](crate::tessellate()). Near a pole (within
+/// 1e-10 times the size of the patch), the next coefficient gives a better normal anyway.
 pub const VANISHING: f64 = 1e-10;
 
 /// Returns the limit of the normals along a line into the patch from `uv`; `None` if the normals are zero along all
@@ -126,8 +126,8 @@ mod tests {
         }
     }
 
-    /// Returns the patch in all eight orientations: each combination of reversed in u, reversed in v, and
-    /// transposed.
+    /// Returns the patch in all eight orientations: all combinations of reversing u, reversing v, and
+    /// transposing.
     fn all_orientations(patch: &Patch) -> Vec<Patch> {
         let mut orientations = vec![*patch];
         let reversed_u = |p: &Patch| {

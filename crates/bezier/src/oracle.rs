@@ -6,7 +6,7 @@
 //! B(n, i)'(t) = n (B(n - 1, i - 1)(t) - B(n - 1, i)(t))
 //! ```
 //!
-//! Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, §5.1 and §5.3.
+//! Source: Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, §5.1 and §5.3.
 
 use glam::DVec3;
 

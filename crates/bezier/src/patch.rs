@@ -75,8 +75,8 @@ impl Patch {
 
     /// Returns the point at (`u`, `v`): evaluates each row at u, then the four resulting points at v.
     ///
-    /// On the boundary, the result has the same bits as the point of the boundary curve, whose control points
-    /// are those on the boundary. At a corner, the result is the control point.
+    /// On the boundary, the result is identical bit for bit to the point of the boundary curve, whose control
+    /// points are those on the boundary. At a corner, the result is the control point.
     pub fn point(&self, u: f64, v: f64) -> DVec3 {
         self.point_at(Weights::at(u), Weights::at(v))
     }

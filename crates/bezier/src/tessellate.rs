@@ -11,7 +11,7 @@
 //!                                 +-> u   that du x dv points to
 //! ```
 //!
-//! Vertices are numbered along u first, then along v, patch after patch. Patches share no vertices; weld
+//! Vertex ids increase along u first, then along v, then from patch to patch. Patches share no vertices; weld
 //! the result to join them. If two patches have the same control points on a common boundary, in either
 //! direction, their positions there are equal bit for bit.
 //!
@@ -24,10 +24,10 @@
 //! normal of this vertex are those of the middle of that first side.
 //!
 //! A patch is a curve or a point if all of its rows or all of its columns coincide, with the same tolerance. A
-//! patch that is a curve or a point, or of which no cell becomes a face, gives no vertices and no faces. The
+//! patch gives no vertices and no faces if it is a curve or a point, or if none of its cells becomes a face. The
 //! result lists these patches.
 //!
-//! Other degeneracies are not detected. Faces can have no area if a patch folds onto itself, or if the
+//! Other degeneracies are not detected. Faces can have zero area if a patch folds onto itself, or if the
 //! segments are so few that the corners of a cell are collinear (as at the tip of the teapot's spout with
 //! one segment).
 
@@ -50,7 +50,7 @@ pub enum Faces {
 
 /// Tessellates `patches`, each into `segments` by `segments` cells.
 ///
-/// The [module](self) documents how vertices are numbered and how collapsed sides are handled. To report
+/// The [module](self) documents the order of the vertex ids and how collapsed sides are handled. To report
 /// progress or to allow cancellation, call [`tessellate_patch`] in a loop instead.
 ///
 /// # Errors

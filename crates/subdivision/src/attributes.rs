@@ -35,7 +35,7 @@ impl AttributeSources<'_> {
     ///
     /// - Vertices: [`Rule::Interpolate`] uses the masks of the positions. [`Rule::Copy`] keeps the values of
     ///   old vertices, and new vertices have the value zero.
-    /// - Corners: [`Rule::Interpolate`] smooths each piece between seams separately, as [`FaceVarying`] says.
+    /// - Corners: [`Rule::Interpolate`] smooths each piece between seams separately, as defined by [`FaceVarying`].
     ///   [`Rule::Copy`] works in the same way as for vertices.
     /// - Edges: parts of an old edge copy its value, and other new edges have the value zero.
     /// - Faces: parts of an old face copy its value.

@@ -26,11 +26,11 @@
 //! closes the face of the vertex. The twin of join(h) is on the boundary, between along(prev(h)) and along(h).
 //! The edges of these half-edges come after all other edges, in order of h.
 //!
-//! Face f keeps its number, edge e becomes face F + e, and the faces of vertices follow in order of the
-//! vertices. An isolated vertex has no face; it is kept, after all other vertices. An inner vertex of valence 2
-//! has no face either, because the face would have two corners. The two outgoing half-edges h and k of such a
-//! vertex share one new edge: across(h) if h is lower than k, and across(k) is its twin. So each such vertex
-//! lowers the numbers of all later edges by one.
+//! Face f keeps its id, edge e becomes face F + e, and the faces of vertices follow in order of the
+//! vertices. Isolated vertices have no faces. They are kept; their ids follow those of all other vertices. An
+//! inner vertex of valence 2 also has no face, because the face would have two corners. The two outgoing
+//! half-edges h and k of such a vertex share one new edge: across(h) if h is lower than k, and across(k) is its
+//! twin. So each of these vertices lowers the ids of all later edges by one.
 
 use mesh::{Connectivity, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};
@@ -129,7 +129,7 @@ impl<'a> DooSabin<'a> {
         HalfEdgeId::new(2 * (self.first_join() + self.outer.below(h.index())))
     }
 
-    /// Returns the number of the first of the edges join(h).
+    /// Returns the id of the first of the edges join(h).
     fn first_join(&self) -> usize {
         4 * self.n_edges - self.doubled.len()
     }

@@ -6,7 +6,7 @@ use progress::Cancelled;
 use crate::rules::Scheme;
 use crate::size::TooLarge;
 
-/// The reason why a mesh could not be subdivided.
+/// Why a mesh could not be subdivided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SubdivisionError {
     /// The scheme takes triangles only, and a face has more than three corners.
@@ -44,7 +44,7 @@ pub enum SubdivisionError {
     /// No limit masks are implemented for the scheme.
     #[error("the limit surface is not available for {}", .0.name())]
     NoLimit(Scheme),
-    /// The result would have more elements than ids can number, or exceed the memory budget.
+    /// The result would have more elements than there are ids, or exceed the memory budget.
     #[error(transparent)]
     TooLarge(#[from] TooLarge),
     /// The progress listener asked to stop.

@@ -1,8 +1,8 @@
 //! Smooths corner values, such as texture coordinates, piece by piece between seams.
 //!
-//! A piece is the set of corners around a vertex that have the same value, and the edges between pieces are
-//! seams. Inside a piece, values are smoothed as positions are. Along the border of a piece, values are either
-//! smoothed as on a boundary, from values of this piece only, or stay linear:
+//! A piece is a set of corners around a vertex that have the same value. The edges between pieces are seams.
+//! Inside a piece, values are smoothed as positions are. Along the border of a piece, values are either
+//! smoothed as on a boundary, from values of this piece only, or interpolated linearly:
 //!
 //! ```text
 //!            \   |   /                     a: the value at v in the upper piece becomes
@@ -45,11 +45,11 @@ const NEXT: usize = 1;
 /// How the value of a piece at a vertex changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
-    /// The value stays on every level.
+    /// The value does not change on any level.
     Corner,
-    /// The value stays as long as an edge inside the piece, or the vertex, is sharp.
+    /// The value does not change as long as an edge inside the piece, or the vertex, is sharp.
     SemiSharp,
-    /// The value stays as long as an edge inside the other piece is sharp.
+    /// The value does not change as long as an edge inside the other piece is sharp.
     Dependent,
     /// The value is smoothed along the border of the piece.
     Crease,
@@ -108,8 +108,8 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Returns the sharpness of the edge of `h` on this level, and on the next level the sharpness of the part of
-    /// that edge at the origin of `h`.
+    /// Returns two values: the sharpness of the edge of `h` on this level, and the sharpness on the next level of
+    /// the part of that edge at the origin of `h`.
     fn edge_sharpness(&self, h: HalfEdgeId) -> [f64; 2] {
         [self.sharpness.edge(h.edge()), self.sharpness.of_half(h)]
     }
@@ -118,8 +118,8 @@ impl<'a> Field<'a> {
         self.values[h.index()]
     }
 
-    /// Returns the value at the target of a half-edge: in the face of the half-edge, or if the half-edge has no
-    /// face, in the face of the twin.
+    /// Returns the corner value at the target of a half-edge. Uses the face of the half-edge, or the face of its
+    /// twin if the half-edge has none.
     fn far(&self, h: HalfEdgeId) -> DVec4 {
         if self.mesh.face(h).is_some() {
             self.of(self.mesh.next(h))
@@ -147,7 +147,7 @@ impl<'a> Field<'a> {
         if sharp >= 1.0 {
             return (self.of(h) + self.of(self.mesh.next(h))) * 0.5;
         }
-        // The values on both sides are sums in the same order, so that they have the same bits.
+        // The values on both sides are sums in the same order, so that they are identical bit for bit.
         let halves = e.half_edges();
         let ends = self.of(halves[0]) + self.of(self.mesh.next(halves[0]));
         let [smooth_end, sides] = if self.scheme == Scheme::CatmullClark {

@@ -56,8 +56,8 @@ pub(crate) fn triangulated(mesh: &Mesh) -> Mesh {
         .0
 }
 
-/// Returns the sorted list of faces as vertex numbers. Each face starts with its lowest vertex. Two meshes that
-/// differ only in the ids of edges and faces have equal lists.
+/// Returns the sorted list of faces, each as its vertex ids. Each face starts with its lowest vertex. Two meshes
+/// that differ only in the ids of edges and faces have equal lists.
 pub(crate) fn triangles(mesh: &Mesh) -> Vec<[u32; 3]> {
     let mut triangles: Vec<[u32; 3]> = mesh.faces().map(|f| corners(mesh, f)).collect();
     for t in &mut triangles {
@@ -75,12 +75,12 @@ pub(crate) fn corners(mesh: &Mesh, f: FaceId) -> [u32; 3] {
     [(); 3].map(|()| v.next().unwrap())
 }
 
-/// Returns the number of a vertex.
+/// Returns the id of a vertex as a number.
 pub(crate) fn number(v: VertexId) -> u32 {
     u32::try_from(v.index()).unwrap()
 }
 
-/// Moves every vertex by a pseudo-random vector that depends on its number, by at most 0.1 along each axis.
+/// Moves every vertex by a pseudo-random vector that depends on its id, by at most 0.1 along each axis.
 fn jittered(mut mesh: Mesh) -> Mesh {
     for (i, p) in (1_u32..).zip(mesh.positions_mut()) {
         let jitter = |k: u32| f64::from(i.wrapping_mul(k) >> 8) / f64::from(1_u32 << 24) - 0.5;

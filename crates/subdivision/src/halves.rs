@@ -1,6 +1,6 @@
 //! Splits every old edge in two, as most schemes do.
 //!
-//! New edges are numbered so that the id of each new half-edge follows from the old ids without a search. V is
+//! New edges are ordered so that the id of each new half-edge follows from the old ids without a search. V is
 //! the number of old vertices. Old edge e consists of the half-edge h = 2e, from a to b, and its twin. The edge
 //! becomes the new edges 2e and 2e + 1, which meet at the new vertex V + e:
 //!
@@ -47,7 +47,7 @@ pub(crate) fn on_edge(mesh: &Mesh, h: HalfEdgeId) -> VertexId {
     VertexId::new(mesh.n_vertices() + h.edge().index())
 }
 
-/// Returns the place of the corner of new half-edge `i`, which must be a part of an old half-edge.
+/// Returns the location of the corner of new half-edge `i`, which must be a part of an old half-edge.
 pub(crate) fn place(mesh: &Mesh, i: usize) -> Place {
     // An old edge has four parts: parts 0 and 2 belong to its first half-edge, parts 1 and 3 to its second
     // half-edge. Parts 0 and 3 start at the origins of these half-edges.

@@ -14,9 +14,9 @@
 //! | [`DooSabin`](Scheme::DooSabin) | one face each, plus one face for each old edge and vertex | are replaced by faces | smooth |
 //!
 //! A level is not a sequence of edits. The arrays of a level are computed directly from the old arrays, each
-//! element independently and in parallel. The result has the same bytes for any number of threads. The modules
-//! `halves`, `triangles`, `quads`, `doo_sabin` and `sqrt3` explain how the ids of new elements follow from the
-//! old ids. The weighted means are in `masks`, and creases are in `sharpness`.
+//! element independently and in parallel. The result is identical bit for bit for any number of threads. The
+//! modules `halves`, `triangles`, `quads`, `doo_sabin` and `sqrt3` explain how the ids of new elements follow
+//! from the old ids. The weighted means are in `masks`, and creases are in `sharpness`.
 //!
 //! # Convergence
 //!
@@ -47,10 +47,10 @@
 //!        0     1     2     3     4     5     6     7     8   level
 //! ```
 //!
-//! `+` is a torus of regular valence, `o` is an icosahedron, and `*` is both at once. On the torus, the distance is
-//! quadratic in the edge length, so each level divides it by four. Around the vertices of valence 5 of the
-//! icosahedron, each level scales the surface, and eventually the distance too, by the subdominant eigenvalue
-//! 3/8 + cos(2π/5)/4 = 0.452.
+//! `+` is a torus of regular valence, `o` is an icosahedron, and `*` marks both at the same position. On the torus,
+//! the distance is quadratic in the edge length, so each level divides it by four. Around the vertices of valence 5
+//! of the icosahedron, each level scales the surface, and eventually the distance too, by the subdominant
+//! eigenvalue 3/8 + cos(2π/5)/4 = 0.452.
 //!
 //! # Examples
 //!

@@ -1,4 +1,4 @@
-//! Writes connectivity arrays in parallel. Each element is a function of its number and the old mesh.
+//! Writes connectivity arrays in parallel. Each element is a function of its id and the old mesh.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, VertexId};
 use progress::{Cancelled, Meter};
@@ -68,7 +68,7 @@ pub(crate) fn write<const N: usize, const K: usize>(
     })
 }
 
-/// Writes the block with the given number: its half-edges, and the first half-edges of its faces or vertices.
+/// Writes the block with the given index: its half-edges, and the first half-edges of its faces or vertices.
 type Task<'a> = dyn Fn(usize, Arrays, &mut [HalfEdgeId]) -> Result<(), Cancelled> + Sync + 'a;
 
 /// Runs `task` on all blocks in parallel. Takes a `dyn` task so that the parallel loop is compiled once.

@@ -5,7 +5,7 @@
 //! Chosen triangles are cut into four ("red"). If a neighbor of a red triangle is not red, the new vertex on
 //! their common edge is a hanging vertex of the neighbor. Between levels, the neighbor keeps its hanging vertex
 //! as a fourth corner in the middle of a straight side. A triangle that would get a second hanging vertex, on
-//! the same side or on a different side, is cut into four too, and so on. So the edge lengths of neighboring
+//! the same side or on a different side, is also cut into four, and so on. So the edge lengths of neighboring
 //! triangles differ by at most a factor of two. After the last level, triangles with a hanging vertex are cut
 //! in two ("green"):
 //!
@@ -59,7 +59,7 @@ use smoothed::{LocalMasks, SmoothedElements};
 ///
 /// Around the chosen faces, triangles are cut in four or in two so that no vertex lies inside an edge. If the
 /// scheme makes quads, the neighbors of chosen faces get additional corners instead. The surface outside of the
-/// chosen faces does not change at all. An old vertex follows the masks of the scheme if all its faces are
+/// chosen faces does not change. An old vertex follows the masks of the scheme if all its faces are
 /// chosen; otherwise it stays in place. A new vertex on an edge follows the masks if all faces at the edge are
 /// chosen; otherwise it lies in the middle of the edge. If all faces are chosen, the result is the same as that of
 /// [`subdivide`](crate::subdivide).
@@ -71,8 +71,8 @@ use smoothed::{LocalMasks, SmoothedElements};
 /// compacted first.
 ///
 /// Vertex attributes are blended with the weights of the positions. Where positions are smoothed, corner values
-/// are smoothed as [`Rules::face_varying`] says. Elsewhere each corner value is a mean of values of its own
-/// face, so that seams are kept. Parts of an edge or a face copy the values of the old edge or face, and new
+/// are smoothed as defined by [`Rules::face_varying`]. Elsewhere each corner value is a mean of values of its own
+/// face, so that seams are preserved. Parts of an edge or a face copy the values of the old edge or face, and new
 /// edges inside faces have the value zero. Sharpness decreases where positions are smoothed and is kept
 /// elsewhere. Normals are dropped.
 ///
@@ -85,8 +85,8 @@ use smoothed::{LocalMasks, SmoothedElements};
 ///
 /// [`SubdivisionError::WholeMesh`] for Butterfly, Sqrt3 and Doo-Sabin, [`SubdivisionError::FlagCount`] unless
 /// `faces` has one flag for each face, [`SubdivisionError::NotTriangle`] if the scheme needs triangles and a
-/// face has more corners, [`SubdivisionError::TooLarge`] if a level would have more elements than ids can
-/// number or take more than `budget` bytes, [`SubdivisionError::TooFar`] if a coordinate is too large,
+/// face has more corners, [`SubdivisionError::TooLarge`] if a level would have more elements than there are ids
+/// or take more than `budget` bytes, [`SubdivisionError::TooFar`] if a coordinate is too large,
 /// [`SubdivisionError::Cancelled`] if the progress listener asks to stop.
 pub fn refine_faces(
     mesh: &Mesh,
@@ -158,8 +158,8 @@ fn finer(mesh: &Mesh, pieces: &Pieces, rules: Rules, meter: &Meter) -> Result<Me
     })
 }
 
-/// Estimates how much the levels add to the meter. Ignores the faces around the chosen faces, which can be cut
-/// too.
+/// Estimates how much the levels add to the meter. Ignores the faces around the chosen faces, which can also be
+/// cut.
 fn work(mesh: &Mesh, chosen: &[bool], levels: u32) -> u64 {
     let kept = (mesh.n_vertices() + mesh.n_faces()) as u64;
     let n_chosen = chosen.iter().filter(|&&c| c).count() as u64;

@@ -81,7 +81,7 @@ impl SparseMatrix {
                 entries.sort_by_key(|&(column, _)| column);
                 for same in entries.chunk_by(|a, b| a.0 == b.0) {
                     let weight = same.iter().map(|&(_, w)| w).sum();
-                    let column = u32::try_from(same[0].0).expect("vertex numbers fit into 32 bits");
+                    let column = u32::try_from(same[0].0).expect("vertex ids fit into 32 bits");
                     part.columns.push(column);
                     part.weights.push(weight);
                 }

@@ -7,10 +7,10 @@ use progress::{Cancelled, Meter};
 use rayon::prelude::*;
 
 /// The number of elements in one block. Each task processes one block, which takes well below a millisecond, so
-/// that progress is smooth and cancelling is quick.
+/// that progress is smooth and cancellation is quick.
 pub(crate) const BLOCK: usize = 4096;
 
-/// Processes one block of an array. The first argument is the number of the first element of the block.
+/// Processes one block of an array. The first argument is the index of the first element of the block.
 type Task<'a, T> = dyn Fn(usize, &mut [T]) -> Result<(), Cancelled> + Sync + 'a;
 
 /// Runs `task` on all blocks of an array in parallel. The task is `dyn`, here and in the functions below, so

@@ -1,7 +1,7 @@
 //! The connectivity of the next level when every face with n corners is split into n quads.
 //!
-//! V, E and F are the numbers of old vertices, edges and faces. Corners are numbered face by face, and c(h) is
-//! the number of the corner at the origin of half-edge h. Edges are split in two as in
+//! V, E and F are the numbers of old vertices, edges and faces. Corner indices increase face by face, and c(h) is
+//! the index of the corner at the origin of half-edge h. Edges are split in two as in
 //! [`halves`](crate::halves). Each part of a face is the quad at one corner. Between two of these quads, an
 //! edge called a spoke runs from the middle of an old edge to the center:
 //!
@@ -23,7 +23,7 @@
 //! half-edge h of its face.
 //!
 //! In a mesh of quads the corners of face f are 4f to 4f + 3, and the corner of a half-edge follows from its
-//! position in the face. In other meshes, the corner numbers are computed in advance. Only the first level can
+//! position in the face. In other meshes, the corner indices are computed in advance. Only the first level can
 //! need this, because afterwards all faces are quads. The idea is from Dupuy and Vanhoey, "A Halfedge
 //! Refinement Rule for Parallel Catmull-Clark Subdivision", 2021, adapted to half-edges stored in pairs.
 
@@ -42,7 +42,7 @@ pub(crate) struct Quads<'a> {
     n_edges: usize,
     n_faces: usize,
     n_corners: usize,
-    /// The corner numbers, if not all faces are quads.
+    /// The corner indices, if not all faces are quads.
     table: Option<CornerTable>,
 }
 
@@ -73,7 +73,7 @@ impl<'a> Quads<'a> {
         }
     }
 
-    /// Returns the numbers of the corners before, at and after the origin of half-edge `h` of face `f`.
+    /// Returns the indices of the corners before, at and after the origin of half-edge `h` of face `f`.
     #[inline]
     fn corners(&self, h: HalfEdgeId, f: FaceId) -> [usize; 3] {
         if let Some(table) = &self.table {

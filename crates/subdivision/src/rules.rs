@@ -97,22 +97,22 @@ pub enum Creasing {
 }
 
 /// How corner values, such as texture coordinates, are subdivided at seams. A piece is a set of faces around a
-/// vertex that share one value there. The names are those of OpenSubdiv's face-varying linear interpolation
-/// rules.
+/// vertex that share one value at the vertex. The names are those of OpenSubdiv's face-varying linear
+/// interpolation rules.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 pub enum FaceVarying {
-    /// Values are smooth everywhere. Seams are smoothed as boundaries are.
+    /// Values are smoothed everywhere. Seams are smoothed as boundaries are.
     None,
-    /// Like `None`, but values stay at a vertex where a piece has a single face.
+    /// Like `None`, but values do not change at a vertex where a piece has a single face.
     CornersOnly,
-    /// Like `CornersOnly`, but values also stay where three or more pieces meet.
+    /// Like `CornersOnly`, but values also do not change where three or more pieces meet.
     CornersPlus1,
-    /// Like `CornersPlus1`, but values also stay at the ends of seams. If the value of one piece at a vertex
-    /// stays, the values of all pieces at this vertex stay.
+    /// Like `CornersPlus1`, but values also do not change at the ends of seams. If the value of one piece at a
+    /// vertex does not change, the values of all pieces at this vertex do not change.
     CornersPlus2,
-    /// Values are linear along seams and boundaries, and smooth elsewhere.
+    /// Values are interpolated linearly along seams and boundaries, and smoothed elsewhere.
     Boundaries,
-    /// Values are linear everywhere: each new value is a mean of values of one old face.
+    /// Values are interpolated linearly everywhere: each new value is a mean of values of one old face.
     #[default]
     All,
 }

@@ -8,7 +8,7 @@ use crate::attributes;
 use crate::parallel::of_blocks;
 use crate::rules::{Scheme, Split};
 
-/// The largest number of elements of one kind: ids end at 2^32 - 2.
+/// The largest number of elements of one kind: the highest id is 2^32 - 2.
 const MAX_ELEMENTS: u64 = u32::MAX as u64;
 
 /// A number of elements: an exact number, or a range if the number is not known yet. Arithmetic saturates at the
@@ -57,7 +57,7 @@ pub struct Size<N = u64> {
     pub edges: N,
     /// The number of faces.
     pub faces: N,
-    /// The number of corners of all faces together.
+    /// The total number of corners of all faces.
     pub corners: N,
     /// The number of isolated vertices, which is the same on all levels.
     pub isolated: N,
@@ -121,7 +121,7 @@ impl Size {
 }
 
 impl<N: Count> Size<N> {
-    /// Returns the size after one level of a scheme. `level` is the number of the level, counted from 0.
+    /// Returns the size after one level of a scheme. `level` is the index of the level, counted from 0.
     #[must_use]
     pub fn after(self, scheme: Scheme, level: u32) -> Self {
         let Self {
@@ -196,8 +196,8 @@ impl<N: Count> Size<N> {
             .plus(self.faces.least().times(4 + face))
     }
 
-    /// Checks that after the given levels, starting from this size, ids can number all elements and the mesh
-    /// takes at most `budget` bytes.
+    /// Checks that after the given levels, starting from this size, there are enough ids for all elements and the
+    /// mesh takes at most `budget` bytes.
     ///
     /// # Errors
     ///
@@ -243,7 +243,7 @@ pub struct TooLarge {
     pub faces: u64,
     /// The number of half-edges at that level.
     pub half_edges: u64,
-    /// The number of bytes of the mesh; `None` if it has more elements than ids can number.
+    /// The number of bytes of the mesh; `None` if it has more elements than there are ids.
     pub bytes: Option<u64>,
     /// The memory budget in bytes.
     pub budget: u64,
@@ -266,7 +266,7 @@ impl TooLarge {
                 "take {bytes} bytes, but the memory budget is {} bytes",
                 self.budget
             ),
-            None => format!("{} half-edges, but ids end at 2^32 - 2", self.half_edges),
+            None => format!("{} half-edges, but the highest id is 2^32 - 2", self.half_edges),
         }
     }
 }
@@ -301,13 +301,13 @@ mod tests {
 
     #[test]
     fn ids_end_before_fourteen_levels_of_an_icosahedron() {
-        // Ids can number 60 * 4^13 = 4.03e9 half-edges, but not 60 * 4^14.
+        // There are enough ids for 60 * 4^13 = 4.03e9 half-edges, but not for 60 * 4^14.
         assert_eq!(icosahedron().check(LOOP, 0..13, u64::MAX), Ok(()));
         let too_large = icosahedron().check(LOOP, 0..14, u64::MAX).unwrap_err();
         assert_eq!(too_large.fits, Some(13));
         assert_eq!(
             too_large.to_string(),
-            "level 14 would have 5368709120 faces and 16106127360 half-edges, but ids end at 2^32 - 2"
+            "level 14 would have 5368709120 faces and 16106127360 half-edges, but the highest id is 2^32 - 2"
         );
         assert_eq!(too_large.help(), "the highest level that fits is 13");
     }

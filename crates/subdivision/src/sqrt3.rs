@@ -3,12 +3,12 @@
 //! V, E and F are the numbers of old vertices, edges and faces. Half-edge h runs from a to b and has face f,
 //! whose opposite corner is c; its twin t has face g. Every face gets the vertex V + f at its center and three
 //! spokes, the edges from its corners to the center. Every inner edge is flipped, so that it connects two
-//! centers. Edges keep their numbers. The spoke of the k-th corner of face f is edge E + 3f + k, and spoke(h)
+//! centers. Edges keep their ids. The spoke of the k-th corner of face f is edge E + 3f + k, and spoke(h)
 //! is the half-edge of that spoke that starts at the origin of h. T(h), the k-th triangle of face f, is 3f + k:
 //!
 //! ```text
 //!              c                           c
-//!            /   \                       / | \           h keeps its number and lies in T(h); it runs
+//!            /   \                       / | \           h keeps its id and lies in T(h); it runs
 //!          /   f   \                   /   m   \         from the center of g to m, the center of f
 //!        /           \               /   / | \   \
 //!      a ----- h ----> b    --->    a -----|----- b      next(h)              = twin of spoke(h)
@@ -76,7 +76,7 @@ enum Side {
 }
 
 impl<'a> Sqrt3<'a> {
-    /// Prepares level number `level`, counted from 0. For an odd level, the mesh must be the result of an even
+    /// Prepares level `level`, counted from 0. For an odd level, the mesh must be the result of an even
     /// level.
     pub(crate) fn new(mesh: &'a Mesh, level: u32) -> Self {
         let is_outer = |i| mesh.face(HalfEdgeId::new(i)).is_none();
@@ -199,7 +199,7 @@ impl<'a> Sqrt3<'a> {
         }
     }
 
-    /// Returns the links of the new half-edge that has the number of old half-edge `h`.
+    /// Returns the links of the new half-edge that has the id of old half-edge `h`.
     #[inline]
     fn kept_half_edge(&self, h: HalfEdgeId) -> Link {
         let mesh = self.mesh;
@@ -321,9 +321,9 @@ impl Topology for Sqrt3<'_> {
         links::connectivity(self, meter)
     }
 
-    /// Returns the place of a corner. A triangle at a flipped edge lies in two old faces. At its old vertex,
-    /// triangle 3f + k has the value of the corner of face f. At each center, the triangle has the value of the
-    /// face of that center.
+    /// Returns the location of a corner. A triangle next to a flipped edge covers parts of two old faces. At its
+    /// old vertex, triangle 3f + k has the value of the corner of face f. At each center, the triangle has the
+    /// value of the face of that center.
     fn corner(&self, finer: &Connectivity, i: usize) -> Place {
         let mesh = self.mesh;
         let Some(face) = finer.face[i].some() else {

@@ -4,14 +4,14 @@ use std::ops::Range;
 
 use crate::parallel::of_blocks;
 
-/// A subset of the numbers from 0 to n - 1, which are the numbers of n elements. The members are in ascending order.
+/// A subset of the numbers from 0 to n - 1, which are the ids of n elements. The members are in ascending order.
 #[derive(Debug)]
 pub(crate) struct Subset(Vec<u32>);
 
 impl Subset {
     /// Collects the numbers below `n` for which `is_member` is true.
     pub(crate) fn of(n: usize, is_member: impl Fn(usize) -> bool + Sync) -> Self {
-        let number = |i| u32::try_from(i).expect("element numbers fit into ids");
+        let number = |i| u32::try_from(i).expect("the ids of elements fit into 32 bits");
         let in_block = |block: Range<usize>| -> Vec<u32> {
             block.filter(|&i| is_member(i)).map(number).collect()
         };

@@ -11,12 +11,11 @@ pub(crate) trait Topology: Sync {
     /// Computes the connectivity of the next level.
     fn connectivity(&self, meter: &Meter) -> Result<Connectivity, Cancelled>;
 
-    /// Returns the place in the old mesh of the corner of half-edge `i` of the next level.
+    /// Returns the location in the old mesh of the corner of half-edge `i` of the next level.
     fn corner(&self, finer: &Connectivity, i: usize) -> Place;
 
     /// Returns the old vertex that vertex `i` of the next level comes from, if any. The default returns `i`, because
-    /// old vertices keep their numbers in most schemes. A result that is not the number of an old vertex means that
-    /// vertex `i` is new.
+    /// old vertices keep their ids in most schemes. If the result is not the id of an old vertex, vertex `i` is new.
     fn vertex(&self, i: usize) -> Option<usize> {
         Some(i)
     }
@@ -28,8 +27,8 @@ pub(crate) trait Topology: Sync {
     fn face(&self, i: usize) -> Option<usize>;
 
     /// If edge `i` of the next level is a part of an old edge at one of its ends, returns the half-edge of the old
-    /// edge that starts at this end. The default is for schemes that split each edge in two and number these parts
-    /// before all other edges.
+    /// edge that starts at this end. The default is for schemes that split each edge in two and assign ids to
+    /// these parts before all other edges.
     fn half(&self, i: usize) -> Option<HalfEdgeId> {
         self.edge(i).map(|_| HalfEdgeId::new(i))
     }
@@ -46,7 +45,7 @@ pub(crate) trait Topology: Sync {
     }
 }
 
-/// The place of a corner of the next level in an old face.
+/// The location of a corner of the next level in an old face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Place {
     /// At the origin of this half-edge.
@@ -63,7 +62,7 @@ pub(crate) enum Place {
     Outside,
 }
 
-/// Returns the place on the edge of `h`, at 1/n of the way from its origin, in the face of `h` or of its twin.
+/// Returns the location on the edge of `h`, at 1/n of the way from its origin, in the face of `h` or of its twin.
 pub(crate) fn place_near_origin(mesh: &Mesh, h: HalfEdgeId, n: u32) -> Place {
     if mesh.face(h).is_some() {
         Place::Toward([h, mesh.next(h)], n)

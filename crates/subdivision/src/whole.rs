@@ -25,8 +25,8 @@ use crate::size::Size;
 ///
 /// A mesh with dead elements is compacted first, and the ids are those of the compacted mesh.
 ///
-/// Vertex attributes are smoothed with the weights of the positions, and corner values as
-/// [`Rules::face_varying`] says. Parts of an edge or a face copy the values of the old edge or face. Normals
+/// Vertex attributes are smoothed with the weights of the positions, and corner values as defined by
+/// [`Rules::face_varying`]. Parts of an edge or a face copy the values of the old edge or face. Normals
 /// are dropped, because they would be wrong. Sharpness ([`mesh::CREASE`], [`mesh::VERTEX_SHARPNESS`]) shapes
 /// Loop and Catmull-Clark surfaces and decreases with each level; other schemes copy it unchanged.
 ///
@@ -35,7 +35,7 @@ use crate::size::Size;
 /// # Errors
 ///
 /// [`SubdivisionError::NotTriangle`] if the scheme needs triangles and a face has more corners,
-/// [`SubdivisionError::TooLarge`] if the result would have more elements than ids can number,
+/// [`SubdivisionError::TooLarge`] if the result would have more elements than there are ids,
 /// [`SubdivisionError::TooFar`] if a coordinate is too large, [`SubdivisionError::Cancelled`] if the progress
 /// listener asks to stop.
 pub fn subdivide(
@@ -49,7 +49,7 @@ pub fn subdivide(
 
 /// Computes a range of levels, starting from this mesh. Fails if the result would take more than `budget` bytes.
 ///
-/// `levels.start` is the number of levels that were applied to this mesh before; 0 for a coarse mesh. The number
+/// `levels.start` is the number of levels that were applied to this mesh before; 0 for a coarse mesh. This number
 /// matters for [`Scheme::Sqrt3`](crate::Scheme::Sqrt3), whose even and odd levels differ.
 ///
 /// # Errors

@@ -83,7 +83,7 @@ impl Distance {
     /// bound. Returns `None` if one of the meshes has no faces.
     pub fn between(a: &Mesh, b: &Mesh, tolerance: Option<f64>) -> Option<Self> {
         let found = Self::between_with(a, b, tolerance, &NoProgress);
-        found.expect("never cancelled")
+        found.expect("never canceled")
     }
 
     /// Measures the distance like [`between`](Self::between), and reports progress.
@@ -340,7 +340,7 @@ fn vertex_hits(
 /// Returns the distance from each vertex of `from` to the surface of `to`, by vertex index. The distance is NaN
 /// for dead vertices. Returns `None` if `to` has no faces.
 pub fn vertex_distances(from: &Mesh, to: &Mesh) -> Option<Vec<f64>> {
-    let hits = vertex_hits(from, &SurfaceIndex::new(to)?, &|| Ok(())).expect("never cancelled");
+    let hits = vertex_hits(from, &SurfaceIndex::new(to)?, &|| Ok(())).expect("never canceled");
     let distance = |hit: Option<Nearest>| hit.map_or(f64::NAN, |hit| hit.distance);
     Some(hits.into_iter().map(distance).collect())
 }

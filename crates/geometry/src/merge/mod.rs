@@ -40,7 +40,7 @@ pub enum MergeError {
     /// The distance is negative or not finite.
     #[error("`distance` must be a finite number of at least 0, found {0}")]
     Distance(f64),
-    /// The computation was cancelled.
+    /// The computation was canceled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
     /// The result cannot be built as a mesh.

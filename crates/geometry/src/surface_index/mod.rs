@@ -80,7 +80,7 @@ struct Node {
 impl SurfaceIndex {
     /// Builds the index of all faces of a mesh. Returns `None` if the mesh has no faces.
     pub fn new(mesh: &Mesh) -> Option<Self> {
-        Self::with_progress(mesh, &NoProgress).expect("never cancelled")
+        Self::with_progress(mesh, &NoProgress).expect("never canceled")
     }
 
     /// Builds the index like [`new`](Self::new), and reports progress.
@@ -94,7 +94,7 @@ impl SurfaceIndex {
 
     /// Builds the index of some faces of a mesh. Returns `None` if there are no faces.
     pub fn of_faces(mesh: &Mesh, faces: impl IntoIterator<Item = FaceId>) -> Option<Self> {
-        Self::build(mesh, faces.into_iter(), &NoProgress).expect("never cancelled")
+        Self::build(mesh, faces.into_iter(), &NoProgress).expect("never canceled")
     }
 
     /// Returns the number of triangles. Triangle indices start at 0 and follow the order of the tree, not the order of

@@ -36,7 +36,7 @@ pub struct Page {
 /// Why charts could not be made or packed.
 #[derive(Clone, Debug, Eq, PartialEq, thiserror::Error)]
 pub enum UvError {
-    /// The computation was cancelled.
+    /// The computation was canceled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
     /// The charts with their padding do not fit into the page.

@@ -16,12 +16,12 @@ const LEVELS_TO_CONVERGE: usize = 96;
 pub(crate) struct Sector {
     first: usize,
     n_faces: usize,
-    /// Whether the sector goes all the way around, so that its last spoke is its first.
+    /// Whether the sector goes all the way around, so that its first spoke is also its last.
     is_closed: bool,
 }
 
 impl Sector {
-    /// Returns the sector that contains face number `face`, up to the next sharp spokes on both sides.
+    /// Returns the sector that contains face `face`, up to the next sharp spokes on both sides.
     pub(crate) fn of_face(star: &Star, face: usize) -> Self {
         let n = star.spokes.len();
         let is_sharp = |i: usize| star.spoke_sharpness[i % n] > 0.0;
@@ -90,7 +90,7 @@ impl Star {
         }
     }
 
-    /// Returns spoke number `i` of a sector.
+    /// Returns spoke `i` of a sector.
     fn spoke(&self, sector: Sector, i: usize) -> DVec3 {
         self.spokes[(sector.first + i) % self.spokes.len()]
     }

@@ -94,7 +94,7 @@ impl Star {
     }
 
     /// Returns the rule of the vertex. In a settled star, the rule is the same on all levels. The rule
-    /// identifies spokes by their numbers.
+    /// identifies spokes by their indices.
     pub(crate) fn rule(&self) -> VertexRule<usize> {
         VertexRule::of(
             self.vertex_sharpness,

@@ -43,9 +43,9 @@ pub(super) struct Pieces<'a> {
     faces: PartTable<FaceId>,
 }
 
-/// The numbers of the parts into which elements of one kind are cut, in order of the elements.
+/// The ids of the parts into which elements of one kind are cut, in order of the elements.
 pub(super) struct PartTable<I> {
-    /// For each element the number of its first part, and at the end the total number of parts.
+    /// The id of the first part of each element, followed by the total number of parts.
     first: Vec<u32>,
     /// The element of each part.
     of: Vec<I>,
@@ -70,12 +70,12 @@ impl<I: Copy> PartTable<I> {
         self.of.len()
     }
 
-    /// Returns the element of a part, or `None` if the number is too large.
+    /// Returns the element of a part, or `None` if there is no such part.
     pub(super) fn get(&self, part: usize) -> Option<I> {
         self.of.get(part).copied()
     }
 
-    /// Returns the number of the first part of element `i`.
+    /// Returns the id of the first part of element `i`.
     fn first(&self, i: usize) -> usize {
         self.first[i] as usize
     }
@@ -90,8 +90,8 @@ pub(super) struct Side {
 }
 
 impl<'a> Pieces<'a> {
-    /// Numbers the parts of all elements. The caller must have checked that ids can number the elements of the next
-    /// level.
+    /// Assigns ids to the parts of all elements. The caller must have checked that there are enough ids for the
+    /// elements of the next level.
     pub(super) fn new(mesh: &'a Mesh, cuts: Cuts, smoothed: SmoothedElements) -> Self {
         let with_edges = |kept: u32| {
             let edges = mesh.edges().zip(&cuts.edges);
@@ -131,7 +131,7 @@ impl<'a> Pieces<'a> {
         self.middles.first(e.index()) != self.middles.first(e.index() + 1)
     }
 
-    /// Returns the number of the first new edge on an old edge.
+    /// Returns the id of the first new edge on an old edge.
     fn first_edge(&self, e: EdgeId) -> usize {
         self.on_edges.first(e.index())
     }

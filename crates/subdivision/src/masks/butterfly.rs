@@ -13,8 +13,8 @@
 //!    inside, both ends regular     at an extraordinary end       on the boundary
 //! ```
 //!
-//! An inner vertex is extraordinary if its valence n is not 6. The neighbors of an extraordinary vertex are
-//! numbered from the other end of the edge, j = 0 to n - 1, and have the weights
+//! An inner vertex is extraordinary if its valence n is not 6. The neighbors of an extraordinary vertex have the
+//! indices j = 0 to n - 1, starting at the other end of the edge, and the weights
 //!
 //! - 5/12, -1/12, -1/12 for n = 3 and 3/8, 0, -1/8, 0 for n = 4,
 //! - (1/4 + cos(2πj/n) + cos(4πj/n)/2)/n for n ≥ 5.

@@ -24,7 +24,7 @@ fn refined(mesh: &Mesh, faces: &[bool], rules: Rules, levels: u32) -> Mesh {
     new
 }
 
-/// Chooses about one in `one_in` faces pseudo-randomly, by their numbers and a seed.
+/// Chooses about one in `one_in` faces pseudo-randomly, depending on their ids and a seed.
 fn some(mesh: &Mesh, one_in: u32, seed: u32) -> Vec<bool> {
     let number = |f: usize| u32::try_from(f).unwrap() + 1 + 1000 * seed;
     let is_chosen = |f: usize| (number(f).wrapping_mul(2_654_435_769) >> 16).is_multiple_of(one_in);

@@ -46,7 +46,7 @@ pub(crate) fn levels(scheme: Scheme, levels: u32, mesh: &Mesh) -> Mesh {
     new
 }
 
-/// Returns the numbers that no scheme changes: Euler characteristic, components, boundary loops, isolated
+/// Returns the counts that no scheme changes: Euler characteristic, components, boundary loops, isolated
 /// vertices.
 pub(crate) fn topology(mesh: &Mesh) -> (i64, usize, usize, usize) {
     (

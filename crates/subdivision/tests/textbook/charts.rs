@@ -1,6 +1,6 @@
 //! Corner values and their subdivision, as in OpenSubdiv's face-varying data.
 //!
-//! Corners at one vertex share one value if their numbers are equal. The rule for a value is decided on each
+//! Corners at one vertex share one value if their coordinates are equal. The rule for a value is decided on each
 //! level, from the sharpness on that level. OpenSubdiv decides only once which of two values depends on the
 //! other; the results differ only if sharpness ends on one side of a vertex earlier than on the other side.
 
@@ -19,13 +19,13 @@ use crate::split::{self, Place};
 enum State {
     /// The value moves as the position of its vertex does.
     Regular,
-    /// The value stays.
+    /// The value does not change.
     Corner,
     /// The value moves along the border of its faces.
     Crease,
-    /// The value stays while an edge or the vertex is semi-sharp, then moves.
+    /// The value does not change while an edge or the vertex is semi-sharp, then moves.
     Sharp,
-    /// The value stays while the other value at the vertex stays.
+    /// The value does not change while the other value at the vertex does not change.
     Dependent,
 }
 
@@ -41,7 +41,7 @@ pub(crate) struct Charts {
 }
 
 impl Charts {
-    /// Creates corner values from the numbers of each corner of each face.
+    /// Creates corner values from the coordinates at each corner of each face.
     pub(crate) fn new(faces: &[Vec<usize>], numbers: &[Vec<DVec2>]) -> Self {
         let mut index_of: BTreeMap<(usize, [u64; 2]), usize> = BTreeMap::new();
         let mut values = Vec::new();
@@ -73,7 +73,7 @@ impl Charts {
         charts
     }
 
-    /// Returns the number at each corner of each face.
+    /// Returns the coordinates at each corner of each face.
     pub(crate) fn numbers(&self) -> Vec<Vec<DVec2>> {
         let numbers = |face: &Vec<usize>| face.iter().map(|&x| self.values[x]).collect();
         self.corners.iter().map(numbers).collect()

@@ -6,7 +6,7 @@ use mesh::{COLOR, CREASE, DVec2, DVec3, DVec4, Mesh, UV, VERTEX_SHARPNESS, Verte
 
 use crate::polygons::{Polygons, edge};
 
-/// The tolerance for equal numbers. For positions it is relative to the size of the mesh.
+/// The tolerance for equal numbers. For positions, the tolerance is relative to the size of the mesh.
 const TOLERANCE: f64 = 1e-12;
 
 /// Converts polygon lists to a mesh, with columns for sharpness, corner values and, as colors, positions.

@@ -1,4 +1,4 @@
-//! Loop, Catmull-Clark and midpoint subdivision: faces are cut at the middles of their edges.
+//! Loop, Catmull-Clark and midpoint subdivision: faces are cut at the midpoints of their edges.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use crate::masks;
 use crate::polygons::{Adjacency, Edge, Polygons, ahead, behind, edge};
 use crate::sharpness::Sharpness;
 
-/// The place of a corner of a new face in its old face.
+/// The location of a corner of a new face in its old face.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Place {
     /// At this corner of the old face.

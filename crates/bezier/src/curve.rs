@@ -71,8 +71,8 @@ impl<P: Point> Curve<P> {
     ///
     /// # Errors
     ///
-    /// [`BezierError::NoPoints`] if the list is empty, [`BezierError::TooManyPoints`] if there are more
-    /// than [`MAX_POINTS`], [`BezierError::NotFinite`] for the first point that is not finite.
+    /// Returns [`BezierError::NoPoints`] if the list is empty, [`BezierError::TooManyPoints`] if there
+    /// are more than [`MAX_POINTS`], [`BezierError::NotFinite`] for the first point that is not finite.
     pub fn new(points: Vec<P>) -> Result<Self, BezierError> {
         if points.is_empty() {
             return Err(BezierError::NoPoints);
@@ -102,8 +102,8 @@ impl<P: Point> Curve<P> {
     ///
     /// # Errors
     ///
-    /// [`BezierError::NoSuchPoint`] if the control point does not exist, [`BezierError::NotFinite`]
-    /// if `point` is not finite.
+    /// Returns [`BezierError::NoSuchPoint`] if the control point does not exist,
+    /// [`BezierError::NotFinite`] if `point` is not finite.
     pub fn with_point(&self, index: usize, point: P) -> Result<Self, BezierError> {
         if index >= self.points.len() {
             return Err(BezierError::NoSuchPoint {

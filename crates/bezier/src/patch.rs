@@ -41,8 +41,8 @@ impl Patch {
     ///
     /// # Errors
     ///
-    /// [`BezierError::NotFinite`] or [`BezierError::TooLarge`] for the first control point with a
-    /// coordinate that is not finite, or whose magnitude exceeds [`MAX_COORDINATE`].
+    /// Returns [`BezierError::NotFinite`] or [`BezierError::TooLarge`] for the first control point with
+    /// a coordinate that is not finite, or whose magnitude exceeds [`MAX_COORDINATE`].
     #[expect(
         clippy::large_types_passed_by_value,
         reason = "the constructor stores the points"

@@ -55,7 +55,7 @@ pub enum Faces {
 ///
 /// # Errors
 ///
-/// The errors of [`counts`], before anything is computed, and [`BezierError::OutOfMemory`].
+/// Returns the errors of [`counts`], before anything is computed, and [`BezierError::OutOfMemory`].
 pub fn tessellate(
     patches: &[Patch],
     segments: u32,
@@ -73,8 +73,8 @@ pub fn tessellate(
 ///
 /// # Errors
 ///
-/// The errors of [`counts`], for the resulting size of `out`, and [`BezierError::OutOfMemory`]. `out` is
-/// unchanged.
+/// Returns the errors of [`counts`], for the resulting size of `out`, and [`BezierError::OutOfMemory`].
+/// `out` is unchanged.
 pub fn tessellate_patch(
     patch: &Patch,
     segments: u32,
@@ -111,8 +111,8 @@ pub fn tessellate_patch(
 ///
 /// # Errors
 ///
-/// [`BezierError::NoSegments`] if `segments` is 0, [`BezierError::TooManyElements`] if the number of
-/// vertices, faces or face corners does not fit 32-bit ids.
+/// Returns [`BezierError::NoSegments`] if `segments` is 0, [`BezierError::TooManyElements`] if the
+/// number of vertices, faces or face corners does not fit 32-bit ids.
 pub fn counts(patches: &[Patch], segments: u32, faces: Faces) -> Result<Counts, BezierError> {
     let n = NonZero::new(segments).ok_or(BezierError::NoSegments)?.get();
     let total = patches.iter().fold(Counts::default(), |total, patch| {

@@ -53,9 +53,9 @@ const SHAPE_WEIGHT: f64 = 1e-6;
 ///
 /// # Errors
 ///
-/// [`EditError::DuplicateEdge`] if every triangulation needs an edge that already exists (for holes of more
-/// than 500 edges: if the search finds no triangulation without such an edge), [`EditError::Full`], and the
-/// errors of [`Mesh::fill_hole`]. The mesh is unchanged.
+/// Returns [`EditError::DuplicateEdge`] if every triangulation needs an edge that already exists (for holes
+/// of more than 500 edges: if the search finds no triangulation without such an edge), [`EditError::Full`],
+/// and the errors of [`Mesh::fill_hole`]. The mesh is unchanged.
 pub fn fill_hole_triangles(mesh: &mut Mesh, h: HalfEdgeId) -> Result<Vec<FaceId>, EditError> {
     let ears = ears(mesh, &mesh.rim(h)?)?;
     mesh.fill_hole_by_ears(h, &ears)

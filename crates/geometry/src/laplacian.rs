@@ -69,7 +69,7 @@ impl Laplacian {
     ///
     /// # Errors
     ///
-    /// [`Cancelled`] if `progress` cancels.
+    /// Returns [`Cancelled`] if `progress` cancels.
     pub fn new(mesh: &Mesh, progress: &dyn Progress) -> Result<Self, Cancelled> {
         let exponent = exponent(mesh.positions());
         let points: Vec<DVec3> = mesh

@@ -32,7 +32,7 @@ const CANDIDATES: usize = 5;
 ///
 /// # Errors
 ///
-/// [`Cancelled`] if `progress` asks to stop.
+/// Returns [`Cancelled`] if `progress` asks to stop.
 pub fn samples(
     mesh: &Mesh,
     count: usize,

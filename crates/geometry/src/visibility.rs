@@ -28,7 +28,7 @@ const BLOCK: usize = 256;
 ///
 /// # Errors
 ///
-/// [`Cancelled`] if `progress` cancels.
+/// Returns [`Cancelled`] if `progress` cancels.
 pub fn thickness(mesh: &Mesh, progress: &dyn Progress) -> Result<Vec<f64>, Cancelled> {
     let Some(index) = SurfaceIndex::with_progress(mesh, progress)? else {
         return Ok(vec![f64::INFINITY; mesh.n_vertices()]);
@@ -80,7 +80,7 @@ fn behind(mesh: &Mesh, index: &SurfaceIndex, h: HalfEdgeId, f: FaceId, offset: f
 ///
 /// # Errors
 ///
-/// [`Cancelled`] if `progress` cancels.
+/// Returns [`Cancelled`] if `progress` cancels.
 pub fn occlusion(
     mesh: &Mesh,
     rays: u32,

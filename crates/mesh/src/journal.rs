@@ -310,7 +310,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// The error of `edit`.
+    /// Returns the error of `edit`.
     pub fn atomically<T, E>(
         &mut self,
         edit: impl FnOnce(&mut Self) -> Result<T, E>,

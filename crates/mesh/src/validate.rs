@@ -77,7 +77,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// The first [`Defect`], if the arrays are not a valid mesh.
+    /// Returns the first [`Defect`], if the arrays are not a valid mesh.
     pub fn try_from_arrays(
         connectivity: Connectivity,
         positions: Vec<DVec3>,

@@ -83,10 +83,10 @@ use smoothed::{LocalMasks, SmoothedElements};
 ///
 /// # Errors
 ///
-/// [`SubdivisionError::WholeMesh`] for Butterfly, Sqrt3 and Doo-Sabin, [`SubdivisionError::FlagCount`] unless
-/// `faces` has one flag for each face, [`SubdivisionError::NotTriangle`] if the scheme needs triangles and a
-/// face has more corners, [`SubdivisionError::TooLarge`] if a level would have more elements than there are ids
-/// or take more than `budget` bytes, [`SubdivisionError::TooFar`] if a coordinate is too large,
+/// Returns [`SubdivisionError::WholeMesh`] for Butterfly, Sqrt3 and Doo-Sabin, [`SubdivisionError::FlagCount`]
+/// unless `faces` has one flag for each face, [`SubdivisionError::NotTriangle`] if the scheme needs triangles
+/// and a face has more corners, [`SubdivisionError::TooLarge`] if a level would have more elements than there
+/// are ids or take more than `budget` bytes, [`SubdivisionError::TooFar`] if a coordinate is too large,
 /// [`SubdivisionError::Cancelled`] if the progress listener asks to stop.
 pub fn refine_faces(
     mesh: &Mesh,

@@ -116,7 +116,7 @@ impl SparseMatrix {
 ///
 /// # Errors
 ///
-/// The errors of [`subdivide`](crate::subdivide).
+/// Returns the errors of [`subdivide`](crate::subdivide).
 ///
 /// # Examples
 ///

@@ -201,7 +201,7 @@ impl<N: Count> Size<N> {
     ///
     /// # Errors
     ///
-    /// [`TooLarge`] with the highest level that fits.
+    /// Returns [`TooLarge`] with the highest level that fits.
     pub fn check(self, scheme: Scheme, levels: Range<u32>, budget: u64) -> Result<(), TooLarge> {
         let mut size = self;
         let mut fits = None;

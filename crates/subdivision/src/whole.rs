@@ -34,7 +34,7 @@ use crate::size::Size;
 ///
 /// # Errors
 ///
-/// [`SubdivisionError::NotTriangle`] if the scheme needs triangles and a face has more corners,
+/// Returns [`SubdivisionError::NotTriangle`] if the scheme needs triangles and a face has more corners,
 /// [`SubdivisionError::TooLarge`] if the result would have more elements than there are ids,
 /// [`SubdivisionError::TooFar`] if a coordinate is too large, [`SubdivisionError::Cancelled`] if the progress
 /// listener asks to stop.
@@ -54,8 +54,8 @@ pub fn subdivide(
 ///
 /// # Errors
 ///
-/// The errors of [`subdivide`], and [`SubdivisionError::TooLarge`] if the result would exceed the budget. The
-/// size is checked before any level is computed.
+/// Returns the errors of [`subdivide`], and [`SubdivisionError::TooLarge`] if the result would exceed the
+/// budget. The size is checked before any level is computed.
 pub fn subdivide_within(
     mesh: &Mesh,
     rules: Rules,

@@ -65,9 +65,9 @@ pub struct Bisection {
 ///
 /// # Errors
 ///
-/// [`EditError::BadNumber`] if the normal is zero, if a coordinate is not finite, or if the mesh is so large
-/// that distances are not finite; [`EditError::Pinch`] if a face contains a vertex twice and would be cut from
-/// that vertex to itself; [`EditError::Full`]. The mesh is unchanged.
+/// Returns [`EditError::BadNumber`] if the normal is zero, if a coordinate is not finite, or if the mesh is so
+/// large that distances are not finite; [`EditError::Pinch`] if a face contains a vertex twice and would be
+/// cut from that vertex to itself; or [`EditError::Full`]. The mesh is unchanged.
 ///
 /// # Examples
 ///

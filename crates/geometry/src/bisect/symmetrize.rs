@@ -45,7 +45,7 @@ pub enum SymmetrizeError {
 ///
 /// # Errors
 ///
-/// [`SymmetrizeError`]. The mesh is unchanged.
+/// Returns [`SymmetrizeError`]. The mesh is unchanged.
 pub fn symmetrize(
     mesh: &mut Mesh,
     point: DVec3,

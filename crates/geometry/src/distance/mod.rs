@@ -90,7 +90,7 @@ impl Distance {
     ///
     /// # Errors
     ///
-    /// [`Cancelled`] if `progress` asks to stop.
+    /// Returns [`Cancelled`] if `progress` asks to stop.
     pub fn between_with(
         a: &Mesh,
         b: &Mesh,

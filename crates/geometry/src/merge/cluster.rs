@@ -32,7 +32,7 @@ const TASK: usize = 8192;
 ///
 /// # Errors
 ///
-/// [`Cancelled`] if `progress` asks to stop.
+/// Returns [`Cancelled`] if `progress` asks to stop.
 pub fn clusters(
     positions: &[DVec3],
     distance: f64,

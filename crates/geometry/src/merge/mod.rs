@@ -59,8 +59,8 @@ pub enum MergeError {
 ///
 /// # Errors
 ///
-/// [`MergeError::Distance`] if the distance is negative or not finite, [`MergeError::Cancelled`], and the
-/// errors of [`merge_clusters`]. The mesh is unchanged.
+/// Returns [`MergeError::Distance`] if the distance is negative or not finite, [`MergeError::Cancelled`],
+/// and the errors of [`merge_clusters`]. The mesh is unchanged.
 ///
 /// # Panics
 ///
@@ -110,8 +110,8 @@ pub fn merge_vertices(
 ///
 /// # Errors
 ///
-/// [`BuildError`] if a position is not finite, or if the result could have more vertices than there are ids. The
-/// mesh is unchanged.
+/// Returns [`BuildError`] if a position is not finite, or if the result could have more vertices than there are
+/// ids. The mesh is unchanged.
 ///
 /// # Panics
 ///

@@ -163,7 +163,7 @@ pub enum SmoothError {
 ///
 /// # Errors
 ///
-/// A [`SmoothError`]. The mesh is then unchanged.
+/// Returns a [`SmoothError`]. The mesh is then unchanged.
 ///
 /// # Panics
 ///

@@ -57,7 +57,8 @@ impl<'a> Factor<'a> {
     ///
     /// # Errors
     ///
-    /// [`SolveError::NotPositiveDefinite`], [`SolveError::TooLarge`], or [`SolveError::Cancelled`].
+    /// Returns [`SolveError::NotPositiveDefinite`], [`SolveError::TooLarge`], or
+    /// [`SolveError::Cancelled`].
     pub fn new(matrix: &'a SymmetricMatrix, progress: &dyn Progress) -> Result<Self, SolveError> {
         Self::with_pins(matrix, &vec![false; matrix.len()], progress)
     }
@@ -67,7 +68,7 @@ impl<'a> Factor<'a> {
     ///
     /// # Errors
     ///
-    /// The same errors as [`new`](Self::new).
+    /// Returns the same errors as [`new`](Self::new).
     ///
     /// # Panics
     ///
@@ -200,8 +201,8 @@ impl<'a> Factor<'a> {
     ///
     /// # Errors
     ///
-    /// [`SolveError::Residual`] if the residual is larger than 1e-9 times the largest term of the equations.
-    /// `x` is then unspecified.
+    /// Returns [`SolveError::Residual`] if the residual is larger than 1e-9 times the largest term of the
+    /// equations. `x` is then unspecified.
     ///
     /// # Panics
     ///

@@ -15,7 +15,7 @@ use crate::predicates::{orient2d, orient3d};
 ///
 /// # Errors
 ///
-/// [`Cancelled`] if `progress` asks to stop.
+/// Returns [`Cancelled`] if `progress` asks to stop.
 pub fn self_intersecting_faces(
     mesh: &Mesh,
     progress: &dyn Progress,

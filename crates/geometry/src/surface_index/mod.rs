@@ -87,7 +87,7 @@ impl SurfaceIndex {
     ///
     /// # Errors
     ///
-    /// [`Cancelled`] if `progress` asks to stop.
+    /// Returns [`Cancelled`] if `progress` asks to stop.
     pub fn with_progress(mesh: &Mesh, progress: &dyn Progress) -> Result<Option<Self>, Cancelled> {
         Self::build(mesh, mesh.faces(), progress)
     }

@@ -97,7 +97,7 @@ impl SurfaceIndex {
     ///
     /// # Errors
     ///
-    /// [`Cancelled`] if `progress` asks to stop.
+    /// Returns [`Cancelled`] if `progress` asks to stop.
     pub fn nearest_to_points(
         &self,
         points: &[DVec3],
@@ -113,7 +113,7 @@ impl SurfaceIndex {
     ///
     /// # Errors
     ///
-    /// [`Cancelled`] if `progress` asks to stop.
+    /// Returns [`Cancelled`] if `progress` asks to stop.
     pub fn nearest_to_vertices(
         &self,
         mesh: &Mesh,

@@ -20,7 +20,7 @@ impl SurfaceIndex {
     ///
     /// # Errors
     ///
-    /// [`Cancelled`] if `progress` asks to stop.
+    /// Returns [`Cancelled`] if `progress` asks to stop.
     pub fn pairs(
         &self,
         keep: impl Fn(u32, u32) -> bool + Sync,
@@ -35,7 +35,7 @@ impl SurfaceIndex {
     ///
     /// # Errors
     ///
-    /// [`Cancelled`] if `progress` asks to stop.
+    /// Returns [`Cancelled`] if `progress` asks to stop.
     pub fn pairs_with(
         &self,
         other: &Self,

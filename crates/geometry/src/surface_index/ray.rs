@@ -64,7 +64,7 @@ impl SurfaceIndex {
     ///
     /// # Errors
     ///
-    /// [`Cancelled`] if `progress` asks to stop.
+    /// Returns [`Cancelled`] if `progress` asks to stop.
     pub fn first_hits(
         &self,
         rays: &[[DVec3; 2]],

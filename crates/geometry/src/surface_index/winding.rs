@@ -62,7 +62,7 @@ impl<'a> Winding<'a> {
     ///
     /// # Errors
     ///
-    /// [`Cancelled`] if `progress` asks to stop.
+    /// Returns [`Cancelled`] if `progress` asks to stop.
     pub fn new(index: &'a SurfaceIndex, progress: &dyn Progress) -> Result<Self, Cancelled> {
         let [min, max] = index.bounds();
         let scale = unit_scale(min.abs().max(max.abs()).max_element());
@@ -136,7 +136,7 @@ impl<'a> Winding<'a> {
     ///
     /// # Errors
     ///
-    /// [`Cancelled`] if `progress` asks to stop.
+    /// Returns [`Cancelled`] if `progress` asks to stop.
     pub fn at_points(
         &self,
         points: &[DVec3],

@@ -116,7 +116,7 @@ struct Flat {
 ///
 /// # Errors
 ///
-/// [`Cancelled`] if `progress` asks to stop.
+/// Returns [`Cancelled`] if `progress` asks to stop.
 pub fn overlapping_faces(
     mesh: &Mesh,
     uvs: &[DVec2],

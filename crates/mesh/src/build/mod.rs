@@ -152,7 +152,8 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`BuildError`] for an index out of range, a position that is not finite, or too many elements.
+    /// Returns [`BuildError`] for an index out of range, a position that is not finite, or too many
+    /// elements.
     ///
     /// # Examples
     ///
@@ -182,8 +183,9 @@ impl Mesh {
 ///
 /// # Errors
 ///
-/// The errors of [`Mesh::from_polygons`], and [`BuildError::Degenerate`], [`BuildError::NonManifoldEdge`] or
-/// [`BuildError::NonManifoldVertex`] if `non_manifold` requires an error for non-manifold input.
+/// Returns the errors of [`Mesh::from_polygons`], and [`BuildError::Degenerate`],
+/// [`BuildError::NonManifoldEdge`] or [`BuildError::NonManifoldVertex`] if `non_manifold` requires an error
+/// for non-manifold input.
 pub fn build(
     positions: Vec<DVec3>,
     offsets: &[u32],

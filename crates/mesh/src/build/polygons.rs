@@ -160,7 +160,7 @@ pub(super) fn flatten(
 ///
 /// # Errors
 ///
-/// [`BuildError`] for invalid input. Does not check that the polygons are a manifold.
+/// Returns [`BuildError`] for invalid input. Does not check that the polygons are a manifold.
 pub(super) fn check(
     positions: &[DVec3],
     offsets: &[u32],
@@ -236,7 +236,7 @@ fn is_degenerate(polygon: &[u32]) -> bool {
 ///
 /// # Errors
 ///
-/// [`BuildError::TooLarge`] if the count exceeds 2³² − 2, the highest id.
+/// Returns [`BuildError::TooLarge`] if the count exceeds 2³² − 2, the highest id.
 pub(super) fn to_u32(n: usize, kind: &'static str) -> Result<u32, BuildError> {
     u32::try_from(n)
         .ok()

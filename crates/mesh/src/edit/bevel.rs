@@ -29,9 +29,9 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::BoundaryVertex`] if `v` is on the boundary, [`EditError::FewEdges`] if it has fewer than
-    /// three edges, [`EditError::OutsideEdge`] if `fraction` is not strictly between 0 and 1,
-    /// [`EditError::NoSuchVertex`], [`EditError::Full`]. The mesh is unchanged.
+    /// Returns [`EditError::BoundaryVertex`] if `v` is on the boundary, [`EditError::FewEdges`] if it has
+    /// fewer than three edges, [`EditError::OutsideEdge`] if `fraction` is not strictly between 0 and 1,
+    /// [`EditError::NoSuchVertex`], or [`EditError::Full`]. The mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -50,7 +50,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// The errors of [`bevel_vertex`](Self::bevel_vertex).
+    /// Returns the errors of [`bevel_vertex`](Self::bevel_vertex).
     pub fn bevel_vertex_with(
         &mut self,
         v: VertexId,
@@ -90,10 +90,11 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::Boundary`] if `e` is on the boundary, [`EditError::BoundaryVertex`] if one of its ends is
-    /// on the boundary, [`EditError::FewEdges`] if an end has fewer than three edges,
+    /// Returns [`EditError::Boundary`] if `e` is on the boundary, [`EditError::BoundaryVertex`] if one of its
+    /// ends is on the boundary, [`EditError::FewEdges`] if an end has fewer than three edges,
     /// [`EditError::DuplicateEdge`] if another edge joins the ends, [`EditError::OutsideEdge`] if `fraction`
-    /// is not strictly between 0 and 1, [`EditError::NoSuchEdge`], [`EditError::Full`]. The mesh is unchanged.
+    /// is not strictly between 0 and 1, [`EditError::NoSuchEdge`], or [`EditError::Full`]. The mesh is
+    /// unchanged.
     pub fn bevel_edge(&mut self, e: EdgeId, fraction: f64) -> Result<FaceId, EditError> {
         self.bevel_edge_with(e, |_| fraction)
     }
@@ -103,7 +104,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// The errors of [`bevel_edge`](Self::bevel_edge).
+    /// Returns the errors of [`bevel_edge`](Self::bevel_edge).
     pub fn bevel_edge_with(
         &mut self,
         e: EdgeId,

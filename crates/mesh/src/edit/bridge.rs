@@ -29,9 +29,9 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::NotBoundary`] if `h` or `g` has a face, [`EditError::SameLoop`] if they lie on the same
-    /// loop, [`EditError::DuplicateEdge`] if two vertices that would be joined already share an edge,
-    /// [`EditError::NoSuchHalfEdge`], [`EditError::Full`]. The mesh is unchanged.
+    /// Returns [`EditError::NotBoundary`] if `h` or `g` has a face, [`EditError::SameLoop`] if they lie on
+    /// the same loop, [`EditError::DuplicateEdge`] if two vertices that would be joined already share an
+    /// edge, [`EditError::NoSuchHalfEdge`], or [`EditError::Full`]. The mesh is unchanged.
     ///
     /// # Examples
     ///

@@ -76,8 +76,8 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// The errors of [`collapse_edge`](Self::collapse_edge), and [`EditError::OutsideEdge`] if `t` is below 0, above
-    /// 1 or not a number.
+    /// Returns the errors of [`collapse_edge`](Self::collapse_edge), and [`EditError::OutsideEdge`] if `t` is below
+    /// 0, above 1 or not a number.
     pub fn collapse_edge_at(&mut self, e: EdgeId, t: f64) -> Result<VertexId, EditError> {
         self.check_edge(e)?;
         if !(0.0..=1.0).contains(&t) {
@@ -92,8 +92,8 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// The errors of [`collapse_edge`](Self::collapse_edge), and [`EditError::BadNumber`] if a coordinate is not
-    /// finite.
+    /// Returns the errors of [`collapse_edge`](Self::collapse_edge), and [`EditError::BadNumber`] if a
+    /// coordinate is not finite.
     pub fn collapse_edge_to(&mut self, e: EdgeId, point: DVec3) -> Result<VertexId, EditError> {
         self.check_edge(e)?;
         let [a, b] = self.edge_vertices(e).map(|v| self.position(v));
@@ -109,7 +109,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// The errors of [`collapse_edge_to`](Self::collapse_edge_to). The weights are not checked.
+    /// Returns the errors of [`collapse_edge_to`](Self::collapse_edge_to). The weights are not checked.
     ///
     /// # Panics
     ///

@@ -38,9 +38,10 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::Boundary`] if an edge is on the boundary, [`EditError::DuplicateEdge`] with the ends
-    /// of an edge that would be a slit, [`EditError::EdgeListedTwice`], [`EditError::NoElements`],
-    /// [`EditError::NoSuchEdge`], [`EditError::Full`]. The mesh is unchanged.
+    /// Returns [`EditError::Boundary`] if an edge is on the boundary, [`EditError::DuplicateEdge`] with
+    /// the ends of an edge that would be a slit, [`EditError::EdgeListedTwice`],
+    /// [`EditError::NoElements`], [`EditError::NoSuchEdge`], or [`EditError::Full`]. The mesh is
+    /// unchanged.
     ///
     /// # Examples
     ///

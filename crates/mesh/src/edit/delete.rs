@@ -18,7 +18,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::Pinch`] if the faces left around a vertex would not form one fan,
+    /// Returns [`EditError::Pinch`] if the faces left around a vertex would not form one fan, or
     /// [`EditError::NoSuchEdge`]. The mesh is unchanged.
     pub fn delete_edge(&mut self, e: EdgeId) -> Result<(), EditError> {
         self.check_edge(e)?;
@@ -42,7 +42,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::Pinch`] if the faces left around another vertex would not form one fan,
+    /// Returns [`EditError::Pinch`] if the faces left around another vertex would not form one fan, or
     /// [`EditError::NoSuchVertex`]. The mesh is unchanged.
     pub fn delete_vertex(&mut self, v: VertexId) -> Result<(), EditError> {
         self.check_vertex(v)?;

@@ -17,8 +17,8 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::Pinch`] if the remaining faces around a vertex would not form one fan. This error occurs if
-    /// the vertex is on the boundary, but both edges of `f` at the vertex are inside.
+    /// Returns [`EditError::Pinch`] if the remaining faces around a vertex would not form one fan. This error
+    /// occurs if the vertex is on the boundary, but both edges of `f` at the vertex are inside.
     /// [`EditError::NoSuchFace`]. The mesh is unchanged.
     pub fn delete_face(&mut self, f: FaceId) -> Result<(), EditError> {
         self.delete_faces(&[f])
@@ -41,8 +41,8 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::Pinch`] with the lowest vertex around which the remaining faces would not form one fan,
-    /// [`EditError::FaceListedTwice`], [`EditError::NoSuchFace`]. The mesh is unchanged.
+    /// Returns [`EditError::Pinch`] with the lowest vertex around which the remaining faces would not form
+    /// one fan, [`EditError::FaceListedTwice`], or [`EditError::NoSuchFace`]. The mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -115,7 +115,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::Pinch`] if the kept faces would form several fans.
+    /// Returns [`EditError::Pinch`] if the kept faces would form several fans.
     fn rim_at(
         &self,
         v: VertexId,

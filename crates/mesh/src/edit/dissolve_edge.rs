@@ -19,10 +19,10 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::Boundary`] if `e` has a face on only one side, [`EditError::SameFace`] if the same face is
-    /// on both sides, [`EditError::FewEdges`] if an end of `e` has only two edges (remove that vertex first,
-    /// with [`dissolve_vertex`](Self::dissolve_vertex)), [`EditError::RepeatedVertex`] if the faces have
-    /// another vertex in common, [`EditError::Seam`] if corner attributes differ across `e`,
+    /// Returns [`EditError::Boundary`] if `e` has a face on only one side, [`EditError::SameFace`] if the same
+    /// face is on both sides, [`EditError::FewEdges`] if an end of `e` has only two edges (remove that vertex
+    /// first, with [`dissolve_vertex`](Self::dissolve_vertex)), [`EditError::RepeatedVertex`] if the faces
+    /// have another vertex in common, [`EditError::Seam`] if corner attributes differ across `e`, or
     /// [`EditError::NoSuchEdge`]. The mesh is unchanged.
     ///
     /// # Examples
@@ -44,7 +44,8 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// The errors of [`dissolve_edge`](Self::dissolve_edge), but [`EditError::Seam`] only for [`Seams::Refuse`].
+    /// Returns the errors of [`dissolve_edge`](Self::dissolve_edge), but [`EditError::Seam`] only for
+    /// [`Seams::Refuse`].
     pub fn dissolve_edge_with(&mut self, e: EdgeId, seams: Seams) -> Result<FaceId, EditError> {
         self.check_edge(e)?;
         let sides = e.half_edges();

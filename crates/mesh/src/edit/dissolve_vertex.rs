@@ -65,7 +65,8 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// The errors of [`dissolve_vertex`](Self::dissolve_vertex), but [`EditError::Seam`] only for [`Seams::Refuse`].
+    /// Returns the errors of [`dissolve_vertex`](Self::dissolve_vertex), but [`EditError::Seam`] only for
+    /// [`Seams::Refuse`].
     pub fn dissolve_vertex_with(&mut self, v: VertexId, seams: Seams) -> Result<FaceId, EditError> {
         self.check_vertex(v)?;
         let spokes: Vec<HalfEdgeId> = self.vertex_half_edges(v).collect();

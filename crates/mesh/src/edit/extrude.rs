@@ -43,9 +43,9 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::NoElements`] if `faces` is empty, [`EditError::FaceListedTwice`],
+    /// Returns [`EditError::NoElements`] if `faces` is empty, [`EditError::FaceListedTwice`],
     /// [`EditError::NoSuchFace`], [`EditError::BadNumber`] if a moved coordinate would not be finite,
-    /// [`EditError::Full`]. The mesh is unchanged.
+    /// or [`EditError::Full`]. The mesh is unchanged.
     ///
     /// # Examples
     ///

@@ -28,9 +28,9 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::NotBoundary`] if `h` has a face, [`EditError::ShortLoop`] if the hole has two edges
-    /// (use [`stitch_edges`](Self::stitch_edges) instead), [`EditError::Pinch`] if the hole visits a vertex
-    /// twice, [`EditError::NoSuchHalfEdge`]. The mesh is unchanged.
+    /// Returns [`EditError::NotBoundary`] if `h` has a face, [`EditError::ShortLoop`] if the hole has two
+    /// edges (use [`stitch_edges`](Self::stitch_edges) instead), [`EditError::Pinch`] if the hole visits a
+    /// vertex twice, or [`EditError::NoSuchHalfEdge`]. The mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -74,7 +74,8 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::Full`], and the errors of [`fill_hole`](Self::fill_hole). The mesh is unchanged.
+    /// Returns [`EditError::Full`], and the errors of [`fill_hole`](Self::fill_hole). The mesh is
+    /// unchanged.
     ///
     /// # Panics
     ///
@@ -124,7 +125,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// The errors of [`fill_hole`](Self::fill_hole).
+    /// Returns the errors of [`fill_hole`](Self::fill_hole).
     pub fn rim(&self, h: HalfEdgeId) -> Result<Vec<HalfEdgeId>, EditError> {
         self.check_hole(h)?;
         let rim: Vec<HalfEdgeId> = self.loop_half_edges(h).collect();

@@ -31,10 +31,10 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::Boundary`] if `e` has a face on only one side, [`EditError::SameFace`] if the same face is
-    /// on both sides, [`EditError::SameOpposite`] if c is d, [`EditError::FewEdges`] if an end of `e` has
-    /// only two edges, [`EditError::DuplicateEdge`] if c and d already share an edge, [`EditError::Seam`] if
-    /// corner attributes differ across `e`, [`EditError::NoSuchEdge`]. The mesh is unchanged.
+    /// Returns [`EditError::Boundary`] if `e` has a face on only one side, [`EditError::SameFace`] if the same
+    /// face is on both sides, [`EditError::SameOpposite`] if c is d, [`EditError::FewEdges`] if an end of `e`
+    /// has only two edges, [`EditError::DuplicateEdge`] if c and d already share an edge, [`EditError::Seam`]
+    /// if corner attributes differ across `e`, or [`EditError::NoSuchEdge`]. The mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -56,7 +56,8 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// The errors of [`flip_edge`](Self::flip_edge), but [`EditError::Seam`] only for [`Seams::Refuse`].
+    /// Returns the errors of [`flip_edge`](Self::flip_edge), but [`EditError::Seam`] only for
+    /// [`Seams::Refuse`].
     pub fn flip_edge_with(&mut self, e: EdgeId, seams: Seams) -> Result<(), EditError> {
         self.check_edge(e)?;
         let [ab, ba] = e.half_edges();

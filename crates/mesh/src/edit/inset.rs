@@ -33,9 +33,9 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::BadNumber`] if `fraction` is not strictly between 0 and 1, [`EditError::SameFace`] if
-    /// `f` lies on both sides of one of its edges, [`EditError::NoSuchFace`], [`EditError::Full`]. The mesh
-    /// is unchanged.
+    /// Returns [`EditError::BadNumber`] if `fraction` is not strictly between 0 and 1,
+    /// [`EditError::SameFace`] if `f` lies on both sides of one of its edges, [`EditError::NoSuchFace`], or
+    /// [`EditError::Full`]. The mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -57,8 +57,8 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// The errors of [`inset_face`](Self::inset_face); also [`EditError::BadNumber`] if `height` or a raised coordinate
-    /// is not finite.
+    /// Returns the errors of [`inset_face`](Self::inset_face); also [`EditError::BadNumber`] if `height` or a raised
+    /// coordinate is not finite.
     pub fn bevel_face(
         &mut self,
         f: FaceId,

@@ -29,9 +29,9 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::VisitsTwice`] if the face contains a vertex twice, because this vertex would be
-    /// joined to m twice, [`EditError::NoSuchFace`], [`EditError::BadNumber`] if the mean of the
-    /// corners is not finite, [`EditError::Full`]. The mesh is unchanged.
+    /// Returns [`EditError::VisitsTwice`] if the face contains a vertex twice, because this vertex
+    /// would be joined to m twice, [`EditError::NoSuchFace`], [`EditError::BadNumber`] if the mean of
+    /// the corners is not finite, or [`EditError::Full`]. The mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -52,7 +52,8 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// The errors of [`poke_face`](Self::poke_face), and [`EditError::BadNumber`] if `position` is not finite.
+    /// Returns the errors of [`poke_face`](Self::poke_face), and [`EditError::BadNumber`] if `position` is not
+    /// finite.
     pub fn poke_face_at(&mut self, f: FaceId, position: DVec3) -> Result<VertexId, EditError> {
         self.check_face(f)?;
         check_finite(&[position])?;

@@ -25,8 +25,8 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::PartOfComponent`] with a listed face that shares an edge with a face that is not listed,
-    /// [`EditError::FaceListedTwice`], [`EditError::NoElements`] for an empty list,
+    /// Returns [`EditError::PartOfComponent`] with a listed face that shares an edge with a face that is not
+    /// listed, [`EditError::FaceListedTwice`], [`EditError::NoElements`] for an empty list, or
     /// [`EditError::NoSuchFace`]. The mesh is unchanged.
     pub fn reverse_faces(&mut self, faces: &[FaceId]) -> Result<(), EditError> {
         let mut is_listed = Marks::default();

@@ -29,8 +29,8 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::OutsideEdge`] if `t` is not strictly between 0 and 1, [`EditError::NoSuchEdge`],
-    /// [`EditError::Full`]. The mesh is unchanged.
+    /// Returns [`EditError::OutsideEdge`] if `t` is not strictly between 0 and 1,
+    /// [`EditError::NoSuchEdge`], or [`EditError::Full`]. The mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -67,7 +67,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// The errors of [`split_edge`](Self::split_edge).
+    /// Returns the errors of [`split_edge`](Self::split_edge).
     pub fn insert_vertex(&mut self, e: EdgeId, t: f64) -> Result<EdgeId, EditError> {
         self.check_edge(e)?;
         if !(t > 0.0 && t < 1.0) {

@@ -34,9 +34,9 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::WrongCorner`] if `y` does not leave the origin of `x`, [`EditError::Adjacent`] if `x`
-    /// is `y`, [`EditError::FaceListedTwice`] if both corners belong to the same face, [`EditError::BadNumber`] if a
-    /// coordinate is not finite, [`EditError::NoSuchHalfEdge`], [`EditError::Full`]. The mesh is unchanged.
+    /// Returns [`EditError::WrongCorner`] if `y` does not leave the origin of `x`, [`EditError::Adjacent`] if `x` is
+    /// `y`, [`EditError::FaceListedTwice`] if both corners belong to the same face, [`EditError::BadNumber`] if a
+    /// coordinate is not finite, [`EditError::NoSuchHalfEdge`], or [`EditError::Full`]. The mesh is unchanged.
     ///
     /// # Examples
     ///

@@ -31,12 +31,12 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::NotBoundary`] if `h` or `g` has a face, [`EditError::EdgeListedTwice`] if they are the
-    /// same, [`EditError::SameFace`] if the same face is beside both edges of a pair that would be stitched,
-    /// [`EditError::SelfLoop`] if two vertices that would be merged share an edge, [`EditError::VisitsTwice`]
-    /// if two such vertices share a face, [`EditError::DuplicateEdge`] if both such vertices are joined to the
-    /// same other vertex by edges that would not be stitched, [`EditError::NoSuchHalfEdge`]. The mesh is
-    /// unchanged.
+    /// Returns [`EditError::NotBoundary`] if `h` or `g` has a face, [`EditError::EdgeListedTwice`] if they are
+    /// the same, [`EditError::SameFace`] if the same face is beside both edges of a pair that would be
+    /// stitched, [`EditError::SelfLoop`] if two vertices that would be merged share an edge,
+    /// [`EditError::VisitsTwice`] if two such vertices share a face, [`EditError::DuplicateEdge`] if both such
+    /// vertices are joined to the same other vertex by edges that would not be stitched, or
+    /// [`EditError::NoSuchHalfEdge`]. The mesh is unchanged.
     ///
     /// # Examples
     ///

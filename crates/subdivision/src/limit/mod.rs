@@ -58,7 +58,8 @@ fn normal([a, b]: &[DVec3; 2]) -> DVec3 {
 ///
 /// # Errors
 ///
-/// The errors of [`subdivide`](crate::subdivide), and [`SubdivisionError::NoLimit`] for other schemes.
+/// Returns the errors of [`subdivide`](crate::subdivide), and [`SubdivisionError::NoLimit`] for other
+/// schemes.
 ///
 /// # Examples
 ///
@@ -87,7 +88,7 @@ pub fn limit(
 ///
 /// # Errors
 ///
-/// The errors of [`limit`](limit()).
+/// Returns the errors of [`limit`](limit()).
 pub fn limit_distance(
     mesh: &Mesh,
     rules: Rules,

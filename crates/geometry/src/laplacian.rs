@@ -153,7 +153,7 @@ pub(crate) fn exponent(points: &[DVec3]) -> i32 {
     }
 }
 
-/// Returns the point times a power of two, which is exact unless the result is near 0.
+/// Returns the point times a power of two. The product is exact unless the result is near 0.
 pub(crate) fn scaled(p: DVec3, exponent: i32) -> DVec3 {
     DVec3::from_array(p.to_array().map(|x| libm::scalbn(x, exponent)))
 }

@@ -76,7 +76,8 @@ pub(crate) fn kinds(mesh: &Mesh, lines: &[bool], pinned: &[VertexId]) -> Vec<Kin
     kinds
 }
 
-/// Returns the columns of a domain whose values are labels, which have no mean: tags and whole numbers.
+/// Returns the columns of a domain whose values are labels, that is, tags and whole numbers, which cannot be
+/// averaged.
 pub(crate) fn labels(mesh: &Mesh, domain: Domain) -> impl Iterator<Item = &Column> {
     let is_label = |column: &&Column| matches!(column.values, Values::Tag(_) | Values::Int(_));
     mesh.attributes().of(domain).iter().filter(is_label)

@@ -20,8 +20,8 @@ pub struct Connectivity {
     pub origin: Vec<VertexId>,
     /// For each half-edge, its face; [`FaceId::NONE`] on the boundary.
     pub face: Vec<FaceId>,
-    /// For each vertex, one of its outgoing half-edges: the one without a face if the vertex is on the
-    /// boundary; [`HalfEdgeId::NONE`] for an isolated vertex.
+    /// For each vertex, one of its outgoing half-edges. At a boundary vertex, this half-edge has no face. For an
+    /// isolated vertex, the entry is [`HalfEdgeId::NONE`].
     pub vertex_half_edge: Vec<HalfEdgeId>,
     /// For each face, one of its half-edges.
     pub face_half_edge: Vec<HalfEdgeId>,
@@ -229,8 +229,8 @@ impl Mesh {
         self.connectivity.face[h.index()].some()
     }
 
-    /// Returns an outgoing half-edge of `v`: the one without a face if `v` is on the boundary; `None` if `v` is
-    /// isolated.
+    /// Returns an outgoing half-edge of `v`. If `v` is on the boundary, this half-edge has no face. Returns
+    /// `None` if `v` is isolated.
     #[inline]
     pub fn vertex_half_edge(&self, v: VertexId) -> Option<HalfEdgeId> {
         self.connectivity.vertex_half_edge[v.index()].some()

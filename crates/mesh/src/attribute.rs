@@ -1,6 +1,6 @@
 //! Attributes: named, typed columns of values on vertices, corners, edges and faces.
 //!
-//! A column has one value for each element of its domain, and a [`Rule`] that says what edits do with the
+//! A column has one value for each element of its domain, and a [`Rule`] that defines what edits do with the
 //! values. The value of a corner is stored at its half-edge: the one that leaves the corner's vertex and lies
 //! on the corner's face. A half-edge without a face also has a value, but this value has no meaning. Edits
 //! keep that value at zero where this is cheap.
@@ -48,8 +48,8 @@ pub const VERTEX_SHARPNESS: Attribute<VertexId, f64> = Attribute::new("corner", 
 /// What an edit or an operation does with the values of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {
-    /// A new element gets the weighted mean of the values of its source elements. Whole numbers and tags have no
-    /// mean: they get the value with the largest weight.
+    /// A new element gets the weighted mean of the values of its source elements. Whole numbers and tags are not
+    /// averaged: the new element gets the value with the largest weight.
     Interpolate,
     /// The values are unit vectors. New values are interpolated, then scaled to length 1. Transforms rotate
     /// them. Subdivision drops the column, because the vectors would be wrong. Many other operations remove the

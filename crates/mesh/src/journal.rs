@@ -12,8 +12,8 @@
 //! The journal is a stack of entries. Elements that were added after the innermost level was opened need no
 //! entries: an undo truncates the arrays to their old lengths. An undo in turn records the values that it
 //! overwrites; this record is the change that redoes the edits. Entries that would take more memory than the
-//! mesh are replaced by one copy of the mesh, and a level that has a copy needs no further entries. So a
-//! journal never takes more than about twice the memory of its mesh.
+//! mesh are replaced by one copy of the mesh, and a level that has a copy needs no further entries. A journal
+//! therefore never takes more than about twice the memory of its mesh.
 
 use bytemuck::cast_slice_mut;
 use glam::DVec3;

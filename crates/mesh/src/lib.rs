@@ -38,7 +38,7 @@
 //!
 //! # Editing
 //!
-//! Local edits first check, then change: an `Err` means that nothing changed.
+//! Local edits first check, then change the mesh, so an `Err` means that the mesh is unchanged.
 //!
 //! | on | edits |
 //! | --- | --- |
@@ -49,7 +49,7 @@
 //! | whole meshes | [`reverse`](Mesh::reverse) |
 //!
 //! The documentation of the edits writes V, E and F for the numbers of vertices, edges and faces. An element that an
-//! edit removes dies: it is marked dead. No id is reused until [`Mesh::compact`] renumbers the elements.
+//! edit removes is marked dead ("dies"). No id is reused until [`Mesh::compact`] renumbers the elements.
 //! [`Mesh::begin`] starts to record edits, [`Mesh::rollback`] undoes them, and [`Mesh::commit`] ends the recording
 //! and returns a [`Change`]. [`Mesh::revert`] applies a change later: once to undo, a second time to redo. Operations
 //! on a whole mesh build new arrays ([`Mesh::from_arrays`]) or polygons ([`build()`]) and store them with

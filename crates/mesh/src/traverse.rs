@@ -90,7 +90,7 @@ impl Mesh {
         e.half_edges().map(|h| self.origin(h))
     }
 
-    /// Returns the faces at `e`: that of its first half and that of its second half.
+    /// Returns the faces at `e`: the face of its first half and the face of its second half.
     #[inline]
     pub fn edge_faces(&self, e: EdgeId) -> [Option<FaceId>; 2] {
         e.half_edges().map(|h| self.face(h))

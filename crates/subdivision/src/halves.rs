@@ -73,8 +73,8 @@ pub(crate) struct AddedArrays<'n> {
 }
 
 /// Builds the connectivity of the next level. The parts of old edges come first; `parts` gives the links of
-/// each half-edge. After them come `edges` more edges, `vertices` more vertices and `faces` faces, which
-/// `fill_added` writes.
+/// each half-edge. After them, `fill_added` writes `edges` further edges, `vertices` further vertices and `faces`
+/// faces.
 pub(crate) fn split_edges(
     mesh: &Mesh,
     [vertices, edges, faces]: [usize; 3],

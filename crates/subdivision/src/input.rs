@@ -27,7 +27,8 @@ pub(crate) fn dense(mesh: &Mesh) -> Cow<'_, Mesh> {
 /// # Errors
 ///
 /// Returns [`SubdivisionError::TooFar`] with the first vertex beyond [`MAX_COORDINATE`].
-/// [`SubdivisionError::NotTriangle`] with the first face that is not a triangle, if the scheme needs triangles.
+/// Returns [`SubdivisionError::NotTriangle`] with the first face that is not a triangle, if the scheme needs
+/// triangles.
 pub fn check_faces(mesh: &Mesh, scheme: Scheme) -> Result<(), SubdivisionError> {
     let is_far = |i: usize| mesh.positions()[i].abs().max_element() > MAX_COORDINATE;
     let n = mesh.positions().len();

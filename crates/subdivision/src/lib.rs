@@ -48,9 +48,9 @@
 //! ```
 //!
 //! `+` is a torus of regular valence, `o` is an icosahedron, and `*` marks both at the same position. On the torus,
-//! the distance is quadratic in the edge length, so each level divides it by four. Around the vertices of valence 5
-//! of the icosahedron, each level scales the surface, and eventually the distance too, by the subdominant
-//! eigenvalue 3/8 + cos(2π/5)/4 = 0.452.
+//! the distance is quadratic in the edge length, so each level divides the distance by four. Around the vertices of
+//! valence 5 of the icosahedron, each level scales the surface, and eventually also the distance, by the
+//! subdominant eigenvalue 3/8 + cos(2π/5)/4 = 0.452.
 //!
 //! # Examples
 //!

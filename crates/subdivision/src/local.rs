@@ -21,9 +21,9 @@
 //!            b                              b
 //! ```
 //!
-//! Each piece is similar to its old triangle, or is half of a triangle that is similar to the old triangle. So angles
-//! do not become smaller with each level: over all levels together, the cotangent of the smallest angle grows by at
-//! most a factor of three. Source: Bank, Sherman and Weiser, "Refinement Algorithms and Data Structures for Regular
+//! Each piece is similar to its old triangle, or is half of a triangle that is similar to the old triangle. Angles
+//! therefore do not become smaller with each level: the cotangent of the smallest angle grows by at most a factor of
+//! three over all levels. Source: Bank, Sherman and Weiser, "Refinement Algorithms and Data Structures for Regular
 //! Local Mesh Refinement", 1983.
 //!
 //! # Polygons

@@ -48,8 +48,8 @@ pub enum Scheme {
     DooSabin,
 }
 
-/// The weight u of each of the n neighbors of an old vertex in Loop subdivision; the vertex itself keeps
-/// 1 - n u.
+/// The weight u of each of the n neighbors of an old vertex in Loop subdivision. The weight of the vertex itself
+/// is 1 - n u.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 pub enum LoopWeights {
     /// u is 3/16 for n = 3, otherwise 3/(8n). Source: Warren, "Subdivision Methods for Geometric Design", 1995.

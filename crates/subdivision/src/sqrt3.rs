@@ -17,8 +17,8 @@
 //!            \   /                       \ | /
 //! ```
 //!
-//! At a boundary, even and odd levels differ; levels are counted from 0. On even levels a boundary edge stays
-//! unchanged. On odd levels, the mesh is the result of an even level, so each triangle at the boundary has
+//! At a boundary, even and odd levels differ; levels are counted from 0. On even levels, boundary edges do not
+//! change. On odd levels, the mesh is the result of an even level, so each triangle at the boundary has
 //! exactly one boundary edge. The triangle gets two vertices on that edge instead of a center: x is V + f, and
 //! y is V + F + r, where r is the rank of the boundary half-edge of that edge among all boundary half-edges:
 //!

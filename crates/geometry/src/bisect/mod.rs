@@ -40,7 +40,7 @@ pub struct Bisection {
 /// ```
 ///
 /// Every edge that crosses the plane gets a vertex at the crossing point. Every face that crosses the plane is
-/// cut along the plane; a concave face can be cut several times. The parts stay connected. A vertex counts as
+/// cut along the plane; a concave face can be cut several times. The parts remain connected. A vertex counts as
 /// on the plane if its distance is at most 1e-9 times the largest extent of the mesh or 1e-14 times the largest
 /// coordinate. A vertex on the plane is not moved, and an edge that ends at such a vertex is not split. The side
 /// of a vertex is determined once, and is the same for all its edges and faces. A crossing point does not depend

@@ -45,7 +45,7 @@ pub enum SymmetrizeError {
 ///
 /// # Errors
 ///
-/// Returns [`SymmetrizeError`]. The mesh is unchanged.
+/// Returns a [`SymmetrizeError`] if the mesh cannot be cut or the halves cannot be joined. The mesh is unchanged.
 pub fn symmetrize(
     mesh: &mut Mesh,
     point: DVec3,

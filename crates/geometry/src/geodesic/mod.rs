@@ -36,7 +36,7 @@ const LEAST_HEAT: f64 = 1e-280;
 ///
 /// # Errors
 ///
-/// Returns [`SolveError`] if the equations are too large or canceled.
+/// Returns [`SolveError`] if the system of equations is too large, or if `progress` asks to stop.
 ///
 /// # Panics
 ///

@@ -10,7 +10,7 @@
 //! ```
 //!
 //! A grid of cells as wide as the distance would be simpler, but its cell indices overflow for tiny distances,
-//! and a million points in one cell need a million squared comparisons. In the tree, a box of equal or very
+//! and a million points in one cell would need about 10^12 comparisons. In the tree, a box of equal or very
 //! close points becomes a cluster immediately, for any number of points. Only differences of coordinates are
 //! computed, which neither overflow nor lose precision for nearby points.
 

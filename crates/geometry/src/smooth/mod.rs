@@ -163,7 +163,7 @@ pub enum SmoothError {
 ///
 /// # Errors
 ///
-/// Returns a [`SmoothError`]. The mesh is then unchanged.
+/// Returns a [`SmoothError`] if the mesh cannot be smoothed. The mesh is then unchanged.
 ///
 /// # Panics
 ///

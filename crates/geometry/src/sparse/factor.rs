@@ -57,8 +57,7 @@ impl<'a> Factor<'a> {
     ///
     /// # Errors
     ///
-    /// Returns [`SolveError::NotPositiveDefinite`], [`SolveError::TooLarge`], or
-    /// [`SolveError::Cancelled`].
+    /// Returns [`SolveError::NotPositiveDefinite`], [`SolveError::TooLarge`], or [`SolveError::Cancelled`].
     pub fn new(matrix: &'a SymmetricMatrix, progress: &dyn Progress) -> Result<Self, SolveError> {
         Self::with_pins(matrix, &vec![false; matrix.len()], progress)
     }

@@ -73,7 +73,7 @@ impl Values {
     ///
     /// # Panics
     ///
-    /// If `i` or `component` is out of range.
+    /// Panics if `i` or `component` is out of range.
     pub fn component(&self, i: usize, component: usize) -> f64 {
         match self {
             Self::Float(v) => v[i],

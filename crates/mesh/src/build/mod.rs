@@ -14,14 +14,14 @@
 //!
 //! Input that is not a manifold is repaired, and a [`BuildReport`] lists all repairs:
 //!
-//! - Two polygons that share an edge have a consistent orientation if their sides run along the edge
-//!   in opposite directions. The polygons that are connected through edges with exactly two sides form a part, and
-//!   each part is treated separately. If reversing some of its polygons makes all neighbors consistent, the minority
+//! - Two polygons that share an edge have a consistent orientation if their sides run along the edge in opposite
+//!   directions. Polygons that are connected through edges with exactly two sides form a part, and each part is
+//!   treated separately. If reversing some of its polygons makes all neighbors consistent, the minority
 //!   is reversed. In a tie, the polygons that agree with the first one are not reversed. If no choice of polygons
 //!   makes all neighbors consistent, none is reversed. The first corner of a reversed polygon stays the first.
 //! - Two vertices a and b can have more than two sides between them, or two sides that run in the same
 //!   direction even after these reversals. In this case, the k-th side from a to b is paired with the k-th side
-//!   from b to a, in order of corners. Unpaired sides become boundary edges.
+//!   from b to a, in the order of the corners. Unpaired sides become boundary edges.
 //! - If the faces around a vertex form several fans, the fan of the first corner keeps the vertex. Each
 //!   other fan gets a copy of the vertex, appended after all other vertices.
 //! - A polygon that has fewer than three corners, or that contains a vertex twice, is dropped.

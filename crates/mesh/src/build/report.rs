@@ -10,7 +10,7 @@ pub struct BuildReport {
     /// Pairs of vertices, lower first, with more than two sides between them, or with two sides that
     /// run in the same direction.
     pub split_edges: Vec<[VertexId; 2]>,
-    /// Pairs of two vertices: a vertex that joined several fans, and its copy, which one of the fans got.
+    /// Pairs of a vertex that joined several fans, and a copy of this vertex that one of the fans got.
     pub split_vertices: Vec<(VertexId, VertexId)>,
     /// Indices of polygons that were reversed to make their orientation consistent with their neighbors,
     /// in order.

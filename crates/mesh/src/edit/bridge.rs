@@ -11,11 +11,11 @@ impl Mesh {
     ///    --a --h-> b--          --a --- b--
     /// ```
     ///
-    /// The holes can belong to one component of the mesh, which gets a handle, or to two components, which
-    /// become one. If one loop has n edges and the other m, with n at least m, the band has n faces and n new
-    /// edges: m quads, and n - m triangles spread evenly between them, each at an edge of the longer loop. If
-    /// the loops are rotated against each other, the band is twisted: choose `h` and `g` so that they face
-    /// each other.
+    /// If the holes belong to one component of the mesh, this component gets a handle. If they belong to two
+    /// components, these become one. If one loop has n edges and the other m, with n at least m, the band has n
+    /// new edges and n faces: m quads, and n - m triangles spread evenly between them. Each triangle is at an
+    /// edge of the longer loop. If the loops are rotated against each other, the band is twisted: choose `h` and
+    /// `g` so that they face each other.
     ///
     /// All existing ids stay the same. New edges and faces are numbered along the longer loop (that of `h` if
     /// both have the same length). The first face is f. The first edge is a-d, or b-c if the loop of `g` is

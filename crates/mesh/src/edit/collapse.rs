@@ -16,8 +16,8 @@ impl Mesh {
     ///        d               d                 d-----+           d-----+
     /// ```
     ///
-    /// v is the end with the lower id; the other end and `e` die. A triangle beside `e` dies, and its other
-    /// two edges become one: the edge at v stays, the other one dies. A larger face loses one corner, and a
+    /// v is the end with the lower id; the other end and `e` die. A triangle beside `e` dies, and its other two
+    /// edges become one: the edge at v remains, and the other edge dies. A larger face loses one corner, and a
     /// hole loses one edge. Inside a triangle mesh, V, E and F shrink by 1, 3 and 2; on its boundary by 1, 2
     /// and 1. V - E + F stays the same. No ids are added, and all other elements keep their ids.
     ///

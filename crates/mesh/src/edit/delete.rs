@@ -12,8 +12,8 @@ impl Mesh {
     ///    +-----+-----+-----+          +-----+     +-----+
     /// ```
     ///
-    /// As with [`delete_faces`](Self::delete_faces), edges that have no face left are deleted too. Vertices
-    /// stay, and are isolated if they have no other edge. Other ids and attribute values do not change.
+    /// As with [`delete_faces`](Self::delete_faces), edges that have no face left are deleted too. Vertices are
+    /// not deleted; a vertex without other edges becomes isolated. Other ids and attribute values do not change.
     /// [`dissolve_edge`](Self::dissolve_edge) merges the faces instead.
     ///
     /// # Errors
@@ -35,8 +35,8 @@ impl Mesh {
     ///    +-----+-----+          +-----+-----+
     /// ```
     ///
-    /// As with [`delete_faces`](Self::delete_faces), edges that have no face left are deleted too. Other
-    /// vertices stay, and are isolated if they have no other edge. Other ids and attribute values do not
+    /// As with [`delete_faces`](Self::delete_faces), edges that have no face left are deleted too. Other vertices
+    /// are not deleted; a vertex without other edges becomes isolated. Other ids and attribute values do not
     /// change. `v` can be an isolated vertex. [`dissolve_vertex`](Self::dissolve_vertex) merges the faces
     /// instead.
     ///

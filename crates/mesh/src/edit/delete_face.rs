@@ -12,14 +12,14 @@ impl Mesh {
     ///    +-----+-----+          +-----+
     /// ```
     ///
-    /// Edges that have no other face are deleted too. Vertices stay, and are isolated if they have no other
-    /// edge. Other ids and attribute values do not change.
+    /// Edges that have no other face are deleted too. Vertices are not deleted; a vertex without other edges
+    /// becomes isolated. Other ids and attribute values do not change.
     ///
     /// # Errors
     ///
     /// Returns [`EditError::Pinch`] if the remaining faces around a vertex would not form one fan. This error
     /// occurs if the vertex is on the boundary, but both edges of `f` at the vertex are inside.
-    /// [`EditError::NoSuchFace`]. The mesh is unchanged.
+    /// Also returns [`EditError::NoSuchFace`]. The mesh is unchanged.
     pub fn delete_face(&mut self, f: FaceId) -> Result<(), EditError> {
         self.delete_faces(&[f])
     }
@@ -35,9 +35,9 @@ impl Mesh {
     /// ```
     ///
     /// Faces that cannot be deleted alone can be deleted together: only the result is checked. Edges that
-    /// have no other face are deleted too. Vertices stay, and are isolated if they have no other edge. Other
-    /// ids and attribute values do not change. An empty list changes nothing. Takes time proportional to the
-    /// number of listed faces and of edges at their corners.
+    /// have no other face are deleted too. Vertices are not deleted; a vertex without other edges becomes
+    /// isolated. Other ids and attribute values do not change. An empty list changes nothing. Takes time
+    /// proportional to the number of listed faces and of edges at their corners.
     ///
     /// # Errors
     ///

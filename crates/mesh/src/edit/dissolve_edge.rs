@@ -11,9 +11,9 @@ impl Mesh {
     ///    +-----a-----+          +-----a-----+
     /// ```
     ///
-    /// The face with the lower id remains, with its values; `e` and the other face die. V stays the same, E and
-    /// F shrink by one, and V - E + F stays the same. All other ids and values stay the same. This edit is the
-    /// inverse of [`split_face`](Self::split_face).
+    /// The face with the lower id remains and keeps its values; `e` and the other face die. V stays the same, E
+    /// and F shrink by one, and V - E + F stays the same. All other ids and values stay the same. This edit is
+    /// the inverse of [`split_face`](Self::split_face).
     ///
     /// Returns the remaining face.
     ///

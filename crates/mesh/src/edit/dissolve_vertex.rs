@@ -23,13 +23,13 @@ impl Mesh {
     ///    |           |        |           |
     /// ```
     ///
-    /// When faces are merged, the one with the lowest id remains, with its values; the same applies to edges.
+    /// When faces are merged, the one with the lowest id remains and keeps its values. The same applies to edges.
     /// `v` and its other edges die. V - E + F stays the same. All other ids and values stay the same. This edit
     /// is the inverse of [`poke_face`](Self::poke_face), and of [`split_edge`](Self::split_edge) if the split
     /// cut no triangles.
     ///
-    /// Returns the merged face. If `v` has two edges, returns the face beside these edges; if there are two
-    /// such faces, the one with the lower id.
+    /// Returns the merged face. If `v` has two edges, returns the face beside these edges. If there are two such
+    /// faces, returns the one with the lower id.
     ///
     /// # Errors
     ///
@@ -60,8 +60,8 @@ impl Mesh {
     }
 
     /// Removes a vertex like [`dissolve_vertex`](Self::dissolve_vertex); `seams` decides whether a seam is
-    /// refused or dropped. If a seam is dropped, the corner at the other end of the seam edge keeps the value
-    /// that it has in one of the two faces: the one that is counter-clockwise of the edge around `v`.
+    /// refused or dropped. If a seam is dropped, the corner at the other end of the seam edge keeps one of its
+    /// two values: the value in the face that follows the edge counter-clockwise around `v`.
     ///
     /// # Errors
     ///

@@ -29,7 +29,7 @@ impl Mesh {
     /// # Errors
     ///
     /// Returns [`EditError::NotBoundary`] if `h` has a face, [`EditError::ShortLoop`] if the hole has two
-    /// edges (use [`stitch_edges`](Self::stitch_edges) instead), [`EditError::Pinch`] if the hole visits a
+    /// edges (use [`stitch_edges`](Self::stitch_edges) instead), [`EditError::Pinch`] if the hole contains a
     /// vertex twice, or [`EditError::NoSuchHalfEdge`]. The mesh is unchanged.
     ///
     /// # Examples

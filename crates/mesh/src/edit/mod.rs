@@ -1,5 +1,5 @@
-//! Local edits, one per file. Each edit first checks, then changes, so a refused edit leaves every array
-//! unchanged.
+//! Local edits, one per file. Each edit first checks whether it is possible, then changes the mesh, so a refused
+//! edit leaves every array unchanged.
 
 mod bevel;
 mod bridge;
@@ -67,7 +67,7 @@ pub enum EditError {
     /// The edit would make a second edge between the same two vertices.
     #[error("{0} and {1} already share an edge")]
     DuplicateEdge(VertexId, VertexId),
-    /// The vertex has too few edges for the edit.
+    /// The vertex has too few edges for this edit.
     #[error("{0} has too few edges")]
     FewEdges(VertexId),
     /// The face would be left with fewer than three corners.

@@ -60,8 +60,9 @@ impl Mesh {
     /// Splits the face that has both vertices as corners, by an edge between them. Works like [`split_face`],
     /// but takes vertices.
     ///
-    /// The new edge runs from `v` to `w`. The sides counter-clockwise from `v` to `w` go to the new face;
-    /// those from `w` to `v` stay. Takes time proportional to the number of corners of the faces around `v`.
+    /// The new edge runs from `v` to `w`. The sides counter-clockwise from `v` to `w` belong to the new face; the
+    /// sides from `w` to `v` belong to the old face. Takes time proportional to the number of corners of the
+    /// faces around `v`.
     ///
     /// Returns the new edge.
     ///

@@ -17,10 +17,10 @@ impl Mesh {
     ///        y|  g  \            y|  g  \
     /// ```
     ///
-    /// `x` and `y` denote the corners at their origin: `x` the corner in f, `y` the corner in g. The new edge
-    /// runs from v to w. The first half of the new edge is on f, the second half is on g, and both faces gain a
-    /// corner. f or g can be a hole; then the edge is on the boundary. V and E grow by 1. All existing ids stay
-    /// the same.
+    /// `x` and `y` denote the corners at their origin: `x` denotes the corner in f, and `y` the corner in g. The
+    /// new edge runs from v to w. The first half of the new edge is on f, the second half is on g, and both faces
+    /// gain a corner. f or g can be a hole; then the edge is on the boundary. V and E grow by 1. All existing ids
+    /// stay the same.
     ///
     /// [`split_face`](Self::split_face) is the corresponding edit for faces. The inverse is to collapse the new
     /// edge with [`collapse_edge_to`](Self::collapse_edge_to), to the old position. That collapse is always
@@ -348,7 +348,7 @@ mod tests {
 
     #[test]
     fn two_corners_of_one_face_are_refused() {
-        // The two faces share two edges. After a flip of one of these edges, the second face visits vertex 2
+        // The two faces share two edges. After a flip of one of these edges, the second face contains vertex 2
         // twice.
         let polygons: [&[u32]; 2] = [&[0, 1, 2, 3], &[1, 0, 4, 3, 2, 5]];
         let (mut mesh, _) = Mesh::from_polygons(vec![DVec3::ZERO; 6], &polygons).unwrap();

@@ -17,10 +17,10 @@ impl Mesh {
     ///       /   \                   /   \
     /// ```
     ///
-    /// a and a' become one vertex, and so do b and b'; either pair can already be one vertex. Of each pair, the
-    /// vertex with the lower id remains, with its position and values; the other one dies. Of the two edges,
-    /// the one with the lower id remains, with its values, and gets both faces; the other one dies. Corners
-    /// keep their values, so that different UVs become a seam. If the boundary edges next to `h` and `g` would become
+    /// a and a' become one vertex, and so do b and b'; either pair can already be one vertex. In each pair, the
+    /// vertex with the lower id remains and keeps its position and values; the other vertex dies. The edge with the
+    /// lower id remains, keeps its values and gets both faces; the other edge dies. Corners
+    /// keep their values, so different UVs form a seam. If the boundary edges next to `h` and `g` would become
     /// a hole with two edges, they are stitched too, because a list of polygons cannot represent such a hole. A cut
     /// can be closed edge by edge, from its end.
     ///

@@ -266,7 +266,10 @@ impl TooLarge {
                 "take {bytes} bytes, but the memory budget is {} bytes",
                 self.budget
             ),
-            None => format!("{} half-edges, but the highest id is 2^32 - 2", self.half_edges),
+            None => format!(
+                "{} half-edges, but the highest id is 2^32 - 2",
+                self.half_edges
+            ),
         }
     }
 }

@@ -90,9 +90,7 @@ pub enum SolveError {
     )]
     Residual(f64),
     /// The factorization would not fit into memory.
-    #[error(
-        "the factorization needs {needed} entries, but at most {limit} are supported"
-    )]
+    #[error("the factorization needs {needed} entries, but at most {limit} are supported")]
     TooLarge {
         /// The required number of entries of the factor.
         needed: u64,

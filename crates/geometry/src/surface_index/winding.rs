@@ -14,8 +14,7 @@ use super::{Node, SurfaceIndex, unit_scale};
 /// surface that faces outward, the winding number is 1 inside and 0 outside. For nested or overlapping parts, the
 /// winding numbers of the parts are added. For an open surface or a list of unconnected triangles, the winding number
 /// changes smoothly near the gaps, and 1/2 is a good boundary between inside and outside: Jacobson, Kavan,
-/// Sorkine-Hornung, "Robust Inside-Outside Segmentation using Generalized Winding Numbers",
-/// 2013.
+/// Sorkine-Hornung, "Robust Inside-Outside Segmentation using Generalized Winding Numbers", 2013.
 ///
 /// Far parts of the surface are replaced by the first three terms of the Taylor series of their solid angle: Barill,
 /// Dickson, Schmidt, Levin, Jacobson, "Fast Winding Numbers for Soups and Clouds", 2018. A part is far if its distance

@@ -19,10 +19,10 @@ impl Mesh {
     ///
     /// a and a' become one vertex, and so do b and b'; either pair can already be one vertex. In each pair, the
     /// vertex with the lower id remains and keeps its position and values; the other vertex dies. The edge with the
-    /// lower id remains, keeps its values and gets both faces; the other edge dies. Corners
-    /// keep their values, so different UVs form a seam. If the boundary edges next to `h` and `g` would become
-    /// a hole with two edges, they are stitched too, because a list of polygons cannot represent such a hole. A cut
-    /// can be closed edge by edge, from its end.
+    /// lower id remains, keeps its values and gets both faces; the other edge dies. Corners keep their values, so
+    /// different UVs form a seam. If the boundary edges next to `h` and `g` would become a hole with two edges,
+    /// they are stitched too, because a list of polygons cannot represent such a hole. A cut can be closed edge by
+    /// edge, from its end.
     ///
     /// The order of `h` and `g` does not matter. The orientation of the faces always matches, because both
     /// half-edges have the surface on their right.

@@ -128,8 +128,8 @@ impl<P: Point> Curve<P> {
         levels
     }
 
-    /// Returns the point of the curve at `t`. At 0 and 1, the point is the first and the last control point,
-    /// bit for bit.
+    /// Returns the point of the curve at `t`. At 0, the point is exactly the first control point; at 1, it is
+    /// exactly the last.
     pub fn point(&self, t: f64) -> P {
         casteljau(self.points.clone(), Weights::at(t))
     }

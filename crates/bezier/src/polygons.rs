@@ -27,7 +27,7 @@ pub struct Tessellation {
     pub indices: Vec<u32>,
     /// The number of tessellated patches, including empty ones.
     pub patches: u32,
-    /// The indices of the patches that gave no vertices and no faces, counted from the first patch.
+    /// The indices of the patches that have no vertices and no faces in the tessellation.
     pub empty_patches: Vec<u32>,
 }
 

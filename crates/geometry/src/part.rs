@@ -224,7 +224,8 @@ mod tests {
     use crate::{area, n_components, shapes};
     use mesh::{CREASE, Column, DVec2, DVec3, MATERIAL, Rule, UV, Values};
 
-    /// Returns a mesh of several shapes with interleaved faces and attributes, and the shapes.
+    /// Returns one mesh of several shapes, with interleaved faces and with attributes, and the list of the
+    /// shapes.
     fn mixed() -> (Mesh, Vec<Mesh>) {
         let shapes = vec![
             shapes::cube(),

@@ -65,7 +65,7 @@ impl Cut {
         matches!(self, Self::Polygon { is_fan: true, .. })
     }
 
-    /// Returns the triangles, sorted; none if the face is not cut.
+    /// Returns the triangles, sorted; empty if the face is not cut.
     pub fn triangles(&self) -> &[Triangle] {
         match self {
             Self::Keep => &[],

@@ -17,7 +17,7 @@ const INWARD: f64 = 1e-3;
 /// The number of vertices that one task processes.
 const BLOCK: usize = 256;
 
-/// Returns the thickness of the solid at each vertex, by index, in scene units: from each face around the vertex, a ray
+/// Returns the thickness of the solid at each vertex, by index, in scene units. For each face around the vertex, a ray
 /// starts at the vertex and runs inward at a right angle to the face until it leaves the solid. The thickness is the
 /// length of the shortest ray. The thickness is infinite if no ray meets the surface again, as for a sheet, and for
 /// vertices whose faces have zero area.

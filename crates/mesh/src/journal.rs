@@ -1,8 +1,8 @@
 //! Undo and redo of edits.
 //!
 //! [`Mesh::begin`] opens a journal. From then on every write records the value that it overwrites.
-//! [`Mesh::rollback`] restores the mesh bit for bit. [`Mesh::commit`] returns a [`Change`] that can be
-//! reverted later, and then be redone. Memory and time are proportional to the change, not to the mesh.
+//! [`Mesh::rollback`] restores the mesh bit for bit. [`Mesh::commit`] returns a [`Change`] that can be reverted
+//! later and then redone. Memory and time are proportional to the change, not to the mesh.
 //! While no journal is open, a write costs only one additional comparison.
 //!
 //! Calls can be nested: each `begin` opens a level, which the matching `commit` or `rollback` ends. An inner

@@ -144,7 +144,7 @@ fn a_concave_face_is_cut_several_times() {
     );
     assert!((area(&mesh) - area(&comb)).abs() < 1e-12);
     assert!(mesh.faces().all(|f| mesh.area_vector(f).z > 0.0));
-    // The plane cuts through the bottoms of the gaps, which are corners.
+    // The plane cuts through the corners at the bottoms of the gaps.
     let (mesh, found) = cut(&comb, DVec3::Y, DVec3::Y);
     assert_eq!(
         (found.front.len(), found.back.len(), found.edges.len()),

@@ -85,7 +85,7 @@ fn sort_into_tree(points: &mut [Point]) {
     run_both(n, || sort_into_tree(low), || sort_into_tree(high));
 }
 
-/// Runs both halves of some work on `n` points, in parallel if there are more than [`TASK`] points.
+/// Runs the two halves of a task on `n` points, in parallel if there are more than [`TASK`] points.
 fn run_both<T: Send>(
     n: usize,
     low: impl FnOnce() -> T + Send,

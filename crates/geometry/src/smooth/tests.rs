@@ -417,7 +417,7 @@ fn degenerate_isolated_and_extreme_meshes_stay_finite() {
         shapes::cylinder(300, true),
         shapes::tetrahedron(),
     ];
-    // The meshes have a needle-shaped triangle, a doubled triangle, an isolated vertex, or all vertices at one
+    // The meshes have a needle-shaped triangle, a duplicate triangle, an isolated vertex, or all vertices at one
     // point.
     let points = vec![DVec3::ZERO, DVec3::X, DVec3::X * 0.5, DVec3::Y, DVec3::Z];
     meshes.push(

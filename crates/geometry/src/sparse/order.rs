@@ -65,7 +65,7 @@ struct Quotient {
     hashes: Vec<(u64, u32)>,
 }
 
-/// The variables by their degree: doubly linked lists.
+/// The variables of each degree, as doubly linked lists.
 struct Buckets {
     first: Vec<u32>,
     next: Vec<u32>,

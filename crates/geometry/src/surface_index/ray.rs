@@ -153,7 +153,8 @@ impl Ray {
         })
     }
 
-    /// Returns a lower bound of the position on the ray where it enters a box; `None` if the ray misses the box.
+    /// Returns a lower bound on the position on the ray at which the ray enters a box; `None` if the ray misses
+    /// the box.
     ///
     /// The box is enlarged by a multiple of the rounding error of [`meets`](Self::meets), so that no hit is lost.
     fn enters(&self, node: &Node) -> Option<f64> {

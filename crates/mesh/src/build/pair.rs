@@ -70,8 +70,8 @@ struct Irregularities {
     has_inconsistent_edge: bool,
 }
 
-/// Pairs outgoing and incoming sides around each vertex. Each side is visited at both of its ends. The twin
-/// of a side is stored during the visit of the origin of the side.
+/// Pairs outgoing and incoming sides around each vertex. Each side is visited at both of its ends. The twin of a
+/// side is stored when the origin of the side is visited.
 pub(super) fn pair(polygons: &Polygons, buckets: &Buckets) -> PairedSides {
     let twin: Vec<AtomicU32> = crate::zeroed(polygons.corners.len());
     let mut outgoing: Vec<Outgoing> = crate::zeroed(buckets.n_vertices());

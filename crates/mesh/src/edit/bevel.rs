@@ -19,8 +19,8 @@ impl Mesh {
     /// from each new vertex to the next, and the face, whose first corner is the first new vertex. V, E and F
     /// grow by n - 1, n and 1. Each face at v gains one corner for each of its corners at v.
     ///
-    /// At a cut, vertex attributes are interpolated between v and the other end of the edge, and corner
-    /// attributes within their face, on each side of a seam separately. Attributes that are
+    /// At a cut, vertex attributes are interpolated between v and the other end of the edge. Corner attributes are
+    /// interpolated within their face, separately on each side of a seam. Attributes that are
     /// not interpolated are copied from v. The new face has the values of the face to the left of the first
     /// edge. At each cut, the corner of the new face has the values of the corner in the face to the left of the cut
     /// edge, as seen from v. New edges have zero values.

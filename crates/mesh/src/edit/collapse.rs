@@ -23,7 +23,7 @@ impl Mesh {
     ///
     /// Vertex attributes of v are interpolated between the two ends, except attributes whose rule does not
     /// interpolate: these keep their values at v. The corners at v of the faces beside `e` are interpolated
-    /// within their face, on each side of a seam separately. Each corner of another face at an end of `e` is
+    /// within their face, separately on each side of a seam. Each corner of another face at an end of `e` is
     /// compared with the corners of the faces beside `e` at the same end, for each attribute. If two compared
     /// corners have the same value, the corner of the other face gets the new value of the corner beside `e`. A
     /// corner without such a match keeps its value. When two edges become one, the larger value is kept, so

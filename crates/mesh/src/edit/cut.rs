@@ -162,7 +162,7 @@ impl Mesh {
 /// Returns the parts of a fan after its cut edges were duplicated. The fan must start at the boundary or at a cut.
 fn parts(fan: &[HalfEdgeId], copy_of: impl Fn(HalfEdgeId) -> Option<EdgeId>) -> Vec<Part> {
     // Returns two outgoing half-edges at the cut of h: the last half-edge of the part before the cut
-    // (clockwise), and the first half-edge of the part after the cut, which is on the boundary.
+    // (clockwise), and the first half-edge of the part after the cut. The latter is on the boundary.
     let sides = |h: HalfEdgeId| {
         let [first, second] = copy_of(h)?.half_edges();
         let is_first = h == h.edge().half_edge();

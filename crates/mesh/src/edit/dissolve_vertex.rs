@@ -227,8 +227,8 @@ impl Mesh {
         Ok(())
     }
 
-    /// Merges the edges of `x` and `y`, the only outgoing half-edges of a vertex, which dies. The edge with the
-    /// lower id remains.
+    /// Merges the edges of `x` and `y`, the only outgoing half-edges of a vertex, and removes the vertex. The
+    /// edge with the lower id remains.
     ///
     /// ```text
     ///    a <--x-- v --y--> b     -->     a <---x--- b

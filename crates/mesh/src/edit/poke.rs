@@ -23,7 +23,7 @@ impl Mesh {
     ///
     /// Interpolated vertex attributes at m are the mean of the attributes of the corners; other vertex
     /// attributes are zero. The corners at m get the mean of the corner values of the face; the other corners
-    /// keep their values. New faces have the values of `f`, new edges have zero values.
+    /// keep their values. New faces have the values of `f`, and new edges have zero values.
     ///
     /// Returns m. [`dissolve_vertex`](Self::dissolve_vertex) is the inverse.
     ///

@@ -19,8 +19,8 @@ impl Mesh {
     /// a corner. Inside a triangle mesh, V, E and F grow by 1, 3 and 2; on its boundary by 1, 2 and 1.
     /// V - E + F stays the same.
     ///
-    /// Vertex attributes at m are interpolated between a and b, and corner attributes at m within their face,
-    /// on each side of a seam separately. m-b has the edge values of `e`. The new faces have the
+    /// Vertex attributes at m are interpolated between a and b. Corner attributes at m are interpolated within
+    /// their face, separately on each side of a seam. m-b has the edge values of `e`. The new faces have the
     /// values of f and g.
     ///
     /// If both triangles have the same opposite vertex (c is d), two edges join m and c.

@@ -22,8 +22,8 @@ impl Mesh {
     /// gain a corner. f or g can be a hole; then the edge is on the boundary. V and E grow by 1. All existing ids
     /// stay the same.
     ///
-    /// [`split_face`](Self::split_face) is the corresponding edit for faces. The inverse is to collapse the new
-    /// edge with [`collapse_edge_to`](Self::collapse_edge_to), to the old position. That collapse is always
+    /// [`split_face`](Self::split_face) is the corresponding edit for faces. To undo the split, collapse the new
+    /// edge to the old position with [`collapse_edge_to`](Self::collapse_edge_to). That collapse is always
     /// allowed, unless two edges joined v to the same vertex or a face contains v twice. To undo a collapse that
     /// removed triangles, call `split_vertex`, then `split_face`.
     ///

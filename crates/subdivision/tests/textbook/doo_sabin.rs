@@ -13,8 +13,8 @@ pub(crate) fn refine(mesh: &Polygons) -> Polygons {
     let p = |v: usize| mesh.positions[v];
     let mut positions: Vec<DVec3> = Vec::new();
     let mut faces = Vec::new();
-    // Two maps: the new vertex of each corner of a face, and the new vertex near v on the boundary edge from v
-    // to w.
+    // There are two maps: the new vertex of each corner of a face, and the new vertex near v on the boundary edge
+    // from v to w.
     let mut inside: BTreeMap<(usize, usize), usize> = BTreeMap::new();
     let mut outside: BTreeMap<(usize, usize), usize> = BTreeMap::new();
 

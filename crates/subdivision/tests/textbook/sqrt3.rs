@@ -27,8 +27,8 @@ pub(crate) fn refine(mesh: &Polygons, cuts_boundary: bool) -> Polygons {
         );
     }
 
-    // Two results: the new vertex opposite to each side of a triangle, and the triangles that are not made by a
-    // flip.
+    // The loop has two results: the new vertex opposite each side of a triangle, and the triangles that are not
+    // made by a flip.
     let mut apex: BTreeMap<(usize, usize), usize> = BTreeMap::new();
     let mut faces = Vec::new();
     for (f, face) in mesh.faces.iter().enumerate() {

@@ -366,7 +366,7 @@ fn small_and_degenerate_meshes_are_remeshed() {
     }
     let empty = Mesh::default();
     assert_eq!(remeshed(&empty, &to(1.0)).mesh, empty);
-    // Two components, one of them smaller than the length.
+    // The mesh has two components, one of them smaller than the target length.
     let mut two = ball();
     for p in two.positions_mut() {
         *p = *p * 1e-3 + DVec3::X;

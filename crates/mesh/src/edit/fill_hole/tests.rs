@@ -3,7 +3,7 @@ use crate::edit::testing::{checked_edit, half_edge, polygons, with_slit};
 use crate::{EdgeId, MATERIAL, UV, shapes};
 use glam::{DVec2, DVec3};
 
-/// Returns meshes with holes: shapes without one face or several faces, open sheets, and tubes.
+/// Returns meshes with holes: shapes with one or more faces removed, open sheets, and tubes.
 fn open_shapes() -> Vec<Mesh> {
     let mut shapes = vec![
         shapes::square(),

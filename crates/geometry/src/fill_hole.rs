@@ -44,7 +44,7 @@ const SHAPE_WEIGHT: f64 = 1e-6;
 ///
 /// A new edge never connects two vertices that already share an edge.
 ///
-/// All ids stay valid. The new faces and edges are numbered in the order of the returned triangles, which
+/// All ids stay valid. The new faces and edges are numbered in the order of the returned triangles. This order
 /// depends on `h` and on the shape of the hole. New faces copy the values of the face on the other side of `h`,
 /// and new edges have zero values. All new corners at a vertex copy the values of one existing corner, as in
 /// [`Mesh::fill_hole`].

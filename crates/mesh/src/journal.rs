@@ -173,7 +173,7 @@ impl Journal {
         inner
     }
 
-    /// Whether changes of this element must be recorded: it is older than the innermost level.
+    /// Whether changes of this element must be recorded, because the element is older than the innermost level.
     #[inline]
     fn needs_entry<I: Id>(&self, element: I) -> bool {
         element.index() < self.lengths[I::DOMAIN as usize]
@@ -336,8 +336,8 @@ impl Mesh {
         }
     }
 
-    /// Replaces the entries by one copy of the mesh as it was at `begin`, if they have become larger than the
-    /// mesh. This function is called between edits. Does nothing while inner levels are open, because an
+    /// Replaces the entries by one copy of the mesh as it was at `begin`, if the entries have become larger than
+    /// the mesh. This function is called between edits. Does nothing while inner levels are open, because an
     /// inner level lasts for one edit only.
     pub(crate) fn bound_journal(&mut self) {
         let Some(journal) = &self.journal else { return };

@@ -322,7 +322,7 @@ impl<'m> Bevel<'m> {
         let points = around.iter().filter(|h| self.points[h.index()].is_some());
         for &h in points {
             let vertex = self.numbers[h.index()];
-            // The same point in the face to the left or, if there is none, in the face to the right.
+            // Uses the corner in the face to the left of h or, if there is none, in the face to the right.
             let corners = match (mesh.face(h), self.right(h)) {
                 (Some(_), _) => self.corners(h),
                 (None, Some(right)) => self.corners(right),

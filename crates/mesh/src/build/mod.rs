@@ -147,7 +147,7 @@ impl BuildOutput {
 impl Mesh {
     /// Builds a mesh from polygons, given as lists of vertex indices in counter-clockwise order.
     ///
-    /// Polygon i becomes face i unless a degenerate polygon before it was dropped. The
+    /// Polygon i becomes face i unless a degenerate polygon with a lower index was dropped. The
     /// [module](mod@crate::build) documents how non-manifold input is repaired.
     ///
     /// # Errors

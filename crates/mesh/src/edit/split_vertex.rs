@@ -215,8 +215,8 @@ mod tests {
         };
         let (v, removed) = (shape.origin(h), shape.target(h));
         let triangles = [h, h.twin()].map(|h| shape.face(h).is_some_and(|f| shape.is_triangle(f)));
-        // The first and the last half-edge to move back to the removed vertex. If a triangle vanished, its
-        // edge at the removed vertex was merged with its edge at v, which is used instead.
+        // The first and the last half-edge to move back to the removed vertex. If a triangle vanished, its edge
+        // at the removed vertex was merged with its edge at v; the edge at v is then used.
         let [mut first, mut last] = [shape.next(h), shape.prev(h.twin()).twin()];
         if triangles[0] {
             first = shape.prev(h).twin();

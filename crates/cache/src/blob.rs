@@ -12,7 +12,7 @@ use crate::folder::{
     unreadable,
 };
 
-/// Arrays of fewer bytes are stored in the record itself.
+/// Arrays with fewer bytes than this are stored in the record itself.
 const MIN_BLOB_LEN: usize = 1 << 14;
 
 /// A reference to a blob: the digest and the length of its content.
@@ -31,7 +31,7 @@ pub(crate) struct SceneRef {
     pub(crate) arrays: Vec<BlobRef>,
 }
 
-/// Stores a scene of dense meshes. `None` if the scene cannot be written.
+/// Stores a scene of dense meshes. Returns `None` if the scene cannot be written.
 pub(crate) fn store_scene(folder: &Folder, scene: &Scene) -> Option<SceneRef> {
     let mut arrays = Vec::new();
     let mut stored = true;
@@ -90,8 +90,8 @@ fn store_bytes(folder: &Folder, blob: BlobRef, bytes: &[u8]) -> bool {
         })
 }
 
-/// Whether a blob is already stored. If so, marks the blob as used. The content of the blob is checked only when the
-/// blob is read.
+/// Whether a blob is already stored. A stored blob is marked as used. Its content is checked only when the blob is
+/// read.
 fn is_stored(folder: &Folder, blob: &BlobRef) -> bool {
     let exists = exists(folder, blob);
     if exists {
@@ -109,7 +109,7 @@ fn load_bytes(folder: &Folder, blob: &BlobRef, into: &mut [u8]) -> Result<(), Un
     touch_or_discard(&path, read)
 }
 
-/// Stores an output file of a step. `None` if the file cannot be read or stored.
+/// Stores an output file of a step. Returns `None` if the file cannot be read or stored.
 pub(crate) fn store_file(folder: &Folder, path: &Path) -> Option<BlobRef> {
     let (mut file, _) = open(path).ok()?;
     let (hash, len) = hash_rest(&mut file).ok()?;
@@ -129,7 +129,7 @@ pub(crate) fn exists(folder: &Folder, blob: &BlobRef) -> bool {
     fs::symlink_metadata(path).is_ok_and(|meta| meta.is_file() && meta.len() == blob.len)
 }
 
-/// Writes a blob to a file. If writing fails, no file is left.
+/// Writes a blob to a file. If writing fails, the incomplete file is removed.
 pub(crate) fn restore_file(folder: &Folder, blob: &BlobRef, to: &Path) -> Result<(), Unusable> {
     let path = folder.path(Kind::Blob, &blob.hash);
     let mut file = open_blob(&path, blob)?;

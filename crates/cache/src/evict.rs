@@ -101,13 +101,13 @@ fn remove(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Returns the path of the file `sizes`. Each run appends the number of bytes that it has stored, as 8 bytes.
+/// Returns the path of the file `sizes`. Each run appends the number of bytes that it stored, as 8 bytes.
 fn sizes(folder: &Folder) -> PathBuf {
     folder.root().join("sizes")
 }
 
-/// If something was stored since the last call, keeps the cache below its limit. Ignores errors, because the next run
-/// tries again.
+/// Keeps the cache below its limit, if something was stored since the last call. Errors are ignored, because the
+/// next run tries again.
 pub(crate) fn after_run(folder: &Folder, limit: u64) {
     let added = folder.take_written();
     if added > 0 {

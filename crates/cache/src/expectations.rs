@@ -11,7 +11,7 @@ use recipe::RecipeExpectation;
 /// An expectation that holds for a scene.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub(crate) struct MetExpectation {
-    /// The digest of the expectation's text and `on`.
+    /// The digest of the expectation as text and of its `on`.
     id: Hash,
     /// The files that the expectation compares with.
     inputs: Inputs,

@@ -12,9 +12,10 @@ use std::time::{Duration, SystemTime};
 /// A BLAKE3 digest.
 pub(crate) type Hash = [u8; 32];
 
-/// Larger files are read, written and hashed by several threads, in pieces of this size (in bytes).
+/// The size of a piece, in bytes. Files larger than a piece are read, written and hashed piece by piece on several
+/// threads.
 const PIECE: usize = 4 << 20;
-/// If a file was marked as used within this time, it is not marked again.
+/// A file that was marked as used less than this time ago is not marked again.
 const TOUCH_INTERVAL: Duration = Duration::from_secs(3600);
 
 /// Kinds of files. Each kind has its own folder.
@@ -87,8 +88,8 @@ impl Folder {
         self.root.join("tmp")
     }
 
-    /// Writes a file, completely or not at all, and returns whether that succeeded. After the first failure, which is
-    /// kept as [`problem`](Self::problem), nothing more is written.
+    /// Writes a file, completely or not at all, and returns whether writing succeeded. The first failure is stored
+    /// as [`problem`](Self::problem), and nothing is written after it.
     pub(crate) fn write(&self, path: &Path, fill: impl Fn(&mut File) -> io::Result<u64>) -> bool {
         if self.problem.get().is_some() {
             return false;
@@ -104,7 +105,7 @@ impl Folder {
             file.persist(path)?;
             Ok(n)
         };
-        // Another process may have cleared the folder in the meantime, so try again.
+        // Another process may have cleared the folder in the meantime, so writing is tried again.
         let retry = |error: io::Error| match error.kind() {
             io::ErrorKind::NotFound => try_write(),
             _ => Err(error),
@@ -115,8 +116,8 @@ impl Folder {
                 true
             }
             Err(error) => {
-                // The message ends with the path of the temporary file. The path of the temporary file does not help
-                // the user, so it is removed.
+                // The message ends with the path of the temporary file. That path does not help the user, so it is
+                // removed.
                 let error = error.to_string();
                 let error = error.split(" at path ").next().unwrap_or_default();
                 let root = self.root.display();
@@ -132,9 +133,9 @@ impl Folder {
         self.root.join("key")
     }
 
-    /// Returns the key of this cache: random bytes that only the user can read. The digest of every record depends on
-    /// the key. Whoever edits a record without knowing the key cannot compute the new digest, so the record is
-    /// rejected. The key is read each time, because another process may have cleared the folder.
+    /// Returns the key of this cache: random bytes that only the user can read. The digest of every record depends
+    /// on the key. A person who edits a record without knowing the key cannot compute the new digest, so the record
+    /// is rejected. The key is read each time, because another process may have cleared the folder.
     pub(crate) fn key(&self) -> Result<Hash, Unusable> {
         let path = self.key_file();
         let key = Self::read(&path, size_of::<Hash>() as u64).and_then(|key| {
@@ -146,7 +147,7 @@ impl Folder {
         key
     }
 
-    /// Returns the key of this cache. If there is no key yet, creates one. `None` if the key cannot be written.
+    /// Returns the key of this cache. If there is no key yet, creates one. Returns `None` if the key cannot be written.
     pub(crate) fn key_or_new(&self) -> Option<Hash> {
         if let Ok(key) = self.key() {
             return Some(key);
@@ -170,7 +171,7 @@ impl Folder {
         Ok(bytes)
     }
 
-    /// Removes a file. Ignores errors: a damaged file that remains is detected again by its digest.
+    /// Removes a file. Errors are ignored, because a damaged file that remains is detected again by its digest.
     pub(crate) fn discard(path: &Path) {
         let _ = fs::remove_file(path);
     }
@@ -192,7 +193,7 @@ impl Folder {
     }
 }
 
-/// Opens a file of the cache. Returns the file and its length. The cache creates no links, so any link counts as
+/// Opens a file of the cache. Returns the file and its length. The cache creates no links, so a link counts as
 /// damage.
 pub(crate) fn open_cache_file(path: &Path) -> Result<(File, u64), Unusable> {
     let meta = fs::symlink_metadata(path).map_err(unreadable)?;
@@ -278,7 +279,8 @@ pub(crate) fn copy_hashed(
             sink(&full)?;
             update(&mut hasher, &full);
             full.clear();
-            // A short piece need not be the last piece of the file. Only an empty piece means that the file has ended.
+            // A short piece is not necessarily the last piece of the file. Only an empty piece means that the file
+            // has ended.
             read_piece(from, &mut full)?;
             continue;
         }

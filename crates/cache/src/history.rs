@@ -28,7 +28,7 @@ pub(crate) struct History {
 }
 
 impl History {
-    /// Loads the history of a recipe. Empty if `recipe` is `None` or has not run before.
+    /// Loads the history of a recipe. The history is empty if `recipe` is `None` or has not run before.
     pub(crate) fn load(folder: &Folder, recipe: Option<&std::path::Path>) -> Self {
         let absolute = recipe.map(|path| std::path::absolute(path).unwrap_or_else(|_| path.into()));
         let id = absolute.map(|path| digest("recipe", &path.as_os_str().as_encoded_bytes()));
@@ -68,8 +68,8 @@ impl History {
         }
     }
 
-    /// Returns why the key of a step differs from that in the last run. `rerun` is the number and the label of the
-    /// earlier step of this run that made later steps run again, if any.
+    /// Returns why the key of a step differs from its key in the last run. `rerun` is the number and the label of
+    /// the earlier step of this run that made later steps run again, if any.
     pub(crate) fn why(&self, now: &Ingredients, rerun: Option<(usize, String)>) -> RerunReason {
         let index = self.this_run.len();
         let is_same_step = |past: &&PastStep| {
@@ -142,7 +142,7 @@ fn parameter_changes(from: &str, to: &str) -> String {
         if from == to {
             None
         } else if from_short == to_short {
-            // The old and the new value look the same after shortening, so only the name is shown.
+            // The old and the new value are equal after shortening, so only the name is given.
             Some(name.clone())
         } else {
             Some(format!("{name} {from_short} -> {to_short}"))

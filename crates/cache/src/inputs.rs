@@ -1,4 +1,4 @@
-//! The files that steps read: their state when they were read, and whether they have changed since.
+//! The files that steps read: their state when they were read, and whether they have changed since then.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
@@ -32,8 +32,8 @@ pub(crate) struct FileState {
 /// The input files of a step or an expectation.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Eq, Serialize)]
 pub(crate) struct Inputs {
-    /// The requested paths, as written in the recipe and as resolved. The resolved path is needed because the same text
-    /// refers to different files in different input folders.
+    /// The requested paths, as written in the recipe and as resolved. The resolved path is needed because the same
+    /// written path refers to different files in different input folders.
     requested: Vec<(String, PathBuf)>,
     /// The files that were read or looked for.
     pub(crate) files: Vec<FileState>,
@@ -47,7 +47,7 @@ impl Inputs {
     }
 }
 
-/// Checks files for changes. Keeps the digests of the files, so that most files are read only once per run.
+/// Checks files for changes. The digests of the files are kept, so most files are read only once per run.
 #[derive(Debug)]
 pub(crate) struct FileChecker {
     run_start: SystemTime,
@@ -141,7 +141,7 @@ impl FileChecker {
         Ok(Inputs { requested, files })
     }
 
-    /// Whether a file was modified after the run started. If so, it is unknown which version of the file was read.
+    /// Whether a file was modified after the run started. If it was, the version that the step read is unknown.
     fn is_new(&self, path: &Path) -> bool {
         let modified = std::fs::metadata(path).and_then(|meta| meta.modified());
         modified.is_ok_and(|at| at > self.run_start)

@@ -7,8 +7,8 @@ use crate::folder::Hash;
 use crate::inputs::FileState;
 use recipe::RecipeStep;
 
-/// The version of the storage format. Every digest depends on this version, so that programs with another version never
-/// find files of this version.
+/// The version of the storage format. Every digest depends on this version, so a program with another version never
+/// finds files of this version.
 const FORMAT: &str = "meshwright step cache 1";
 
 /// Everything that determines the result of a step before it runs.
@@ -81,7 +81,8 @@ impl State {
     }
 }
 
-/// Returns the digest of serialized data. `what` separates the digests of different kinds of data.
+/// Returns the digest of serialized data. `what` is the kind of data: equal data of different kinds has different
+/// digests.
 pub(crate) fn digest(what: &str, data: &impl Serialize) -> Hash {
     let bytes = postcard::to_stdvec(data).expect("plain data of known lengths");
     let mut hasher = blake3::Hasher::new_derive_key(FORMAT);
@@ -138,7 +139,7 @@ mod tests {
             })
             .collect();
         assert_eq!(keys.len(), changes.len());
-        // The same characters, divided differently between two fields, give a different key.
+        // If the same characters are divided differently between two fields, the key is different.
         let (mut a, mut b) = (ingredients(), ingredients());
         (a.program, a.operation) = ("pO".into(), "p".into());
         (b.program, b.operation) = ("p".into(), "Op".into());

@@ -1,7 +1,7 @@
 //! The step cache: stores the results of steps in a folder that several processes can share.
 //!
 //! ```text
-//! steps/ab/cdef..     the records of a step, by its key: report, counts, files, and references to blobs
+//! steps/ab/cdef..     the records of a step (report, counts, files, references to blobs), by its key
 //! blobs/12/3456..     arrays of scenes and output files, each by the BLAKE3 digest of its content
 //! recipes/..          for each recipe, the data behind the keys of the steps in its last run, to explain changes
 //! tmp/                files that are being written
@@ -25,10 +25,10 @@
 //!
 //! **What is stored.** Records are always stored. Scenes and files of fewer than [`ALWAYS_STORED`] bytes are also
 //! always stored. A larger scene is stored if the computation since the last stored scene took longer than storing the
-//! scene takes (at [`BYTES_PER_SECOND`]). A first run that stores its results therefore takes at most about twice as
-//! long, and recomputing a scene in a later run takes no longer than storing the scene would have taken. The same rule
-//! applies to large output files, but the time for loading the scene is added to the computing time. Equal arrays are
-//! stored once: a step that changes one attribute adds only that attribute.
+//! scene takes (at [`BYTES_PER_SECOND`]). A first run that stores its results therefore takes at most about twice
+//! as long. Recomputing a scene in a later run takes no longer than storing the scene would have taken. The same
+//! rule applies to large output files, but the time for loading the scene is added to the computing time. Equal
+//! arrays are stored once. A step that changes one attribute therefore adds only that attribute.
 //!
 //! **Size.** At the end of a run that has stored something, the numbers of bytes that all runs have added are summed.
 //! If the sum exceeds the limit, all files are listed, and the least recently used files are removed until the
@@ -51,7 +51,7 @@ use folder::Folder;
 use recipe::{CachedRun, StepCache};
 use session::Session;
 
-/// Scenes and files of fewer bytes are always stored.
+/// Scenes and files with fewer bytes than this are always stored.
 pub const ALWAYS_STORED: u64 = 1 << 20;
 /// The estimated rate, in bytes per second, at which results are hashed and written.
 pub const BYTES_PER_SECOND: f64 = 1e9;
@@ -72,8 +72,8 @@ pub struct Cache {
 pub struct Caching<'a> {
     /// The cache.
     pub cache: &'a Cache,
-    /// The file of the recipe, if it has one. For this file, the data behind the keys of the steps is stored, so that
-    /// the next run can report changes.
+    /// The file of the recipe, if it has one. The data behind the keys of the steps is stored for this file, so
+    /// that the next run can report changes.
     pub recipe: Option<&'a Path>,
     /// Whether [`Outcome::scene`](recipe::Outcome::scene) must be available even if no step needs it.
     pub want_scene: bool,
@@ -131,7 +131,7 @@ impl Cache {
         evict::size(&self.folder)
     }
 
-    /// Removes everything that the cache has stored, and no other files. Returns the size of what was removed.
+    /// Removes everything that the cache has stored, and no other files. Returns the size of the removed files.
     ///
     /// # Errors
     ///

@@ -39,7 +39,7 @@ pub(crate) struct Record {
 /// The output files of a step.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub(crate) struct Outputs {
-    /// The provenance of the run. The output files may contain this provenance.
+    /// The provenance of the run. The output files can contain this provenance.
     pub(crate) provenance: Option<String>,
     /// The requested paths: as written in the recipe, and relative to the output folder.
     pub(crate) requested: Vec<(String, PathBuf)>,

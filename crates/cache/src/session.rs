@@ -45,8 +45,8 @@ pub(crate) struct Session<'a> {
     ingredients: Option<Ingredients>,
     /// The computing time since the last stored scene.
     unstored_time: Duration,
-    /// The last step that had to run for a reason that can make later steps run again: its number (counted from 1) and
-    /// its label.
+    /// The last step that had to run for a reason that can make later steps run again. The tuple has its number
+    /// (counted from 1) and its label.
     last_changed: Option<(usize, String)>,
     notes: Vec<String>,
 }
@@ -305,8 +305,8 @@ impl<'a> Session<'a> {
         Err(first.unwrap_or(RerunReason::Gone))
     }
 
-    /// Checks that the step would give the recorded result if it ran now. If so, and if there is a stage, restores the
-    /// output files of the step into the stage.
+    /// Checks that the step would give the recorded result if it ran now. If so, and if there is a stage, the
+    /// output files of the step are restored into the stage.
     fn use_record(
         &mut self,
         record: &Record,
@@ -336,7 +336,8 @@ impl<'a> Session<'a> {
         }
         let Some(stage) = stage else { return Ok(()) };
         let written = outputs.files.as_ref().ok_or(RerunReason::NotKept)?;
-        // All files are restored under temporary names first: if one is damaged, the files in the stage stay unchanged.
+        // All files are first restored under temporary names. If one of them is damaged, the files in the stage stay
+        // unchanged.
         let part = |i: usize| stage.join(format!(".part-{i}"));
         let mut restored = written.iter().enumerate().try_for_each(|(i, file)| {
             if !is_below(&file.path) {
@@ -362,7 +363,7 @@ impl<'a> Session<'a> {
         let why = if !is_dense(scene) {
             "it has removed elements"
         } else if !is_worth_storing(bytes, self.unstored_time) {
-            "computing it is faster than storing it"
+            "it is faster to compute than to store"
         } else {
             ""
         };
@@ -378,8 +379,8 @@ impl<'a> Session<'a> {
         Some(stored)
     }
 
-    /// Stores the output files of a step, if storing them is not slower than computing them again. `None` if the step
-    /// has no outputs.
+    /// Stores the output files of a step, if storing them is not slower than computing them again. Returns `None`
+    /// if the step has no outputs.
     fn store_outputs(&mut self, files: &Files, done: &CompletedStep) -> Option<Outputs> {
         let requested: Vec<_> = done
             .uses
@@ -449,8 +450,8 @@ fn is_worth_storing(bytes: u64, time: Duration) -> bool {
     bytes < ALWAYS_STORED || bytes as f64 / BYTES_PER_SECOND <= time.as_secs_f64()
 }
 
-/// Whether all meshes are dense, which means that they have no removed elements. Only a scene of dense meshes is the
-/// same after it was stored and loaded.
+/// Whether all meshes are dense, which means that they have no removed elements. Only a scene of dense meshes is
+/// unchanged after it is stored and loaded.
 fn is_dense(scene: &Scene) -> bool {
     let mut meshes = scene.objects().iter().filter_map(|o| o.as_mesh());
     meshes.all(|mesh| mesh.is_dense())

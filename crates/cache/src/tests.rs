@@ -1,4 +1,4 @@
-//! Tests of the step cache: which steps run again and why, and that the outcome is the same as without the cache.
+//! Tests of the step cache. They check which steps run again and why, and that the outcome is the same as without it.
 
 mod damage;
 mod law;
@@ -351,7 +351,7 @@ fn a_step_that_does_not_report_what_it_reads_runs_every_time() {
     );
     place.write("n.txt", "4");
     assert_eq!(place.numbers(&text), [1, 2, 3]);
-    // Both contents of `n.txt` give the same scene, and later steps depend only on the scene.
+    // The old and the new content of `n.txt` give the same scene, and later steps depend only on the scene.
     place.write("n.txt", " 3");
     assert_eq!(place.numbers(&text), [1]);
 }

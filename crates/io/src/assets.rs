@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use store::{Store, StoreError, folder_of};
 
 /// Resolves a path that must stay inside a folder. The path must be relative and must not name a drive. The path can
-/// contain `..` if it does not leave the folder.
+/// contain `..` if the result is inside the folder.
 ///
 /// # Errors
 ///
@@ -17,7 +17,7 @@ pub(crate) fn inside(name: &str) -> Result<PathBuf, &'static str> {
         return Err("is empty");
     }
     if name.starts_with('/') || name.starts_with('\\') {
-        return Err("is absolute, but must stay inside the folder of the file");
+        return Err("is absolute, expected a path inside the folder of the file");
     }
     let mut parts = Vec::new();
     for part in name.split(['/', '\\']) {
@@ -56,7 +56,7 @@ pub(crate) fn inside_uri(uri: &str) -> Result<PathBuf, &'static str> {
     let mut decoded = Vec::new();
     for segment in uri.split('/') {
         let part = percent_decoded(segment).ok_or("has an invalid percent-encoding")?;
-        // Each segment is decoded after splitting, so that an encoded separator does not split the path.
+        // Each segment is decoded after splitting, so an encoded separator does not split the path.
         if part.contains(['/', '\\']) || (part != segment && (part == "." || part == "..")) {
             return Err("has a percent-encoded separator or dot segment");
         }

@@ -9,18 +9,18 @@ use crate::note::{NoteKind, Notes};
 use crate::{CleanupPolicy, Policies, Polygons, parallel};
 
 /// A face is degenerate if its area is at most this multiple of the square of its longest side. The bound allows for
-/// rounding errors: the computed area of a face without area is rarely exactly zero.
+/// rounding errors: the computed area of a zero-area face is rarely exactly zero.
 const DEGENERATE_RATIO: f64 = 1e-14;
 
 /// The number of groups of faces. Faces are grouped by hash, and each face is compared only with faces of its
 /// group. Groups are processed in parallel.
 const N_GROUPS: usize = 16;
 
-/// For each polygon, its index in the file; `None` if every polygon has the same index as in the file.
+/// For each polygon, its index in the file; `None` if all polygons have the same indices as in the file.
 pub(crate) type SourcePolygons = Option<Vec<u32>>;
 
-/// Removes corners that repeat the previous corner, and removes the faces and vertices that the policies drop. Returns
-/// the indices in the file of the remaining polygons.
+/// Removes each corner that repeats the vertex of the previous corner, and removes the faces and vertices that the
+/// policies drop. Returns the indices in the file of the remaining polygons.
 pub(crate) fn clean(
     polygons: &mut Polygons,
     policies: Policies,
@@ -33,8 +33,8 @@ pub(crate) fn clean(
             policies.degenerate,
             degenerate,
             "degenerate-faces-dropped",
-            "face without area dropped",
-            "faces without area dropped",
+            "zero-area face dropped",
+            "zero-area faces dropped",
         ),
         (
             policies.duplicates,
@@ -66,7 +66,7 @@ pub(crate) fn clean(
     kept
 }
 
-/// Adds a note that these elements are changed. The note has the positions of the elements.
+/// Adds a note about changed or removed elements. The note has the positions of the elements.
 fn note(
     polygons: &Polygons,
     code: &'static str,
@@ -85,8 +85,8 @@ fn corners(polygons: &Polygons, f: usize) -> &[u32] {
     &polygons.corners[polygons.offsets[f] as usize..polygons.offsets[f + 1] as usize]
 }
 
-/// Returns the polygons in which corners repeat the vertex of the previous corner, and at least three other corners
-/// remain. In `is_kept`, clears the flag of each repeated corner of these polygons.
+/// Returns the polygons that have repeated corners and at least three other corners. A corner is repeated if it has the
+/// same vertex as the previous corner. In `is_kept`, clears the flag of each repeated corner of these polygons.
 fn repeated_corners(polygons: &Polygons, is_kept: &mut Vec<bool>) -> Vec<usize> {
     let kept_in = |corners: &[u32]| {
         let before = corners.iter().cycle().skip(corners.len().max(1) - 1);
@@ -106,8 +106,8 @@ fn repeated_corners(polygons: &Polygons, is_kept: &mut Vec<bool>) -> Vec<usize> 
         let corners = corners(polygons, f);
         let first = polygons.offsets[f] as usize;
         for (i, &v) in corners.iter().enumerate() {
-            // Of several consecutive corners with the same vertex, the first is kept. The first and the last corner of
-            // a polygon are also consecutive.
+            // Of several consecutive corners with the same vertex, the first one is kept. The first and the last corner
+            // of a polygon are also consecutive.
             is_kept[first + i] = v != corners[(i + corners.len() - 1) % corners.len()];
         }
     }
@@ -190,7 +190,7 @@ fn sum_of_hashes(corners: &[u32]) -> u64 {
     hashes.fold(corners.len() as u64, u64::wrapping_add)
 }
 
-/// Returns the vertices of the corners, starting at the lowest vertex, in the direction of its lower neighbor.
+/// Returns the vertices of the corners, starting at the lowest vertex and going toward the lower of its two neighbors.
 fn canonical(corners: &[u32]) -> Vec<u32> {
     let Some(start) = (0..corners.len()).min_by_key(|&i| corners[i]) else {
         return Vec::new();
@@ -361,7 +361,7 @@ mod tests {
         assert_eq!(kept, Some(vec![1]));
         assert_eq!(values(&polygons, Domain::Corner, "c"), [3.0, 4.0, 5.0]);
         assert_eq!(values(&polygons, Domain::Face, "f"), [1.0]);
-        assert_eq!(notes, ["a: 1 face without area dropped (face 0)"]);
+        assert_eq!(notes, ["a: 1 zero-area face dropped (face 0)"]);
     }
 
     #[test]

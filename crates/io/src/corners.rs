@@ -1,4 +1,4 @@
-//! Assigns numbers to the distinct values on the corners around vertices, for writers.
+//! Numbers the distinct values on the corners around vertices, for writers.
 
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
@@ -6,26 +6,25 @@ use std::sync::atomic::Ordering::Relaxed;
 use crate::parallel;
 use mesh::{FaceId, HalfEdgeId, Mesh, VertexId};
 
-/// The maximum number of distinct values at a vertex with which a corner is compared.
+/// The maximum number of distinct values at a vertex that a corner is compared with.
 const MAX_COMPARED: usize = 64;
 
-/// Assigns numbers to the distinct values on the corners of each vertex of a mesh. The numbers are in the order of the
-/// faces and their corners, over the whole mesh.
+/// The numbers of the distinct values on the corners of each vertex of a mesh. The values are numbered in the order of
+/// the faces and their corners, over the whole mesh.
 #[derive(Debug)]
 pub(crate) struct CornerNumbers {
     /// For each half-edge of a face, the first half-edge that starts at the same vertex and has the same value.
     same: Vec<AtomicU32>,
-    /// For each half-edge that is the first with its value, the number of the value, from 0.
+    /// For each half-edge that is the first one with its value, the number of the value, from 0.
     numbers: Vec<AtomicU32>,
     /// For each number of a value, the first half-edge with that value.
     firsts: Vec<HalfEdgeId>,
 }
 
 impl CornerNumbers {
-    /// Assigns numbers to the values of corners. `equal` returns whether two corners of one vertex have the same value.
-    /// A corner is compared with the latest [`MAX_COMPARED`] distinct values at its vertex, so that the time for a
-    /// vertex with a million corners stays linear. If a vertex has more distinct values, a value can get a second
-    /// number.
+    /// Numbers the values of corners. `equal` returns whether two corners of one vertex have the same value. A corner
+    /// is compared with the latest [`MAX_COMPARED`] distinct values at its vertex, so that the time for a vertex with a
+    /// million corners stays linear. If a vertex has more distinct values, a value can get a second number.
     pub(crate) fn new(mesh: &Mesh, equal: impl Fn(HalfEdgeId, HalfEdgeId) -> bool + Sync) -> Self {
         // Only one task writes each entry. An entry of `same` is written by the task of the origin of the half-edge, an
         // entry of `numbers` by the task of the number.

@@ -8,9 +8,9 @@
 //! | name of an attribute | a number, or 0 and 1 for a tag |
 //! | `name[0]`, `name[1]`, ... | the components of a vector |
 //!
-//! Lines end with a line feed, and fields with commas, quotes or line breaks are quoted (RFC 4180). Numbers have the fewest digits
-//! that restore the same 64-bit number. Numbers that are not finite are written as `nan`, `inf` and `-inf`. If an attribute has the
-//! name of another column, its name gets a number.
+//! Lines end with a line feed, and fields with commas, quotes or line breaks are quoted (RFC 4180). Numbers have the
+//! fewest digits that restore the same 64-bit number. Numbers that are not finite are written as `nan`, `inf` and
+//! `-inf`. If an attribute has the name of another column, a number is appended to its name.
 
 use mesh::{Domain, FaceId, HalfEdgeId, Mesh};
 use scene::{Geometry, Object, Scene};
@@ -23,7 +23,7 @@ use crate::joined::{Names, joined};
 use crate::loss::Losses;
 use crate::{SingleFile, WriteOptions, parallel};
 
-/// The elements that a `.csv` file has rows for.
+/// The kind of elements of a `.csv` file. Each element has a row.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Rows {

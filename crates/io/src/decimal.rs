@@ -36,7 +36,8 @@ pub(crate) fn up_to_eight_digits(text: &[u8], at: usize) -> (u64, usize) {
     (low.wrapping_add(high) >> 32, count as usize)
 }
 
-/// Returns the bytes from `at` on as a word, with the first byte as the lowest. Bytes beyond the end of the text are 0.
+/// Returns the bytes that begin at `at` as a word, with the first byte as the lowest. Bytes beyond the end of the
+/// text are 0.
 #[inline]
 fn eight_bytes(text: &[u8], at: usize) -> u64 {
     if let Some(&[a, b, c, d, e, f, g, h]) = text.get(at..at + 8) {
@@ -49,7 +50,7 @@ fn eight_bytes(text: &[u8], at: usize) -> u64 {
     u64::from_le_bytes(bytes)
 }
 
-/// Appends the shortest decimal number that gives `x` when it is read. `x` must be finite. Very large and very small
+/// Appends the shortest decimal number that restores `x` when it is read. `x` must be finite. Very large and very small
 /// numbers get an exponent (`1e300`, `2.5e-9`).
 pub(crate) fn push_number(out: &mut Vec<u8>, x: f64) {
     let mut buffer = zmij::Buffer::new();
@@ -61,7 +62,7 @@ pub(crate) fn push_number(out: &mut Vec<u8>, x: f64) {
     }
 }
 
-/// Appends a text of at most 24 bytes. Copies of constant length are inlined, which is faster than a call.
+/// Appends text of at most 24 bytes. Copies of constant length are inlined, which is faster than a call.
 #[inline]
 fn push_short(out: &mut Vec<u8>, text: &[u8]) {
     let (room, start) = if let Some(start) = text.first_chunk::<16>() {

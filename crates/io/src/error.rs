@@ -10,7 +10,7 @@ use store::StoreError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadError {
-    /// The file, or a file that it needs, could not be opened or read.
+    /// The requested file, or a file that it refers to, could not be opened or read.
     #[error("{}: {source}", path.display())]
     Io {
         /// The file.
@@ -43,7 +43,7 @@ pub enum ReadError {
     Json {
         /// The file.
         path: PathBuf,
-        /// The place in the JSON document as a JSON pointer (RFC 6901), such as `/accessors/3/count`.
+        /// The location in the JSON document, as a JSON pointer (RFC 6901), such as `/accessors/3/count`.
         pointer: String,
         /// What was expected and what was found.
         message: String,
@@ -185,8 +185,8 @@ impl Unwritable {
         Self { object, message }
     }
 
-    /// Creates the error for an object of a kind that the format cannot store. `holds` says which kinds the format can
-    /// store.
+    /// Creates the error for an object of a kind that the format cannot store. `holds` is a clause that says which
+    /// kinds the format can store.
     pub(crate) fn kind(holds: &str, object: &Object) -> Self {
         let kind = object.geometry.kind();
         Self::object(&object.name, format!("{holds}, found {kind}"))

@@ -88,13 +88,13 @@ impl TextPosition {
         }
     }
 
-    /// Creates the error for a word at this position that differs from the expected word.
+    /// Creates the error for an unexpected word at this position.
     pub(crate) fn expected(self, what: impl fmt::Display, found: &[u8]) -> Fault {
         self.error(format!("expected {what}, found {}", quoted(found)))
     }
 }
 
-/// Quotes a word of a file for a message. The word is between backticks, and is shortened if it is long.
+/// Quotes a word of a file for a message, in backticks. A long word is shortened.
 pub(crate) fn quoted(word: &[u8]) -> String {
     const LONGEST: usize = 40;
     if word.is_empty() {
@@ -110,7 +110,7 @@ pub(crate) fn counted(n: usize, noun: &str) -> String {
     format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
 }
 
-/// Decodes a name in a file as UTF-8 or, if it is not valid UTF-8, as Latin-1, which accepts any bytes.
+/// Decodes a name in a file as UTF-8. If it is not valid UTF-8, decodes it as Latin-1, which accepts any bytes.
 pub(crate) fn name(bytes: &[u8]) -> String {
     match std::str::from_utf8(bytes) {
         Ok(text) => text.to_owned(),

@@ -5,12 +5,12 @@ use std::path::Path;
 
 use crate::gzip;
 
-/// A file format, chosen by the extension of a file's name.
+/// A file format, which is determined by the extension of the file name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Format {
-    /// Wavefront OBJ: polygons as text, materials in an MTL file beside it.
+    /// Wavefront OBJ: polygons as text, materials in a separate MTL file.
     Obj,
-    /// glTF 2.0 as JSON text. Binary data is inside the text or in a file beside it.
+    /// glTF 2.0 as JSON text. Binary data is inside the text or in a separate file.
     Gltf,
     /// glTF 2.0 in one binary file.
     Glb,
@@ -56,14 +56,14 @@ impl Format {
         TABLE.into_iter().map(|(format, ..)| format)
     }
 
-    /// The extension of the format's files, in lower case and without the dot.
+    /// The file extension of the format, in lower case and without the dot.
     pub fn extension(self) -> &'static str {
         TABLE[self as usize].1
     }
 
-    /// The format with the extension of `path`, in upper or lower case; `None` if the extension is unknown or
-    /// missing. The name of a file compressed by gzip ends in `.gz` after the extension of its format; `.glb`,
-    /// `.mws` and `.npz` cannot be compressed.
+    /// The format with the extension of `path`, in upper or lower case; `None` if the extension is unknown or missing.
+    /// The name of a file compressed with gzip ends in `.gz` after the extension of its format. Files of the formats
+    /// `.glb`, `.mws` and `.npz` cannot be compressed.
     pub fn from_path(path: &Path) -> Option<Self> {
         let plain = gzip::plain(path);
         let extension = plain.extension()?;
@@ -82,7 +82,7 @@ impl Format {
         !matches!(self, Self::Dae)
     }
 
-    /// Whether files of this format can be compressed and quantized. True for the two glTF formats.
+    /// Whether meshes in files of this format can be compressed and quantized. True for the two glTF formats.
     pub const fn packs(self) -> bool {
         matches!(self, Self::Gltf | Self::Glb)
     }

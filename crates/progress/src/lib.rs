@@ -20,8 +20,8 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// A listener that receives progress reports of a computation and can cancel it.
 pub trait Progress: Sync {
-    /// Called when `done` of the `total` parts of a computation are finished. `task` describes the
-    /// computation in a few words. Returns whether the computation should continue.
+    /// Called when `done` of the `total` parts of a computation are finished. `task` describes the computation in a
+    /// few words. Returns whether to continue the computation.
     fn advance(&self, task: &str, done: u64, total: u64) -> bool;
 
     /// Calls [`advance`](Self::advance) and returns a `Result`, for use with `?`.
@@ -44,7 +44,7 @@ pub struct Meter<'a> {
     task: &'static str,
     done: AtomicU64,
     total: u64,
-    /// Progress is reported whenever the sum passes a multiple of this number.
+    /// Progress is reported whenever the sum passes a multiple of this interval.
     interval: u64,
 }
 

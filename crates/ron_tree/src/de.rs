@@ -1,8 +1,8 @@
 //! Deserializes values into Rust types.
 //!
-//! A type accepts the same values as with the `ron` crate and its extension `IMPLICIT_SOME`: `Some(..)` can be omitted,
-//! and the name of a struct can precede its parentheses. The tree is neither changed nor copied. The span of an error
-//! is the span of the innermost value that caused the error.
+//! A type accepts the same values as with the `ron` crate and its extension `IMPLICIT_SOME`: `Some(..)` can be
+//! omitted, and the name of a struct can precede its parentheses. The tree is neither changed nor copied. An error
+//! has the span of the innermost value that caused it.
 
 use std::fmt;
 use std::slice;
@@ -42,8 +42,8 @@ type Result<T> = std::result::Result<T, Error>;
 ///
 /// # Errors
 ///
-/// The first syntax error of the text. If the text has no syntax error, the reason why its value does not have type
-/// `T`.
+/// The first syntax error of the text. If the text has no syntax error, an error that says why its value does not
+/// have type `T`.
 ///
 /// ```
 /// #[derive(serde::Deserialize)]

@@ -9,7 +9,7 @@ pub struct Diagnostic {
     pub severity: Severity,
     /// The message: one line that starts in lower case and has no final period.
     pub message: String,
-    /// The index of the text that the spans refer to, in the list of texts that the reader keeps. 0 is the first text.
+    /// The index of the text that the spans refer to, in the reader's list of texts. The first text has index 0.
     pub source: usize,
     /// The span that the message is about, if it is about a part of the text.
     pub span: Option<Span>,
@@ -152,8 +152,8 @@ impl Span {
         self.start..self.end
     }
 
-    /// Returns the span as a range that does not split a character of `source`. A bound inside a character is moved to
-    /// the start of that character, and a bound beyond the text to the end of the text.
+    /// Returns the span as a range that does not split a character of `source`. A bound inside a character is moved
+    /// to the start of that character. A bound beyond the text is moved to the end of the text.
     pub fn fitted(self, source: &str) -> Range<usize> {
         let start = char_start(source, self.start);
         start..char_start(source, self.end).max(start)

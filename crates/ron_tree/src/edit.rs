@@ -7,7 +7,7 @@ use crate::diagnostic::Span;
 #[error("the edit of bytes {} to {} overlaps another edit or is not within the text", .0.start, .0.end)]
 pub struct EditOverlap(pub Span);
 
-/// Replaces each span by its text. Comments and layout around the spans stay.
+/// Replaces each span by its text. Comments and layout around the spans are unchanged.
 ///
 /// The edits can be in any order. An edit with an empty span inserts its text; several insertions at the same offset
 /// keep their order.

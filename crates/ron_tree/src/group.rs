@@ -18,7 +18,7 @@ pub(super) struct Contents {
 }
 
 impl Contents {
-    /// Whether the group seems to be a tuple: so far, it has values without names, and no fields.
+    /// Whether the group seems to be a tuple, because so far it has values without names and no fields.
     pub(super) fn is_tuple(&self) -> bool {
         self.bracket == Bracket::Round && self.fields.is_empty() && !self.values.is_empty()
     }
@@ -51,7 +51,7 @@ impl Parser<'_> {
         Value::new(span, self.finish(contents))
     }
 
-    /// Parses items up to the closing bracket, and consumes that bracket if it exists.
+    /// Parses items up to the closing bracket, and consumes the closing bracket if it exists.
     fn contents(&mut self, contents: &mut Contents) {
         loop {
             match self.current.kind {
@@ -254,8 +254,8 @@ impl Parser<'_> {
             complete,
         } = contents;
         if !complete && (bracket == Bracket::Square || !values.is_empty()) {
-            // Some items could not be read, so their number is unknown. The error value stands for the items that could
-            // not be read.
+            // Some items could not be read, so the number of items is unknown. The error value stands for the items
+            // that could not be read.
             values.push(self.missing_value());
         }
         let has_fields = !fields.is_empty();

@@ -105,24 +105,24 @@ impl Bracket {
 
 /// The tokens of a text, in order.
 ///
-/// Takes time linear in the length of the text, and constant memory.
+/// Lexing takes time linear in the length of the text, and constant memory.
 #[derive(Clone, Debug)]
 pub struct Lexer<'s> {
     source: &'s str,
     at: usize,
     /// Whether a `"` string must end in the line in which it starts.
     lines_end_strings: bool,
-    /// The rest of the text does not contain the end of a raw string with this number of hashes or more.
+    /// The rest of the text does not contain the end of a raw string with this number of hashes, or with more
+    /// hashes.
     unclosed_hashes: usize,
 }
 
 impl<'s> Lexer<'s> {
     /// Creates a lexer for `source`.
     ///
-    /// A string can span several lines. If the text has an unclosed string, a quote is missing somewhere, and after the
-    /// missing quote all strings would be read as other tokens, and all other tokens as strings. In a text with an
-    /// unclosed string, every string ends at the end of its line at the latest, so that only the line with the missing
-    /// quote is misread.
+    /// A string can span several lines. If a quote is missing, everything after it is misread: strings as other
+    /// tokens, and other tokens as strings. Therefore, in a text with an unclosed string, every string ends at the
+    /// latest at the end of its line, so that only the line with the missing quote is misread.
     pub fn new(source: &'s str) -> Self {
         let mut lexer = Self {
             source,
@@ -193,7 +193,7 @@ impl<'s> Lexer<'s> {
                 Some(b'\n') if self.lines_end_strings => break,
                 Some(b'"') => {
                     let length = at + 1;
-                    // In `"a.bez, name: "b"`, the second quote is the opening quote of the next string.
+                    // In `"a.bez, name: "b"`, the second quote opens the next string.
                     let opens_next =
                         self.lines_end_strings && text[length..].starts_with(char::is_alphanumeric);
                     if let (true, Some(end)) = (opens_next, next_field(&text[..at])) {
@@ -258,8 +258,8 @@ impl Iterator for Lexer<'_> {
     }
 }
 
-/// The maximum length of the text in which the place of a missing quote is searched for. The limit keeps the time for
-/// lexing linear.
+/// The maximum length of the text in which the position of a missing quote is searched for. The limit keeps the
+/// time for lexing linear.
 const MAX_GUESS_LEN: usize = 4096;
 
 /// Returns where the next `, name:` starts in the rest of a line with a missing quote.
@@ -368,8 +368,8 @@ fn after(prefix: usize, (kind, length): (TokenKind, usize)) -> (TokenKind, usize
     (kind, prefix + length)
 }
 
-/// Whether a raw string follows the `r`: `"`, `#"` or `##`. `ron` distinguishes raw strings from names such as `r#name`
-/// in this way.
+/// Whether a raw string follows the `r`, because the text goes on with `"`, `#"` or `##`. `ron` distinguishes raw
+/// strings from names such as `r#name` in the same way.
 fn is_raw_string(rest: &str) -> bool {
     rest.starts_with('"') || rest.starts_with("#\"") || rest.starts_with("##")
 }

@@ -46,8 +46,8 @@ impl Number {
         }
     }
 
-    /// Returns the value of an [`Int`](Self::Int). `None` for a [`Float`](Self::Float), or if the value does not fit
-    /// 128 bits.
+    /// Returns the value of an [`Int`](Self::Int). `None` for a [`Float`](Self::Float), or if the value does not
+    /// fit in 128 bits.
     pub fn to_int(&self) -> Option<i128> {
         match self {
             Self::Int(text) => parse_int(text)?.ok(),
@@ -55,7 +55,7 @@ impl Number {
         }
     }
 
-    /// Whether the number is written without a decimal point and an exponent.
+    /// Whether the number is written without a decimal point and without an exponent.
     pub fn is_int(&self) -> bool {
         matches!(self, Self::Int(_))
     }
@@ -82,7 +82,8 @@ impl Number {
     }
 }
 
-/// Parses a whole number. `None` if the text is not a whole number, `Some(Err(()))` if the value does not fit 128 bits.
+/// Parses a whole number. `None` if the text is not a whole number, `Some(Err(()))` if the value does not fit in 128
+/// bits.
 fn parse_int(text: &str) -> Option<Result<i128, ()>> {
     let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
     let (base, digits) = base(unsigned);

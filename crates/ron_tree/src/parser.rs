@@ -84,7 +84,7 @@ pub(super) struct Parser<'s> {
     /// The brackets around `current`, outermost first.
     pub(super) open: Vec<OpenBracket>,
     diagnostics: Vec<Diagnostic>,
-    /// The start of the token that the last error was about. No second error is reported about that token.
+    /// The start of the token of the last error. No second error is reported about that token.
     pub(super) complained_at: Option<usize>,
     values: usize,
     pub(super) too_deep: bool,
@@ -157,7 +157,7 @@ impl<'s> Parser<'s> {
                         Diagnostic::error(start, "this comment is not closed")
                             .with_help("end it with `*/`"),
                     );
-                    // Errors at the end of the text may only be consequences of the comment.
+                    // Errors at the end of the text may be mere consequences of the unclosed comment.
                     after_invalid = true;
                 }
                 _ => break (Some(kind), span),

@@ -5,8 +5,8 @@ use crate::diagnostic::Span;
 
 /// Returns the span of the value at `path` in `value`.
 ///
-/// The path starts at the outermost value. The path consists of the names of fields, variants and keys, and of the
-/// indices of items (counted from 0), as in the JSON form: `["edges", "Random", "count"]` leads to the 24 in
+/// The path starts at the outermost value. It consists of the names of fields, variants and keys, and of the indices of
+/// items (counted from 0), as in the JSON form. For example, `["edges", "Random", "count"]` leads to the 24 in
 /// `FlipEdges(edges: Random(count: 24))`. The path can omit the name of the outermost call, `Some(..)`, and the
 /// parentheses of a variant with one value. If the value at `path` does not exist, returns the span of the deepest
 /// existing value on the path.
@@ -21,7 +21,7 @@ pub fn field_span(value: &Value, path: &[String]) -> Span {
                 (value, deepest, rest, is_variant_matched) = (inner, inner, after, false);
             }
             Step::Variant => (deepest, rest, is_variant_matched) = (value, after, true),
-            // The inner value may match the item of the path.
+            // The inner value can match the item of the path.
             Step::Through(inner) => (value, is_variant_matched) = (inner, false),
             Step::NotFound => break,
         }
@@ -57,7 +57,7 @@ fn step<'v>(value: &'v Value, item: &str, is_variant_matched: bool) -> Step<'v> 
             .iter()
             .find(|(key, _)| key.as_str() == Some(item))
             .map(|(_, value)| value),
-        // A tuple with one item is usually the content of a variant, so the path skips the tuple. But if the path
+        // A tuple with one item is usually the content of a variant, so the path skips the tuple. However, if the path
         // continues with an index and the item is neither a tuple nor a list, the index refers to the tuple itself.
         ValueKind::Tuple(items)
             if items.len() == 1

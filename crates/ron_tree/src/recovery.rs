@@ -31,9 +31,9 @@ pub(super) struct OpenBracket {
 pub(super) enum Closing {
     /// The closing bracket matches the innermost open bracket.
     Matching,
-    /// The closing bracket is a typing error: a bracket of a different kind would close the innermost open bracket.
+    /// The closing bracket is mistyped: a bracket of a different kind would close the innermost open bracket.
     Mistyped,
-    /// The closing bracket matches an outer open bracket: the one that closes the innermost open bracket is missing.
+    /// The closing bracket matches an outer open bracket, so the closing bracket of the innermost one is missing.
     Missing,
     /// The closing bracket has no matching open bracket.
     Stray,

@@ -1,4 +1,4 @@
-//! Tests of the parser as a whole: the values of valid texts, and the errors of invalid ones.
+//! Tests of the parser as a whole: the values of valid texts and the errors of invalid texts.
 
 mod de;
 

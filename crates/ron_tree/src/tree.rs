@@ -9,7 +9,7 @@ use std::fmt;
 pub struct Value {
     /// The span of the value in the text.
     pub span: Span,
-    /// The kind of value, and its content.
+    /// The kind and the content of the value.
     pub kind: ValueKind,
     /// The name of the recipe parameter, if this value was substituted for an `arg(..)`. The span is then the span of
     /// the `arg(..)`.

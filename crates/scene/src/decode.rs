@@ -183,7 +183,7 @@ impl<'a> Decoder<'a> {
         Ok(values)
     }
 
-    /// Reads an array that must have `N` numbers.
+    /// Reads an array that must contain exactly `N` numbers.
     fn numbers<const N: usize>(&mut self) -> Result<[f64; N], DecodeError> {
         let numbers = self.array::<f64>(8)?;
         numbers

@@ -1,14 +1,14 @@
 //! The canonical form of a scene as bytes, and its digest.
 //!
-//! The canonical form contains every array and every text with its length. Numbers are little-endian and have all their
-//! bits. Two scenes have the same canonical form if and only if they have the same objects with the same arrays, in the
-//! same order.
+//! The canonical form contains every array and every string with its length. Numbers are little-endian and keep all
+//! their bits. Two scenes have the same canonical form if and only if they have the same objects with the same
+//! arrays, in the same order.
 //!
-//! If the scene has a graph, the graph follows after the objects. A scene without a graph has the same form as in the
+//! If the scene has a graph, the graph follows the objects. A scene without a graph has the same form as in the
 //! first version, which had no graphs.
 //!
-//! A material is written as its name, base color, metalness, roughness and the path of its base color texture. If the
-//! material has other properties, they follow after a marker ([`MORE`]), each with its name. A material without other
+//! A material is written as its name, base color, metalness, roughness and the path of its base color texture. If
+//! the material has other properties, they follow a marker ([`MORE`]), each with its name. A material without other
 //! properties has the same form as in the first version of the canonical form.
 
 use std::fmt;
@@ -104,13 +104,13 @@ impl Scene {
     }
 }
 
-/// The text that precedes the graph in the canonical form. The form of a scene without nodes has no graph.
+/// The string that precedes the graph in the canonical form. The form of a scene without nodes has no graph.
 pub(crate) const GRAPH: &str = "graph";
 
-/// The first text of the canonical form. This text contains the version of the form.
+/// The first string of the canonical form. It contains the version of the form.
 pub(crate) const FORM: &str = "meshwright scene 1";
-/// The marker before the other properties of a material. The marker is at a place where the length of a text could be.
-/// No text has this length, so the marker cannot be mistaken for a text.
+/// The marker before the other properties of a material. The marker is at a position where a decoder could expect
+/// the length of a string. No string has this length, so the marker cannot be mistaken for a string.
 pub(crate) const MORE: u64 = u64::MAX;
 
 /// The name of a texture in the canonical form, and a function that returns its field of a material.
@@ -233,7 +233,8 @@ impl Encoder<'_> {
         self.text(path.unwrap_or(""));
 
         let mut default = Material::new("");
-        // In the first version of the form, a surface was transparent if and only if its base color was transparent.
+        // In the first version of the form, a surface was drawn as transparent if and only if the alpha of its base
+        // color was less than 1.
         if m.base_color[3] < 1.0 {
             default.alpha = AlphaMode::Blend;
         }

@@ -1,13 +1,13 @@
-//! Error locations: the places in a scene that errors refer to.
+//! Error locations: the positions in a scene that errors refer to.
 
 use mesh::{DVec3, Element, Mesh};
 
-/// The place of an element at the time of an error.
+/// The location of an element at the time of an error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ErrorLocation {
     /// The name of the object that contains the element.
     pub object: String,
-    /// The name of the element, such as `e7`; empty for a place without a name.
+    /// The name of the element, such as `e7`; empty if the location has no name.
     pub name: String,
     /// The positions, in scene units: one point, both ends of an edge, or the corners of a face in order.
     pub points: Vec<DVec3>,
@@ -17,10 +17,10 @@ impl ErrorLocation {
     /// The maximum number of locations that are stored for one error.
     pub const MAX_ELEMENTS: usize = 10_000;
 
-    /// The name of a place where an element is expected but missing.
+    /// The name of a location where an element is expected but missing.
     pub const EXPECTED: &'static str = "expected";
 
-    /// Returns the place of an element of an object; `None` if the mesh does not have the element.
+    /// Returns the location of an element of an object; `None` if the mesh does not have the element.
     pub fn of(object: &str, mesh: &Mesh, element: impl Into<Element>) -> Option<Self> {
         let element = element.into();
         let points = mesh.element_points(element);

@@ -7,8 +7,8 @@
 //! ```
 //!
 //! A mesh has coordinates in its own space. The placement of a node maps the space of the node to the space of its
-//! parent, and the placements of a node and its ancestors together map the space of its object to the scene. An
-//! object that no node shows is shown once, and its own space is the space of the scene.
+//! parent. The placements of a node and its ancestors, applied in turn, map the space of its object to the scene.
+//! An object that no node references appears once, and its own space is the space of the scene.
 
 mod edit;
 mod form;
@@ -37,7 +37,7 @@ pub struct Graph {
     pub animations: Vec<Animation>,
     /// Arrays of numbers. Skins and animations refer to them by index, and can share an array.
     pub arrays: Vec<Vec<f32>>,
-    /// Other parts of a glTF file, as JSON objects by name: `asset` has the copyright and the extras of the asset,
+    /// Other parts of a glTF file, as JSON objects by name. `asset` has the copyright and the extras of the asset,
     /// `scene` has the name and the extras of the scene, and `root` has the extras of the document.
     pub document: BTreeMap<String, String>,
     /// The labels of meshes. The key is the name of the object.
@@ -53,7 +53,7 @@ pub struct Node {
     pub parent: Option<usize>,
     /// The placement in the space of the parent.
     pub placement: Placement,
-    /// The name of the object that the node shows.
+    /// The name of the object that the node references.
     pub object: Option<String>,
     /// The index of the camera in [`Graph::cameras`].
     pub camera: Option<usize>,
@@ -68,7 +68,7 @@ pub struct Node {
     pub extras: Option<String>,
 }
 
-/// Properties of a mesh in a file for which an object has no fields.
+/// Properties of a mesh in a file that do not fit in the fields of an object.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshLabel {
     /// The name of the mesh, which can differ from the name of the object.
@@ -77,7 +77,7 @@ pub struct MeshLabel {
     pub extras: Option<String>,
     /// The default weights of the morph targets, one for each target.
     pub weights: Vec<f64>,
-    /// The number of sets of four joints that each vertex has in the file. 0 if the mesh has no joints.
+    /// The number of sets of four joints that the file stores for each vertex. 0 if the mesh has no joints.
     pub weight_sets: u32,
 }
 
@@ -149,7 +149,7 @@ impl Graph {
         maps
     }
 
-    /// Returns for each object the indices of the nodes that show it. The key is the name of the object.
+    /// Returns for each object the indices of the nodes that reference it. The key is the name of the object.
     pub fn nodes_of_objects(&self) -> BTreeMap<&str, Vec<usize>> {
         let mut nodes: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
         for (i, node) in self.nodes.iter().enumerate() {
@@ -160,7 +160,7 @@ impl Graph {
         nodes
     }
 
-    /// Returns the indices of the nodes that show an object.
+    /// Returns the indices of the nodes that reference an object.
     pub fn nodes_of(&self, object: &str) -> Vec<usize> {
         let shows = |&i: &usize| self.nodes[i].object.as_deref() == Some(object);
         (0..self.nodes.len()).filter(shows).collect()

@@ -1,8 +1,8 @@
 //! A scene: named objects, each a mesh, Bezier patches, a Bezier curve or polylines.
 //!
-//! Each object has its own space. The nodes of the [graph](Graph) place meshes in the scene; an object that no node
-//! shows has its coordinates in scene space. Object names are unique. The [digest](Scene::digest) of a scene is the
-//! same on every machine for the same content.
+//! Each object has its own space. The nodes of the [graph](Graph) place meshes in the scene. The coordinates of an
+//! object that no node references are in scene space. Object names are unique. The [digest](Scene::digest) of a
+//! scene is the same on every machine for the same content.
 
 mod decode;
 mod digest;
@@ -68,7 +68,7 @@ pub enum Geometry {
 pub struct DuplicateName(pub String);
 
 impl Geometry {
-    /// Returns the word for this kind of geometry, as used in messages.
+    /// Returns the word for this kind of geometry, for use in messages.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Mesh(_) => "mesh",
@@ -125,7 +125,8 @@ impl Scene {
         &self.graph
     }
 
-    /// Returns the nodes that place objects in the scene, mutably. The objects of nodes must exist in the scene.
+    /// Returns the nodes that place objects in the scene, mutably. Each object that a node references must exist in
+    /// the scene.
     pub fn graph_mut(&mut self) -> &mut Graph {
         Arc::make_mut(&mut self.graph)
     }
@@ -181,24 +182,24 @@ impl Scene {
         Ok(self.graph_mut().append(graph))
     }
 
-    /// Removes an object and returns it. The nodes that show the object are removed, unless they have children, a
-    /// camera or a light.
+    /// Removes an object and returns it. The nodes that reference the object are removed, unless they have
+    /// children, a camera or a light.
     pub fn remove(&mut self, name: &str) -> Option<Object> {
         let index = self.objects.iter().position(|o| o.name == name)?;
         self.unplace(name);
         Some(self.objects.remove(index))
     }
 
-    /// Removes an object from all nodes, so that its own space becomes the space of the scene. The nodes that showed
-    /// the object are removed, unless they have children, a camera or a light.
+    /// Removes an object from all nodes, so that its own space becomes the space of the scene. The nodes that
+    /// referenced the object are removed, unless they have children, a camera or a light.
     pub fn unplace(&mut self, name: &str) {
         if !self.graph.is_empty() {
             self.graph_mut().remove_object(name);
         }
     }
 
-    /// Renames an object. A node or mesh of the object with the same name is renamed too. The object keeps its position
-    /// in the list. Returns whether the object exists.
+    /// Renames an object. If a node or mesh of the object has the same name, it is renamed too. The object keeps
+    /// its position in the list. Returns whether the object exists.
     ///
     /// # Errors
     ///

@@ -36,7 +36,7 @@ pub struct Material {
     pub alpha: AlphaMode,
     /// Whether back faces are visible.
     pub double_sided: bool,
-    /// Whether the base color is shown without lighting.
+    /// Whether the base color is drawn without lighting.
     pub unlit: bool,
 }
 
@@ -94,7 +94,7 @@ pub enum AlphaMode {
     /// Alpha is ignored: the surface is opaque.
     #[default]
     Opaque,
-    /// The surface is opaque where alpha is at least this cutoff, and invisible elsewhere.
+    /// The surface is opaque where alpha is greater than or equal to this cutoff, and invisible elsewhere.
     Mask(f64),
     /// The surface is blended with the background.
     Blend,
@@ -105,7 +105,7 @@ pub enum AlphaMode {
 pub struct Texture {
     /// The image.
     pub image: Image,
-    /// The number of the set of texture coordinates: 0 for the attribute `uv`, 1 for `uv1`, 2 for `uv2`, and so on.
+    /// The index of the set of texture coordinates: 0 for the attribute `uv`, 1 for `uv1`, 2 for `uv2`, and so on.
     pub uv_set: u32,
     /// How the image is sampled.
     pub sampler: Sampler,
@@ -144,7 +144,7 @@ pub enum Image {
     /// The path of an image file that was not read, as written in the model file, with `/` as separator; or a URI
     /// with a scheme.
     File(String),
-    /// An image file that was found beside the model file. Like the bytes of `Embedded`, these bytes are shared.
+    /// An image file that was read from the folder of the model file. As in `Embedded`, the bytes are shared.
     Loaded {
         /// The path, as in `File`.
         path: String,

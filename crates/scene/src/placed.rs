@@ -1,4 +1,4 @@
-//! Lists the instances of objects. An object has one instance for each node that shows it.
+//! Lists the instances of objects. An object has one instance for each node that references it.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -11,13 +11,13 @@ use rayon::prelude::*;
 use crate::pose::posed;
 use crate::{Geometry, Object, Pose, Scene};
 
-/// An object at one place in the scene.
+/// An instance: an object with its placement in the scene.
 #[derive(Clone, Debug)]
 pub struct Instance<'s> {
     /// The object.
     pub object: &'s Object,
-    /// A name that is unique among all instances. If the object has one instance, the name of the instance is the name
-    /// of the object. Otherwise, the name of the instance is the name of the node, followed by a number if necessary.
+    /// A name that is unique among all instances. The only instance of an object has the name of the object.
+    /// Otherwise, the name of the instance is the name of the node, followed by a number if necessary.
     pub name: String,
     /// The map from the space of the object to the scene. For a skinned mesh, the map of the first joint.
     pub to_scene: DAffine3,
@@ -26,8 +26,9 @@ pub struct Instance<'s> {
 }
 
 impl Instance<'_> {
-    /// Returns the object with points in scene space and with the name of the instance. Only meshes are placed. Morph
-    /// targets deform the mesh by their default weights, and a skin deforms it by the placements of the joints.
+    /// Returns the object with points in scene space and with the name of the instance. Only meshes are placed.
+    /// Morph targets deform the mesh by their default weights, and a skin deforms it by the placements of the
+    /// joints.
     pub fn placed(&self) -> Object {
         let geometry = match &self.object.geometry {
             Geometry::Mesh(mesh) if self.pose.deforms() => {
@@ -47,8 +48,8 @@ impl Instance<'_> {
 }
 
 impl Scene {
-    /// Returns all instances, ordered by object. The instances of an object are in the order of its nodes. An object
-    /// that no node shows has one instance.
+    /// Returns all instances, ordered by object. The instances of an object are in the order of its nodes. An
+    /// object that no node references has one instance.
     pub fn instances(&self) -> Vec<Instance<'_>> {
         let graph = self.graph();
         let nodes = graph.nodes_of_objects();
@@ -86,7 +87,7 @@ impl Scene {
                 ));
                 continue;
             }
-            // The number does not restart for each instance, so that many instances are named in linear time.
+            // The counter does not restart for each instance, so naming many instances takes linear time.
             let mut number = 1;
             for &i in nodes {
                 let node = graph.nodes()[i]
@@ -132,8 +133,8 @@ impl Scene {
 /// is a reflection, faces are reversed as by [`Mesh::reverse`], but no attribute is dropped.
 ///
 /// Normals are multiplied by the cofactor matrix of the map, which is its inverse transpose times its determinant
-/// (Turkowski, "Properties of Surface-Normal Transformations", 1990). The determinant of a reflection is negative and
-/// so negates the normals. Reversing the faces negates the normals again.
+/// (Turkowski, "Properties of Surface-Normal Transformations", 1990). The determinant of a reflection is negative,
+/// so the product with the cofactor matrix negates the normals. Reversing the faces negates the normals again.
 pub fn transformed(mesh: &Mesh, map: &DAffine3) -> Mesh {
     let is_mirror = map.matrix3.determinant() < 0.0;
     let map = LinearMap::of(map);
@@ -171,7 +172,7 @@ impl LinearMap {
     }
 }
 
-/// Transforms a mesh by the map of each vertex. If `is_mirror`, the faces are reversed.
+/// Transforms each vertex of a mesh by its own map. If `is_mirror`, the faces are reversed.
 pub(crate) fn mapped(
     mut mesh: Mesh,
     is_mirror: bool,

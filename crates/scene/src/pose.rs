@@ -12,14 +12,15 @@ use crate::{Graph, Node};
 /// How a node deforms its object.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pose {
-    /// For each joint of the skin, the map from the bound points to the scene. `None` if the node has no skin.
+    /// For each joint of the skin, the map from the points in the bind pose to the scene. `None` if the node has no
+    /// skin.
     pub joints: Option<Arc<[DAffine3]>>,
     /// The weights of the morph targets.
     pub weights: Vec<f64>,
 }
 
 impl Pose {
-    /// Returns the pose in which a node shows a mesh with these attributes. `to_scene` is the result of
+    /// Returns the pose of a mesh with these attributes at a node. `to_scene` is the result of
     /// [`Graph::to_scene`].
     pub(crate) fn of(
         graph: &Graph,
@@ -46,9 +47,9 @@ impl Pose {
         self.joints.is_some() || self.weights.iter().any(|&w| w != 0.0)
     }
 
-    /// Returns for each of `n` vertices the map from its bound point to the scene: the weighted mean of the maps of its
-    /// joints (linear blend skinning). A vertex without weights follows the first joint. Returns `None` if there is no
-    /// skin.
+    /// Returns for each of `n` vertices the map from its point in the bind pose to the scene. The map is the
+    /// weighted mean of the maps of the joints of the vertex (linear blend skinning). A vertex without weights
+    /// follows the first joint. Returns `None` if there is no skin.
     pub fn blended(&self, attributes: &Attributes, n: usize) -> Option<Vec<DAffine3>> {
         let maps = self.joints.as_deref()?;
         let columns = attributes.joints();

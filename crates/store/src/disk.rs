@@ -86,7 +86,7 @@ impl Store for Disk {
     }
 
     fn remove_folder(&self, folder: &Path) -> Result<(), StoreError> {
-        // After an error, tries a second time with fewer file descriptors.
+        // After an error, removal is tried a second time, with fewer file descriptors.
         fs::remove_dir_all(folder)
             .or_else(|_| remove_all(folder))
             .map_err(|error| StoreError::new("write", folder, error))
@@ -122,7 +122,7 @@ fn remove_all(folder: &Path) -> io::Result<()> {
     fs::remove_dir(folder)
 }
 
-/// Replaces the content of a file. If the path is a link, the link stays and the file that it names is
+/// Replaces the content of a file. If the path is a link, the link is kept, and the file that the link points to is
 /// replaced. The permissions of the file are kept.
 ///
 /// # Errors
@@ -142,8 +142,8 @@ pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     replaced().map_err(|error| StoreError::new("write", path, error))
 }
 
-/// Returns the prefix of the names of the temporary folders of a process. These folders are left behind only if the
-/// process is killed.
+/// Returns the prefix of the names of the temporary folders of a process. A temporary folder remains after the end
+/// of the process only if the process is killed.
 pub fn temporary_prefix(process: u32) -> String {
     format!(".meshwright-{process}-")
 }

@@ -1,7 +1,7 @@
-//! Reading and writing files: on the [`Disk`], or in [`Memory`] if there is no disk, as in a browser.
+//! Reads and writes files: on the [`Disk`], or in [`Memory`] if there is no disk, as in a browser.
 //!
-//! The libraries that read and write models and recipes do not use `std::fs`; their callers pass a [`Store`]. A file is
-//! written completely or not at all.
+//! The libraries for models and recipes do not use `std::fs`; their callers pass a [`Store`]. A file is written
+//! completely or not at all.
 //!
 //! # Examples
 //!
@@ -170,8 +170,8 @@ pub fn stem(path: &Path) -> &OsStr {
     }
 }
 
-/// A file that is written to a temporary location. If the value is dropped without [`commit`](Self::commit),
-/// the temporary file is removed.
+/// A new file whose content is first written to a temporary location. If the value is dropped without
+/// [`commit`](Self::commit), the temporary file is removed.
 pub trait NewFile: Write + Send {
     /// Waits until the bytes are on the disk. Some systems only report a full disk at this point.
     ///

@@ -8,8 +8,8 @@ use std::time::{Duration, SystemTime};
 
 use crate::{Entry, Kind, NewFile, Store, StoreError, check_target};
 
-/// Files that exist until this value is dropped. The working directory is the root, `..` removes the folder name before
-/// it, and there are no links.
+/// Files that exist until this value is dropped. The working directory is the root. A `..` in a path removes the
+/// folder name before it. There are no links.
 #[derive(Debug, Default)]
 pub struct Memory(Mutex<Content>);
 

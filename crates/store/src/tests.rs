@@ -3,7 +3,7 @@ use std::path::PathBuf;
 
 use super::*;
 
-/// Returns both stores, each with the path of an empty folder in it.
+/// Returns both stores, each with the path of an empty folder in that store.
 fn stores() -> [(Box<dyn Store>, PathBuf, Option<tempfile::TempDir>); 2] {
     let folder = tempfile::tempdir().unwrap();
     [

@@ -1,4 +1,4 @@
-//! Tests of damaged, full, blocked or missing caches: they never cause an error or a different result.
+//! Tests of damaged, full, blocked and missing caches. Such caches never cause an error or a different result.
 
 use super::*;
 
@@ -23,7 +23,7 @@ pub(super) fn all_files(folder: &Path) -> Vec<PathBuf> {
 /// Damages a file. The second argument is the contents of all files.
 type Damage = fn(&Path, &[Vec<u8>]);
 
-/// Returns a recipe whose scene is large enough for arrays to be stored as blobs.
+/// Returns a recipe whose scene is so large that its arrays are stored as blobs.
 fn recipe() -> String {
     r#"(recipe: 1, steps: [
         Sheet(columns: 700), (id: "up", run: Lift(by: 1)), Write(path: "a.txt"), Lift(by: 2)],
@@ -57,7 +57,7 @@ fn damage_to_any_file_is_noticed() {
         |path, others| fs::write(path, &others[0]).unwrap(),
         |path, others| fs::write(path, others.last().unwrap()).unwrap(),
     ];
-    // If the last step is edited, the scene before it is needed.
+    // Editing the last step makes the scene before it necessary.
     let edited = text.replace("Lift(by: 2)", "Lift(by: 3)");
     let plain = [&text, &edited].map(|text| place.run_with(text, None, "plain"));
     for damage in damages {

@@ -1,4 +1,4 @@
-//! Property tests: whatever the cache contains, runs with it have the same outcome as runs without it.
+//! Property tests: a run with the cache has the same outcome as a run without it, whatever the cache contains.
 
 use proptest::prelude::*;
 

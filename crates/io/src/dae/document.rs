@@ -1,4 +1,4 @@
-//! The XML of a COLLADA file: elements by id, numbers in texts, and positions of errors.
+//! The XML of a COLLADA file: elements by id, numbers in the text of elements, and positions of errors.
 
 use std::borrow::Cow;
 use std::cell::{Cell, RefCell};
@@ -116,10 +116,10 @@ fn place_at(text: &str, at: usize) -> TextPosition {
     }
 }
 
-/// The code of a note, and the words of the note that follow the count.
+/// The code of a note, and the text of the note after the count.
 pub(super) type What = (&'static str, &'static str);
 
-/// The count and the first line of each note. The key is the kind, the words and the code of the note.
+/// The count and the first line of each note. The key is the kind, the text and the code of the note.
 type Tally = BTreeMap<(NoteKind, &'static str, &'static str), (usize, usize)>;
 
 /// A file, with its elements by id.
@@ -190,7 +190,7 @@ impl<'a> Document<'a> {
         }
     }
 
-    /// Takes memory from the budget.
+    /// Subtracts `bytes` from the budget.
     ///
     /// # Errors
     ///
@@ -203,7 +203,7 @@ impl<'a> Document<'a> {
         Ok(())
     }
 
-    /// Finds the element to which the attribute `key` of `node` refers by `#id`. The element must be of the given
+    /// Finds the element that the attribute `key` of `node` refers to by `#id`. The element must be of the given
     /// `kind`. Returns `None` if the attribute refers to another file.
     ///
     /// # Errors
@@ -227,8 +227,8 @@ impl<'a> Document<'a> {
         self.find(node, id, kind).map(Some)
     }
 
-    /// Finds the element with this id, which must be of the given `kind`. `node` is the element that refers to it, for
-    /// errors.
+    /// Finds the element with this id, which must be of the given `kind`. `node` is the element that refers to it.
+    /// Errors have the position of `node`.
     ///
     /// # Errors
     ///
@@ -254,7 +254,7 @@ pub(super) fn is(node: Node, name: &str) -> bool {
     node.is_element() && node.tag_name().name() == name
 }
 
-/// The number of an element in its file, as a key for tables.
+/// The index of an element in its file, as a key for tables.
 pub(super) fn number_of(node: Node) -> u32 {
     node.id().get()
 }
@@ -372,7 +372,7 @@ pub(super) fn push_indices(node: Node, list: &mut Vec<u32>) -> Result<(), Fault>
     Ok(())
 }
 
-/// The position of a word of a text. If the text contains an entity, the result is the position of the element.
+/// The position of a word in the text of an element. If the text contains an entity, the position of the element.
 fn word_place(node: Node, word: &str) -> TextPosition {
     let text = node.document().input_text();
     let offset = (word.as_ptr() as usize).checked_sub(text.as_ptr() as usize);
@@ -382,7 +382,7 @@ fn word_place(node: Node, word: &str) -> TextPosition {
     }
 }
 
-/// Creates an error at word number `k`, counted through the texts of all `lists`.
+/// Creates an error at the word with index `k` among all words of the `lists`.
 pub(super) fn word_error(lists: &[Node], mut k: usize, message: String) -> Fault {
     for &list in lists {
         for word in words(list) {

@@ -30,7 +30,7 @@ pub(super) struct Surface<'a> {
 }
 
 impl Surface<'_> {
-    /// The approximate size in bytes.
+    /// The approximate size of the polygons in bytes.
     pub(super) fn cost(&self) -> usize {
         let polygons = &self.polygons;
         let columns = polygons.attributes.of(Domain::Corner).len();
@@ -42,13 +42,13 @@ impl Surface<'_> {
     }
 }
 
-/// Reads geometries. Vectors that several geometries use are read once.
+/// Reads geometries. Vectors that several geometries use are read only once.
 pub(super) struct Geometries<'a, 'd> {
     pub(super) document: &'d Document<'a>,
     sources: BTreeMap<(u32, usize), Rc<Vectors>>,
 }
 
-/// The kind of the vectors of an input.
+/// The kind of vectors in an input.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Normal,

@@ -17,8 +17,8 @@ enum ChannelValue {
     Texture(String),
 }
 
-/// Reads the material of a `<material>` element. `known` is a cache of materials. The key is the number of the
-/// `<material>` element.
+/// Reads the material of a `<material>` element. `known` is a cache of materials. The key of a material is the index of
+/// its `<material>` element.
 ///
 /// # Errors
 ///
@@ -80,7 +80,7 @@ fn read_effect<'a>(document: &Document<'a>, effect: Node<'a>) -> Result<Material
     let Some(shader) = shader else {
         return Ok(material);
     };
-    // The `constant` shader is unlit and shows its emission.
+    // The `constant` shader is unlit, so its color is the emission.
     let channel = if is(shader, "constant") {
         "emission"
     } else {
@@ -92,7 +92,7 @@ fn read_effect<'a>(document: &Document<'a>, effect: Node<'a>) -> Result<Material
     });
     let what = (
         "material-values",
-        "parameters of effects other than diffuse color and transparency left out",
+        "effect parameters other than diffuse color and transparency left out",
     );
     document.left_out(others.count(), shader, what);
     let scope = Scope {
@@ -120,7 +120,7 @@ fn read_effect<'a>(document: &Document<'a>, effect: Node<'a>) -> Result<Material
 /// Returns the opacity of a shader, from 0 to 1, or `None` if the shader does not declare an opacity.
 ///
 /// COLLADA 1.4.1, "Determining transparency": `A_ONE` uses the alpha of the transparent color. `RGB_ZERO` uses 1 minus
-/// the luminance of the transparent color. Each of these numbers is multiplied by the transparency of the effect.
+/// the luminance of the transparent color. In both modes, the result is multiplied by the transparency of the effect.
 fn opacity(scope: &Scope, shader: Node) -> Result<Option<f64>, Fault> {
     let transparent = child(shader, "transparent");
     let transparency = match child(shader, "transparency") {

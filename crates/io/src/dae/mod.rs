@@ -11,14 +11,14 @@
 //! | `node` with `instance_geometry` | an object with the name of the node, transformed by the node and its ancestors |
 //! | `instance_controller` | an object with the controlled geometry in its rest pose |
 //! | `instance_node` | another instance of the referenced node |
-//! | `matrix`, `translate`, `rotate`, `scale`, `lookat` | a part of the transform; a reflection reverses the faces |
+//! | `matrix`, `translate`, `rotate`, `scale`, `lookat` | a part of the transform; if the transform is a reflection, the faces are reversed |
 //! | `triangles`, `polylist`, `polygons`, `tristrips`, `trifans` | faces; holes (`ph`) are left out |
 //! | input `POSITION` | vertices, in order and not merged |
 //! | input `NORMAL` | vertex attribute `normal` if the corners of each vertex agree, otherwise corner attribute |
 //! | input `COLOR` | attribute `color`, on the same domains; alpha defaults to 1 |
-//! | input `TEXCOORD` | corner attribute `uv`, for further sets `uv1`, `uv2` and so on in the order of their numbers; at most 8 sets |
+//! | input `TEXCOORD` | corner attribute `uv`; further sets become `uv1`, `uv2` and so on, in the order of their set numbers; at most 8 sets |
 //! | material of a list of polygons | face attribute `material`, and a material of the object |
-//! | effect: `diffuse` (`emission` of `constant`) | the base color or its texture, with the path of the image file |
+//! | effect: `diffuse` (`emission` of `constant`) | the base color, or its texture with the path of the image file |
 //! | effect: `transparent`, `transparency` | the alpha of the base color |
 //! | `unit`, `up_axis` | ignored with a note: coordinates are neither scaled nor rotated |
 //! | lines, splines, skins, morphs, animations, cameras, lights, physics, `skew` | left out, with a note |
@@ -26,8 +26,8 @@
 //! Corners without a normal or a texture coordinate get zero, and corners without a color get white. If a file
 //! has no scene, each of its geometries becomes an object. Other files that a file refers to are not read.
 //!
-//! Document type declarations are refused, so that entities cannot expand. Instances can repeat content, but the
-//! memory that a file can use is limited to 64 times its size, or 16 MiB if that is more.
+//! Document type declarations are refused, so that entities cannot expand. Instances can repeat content, but the memory
+//! that a file can use is limited to 64 times its size, or to 16 MiB if that is more.
 
 mod cost;
 mod document;
@@ -130,7 +130,7 @@ struct Object<'a, 'd> {
     document: &'d Document<'a>,
     placed: &'d PlacedGeometry<'a>,
     surface: &'d Surface<'a>,
-    /// The materials that were read before. The key is the number of the `<material>` element.
+    /// The materials that were read before. The key is the index of the `<material>` element.
     materials: &'d mut BTreeMap<u32, Material>,
 }
 

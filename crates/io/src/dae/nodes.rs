@@ -1,4 +1,4 @@
-//! Finds the geometries that the nodes of a scene show, with their transforms, names and materials.
+//! Finds the geometries that the nodes of a scene reference, with their transforms, names and materials.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -36,8 +36,8 @@ fn name(node: Node<'_>) -> &str {
     given.or(node.attribute("id")).unwrap_or_default()
 }
 
-/// Returns the geometries of the scene in the order of the file, those of a parent before those of its children. If the
-/// file has no scene, returns the geometries of the libraries.
+/// Returns the geometries of the scene in the order of the file. The geometries of a parent come before those of its
+/// children. If the file has no scene, returns the geometries of the libraries.
 ///
 /// # Errors
 ///
@@ -85,8 +85,8 @@ pub(super) fn placed<'a>(
 /// Traverses the nodes of a scene with an explicit stack, because nodes can be nested very deeply.
 struct Walk<'a, 'd> {
     document: &'d Document<'a>,
-    /// The number of elements that can still be visited. The number is limited because, with instances, a small file
-    /// can have many elements.
+    /// The number of elements that can still be visited. The number is limited because a small file with nested
+    /// instances can stand for a huge number of elements.
     steps: usize,
     /// The nodes from the root to the current node.
     ancestors: BTreeSet<u32>,
@@ -142,7 +142,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         Ok(())
     }
 
-    /// Pushes the nodes below `node` on the stack. The first node is on top of the stack.
+    /// Pushes the nodes below `node` on the stack. Afterwards, the first of them is on top.
     fn open_children(
         &mut self,
         node: Node<'a>,
@@ -285,7 +285,7 @@ fn matrix(node: Node) -> Result<DAffine3, Fault> {
     Ok(DAffine3::from_cols(x, y, z, w))
 }
 
-/// Returns a rotation by Rodrigues' formula: R = c I + s \[n\] + (1 - c) n n^T. Here n is the unit axis, \[n\] the
+/// Returns a rotation by Rodrigues' formula: R = c I + s \[n\] + (1 - c) n n^T. Here n is the unit axis, \[n\] is the
 /// matrix of the cross product with n, and c and s are the cosine and the sine of the angle. The angle is in degrees. A
 /// zero axis gives the identity.
 fn rotation([x, y, z, degrees]: [f64; 4]) -> DMat3 {

@@ -41,7 +41,7 @@ pub(super) fn shape(list: Node, document: &Document) -> Result<Option<Shape>, Fa
     Ok(Some(shape))
 }
 
-/// The corners of the polygons of one list, as positions in the list of indices.
+/// The corners of the polygons of one list, as offsets in the list of indices.
 #[derive(Default)]
 pub(super) struct Outline<'a> {
     /// The elements that contain the indices.

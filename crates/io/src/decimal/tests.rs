@@ -84,7 +84,7 @@ fn integers_are_written_as_their_digits() {
     }
 }
 
-/// Returns the text that the standard library writes. The text has an exponent if the magnitude is outside of the range
+/// Returns the text that the standard library writes. The text has an exponent if the magnitude is outside the range
 /// from 1e-5 to 1e16.
 fn expected(x: f64) -> String {
     if x == 0.0 || (1e-5..1e16).contains(&x.abs()) {
@@ -113,7 +113,7 @@ proptest! {
 
     #[test]
     fn numbers_halfway_between_two_floats_are_rounded_correctly(bits: u64, decimals in 1..12_usize) {
-        // The text has seven digits more than an `f64`, and is close to the middle between two `f64` numbers.
+        // The text has seven more digits than an `f64` needs, and is close to the midpoint between two `f64` numbers.
         let x = f64::from_bits(((1023 + 20) << 52) | (bits >> 12));
         let next = f64::from_bits(x.to_bits() + 1);
         let middle = format!("{:.1$}", x, decimals + 6);

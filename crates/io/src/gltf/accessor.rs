@@ -41,11 +41,11 @@ impl Reader<'_> {
         get(&self.document.accessors, index, pointer, "accessor")
     }
 
-    /// Checks the component type of an accessor.
+    /// Checks that the component type of an accessor is one of the allowed types.
     ///
     /// # Errors
     ///
-    /// If the accessor does not have one of the component types.
+    /// If the component type of the accessor is not one of them.
     pub(super) fn expect_components(
         &self,
         index: usize,
@@ -122,13 +122,13 @@ impl Reader<'_> {
         Ok(values.into_flattened())
     }
 
-    /// Reads the elements of an accessor. Each element is converted from N numbers. Components that the type of the
-    /// accessor does not have are set to `fill`. Normalized integers are scaled to the range from 0 to 1 if they are
-    /// unsigned, and from -1 to 1 if they are signed.
+    /// Reads the elements of an accessor. Each element is converted from N numbers. If the type of the accessor has
+    /// fewer components, the missing ones are set to `fill`. Normalized integers are scaled to the range from 0 to 1 if
+    /// they are unsigned, and from -1 to 1 if they are signed.
     ///
     /// # Errors
     ///
-    /// If the accessor does not have one of the `types`, does not fit its buffer, or has a non-finite value.
+    /// If the type of the accessor is not in `types`, the accessor exceeds its buffer, or a value is not finite.
     /// `pointer` is the location that refers to the accessor.
     pub(super) fn vectors<const N: usize, T: Value>(
         &self,
@@ -219,7 +219,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Reads every element from the view. If there is no view, every element is `zero`. Then applies the sparse values.
+    /// Reads all elements from the view. If there is no view, all elements are `zero`. Then applies the sparse values.
     fn elements<T: Copy + Zeroable + Send + Sync>(
         &self,
         index: usize,
@@ -287,7 +287,7 @@ impl Reader<'_> {
         Ok(elements)
     }
 
-    /// Checks how many zeros an accessor without data declares.
+    /// Checks the number of zeros that an accessor without data declares.
     fn zeros(&self, count: u64, here: &str) -> Result<usize, Fault> {
         let all: u64 = self.buffers.iter().map(|buffer| buffer.len() as u64).sum();
         let limit = all.max(MIN_ZEROS);

@@ -1,4 +1,4 @@
-//! The memory budget of a file. Parts of a file can be repeated, but only within the budget.
+//! The memory budget of a file. The content of a file can be repeated, but only within the budget.
 
 use std::cell::Cell;
 
@@ -72,7 +72,7 @@ impl Budget {
     }
 
     /// Takes the decoded size of a compressed view from the budget, and returns it as a `usize`. A stream of zeros can
-    /// be compressed to a thousandth of its size, but real files do not consist of zeros.
+    /// be compressed to a thousandth of its decoded size, but real files do not consist of zeros.
     ///
     /// # Errors
     ///

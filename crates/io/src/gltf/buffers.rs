@@ -95,8 +95,8 @@ pub(super) fn container(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
 }
 
 /// Loads the bytes of all buffers. `binary` is the binary chunk of a GLB file, which is borrowed. When a file next to
-/// the document is read for the first time, the budget increases. When the file is read again, the budget decreases.
-/// Buffers that are marked in `fallbacks` are not read and stay empty.
+/// the document is read for the first time, the budget grows with its size. When the file is read again, its size is
+/// subtracted from the budget. Buffers that are marked in `fallbacks` are not read and stay empty.
 ///
 /// # Errors
 ///
@@ -130,7 +130,7 @@ pub(super) fn load<'a>(
                 Cow::Owned(if let Some(data) = uri.strip_prefix("data:") {
                     data_uri(data, &pointer)?.1
                 } else {
-                    // Messages only show the beginning of a long URI.
+                    // A message contains only the beginning of a long URI.
                     let shown: String = uri.chars().take(80).collect();
                     let name =
                         inside_uri(uri).map_err(|why| error(format!("the URI {shown:?} {why}")))?;
@@ -149,7 +149,7 @@ pub(super) fn load<'a>(
         };
         if (bytes.len() as u64) < length {
             let message = format!(
-                "the buffer declares {length} bytes, but only has {} bytes",
+                "the buffer declares {length} bytes, but has only {} bytes",
                 bytes.len()
             );
             return Err(Fault::json(format!("/buffers/{i}/byteLength"), message));

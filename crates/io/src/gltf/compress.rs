@@ -3,7 +3,7 @@
 //! ```text
 //! buffer 0    the compressed arrays and everything else, such as images
 //! buffer 1    the fallback: the size of the uncompressed arrays, without content
-//! view        its place in the fallback, and in the extension its place in buffer 0
+//! view        its range in buffer 1 (the fallback); its extension has the range in buffer 0
 //! ```
 
 use std::collections::BTreeMap;

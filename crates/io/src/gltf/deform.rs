@@ -12,7 +12,7 @@ use super::rig_json::Deformers;
 use super::views::Reader;
 use crate::fault::Fault;
 
-/// The weights of a vertex count as adding up to 1 if the error is at most this tolerance times the number of weights.
+/// The sum of the weights of a vertex counts as 1 if its error is at most this tolerance times the number of weights.
 /// The Khronos validator uses the same tolerance.
 pub(super) const WEIGHT_TOLERANCE: f64 = 2e-7;
 

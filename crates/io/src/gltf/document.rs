@@ -36,7 +36,7 @@ const KNOWN_EXTENSIONS: [&str; 8] = [
 /// The extension for lights.
 pub(super) const LIGHTS: &str = "KHR_lights_punctual";
 
-/// A part of the document that is kept as it is.
+/// A part of the document that is stored unchanged.
 pub(super) type Json = Map<String, Value>;
 
 /// The parts of a glTF document that the reader needs.
@@ -79,7 +79,7 @@ impl Document {
         check_version(json)?;
         check_extensions(json, notes)?;
         let views: Vec<View> = pieces(json, "bufferViews", budget)?;
-        // The reader stores additional data for each view, which needs memory too.
+        // The additional data that the reader stores for each view also counts.
         let more = views.len() * size_of::<(Option<Compressed>, OnceCell<Vec<u8>>)>();
         budget.spend(more as u64, "/bufferViews")?;
         let compressed = meshopt::compressed(list(json, "bufferViews")?)?;
@@ -201,7 +201,7 @@ fn count_extensions<'a>(json: &'a Value, uses: &mut BTreeMap<&'a str, usize>) {
     }
 }
 
-/// Returns the parts of the document that are kept as they are: the asset without the members that the writer sets, the
+/// Returns the parts of the document that are stored unchanged: the asset without the members that the writer sets, the
 /// name and the extras of the scene, and the extras of the document.
 fn kept(json: &Value) -> BTreeMap<String, String> {
     let only = |json: Option<&Value>, keys: &[&str]| -> Json {
@@ -230,8 +230,8 @@ fn kept(json: &Value) -> BTreeMap<String, String> {
         .collect()
 }
 
-/// Counts the `extras` that are not kept, such as those of materials and accessors. Parts that are left out as a whole
-/// are not counted.
+/// Counts the `extras` that are left out although the part they belong to is read, such as the `extras` of materials
+/// and accessors.
 fn left_out_extras(json: &Value) -> usize {
     let members = json.as_object().into_iter().flatten();
     let of_member = |(key, value): (&String, &Value)| match (key.as_str(), value) {

@@ -3,12 +3,12 @@
 //! ```text
 //! primitive       attributes, indices: accessors without buffer views
 //!  `- extension   bufferView: the location of the stream
-//!                 attributes: the numbers of the attributes in the stream
+//!                 attributes: the ids of the attributes in the stream
 //! ```
 //!
-//! The crate `draco-core` decodes streams into additional buffers, with a buffer view for each accessor. After that,
-//! the other modules of the reader find uncompressed data. If a file also has uncompressed data, that data is read
-//! instead of the stream.
+//! The crate `draco-core` decodes streams into additional buffers, with a buffer view for each accessor, so that the
+//! other modules of the reader find uncompressed data. If a file also has uncompressed data, that data is read instead
+//! of the stream.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -129,7 +129,7 @@ pub(super) fn decode(
     Ok(())
 }
 
-/// Decodes the content of those accessors of a primitive that have no data of their own.
+/// Decodes the content of the accessors of a primitive that have no uncompressed data.
 fn arrays(reader: &Reader, compressed: &Compressed) -> Result<Vec<(usize, Vec<u8>)>, Fault> {
     let at = compressed.pointer();
     let document = reader.document;
@@ -165,7 +165,7 @@ fn arrays(reader: &Reader, compressed: &Compressed) -> Result<Vec<(usize, Vec<u8
             wanted.push((accessor, name, *id, kind.multiplicity(), component));
         }
     }
-    // All memory that the decoder allocates follows from declared numbers, and is taken from the budget before the
+    // The memory that the decoder allocates is determined by declared numbers. It is taken from the budget before the
     // decoder starts.
     let size: usize = wanted
         .iter()

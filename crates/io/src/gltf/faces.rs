@@ -13,7 +13,7 @@ use crate::parallel;
 /// Triangles in the order of the faces.
 pub(super) struct Faces {
     pub(super) n_triangles: usize,
-    /// The corners of the triangles, as vertices of glTF. `None` if the mesh has only triangles, and all faces have the
+    /// The corners of the triangles, as glTF vertices. `None` if the mesh has only triangles and all faces have the
     /// same material.
     pub(super) corners: Option<Vec<u32>>,
 }
@@ -77,7 +77,7 @@ pub(super) fn all_corners(mesh: &Mesh, split: &Split) -> Vec<u32> {
     corners.into_flattened()
 }
 
-/// The corners of a triangle, as vertices of glTF.
+/// The corners of a triangle, as glTF vertices.
 pub(super) fn corners(mesh: &Mesh, split: &Split, f: FaceId) -> [u32; 3] {
     let mut corners = [0; 3];
     for (slot, h) in corners.iter_mut().zip(mesh.face_half_edges(f)) {

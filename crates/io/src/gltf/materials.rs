@@ -37,7 +37,7 @@ impl<'a> Materials<'a> {
         }
     }
 
-    /// Adds notes for what was left out.
+    /// Adds notes about the content that was left out.
     pub(super) fn note(self, notes: &mut Notes) {
         let what = "textures without a supported image left out";
         notes.left_out("textures", self.without_picture, None, what);
@@ -167,7 +167,7 @@ pub(super) fn material_name(document: &Document, i: usize) -> String {
     name.unwrap_or_else(|| format!("material {i}"))
 }
 
-/// The paths of the image files to which material `i` of the document refers, in the order in which they are read.
+/// The paths of the image files that material `i` of the document refers to, in the order in which they are read.
 pub(super) fn image_paths(document: &Document, i: usize) -> Vec<String> {
     let from = &document.materials[i];
     let pbr = from.pbr_metallic_roughness.as_ref();
@@ -194,7 +194,7 @@ fn decoded(uri: &str) -> String {
     crate::assets::percent_decoded(uri).unwrap_or_else(|| uri.to_owned())
 }
 
-/// Whether a text begins with the scheme of a URI. A single letter is a drive, not a scheme.
+/// Whether a string begins with the scheme of a URI. A single letter before the colon is a drive, not a scheme.
 pub(super) fn has_scheme(uri: &str) -> bool {
     uri.split_once(':').is_some_and(|(scheme, _)| {
         let is_fine = |c: char| c.is_ascii_alphanumeric() || "+-.".contains(c);
@@ -232,7 +232,7 @@ fn to_sampler(from: &SamplerJson, here: &str) -> Result<Sampler, Fault> {
     })
 }
 
-/// Returns the transform of a texture. If the extension overrides the set of texture coordinates, also returns this
+/// Returns the transform of a texture. If the extension overrides the set of texture coordinates, also returns the new
 /// set.
 fn transform(
     extensions: &Extensions,
@@ -255,8 +255,8 @@ fn unit(x: f64) -> f64 {
     rounded(x).clamp(0.0, 1.0)
 }
 
-/// Rounds a number to 32 bits, clamped to the 32-bit range. Returns the shortest decimal number that has this 32-bit
-/// value.
+/// Rounds a number to 32 bits, after clamping it to the range of 32-bit floats. Returns the shortest decimal number
+/// that has this 32-bit value.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "rounding to 32 bits is intended"

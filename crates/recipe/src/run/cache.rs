@@ -166,7 +166,7 @@ pub enum RerunReason {
     #[error("its result in the cache is damaged: {0}")]
     Damaged(String),
     /// The result was not stored, because computing it took less time than storing it would have taken.
-    #[error("its result was not stored: computing it is faster than storing it")]
+    #[error("its result was not stored: it is faster to compute than to store")]
     NotKept,
     /// The input files of the step could not be determined: a path and the reason.
     #[error("its input files are unknown: {}: {}", .0.display(), .1)]

@@ -1,4 +1,4 @@
-//! Compares the deserializer with the deserializer of `ron`: both must give the same values and refuse the same texts.
+//! Compares the deserializer with the deserializer of `ron`: both must give the same values and reject the same texts.
 
 use std::collections::BTreeMap;
 
@@ -83,7 +83,7 @@ fn by_ron<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, String> {
     options.from_str(text).map_err(|error| error.to_string())
 }
 
-/// Returns a text that differs if any bit of a number differs: `-0.0` and `0.0` give different texts.
+/// Returns a text that depends on every bit of each number. For example, `-0.0` and `0.0` give different texts.
 fn bits(value: &impl Serialize) -> String {
     ron::to_string(value).expect("plain data")
 }
@@ -176,7 +176,7 @@ proptest! {
         prop_assert_eq!(bits(&read), bits(&shapes));
     }
 
-    /// For nearly valid texts, both deserializers give the same value, or both refuse the text.
+    /// For nearly valid texts, both deserializers give the same value, or both reject the text.
     #[test]
     fn texts_that_ron_refuses_are_refused(
         edits in prop::collection::vec((0_usize..4, any::<prop::sample::Index>(), any::<prop::sample::Index>()), 0..3),

@@ -42,7 +42,7 @@ fn insert(scene: &mut Scene, name: &str, geometry: Geometry, materials: Vec<Mate
     scene.insert(object).unwrap();
 }
 
-/// Returns a scene with every kind of geometry, attribute and material property.
+/// Returns a scene with each kind of geometry, attribute and material property.
 fn full_scene() -> Scene {
     let mut scene = Scene::new();
     let mut mesh = shapes::grid(3, 2);
@@ -194,7 +194,7 @@ fn arrays_that_do_not_form_a_mesh_are_refused() {
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// `is_valid` and `defects` agree for a mesh with some changed entries.
+    /// `is_valid` and `defects` agree for a mesh whose arrays have some changed entries.
     #[test]
     fn a_mesh_is_valid_exactly_if_it_has_no_defects(
         changes in prop::collection::vec((0..5_usize, 0..200_usize, 0..60_usize), 0..4),

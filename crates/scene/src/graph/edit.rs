@@ -3,9 +3,9 @@
 use super::{AnimatedProperty, Graph, MeshLabel, Node};
 
 impl Graph {
-    /// Removes an object from all nodes. A node that showed the object is removed if it has no camera, no light and no
-    /// children, and is not a joint. The channels that animate a removed node are removed too. Other nodes keep their
-    /// order.
+    /// Removes an object from all nodes. A node that referenced the object is removed if it has no camera, no light
+    /// and no children, and is not a joint. The channels that animate a removed node are removed too. The remaining
+    /// nodes keep their order.
     pub(crate) fn remove_object(&mut self, object: &str) {
         self.labels.remove(object);
         let mut n_children = vec![0_usize; self.nodes.len()];
@@ -56,8 +56,8 @@ impl Graph {
         }
     }
 
-    /// Shows the object `to` wherever the object `from` is shown. Adds a node beside each node of `from`, with the same
-    /// placement and extras. If `from` is shown once, the new node is named `to`.
+    /// Adds an instance of the object `to` beside each instance of the object `from`. The new node has the same
+    /// placement and extras as the node of `from`. If only one node references `from`, the new node is named `to`.
     pub fn copy_object(&mut self, from: &str, to: &str) {
         let nodes = self.nodes_of(from);
         for &i in &nodes {
@@ -81,8 +81,8 @@ impl Graph {
         }
     }
 
-    /// Adds a child that shows the object `part` to each node that shows the object `whole`. The child has the same
-    /// place, skin and weights. If `whole` is shown once, the child is named `part`.
+    /// Adds a child that references the object `part` to each node that references the object `whole`. The child
+    /// has the same location, skin and weights. If only one node references `whole`, the child is named `part`.
     pub fn add_part(&mut self, whole: &str, part: &str) {
         let nodes = self.nodes_of(whole);
         for &parent in &nodes {
@@ -106,9 +106,9 @@ impl Graph {
         }
     }
 
-    /// Appends the nodes of another graph. The objects of the two graphs must have different names. If both graphs have
-    /// different parts of the document with the same name, the part of this graph is kept. Returns the number of parts
-    /// that are not kept.
+    /// Appends the nodes of another graph. The objects of the two graphs must have different names. If the graphs
+    /// have different parts of the document with the same name, the part of this graph is kept. Returns the number
+    /// of parts that are not kept.
     pub fn append(&mut self, other: Self) -> usize {
         let (n, cameras, lights) = (self.nodes.len(), self.cameras.len(), self.lights.len());
         let (skins, arrays) = (self.skins.len(), self.arrays.len());
@@ -145,7 +145,7 @@ impl Graph {
         left_out
     }
 
-    /// Returns the part of the graph that shows the objects that `is_wanted` accepts. This part has the nodes of the
+    /// Returns a graph for the objects that `is_wanted` accepts. The graph has the nodes that reference these
     /// objects, the joints of their skins, the ancestors of all these nodes, and their animations. The parts of the
     /// document are kept; cameras and lights are not.
     pub(crate) fn only(&self, is_wanted: impl Fn(&str) -> bool) -> Self {

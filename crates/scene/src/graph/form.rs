@@ -84,7 +84,7 @@ impl Decoder<'_> {
             let shown = node.object.as_deref().map(|name| kinds.get(name));
             if shown.is_some_and(|kind| !matches!(kind, Some(Geometry::Mesh(_)))) {
                 return Err(DecodeError::Expected(
-                    "a node that shows a mesh of the scene",
+                    "a node that references a mesh of the scene",
                 ));
             }
             graph.nodes.push(node);

@@ -6,9 +6,9 @@ use super::Graph;
 
 /// A skin: the joints that deform a mesh. The vertex attribute [`mesh::joint_name`]`(j)` has the weights of joint j.
 ///
-/// A skinned point p is shown at the weighted mean of G B p over all joints, where G maps the space of the joint to the
-/// scene and B is the inverse bind matrix of the joint. The placement of the node of the mesh has no effect (glTF 2.0
-/// specification, 3.7.3).
+/// A skinned point p is drawn at the weighted mean of G B p over all joints. G maps the space of the joint to the
+/// scene, and B is the inverse bind matrix of the joint. The placement of the node of the mesh has no effect (glTF
+/// 2.0 specification, 3.7.3).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Skin {
     /// The name.
@@ -31,7 +31,7 @@ pub struct Animation {
     pub name: Option<String>,
     /// The values over time that channels refer to.
     pub samplers: Vec<AnimationSampler>,
-    /// The channels, which say what the samplers change.
+    /// The channels. Each channel applies a sampler to a property of a node.
     pub channels: Vec<Channel>,
     /// Data of other programs, as JSON.
     pub extras: Option<String>,
@@ -56,13 +56,13 @@ pub enum Interpolation {
     /// Linear interpolation, along the shortest arc for rotations.
     #[default]
     Linear,
-    /// Every value is that of the previous keyframe.
+    /// The value of the previous keyframe is used.
     Step,
     /// Cubic splines. Each keyframe has an incoming tangent, a value and an outgoing tangent.
     CubicSpline,
 }
 
-/// What a sampler changes.
+/// A channel: the property of a node that a sampler changes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
     /// The index of the sampler in its animation.
@@ -173,7 +173,7 @@ impl Graph {
         }
     }
 
-    /// Shows the object `to` at the nodes that show `from`, with the same skins and weights of morph targets.
+    /// Replaces the object `from` by the object `to` in all nodes, with the same skins and weights of morph targets.
     pub fn show_instead(&mut self, from: &str, to: &str) {
         for node in &mut self.nodes {
             if node.object.as_deref() == Some(from) {
@@ -185,8 +185,8 @@ impl Graph {
         }
     }
 
-    /// Returns one map for each joint of a skin, from the bound points of the mesh to the scene. `to_scene` is the
-    /// result of [`Graph::to_scene`].
+    /// Returns one map for each joint of a skin, from the points of the mesh in its bind pose to the scene.
+    /// `to_scene` is the result of [`Graph::to_scene`].
     ///
     /// # Panics
     ///
@@ -217,9 +217,9 @@ impl Graph {
         flags
     }
 
-    /// Updates skins and animations after nodes were removed. `places` has the new index of each node, or `None` if the
-    /// node was removed. Joints of skins must not be removed. Removes the channels of removed nodes, and animations
-    /// without a channel.
+    /// Updates skins and animations after nodes were removed. `places` has the new index of each node, or `None` if
+    /// the node was removed. Joints of skins must not be removed. The channels of removed nodes are removed, and
+    /// then the animations without a channel.
     pub(super) fn renumber_rig(&mut self, places: &[Option<usize>]) {
         for skin in &mut self.skins {
             for node in skin.joints.iter_mut().chain(&mut skin.skeleton) {
@@ -248,7 +248,7 @@ impl Graph {
         removed
     }
 
-    /// Keeps only the skins for which `keep` is true. Nodes with another skin have no skin afterwards.
+    /// Keeps only the skins for which `keep` is true. Nodes with a removed skin have no skin afterwards.
     pub fn retain_skins(&mut self, keep: &[bool]) {
         let mut n = 0;
         let places: Vec<Option<usize>> = (keep.iter())

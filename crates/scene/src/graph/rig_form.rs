@@ -1,12 +1,13 @@
-//! The canonical form of skins, morph weights and animations. These parts follow after the other parts of a graph. A
-//! graph without skins, morph weights and animations has the same form as in earlier versions, which had none of them.
+//! The canonical form of skins, morph weights and animations. These parts follow the other parts of a graph. A
+//! graph without skins, morph weights and animations has the same form as in earlier versions, which did not
+//! support them.
 
 use super::rig::{AnimatedProperty, Animation, AnimationSampler, Channel, Interpolation, Skin};
 use super::{Graph, MeshLabel};
 use crate::decode::{DecodeError, Decoder};
 use crate::digest::Encoder;
 
-/// The text that precedes the skins, morph weights and animations in the canonical form.
+/// The string that precedes the skins, morph weights and animations in the canonical form.
 pub(crate) const RIG: &str = "rig";
 
 impl Graph {

@@ -13,8 +13,8 @@ fn moved(translation: [f64; 3], scale: [f64; 3]) -> Placement {
     }
 }
 
-/// A car: the node `car` has the children `body`, `left` and `right`. The nodes `left` and `right` show the wheel, and
-/// `left` has a child with a camera.
+/// A car: the node `car` has the children `body`, `left` and `right`. The nodes `left` and `right` reference the
+/// wheel, and `left` has a child with a camera.
 fn car() -> Scene {
     let mut scene = Scene::new();
     for name in ["body", "wheel"] {

@@ -1,4 +1,4 @@
-//! Decodes attributes. Each byte of an element is stored in few bits, as the difference from the same byte of the
+//! Decodes attributes. Each byte of an element is stored in a few bits, as the difference from the same byte of the
 //! previous element.
 //!
 //! ```text
@@ -43,7 +43,7 @@ pub(super) fn elements_in_block(stride: usize) -> usize {
     (BLOCK_BYTES / stride / GROUP * GROUP).min(BLOCK)
 }
 
-/// A lower bound for the size of a stream of `count` elements of `stride` bytes. The stride is at most 256. In blocks
+/// A lower bound for the size of a stream of `count` elements of `stride` bytes. The stride is at most 256. For blocks
 /// of zeros, version 0 needs 2 bits for each 16 bytes, and version 1 needs 2 bits for each byte of an element.
 pub(super) fn shortest(count: u64, stride: u64) -> u64 {
     let stride = usize::try_from(stride).unwrap_or(BLOCK).clamp(1, BLOCK);
@@ -51,8 +51,8 @@ pub(super) fn shortest(count: u64, stride: u64) -> u64 {
     let controls = (stride / 4) as u64;
     let mut tail = (stride + stride / 4).max(24);
     if count == 0 {
-        // The tail of version 0 can be shorter, but its blocks are longer. So version 0 gives the shortest stream only
-        // if there are no blocks.
+        // The tail of version 0 can be shorter, but its blocks are longer. Therefore, version 0 gives the shortest
+        // stream only if there are no blocks.
         tail = tail.min(stride.max(32));
     }
     let around = 1 + tail as u64;
@@ -66,7 +66,7 @@ pub(super) fn shortest(count: u64, stride: u64) -> u64 {
 ///
 /// # Errors
 ///
-/// The position at which the stream breaks the rules.
+/// The position of the first error in the stream.
 pub(super) fn decode(stream: &[u8], stride: usize, out: &mut [u8]) -> Result<(), Fault> {
     let n_channels = stride / 4;
     let (is_old, in_tail) = match stream.first() {
@@ -147,8 +147,8 @@ fn few_bits(input: &mut Input, bits: usize, group: &mut [u8; GROUP]) -> Result<(
     let (in_byte, all) = (8 / bits, (1 << bits) - 1);
     for (i, slot) in group.iter_mut().enumerate() {
         let place = match bits {
-            // Differences of 1 bit are stored from the lowest bit on, differences of 2 or 4 bits from the highest bits
-            // on.
+            // Differences of 1 bit are stored from the lowest bit upward. Differences of 2 or 4 bits are stored from
+            // the highest bits downward.
             1 => i % in_byte,
             _ => bits * (in_byte - 1 - i % in_byte),
         };

@@ -54,8 +54,8 @@ fn encode_groups(differences: &[u8], out: &mut Vec<u8>) {
     out.resize(kinds + groups.len().div_ceil(4), 0);
     for (g, group) in groups.iter().enumerate() {
         let large = |most: u8| group.iter().filter(|&&d| d >= most).count();
-        // The sizes of the group with 0, 2, 4 and 8 bits for each difference. The smallest size is chosen. If sizes are
-        // equal, the one with fewer bits is chosen.
+        // The sizes of the group with 0, 2, 4 and 8 bits for each difference. The smallest size is chosen. Of equal
+        // sizes, the one with the fewest bits is chosen.
         let sizes = [
             if large(1) == 0 { 0 } else { usize::MAX },
             4 + large(3),

@@ -2,18 +2,18 @@
 
 use super::triangles::Recent;
 
-/// The table at the end of each stream, with the pairs of 4-bit values to which a code can refer. A stream can have any
-/// pairs. This table has pairs that are frequent (`kCodeAuxEncodingTable` of meshoptimizer).
+/// The table at the end of each stream, with the pairs of 4-bit values that a code can refer to. A stream can contain
+/// any table. This table contains frequent pairs (`kCodeAuxEncodingTable` of meshoptimizer).
 const PAIRS: [u8; 16] = [
     0x00, 0x76, 0x87, 0x56, 0x67, 0x78, 0xa9, 0x86, 0x65, 0x89, 0x68, 0x98, 0x01, 0x69, 0, 0,
 ];
 
-/// The number of pairs to which a code can refer.
+/// The number of pairs that a code can refer to.
 const N_PAIRS: usize = 14;
 
 /// Encodes triangles whose indices have N bytes. The order of the triangles is kept. The corners of a triangle can be
-/// rotated, for example from (a, b, c) to (b, c, a), because a triangle beside an earlier triangle is stored starting
-/// at their common edge.
+/// rotated, for example from (a, b, c) to (b, c, a), because a triangle that shares an edge with an earlier triangle is
+/// stored starting at that edge.
 pub(in super::super) fn encode<const N: usize>(
     bytes: &[u8],
     index: impl Fn([u8; N]) -> u32,
@@ -92,7 +92,7 @@ impl State {
         let rotations = [[a, b, c], [b, c, a], [c, a, b]];
         let new_first = rotations.iter().find(|[a, ..]| *a == self.next);
         let [a, b, c] = *new_first.unwrap_or(&rotations[0]);
-        // A pair of value 0 that is stored explicitly means that vertices are numbered from 0 again.
+        // An explicitly stored pair with the value 0 means that the vertex indices start at 0 again.
         let restarts = self.next > 0 && [a, b, c] == [0, 1, 2];
         if restarts {
             self.next = 0;

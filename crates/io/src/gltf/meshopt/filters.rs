@@ -12,7 +12,7 @@ use crate::parallel;
 /// The number of bytes that a task processes.
 const BLOCK: usize = 1 << 15;
 
-/// The filter of a compressed view. The variants say how the elements are encoded before the filter is applied.
+/// The filter of a compressed view. Each variant describes the encoding of the elements before the filter is applied.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "UPPERCASE")]
 pub(in super::super) enum Filter {
@@ -123,8 +123,8 @@ fn quaternion([x, y, z, last]: [i16; 4]) -> [f32; 4] {
     quaternion
 }
 
-/// Returns m 2^e, where m is the mantissa in the lower 24 bits, and e is the exponent in the upper 8 bits. Infinite if
-/// the result is too large.
+/// Returns m 2^e, where m is the mantissa in the lower 24 bits, and e is the exponent in the upper 8 bits. The result
+/// is infinite if it is too large.
 fn exponential(bits: i32) -> f32 {
     let (exponent, mantissa) = (bits >> 24, bits << 8 >> 8);
     // With 64 bits, the result is exact for every exponent.

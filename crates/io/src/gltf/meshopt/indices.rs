@@ -1,4 +1,4 @@
-//! Decodes indices in any order. Each index is stored as the difference from one of two previous indices.
+//! Decodes a sequence of arbitrary indices. Each index is stored as the difference from one of two previous indices.
 //!
 //! ```text
 //! 0xd1 | a number for each index | 4 bytes
@@ -21,7 +21,7 @@ pub(super) fn shortest(count: u64) -> u64 {
 ///
 /// # Errors
 ///
-/// The position at which the stream breaks the rules.
+/// The position of the first error in the stream.
 pub(super) fn decode(
     stream: &[u8],
     slots: impl Iterator<Item = impl FnOnce(u32)>,

@@ -89,14 +89,14 @@ fn extension(of: &Value) -> Option<(&'static str, &Value)> {
         .find_map(|&name| Some((name, extensions.get(name)?)))
 }
 
-/// The JSON pointer to the extension of buffer view number `view`.
+/// The JSON pointer to the extension of the buffer view with index `view`.
 pub(super) fn pointer(view: usize, extension: &str) -> String {
     format!("/bufferViews/{view}/extensions/{extension}")
 }
 
 /// Returns a flag for each buffer, which is true if the reader never reads the buffer. The reader does not read a
-/// buffer that is declared as a fallback. The reader also does not read a buffer to which only the uncompressed ranges
-/// of compressed views refer.
+/// buffer that is declared as a fallback, nor a buffer that is only referenced by the uncompressed ranges of compressed
+/// views.
 pub(super) fn fallbacks(
     buffers: &[Value],
     views: &[View],
@@ -134,8 +134,8 @@ impl Compressed {
     ///
     /// # Errors
     ///
-    /// If the extension at `pointer` breaks its rules, does not match the view, or declares more data than a stream
-    /// of its size can contain.
+    /// If the extension at `pointer` is invalid, does not match the view, or declares more data than a stream of its
+    /// size can contain.
     pub(super) fn decoded_length(&self, view: &View, pointer: &str) -> Result<u64, Fault> {
         let (stride, count) = (self.byte_stride, self.count);
         let (allowed, expected) = match self.mode {
@@ -190,7 +190,7 @@ impl Compressed {
     ///
     /// # Errors
     ///
-    /// The byte at which the stream breaks the rules, and the rule.
+    /// The byte of the first error in the stream, and a message.
     pub(super) fn decode(
         &self,
         stream: &[u8],
@@ -218,7 +218,7 @@ impl Compressed {
     }
 }
 
-/// Returns slots, which are functions that store an index, for 16-bit indices. Higher bits are dropped.
+/// Returns slots for 16-bit indices. A slot is a function that stores an index. Higher bits are dropped.
 fn shorts(bytes: &mut [u8]) -> impl Iterator<Item = impl FnOnce(u32)> {
     let slots = bytes.as_chunks_mut::<2>().0.iter_mut();
     slots.map(|slot| {
@@ -229,7 +229,7 @@ fn shorts(bytes: &mut [u8]) -> impl Iterator<Item = impl FnOnce(u32)> {
     })
 }
 
-/// Returns slots, which are functions that store an index, for 32-bit indices.
+/// Returns slots for 32-bit indices. A slot is a function that stores an index.
 fn longs(bytes: &mut [u8]) -> impl Iterator<Item = impl FnOnce(u32)> {
     let slots = bytes.as_chunks_mut::<4>().0.iter_mut();
     slots.map(|slot| move |i: u32| *slot = i.to_le_bytes())

@@ -57,7 +57,7 @@ fn decode(compressed: &Compressed, stream: &[u8]) -> Result<Vec<u8>, String> {
     decoded.map_err(|error| error.message)
 }
 
-/// Whether arrays are equal. If a filter rounds, values can differ by one unit in the last place.
+/// Whether arrays are equal. If a filter rounds, values are allowed to differ by one unit in the last place.
 fn is_near(filter: Filter, stride: u64, a: &[u8], b: &[u8]) -> bool {
     let short = |bytes: &[u8]| i32::from(i16::from_le_bytes([bytes[0], bytes[1]]));
     let mut pairs = a.chunks(2).zip(b.chunks(2));
@@ -201,7 +201,7 @@ fn the_example_of_the_specification_is_decoded() {
 }
 
 /// Rotates the corners of each triangle so that the smallest index comes first. If the smallest index occurs twice, the
-/// smallest rotation is chosen.
+/// lexicographically smallest rotation is chosen.
 fn rotated(triangles: &[u32]) -> Vec<[u32; 3]> {
     let triangles = triangles.as_chunks().0.iter();
     let least =
@@ -369,7 +369,7 @@ proptest! {
 
     #[test]
     fn the_lower_bound_of_the_stream_size_is_exact(stride in 1_u64..65, count in 1_u64..5000) {
-        // The shortest streams are those of zeros. If such a stream is made one byte shorter, decoding fails.
+        // The shortest streams encode zeros. Removing one byte from such a stream makes decoding fail.
         let stride = 4 * stride;
         let least = usize::try_from(attributes::shortest(count, stride)).unwrap();
         let stride = usize::try_from(stride).unwrap();

@@ -1,7 +1,7 @@
 //! Reads and writes compressed files: `model.obj.gz` is read and written like `model.obj`.
 //!
-//! The content is compressed by gzip (RFC 1952). All formats except the binary formats `.glb`, `.mws` and `.npz` can be
-//! compressed. The size of the decompressed content is limited, because a few bytes can stand for thousands.
+//! The content is compressed with gzip (RFC 1952). All formats except the binary formats `.glb`, `.mws` and `.npz` can
+//! be compressed. The size of the decompressed content is limited, because a few bytes can expand to thousands.
 
 use std::borrow::Cow;
 use std::io::{self, Read as _, Write};
@@ -20,7 +20,7 @@ pub(crate) fn is_compressed(path: &Path) -> bool {
         .is_some_and(|e| e.eq_ignore_ascii_case("gz"))
 }
 
-/// Returns the path without `.gz`. This path determines the format, the name of the object and the names of further
+/// Returns the path without `.gz`. This path determines the format, the name of the object and the names of additional
 /// files.
 pub(crate) fn plain(path: &Path) -> Cow<'_, Path> {
     if is_compressed(path) {
@@ -78,8 +78,8 @@ pub(crate) fn head(store: &dyn Store, path: &Path, most: u64) -> Result<Vec<u8>,
     Ok(out)
 }
 
-/// Compresses the bytes that `write` writes, and returns the number of compressed bytes. The header has no time and no
-/// name, so equal content gives equal bytes.
+/// Compresses the bytes that `write` writes, and returns the number of compressed bytes. The header contains neither a
+/// time nor a name, so equal content gives equal bytes.
 ///
 /// # Errors
 ///

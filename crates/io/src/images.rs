@@ -1,5 +1,5 @@
-//! Handles the images of materials. When a model is read, images are searched for beside the model. When a scene is
-//! written, images are embedded or copied.
+//! Handles the images of materials. When a model is read, images are searched for in the folder of the model. When a
+//! scene is written, images are embedded or copied.
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -24,19 +24,18 @@ use crate::{Format, WriteOptions, gzip};
 pub enum Images {
     /// Store the images in the file or, for `.gltf`, in its `.bin` file. OBJ files cannot embed images.
     Embed,
-    /// Write the images to files next to the written file. Each image keeps the path that it has in the model from
-    /// which it was read. If a different image with this path exists, the copy gets a number.
+    /// Write the images to files in the folder of the written file. Each image keeps the path that it has in the
+    /// original model. If a different image with this path exists, a number is appended to the name of the copy.
     Copy,
-    /// Write only the paths of the images, as in the model from which the images were read. Embedded images stay
-    /// embedded.
+    /// Write only the paths of the images, as in the original model. Embedded images stay embedded.
     Keep,
 }
 
-/// The largest number of different image files that a model can refer to. Further images are left out, because
+/// The largest number of different image files that a model can refer to. More images are left out, because
 /// searching for files takes time.
 const MAX_IMAGES: usize = 4096;
 
-/// Loads the image files to which the materials refer. If an image cannot be read, it stays a path, and a note is
+/// Loads the image files that the materials refer to. If an image cannot be read, its path is kept, and a note is
 /// added. `most` is the maximum total size in bytes.
 pub(crate) fn load(objects: &mut [Object], assets: &mut Assets, most: u64, notes: &mut Notes) {
     let mut known: BTreeMap<String, Option<Image>> = BTreeMap::new();
@@ -68,7 +67,7 @@ pub(crate) fn load(objects: &mut [Object], assets: &mut Assets, most: u64, notes
 }
 
 /// Adds the same notes about missing images as [`load`], without reading images. `paths` are the paths of the image
-/// files to which materials refer.
+/// files that materials refer to.
 pub(crate) fn note_missing<'p>(
     paths: impl IntoIterator<Item = &'p str>,
     assets: &mut Assets,
@@ -160,8 +159,9 @@ const KINDS: [(&str, &str); 16] = [
     ("svg", "image/svg+xml"),
 ];
 
-/// Returns the media type of an image file from its first bytes, or else from its extension. Returns `None` if the file
-/// does not seem to be an image, so that other files beside a model are never embedded or copied.
+/// Returns the media type of an image file. The type is determined from its first bytes, or from its extension if the
+/// first bytes are not known. Returns `None` if the file does not seem to be an image, so that other files are never
+/// embedded or copied.
 fn media_type(path: &Path, bytes: &[u8]) -> Option<&'static str> {
     let extension = path.extension().unwrap_or_default();
     let of_bytes = sniffed(bytes);
@@ -182,19 +182,19 @@ pub(crate) fn sniffed(bytes: &[u8]) -> Option<&'static str> {
     }
 }
 
-/// A scene in which every image is a path or is embedded, and the image files that must be written with this scene.
+/// A scene in which every image is a path or embedded, and the image files that must be written with this scene.
 pub(crate) struct Settled<'a> {
     pub(crate) scene: Cow<'a, Scene>,
     pub(crate) files: Vec<(PathBuf, Content<'static>)>,
 }
 
-/// Decides for each image of a scene whether it is embedded or copied, or only its path is written. Creates the folders
-/// of copied images.
+/// Decides for each image of a scene whether the image is embedded, the image is copied, or only its path is written.
+/// Creates the folders of copied images.
 ///
 /// # Errors
 ///
-/// If an image would be embedded in OBJ, or if a folder for images cannot be created or is outside of the folder of
-/// the file.
+/// If an image would be embedded in an OBJ file, or if a folder for images cannot be created or is outside the folder
+/// of the file.
 pub(crate) fn settle<'a>(
     store: &dyn Store,
     path: &Path,
@@ -262,7 +262,7 @@ fn new_name(path: &Path, mime: &str) -> Option<PathBuf> {
     )
 }
 
-/// The images that are written to files next to a model.
+/// The images that are written to files in the folder of a model.
 struct Copies<'a> {
     store: &'a dyn Store,
     /// The file of the model.
@@ -289,7 +289,7 @@ impl<'a> Copies<'a> {
     }
 
     /// Chooses the path of an image, relative to the folder of the model, with `/` as separator. The path is `name`,
-    /// unless another file has this path.
+    /// unless a different file already has this path.
     fn copy(&mut self, name: Option<PathBuf>, bytes: &Arc<[u8]>) -> Result<String, WriteError> {
         let first = name.unwrap_or_else(|| "image".into());
         let mut name = first.clone();
@@ -311,7 +311,7 @@ impl<'a> Copies<'a> {
         Ok(slashed(&name))
     }
 
-    /// Whether the image can have this path. If no file exists there, adds the image to the files to write.
+    /// Whether the image can have this path. If no file with this path exists, adds the image to the files to write.
     fn is_free(&mut self, name: &Path, bytes: &Arc<[u8]>) -> Result<bool, WriteError> {
         let target = folder_of(self.path).join(name);
         if self.store.exists(&target) {

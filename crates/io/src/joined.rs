@@ -13,7 +13,7 @@ use crate::writing::dense;
 /// The joined mesh of a scene.
 #[derive(Debug)]
 pub(crate) struct Joined<'a> {
-    /// The mesh without dead elements. The meshes of several objects are appended in order.
+    /// The mesh without removed elements. The meshes of several objects are appended in order.
     pub(crate) mesh: Cow<'a, Mesh>,
     /// The object name for losses, which is the name of the first object.
     pub(crate) name: String,
@@ -102,7 +102,8 @@ fn domain_lengths(mesh: &Mesh) -> [usize; 4] {
 }
 
 /// Returns the attribute columns of all meshes, joined in the order of the objects. The material indices of each object
-/// are shifted by the number of materials before it. If `tags` is set, faces get the tag of their object.
+/// are increased by the number of materials of the objects before it. If `tags` is set, each face gets the tag of its
+/// object.
 fn appended(
     objects: &[Object],
     meshes: &[Cow<Mesh>],

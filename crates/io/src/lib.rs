@@ -1,7 +1,8 @@
-//! Reading and writing OBJ, glTF, PLY, STL, OFF, COLLADA, Bezier and Meshwright scene files.
+//! Reads and writes OBJ, glTF, PLY, STL, OFF, COLLADA, Bezier and Meshwright scene files.
 //!
 //! [`read()`] reads the objects of a file, [`write()`] writes a scene to files, and [`peek()`] returns the kinds and
-//! the counts of the objects of a file without building meshes. The extension of the file name chooses the [`Format`]:
+//! the counts of the objects of a file without building meshes. The extension of the file name determines the
+//! [`Format`]:
 //!
 //! | extension | content | module |
 //! | --- | --- | --- |
@@ -15,22 +16,22 @@
 //! | `.bzc` | a Bezier curve | `bez` |
 //! | `.csv` (write only) | a table of vertices, faces or corners | `csv` |
 //! | `.npz` (write only) | the arrays of a mesh for `NumPy` | `npz` |
-//! | `.gz` after one of these, except `.glb`, `.mws` and `.npz` | the same, compressed by gzip | `gzip` |
+//! | `.gz` after one of these, except `.glb`, `.mws` and `.npz` | the same, compressed with gzip | `gzip` |
 //!
-//! Nothing is dropped silently. Content that a reader leaves out or changes is reported as a [`Note`] with a count.
-//! Content that a format cannot store is reported as a [`Loss`]. Errors have a position: the line and the column in a
-//! text, the byte offset in a binary file, or the JSON pointer in a glTF file. A path in a file must not lead out of
+//! Every loss is reported. Content that a reader leaves out or changes is reported as a [`Note`] with a count. Content
+//! that a format cannot store is reported as a [`Loss`]. Errors have a position: the line and the column in a text
+//! file, the byte offset in a binary file, or the JSON pointer in a glTF file. A path in a file must not lead out of
 //! the folder of the file. A file is written completely or not at all.
 //!
 //! Each format has a folder with the modules `read` (from bytes to polygons), `write` and `peek`. Its `mod.rs` lists
-//! how each construct of the format is converted. For example, faces of OBJ are read in `obj/statement.rs`, and faces
-//! of glTF in `gltf/primitives.rs`. All formats share these modules:
+//! how each construct of the format is converted. For example, the faces of an OBJ file are read in `obj/statement.rs`,
+//! and those of a glTF file in `gltf/primitives.rs`. All formats share these modules:
 //!
 //! | module | purpose |
 //! | --- | --- |
 //! | `text` | words and numbers of a text with their lines; `decimal` reads and writes numbers |
 //! | `fault` | errors in a file, with their positions |
-//! | `note`, `loss` | what a reader left out or changed; what a written file does not store |
+//! | `note`, `loss` | the content that a reader left out or changed; the content that a written file does not store |
 //! | `polygons`, `clean`, `weld` | building a mesh from polygons with attributes |
 //! | `joined`, `corners`, `writing` | reducing a scene to what a format can store |
 //! | `assets`, `save` | the files that a file refers to; writing files atomically |
@@ -119,22 +120,23 @@ use writing::without_marks;
 /// How to read a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ReadOptions {
-    /// The name for objects that have no name in the file, and for the only object of an `.mws` file. If `None`, such
-    /// objects get the name of the file without its extension, but the object of an `.mws` file keeps its name. In glTF
-    /// and COLLADA files, objects are named after their nodes, or else after their meshes.
+    /// The name for objects that have no name in the file, and for the only object of an `.mws` file. If `None`,
+    /// objects without a name get the name of the file without its extension, and the object of an `.mws` file keeps
+    /// its name. In glTF and COLLADA files, an object has the name of its node or, if the node has no name, of its
+    /// mesh.
     pub name: Option<String>,
-    /// How polygons that do not form a clean mesh are handled.
+    /// How to handle polygons that do not form a clean mesh.
     pub policies: Policies,
     /// How nodes place meshes. COLLADA files are always read with [`Placements::Bake`].
     pub placements: Placements,
     /// Whether reading fails if anything in the file would be left out.
     pub strict: bool,
-    /// Whether the copies of split vertices are marked. If the mesh is written to an `.obj`, `.ply` or `.off` file, the
-    /// copies are then merged, and the file has the same vertices as the file that was read. The option `keep_vertices`
-    /// is for conversions without edits.
+    /// Whether the copies of split vertices are marked. If the mesh is then written to an `.obj`, `.ply` or `.off`
+    /// file, the copies are merged, so that the file has the same vertices as the file that was read. This option is
+    /// for conversions without edits.
     pub keep_vertices: bool,
-    /// The memory budget in bytes for content whose size does not follow from the size of the file. This budget applies
-    /// to the total of all images, and to the decompressed content of a `.gz` file. Defaults to 4 GiB.
+    /// The memory budget in bytes for content whose size does not depend on the size of the file: all images together,
+    /// and the decompressed content of a `.gz` file. Defaults to 4 GiB.
     pub budget: Option<u64>,
 }
 
@@ -158,9 +160,9 @@ pub struct WriteOptions {
     /// the header of STL, as `asset.extras.meshwright` in glTF, and in the header of `.mws`. The Bezier formats
     /// and tables (`.csv`, `.npz`) cannot store it.
     pub provenance: Option<String>,
-    /// How the images of materials are written. If `None`, `.glb` files embed the images. For `.gltf` and `.obj` files,
-    /// images next to the original model are copied next to the written file. OBJ files cannot embed images, so
-    /// embedded images are also written to files.
+    /// How the images of materials are written. If `None`, images are embedded in `.glb` files. For `.gltf` and `.obj`
+    /// files, images in the folder of the original model are copied to the folder of the written file. OBJ files cannot
+    /// embed images, so embedded images are also written to files.
     pub images: Option<Images>,
     /// How to compress the geometry of glTF files. If `None`, the geometry is not compressed. Other formats are
     /// refused.
@@ -168,9 +170,9 @@ pub struct WriteOptions {
     /// How to quantize the geometry of glTF files. If `None`, numbers have 32 bits. Other formats are refused.
     pub quantization: Option<Quantization>,
     /// For glTF, the number of sets of four joints that are written for each vertex of a skinned mesh. If `None`, the
-    /// number in the file from which the mesh was read, or 1 if it was not read from a file.
+    /// number of sets in the original file of the mesh, or 1 if the mesh was not read from a file.
     pub weight_sets: Option<u32>,
-    /// The elements that a `.csv` file has rows for. If `None`, vertices. Other formats are refused.
+    /// The kind of elements of a `.csv` file. Each element has a row. If `None`, vertices. Other formats are refused.
     pub rows: Option<Rows>,
     /// Whether writing fails if the file would not store everything.
     pub strict: bool,
@@ -208,7 +210,7 @@ pub fn read(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Loa
 }
 
 /// Reads the objects of a file from its bytes. `path` determines the format, appears in errors, and locates the files
-/// to which this file refers. Here, [`Loaded::files`] lists only the referenced files, without `path` itself.
+/// that this file refers to. In this case, [`Loaded::files`] lists only the referenced files, not `path` itself.
 ///
 /// # Errors
 ///
@@ -252,8 +254,8 @@ pub fn read_bytes(
     })
 }
 
-/// Reads the polygons of a file as they are, without building meshes, for programs that need no connectivity. Curves,
-/// patches and polylines are left out. Nodes are applied as with [`Placements::Bake`].
+/// Reads the polygons of a file unchanged, without building meshes, for programs that need no connectivity. Curves,
+/// patches and polylines are left out. The placements of nodes are applied as with [`Placements::Bake`].
 ///
 /// # Errors
 ///
@@ -285,7 +287,7 @@ pub fn read_polygons(
     Ok(polygons.collect())
 }
 
-/// The content of a file as the reader of a format returns it.
+/// The content of a file, as returned by the reader of a format.
 struct Parsed {
     objects: Vec<ParsedObject>,
     graph: Graph,
@@ -298,7 +300,7 @@ impl From<Vec<ParsedObject>> for Parsed {
     }
 }
 
-/// An object as the reader of a format returns it.
+/// An object, as returned by the reader of a format.
 struct ParsedObject {
     name: String,
     shape: Shape,
@@ -352,13 +354,13 @@ fn fail_if_left_out(path: &Path, notes: &[Note]) -> Result<(), ReadError> {
     })
 }
 
-/// Returns the objects that reading a file would give, with their counts. If the file has headers, the counts come from
-/// the headers.
+/// Returns the objects that reading a file would give, with their counts. If the file has headers, the counts are taken
+/// from the headers.
 ///
-/// Also returns the content that reading would leave out, as far as it is known without reading.
+/// Also returns notes about the content that reading would leave out, as far as it is known without reading.
 ///
-/// Bezier files are checked completely. In glTF files, only the JSON is checked. OBJ files are not checked: their
-/// statements are only counted.
+/// Bezier files are checked completely. In glTF files, only the JSON is checked. OBJ files are not checked, because
+/// their statements are only counted.
 ///
 /// # Errors
 ///
@@ -417,9 +419,9 @@ pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Pee
     })
 }
 
-/// Writes a scene to a file and to the files that the format needs next to it: `a.obj` comes with `a.mtl` if there
-/// are materials, `a.gltf` with `a.bin`. Existing files with these names are replaced. Images of materials are embedded
-/// or copied according to [`WriteOptions::images`].
+/// Writes a scene to a file, and to the additional files that the format needs. A file `a.obj` comes with `a.mtl` if
+/// there are materials, and `a.gltf` comes with `a.bin`. Existing files with these names are replaced. Images of
+/// materials are embedded or copied according to [`WriteOptions::images`].
 ///
 /// # Errors
 ///
@@ -459,7 +461,7 @@ pub fn write(
     Ok(report)
 }
 
-/// Writes a scene in which the format can store all placements.
+/// Writes a scene whose placements the format can store.
 fn write_placed(
     store: &dyn Store,
     path: &Path,
@@ -516,8 +518,7 @@ fn write_placed(
     })
 }
 
-/// Whether the file can store faces that do not form a manifold, so that
-/// [`ReadOptions::keep_vertices`] has an effect.
+/// Whether the file can store a mesh that is not manifold, so that [`ReadOptions::keep_vertices`] has an effect.
 pub fn keeps_vertices(path: &Path) -> bool {
     let format = Format::from_path(path);
     matches!(format, Some(Format::Obj | Format::Ply | Format::Off))

@@ -76,13 +76,13 @@ impl<'a> Losses<'a> {
             let column = mesh.attributes().column(Domain::Vertex, name);
             column.is_some_and(|column| !is_stored(Domain::Vertex, column))
         };
-        // All attributes of joints are counted together, and so are those of morph targets.
+        // All joint attributes are counted as one loss, and all attributes of morph targets as another.
         let joints = mesh.attributes().joints().into_iter();
         let joints: BTreeSet<String> = joints.map(|(joint, _)| joint_name(joint)).collect();
         let morphs = mesh.attributes().morphs().into_iter();
         let morphs: BTreeSet<String> = morphs.map(|(target, _)| morph_name(target)).collect();
         if joints.iter().any(|name| lost(name)) {
-            let reason = format!("{format} cannot store the weights of joints");
+            let reason = format!("{format} cannot store joint weights");
             self.add(Domain::Vertex, "joint weights", mesh.n_vertices(), reason);
         }
         let n_morphs = morphs.iter().filter(|name| lost(name)).count();

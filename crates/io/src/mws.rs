@@ -1,4 +1,4 @@
-//! `.mws`: a whole Meshwright scene, bit for bit.
+//! `.mws`: a complete Meshwright scene, stored exactly.
 //!
 //! ```text
 //! MWS1            4 bytes
@@ -23,7 +23,7 @@ use crate::{
 const MAGIC: &[u8; 4] = b"MWS1";
 const HEADER: usize = MAGIC.len() + size_of::<u64>();
 
-/// Reads the scene of a file. If the file holds a single object, `name` replaces its name.
+/// Reads the scene of a file. If the file contains a single object, `name` replaces its name.
 pub(crate) fn read(
     bytes: &[u8],
     name: Option<&str>,
@@ -185,7 +185,7 @@ mod tests {
         for i in 0..whole.len() {
             let mut changed = whole.clone();
             changed[i] ^= 1 << (i % 8);
-            // If a changed file can still be decoded, its meshes are valid.
+            // If a modified file can still be decoded, its meshes are valid.
             if let Ok(scene) = scene_of(&changed, None, Placements::Keep) {
                 for mesh in scene.objects().iter().filter_map(|o| o.as_mesh()) {
                     assert_eq!(mesh.defects(), [], "byte {i}");

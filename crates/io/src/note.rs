@@ -1,4 +1,4 @@
-//! Notes: the content that reading changed or left out. Nothing is dropped silently.
+//! Notes: the content that reading changed or left out. All such content is reported.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -12,7 +12,7 @@ use mesh::{Elements, VertexId};
 pub struct Note {
     /// A stable name of the kind of note, for programs, such as `faces-reversed`.
     pub code: &'static str,
-    /// Whether the content is missing from the scene, or only has a different form.
+    /// Whether the content is missing from the scene, or has only a different form.
     pub kind: NoteKind,
     /// The file that the note is about: the requested file or a file that it refers to.
     pub path: PathBuf,
@@ -20,8 +20,8 @@ pub struct Note {
     pub line: Option<usize>,
     /// The number of elements, statements or other things that the note is about.
     pub count: usize,
-    /// The words that follow the count, in the plural, such as `statements 'vp' left out`. The words name the elements,
-    /// statements or other things, and say how the reader handled them. If the count is 1, [`Display`](fmt::Display)
+    /// The text that follows the count, in the plural, such as `statements 'vp' left out`. The text names the elements,
+    /// statements or other things, and says how the reader handled them. If the count is 1, [`Display`](fmt::Display)
     /// writes the first noun in the singular.
     pub what: String,
     /// The affected elements of the file, if they are known.
@@ -36,7 +36,7 @@ impl Note {
     pub const MAX_PLACES: usize = 10_000;
 }
 
-/// The polygons of a file, from which the positions of elements are looked up.
+/// The polygons of a file, which give the positions of elements.
 #[derive(Clone, Copy)]
 pub(crate) struct PolygonArrays<'a> {
     /// The position of each vertex.
@@ -157,8 +157,8 @@ const NOUNS: [&str; 57] = [
     "weights",
 ];
 
-/// Returns the words of a note about one thing: `1 mesh left out` instead of `1 meshes left out`. Texts that do not
-/// begin with a known plural are unchanged.
+/// Returns the text of a note about one thing: `1 mesh left out` instead of `1 meshes left out`. A text that does not
+/// begin with a known plural is unchanged.
 fn singular(what: &str) -> String {
     let mut words: Vec<String> = what.split(' ').map(str::to_owned).collect();
     let is_noun = |word: &String| NOUNS.contains(&word.as_str());
@@ -200,7 +200,7 @@ fn singular_noun(plural: &str) -> String {
     }
 }
 
-/// The maximum number of notes in the list. Further notes are only counted, because a large file can cause millions of
+/// The maximum number of notes in the list. More notes are only counted, because a large file can cause millions of
 /// notes.
 const MAX_LISTED: usize = 1000;
 
@@ -305,7 +305,7 @@ impl Notes {
         }
     }
 
-    /// Adds the notes about another file to which this file refers.
+    /// Adds the notes about another file that this file refers to.
     pub(crate) fn append(&mut self, other: Self) {
         for note in other.list {
             self.push(note);

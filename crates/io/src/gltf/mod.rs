@@ -8,31 +8,31 @@
 //!                    `- primitive
 //! ```
 //!
-//! Each mesh that a node shows becomes an object in its own space, and the nodes become the graph of the scene. The
-//! parts of a file become:
+//! Each mesh that a node references becomes an object in its own space, and the nodes become the graph of the scene.
+//! The parts of a file are converted as follows:
 //!
 //! | glTF | in the scene |
 //! | --- | --- |
-//! | a mesh of a node | an object, named after the node, or else the mesh, or else the file; names are made unique |
-//! | a mesh of several nodes | one object, named after the mesh, or else the first node, or else the file |
-//! | a node | a node of the graph, with its numbers, name, extras, camera and light; a root node without any of these is left to the writer |
-//! | the scene that `scene` refers to, or else the first | all its nodes are read; without scenes, all nodes of the file |
+//! | a mesh of a node | an object, with the name of the node; if it has none, of the mesh; if that has none, of the file; names are made unique |
+//! | a mesh of several nodes | one object, with the name of the mesh; if it has none, of the first node; if that has none, of the file |
+//! | a node | a node of the graph, with its placement, name, extras, camera and light; a root node without any of these is left out, because the writer adds it again |
+//! | the scene that `scene` refers to, or the first scene | all nodes of this scene are read; if the file has no scenes, all nodes of the file |
 //! | triangles, strips and fans, with or without indices | triangles |
 //! | points, lines | left out, with a note |
 //! | `POSITION` | positions; vertices at exactly the same position are merged if their weights and deltas agree |
 //! | `NORMAL` | vertex attribute `normal` if the corners of each vertex agree, otherwise corner attribute |
 //! | `TANGENT` | corner attribute `tangent` with four numbers |
-//! | `TEXCOORD_0`, `TEXCOORD_n` | corner attributes `uv` and `uvn`, with v replaced by 1 - v, because v points upwards in the scene |
+//! | `TEXCOORD_0`, `TEXCOORD_n` | corner attributes `uv` and `uvn`, with v replaced by 1 - v, because v points up in the scene |
 //! | `COLOR_0` | vertex or corner attribute `color`; alpha defaults to 1 |
 //! | `_NAME` | vertex or corner attribute `NAME` with 1 to 4 floats |
-//! | `JOINTS_n`, `WEIGHTS_n` | for each joint that is used, a vertex attribute [`mesh::joint_name`] with its weights |
+//! | `JOINTS_n`, `WEIGHTS_n` | for each used joint, a vertex attribute [`mesh::joint_name`] with its weights |
 //! | `POSITION` of a morph target | a vertex attribute [`mesh::morph_name`] with the deltas |
 //! | skins, animations | kept in the graph; the numbers are rounded to 32 bits |
 //! | `COLOR_1`, `NORMAL` and `TANGENT` of morph targets | left out, with a note |
-//! | `material` | face attribute `material` and the object's materials |
+//! | `material` | face attribute `material`, and materials of the object |
 //! | textures, samplers, images | textures of the materials: the path of an image file, or the bytes of an image |
-//! | cameras, lights | kept in the graph as they are |
-//! | `asset.copyright`, the name of the scene, `extras` of the asset, the scene and the document | kept in the graph as they are |
+//! | cameras, lights | kept in the graph unchanged |
+//! | `asset.copyright`, the name of the scene, `extras` of the asset, the scene and the document | kept in the graph unchanged |
 //! | other `extras` | left out, with a note |
 //! | other scenes | left out, with a note |
 //!
@@ -56,29 +56,29 @@
 //! | other required extensions | the file is refused |
 //! | other optional extensions | left out, with a note |
 //!
-//! The writer uses the same table in the other direction. glTF has a vertex for each side of a seam. So the writer
-//! splits vertices whose corners differ, and the reader merges them again. There is one primitive for each material.
-//! Writing a scene and reading it again preserves the scene, except that
+//! The writer uses the same table in the other direction. glTF has a separate vertex for each side of a seam.
+//! Therefore, the writer splits vertices whose corners differ, and the reader merges them again. There is one primitive
+//! for each material. Writing a scene and reading it again preserves the scene, with these exceptions:
 //!
-//! - numbers are rounded to 32 bits: if a position exceeds their range, the scene is refused; other values become 0,
+//! - numbers are rounded to 32 bits; the scene is refused if a position exceeds their range, and other values become 0,
 //! - polygons are triangulated,
 //! - faces are ordered by material,
 //! - vertices at exactly the same position are merged, unless their weights or deltas differ,
-//! - each vertex has at most four joints, or as many as in the file that was read,
+//! - each vertex has at most four joints, or at most as many as in the file that was read,
 //! - normals are normalized, and colors are clamped to 0 to 1,
-//! - isolated vertices, empty meshes, tangents of vertices, tangents without normals, integers, tags, texture
-//!   coordinates after a gap in their numbers, and attributes of edges and faces (except `material`) are lost.
+//! - isolated vertices, empty meshes, vertex tangents, tangents without normals, integers, tags, sets of texture
+//!   coordinates after a gap in their numbering, and attributes of edges and faces (except `material`) are lost.
 //!
 //! If [`WriteOptions`](crate::WriteOptions) asks for it, arrays are quantized (`quantize`) and compressed (`compress`).
 //!
-//! Lost content is reported as a [`Loss`](crate::Loss), and content that is left out or changed as a
-//! [`Note`](crate::Note).
+//! Every loss is reported as a [`Loss`](crate::Loss), and content that the reader leaves out or changes is reported as
+//! a [`Note`](crate::Note).
 //!
-//! A file can repeat content, such as a mesh that several nodes show, but the memory that a file can use is limited to
-//! 64 times its size, or 16 MiB if that is more.
+//! A file can repeat content, such as a mesh that several nodes reference, but the memory that a file can use is
+//! limited to 64 times its size, or to 16 MiB if that is more.
 //!
 //! Each part of the JSON is deserialized separately into the types of `gltf_json`. Therefore an error has the JSON
-//! pointer of its part, and errors in parts that are not read do not matter.
+//! pointer of its part, and errors in parts that are not read are ignored.
 
 mod accessor;
 mod budget;

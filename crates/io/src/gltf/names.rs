@@ -39,7 +39,7 @@ fn is_reserved(name: &str) -> bool {
     name.is_empty() || is_rig || known.split(' ').any(|one| one == name) || uv_set(name).is_some()
 }
 
-/// Returns the number of the set of texture coordinates with this name: 0 for `uv`, 1 for `uv1`, and so on.
+/// Returns the index of the set of texture coordinates with this name: 0 for `uv`, 1 for `uv1`, and so on.
 pub(super) fn uv_set(name: &str) -> Option<u32> {
     let digits = name.strip_prefix("uv")?;
     if digits.is_empty() {

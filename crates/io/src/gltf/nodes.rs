@@ -1,4 +1,4 @@
-//! Finds the meshes that the nodes of a glTF scene show, with their placements and names.
+//! Finds the meshes that the nodes of a glTF scene reference, with their placements and names.
 
 use std::collections::BTreeMap;
 
@@ -20,13 +20,13 @@ pub(super) struct PlacedMesh {
     /// The name of the object.
     pub(super) name: String,
     pub(super) mesh: usize,
-    /// The transform of the points. This transform is the identity if nodes place the object.
+    /// The transform that is applied to the points. It is the identity if nodes place the object.
     pub(super) to_scene: DAffine3,
     /// The node of the file whose skin and morph weights are applied to the points.
     pub(super) posed_by: Option<usize>,
-    /// The number of nodes that show the object.
+    /// The number of nodes that reference the object.
     pub(super) instances: u64,
-    /// The skin of the first node that shows the object, unless the skin is applied to the points.
+    /// The skin of the first node that references the object, unless the skin is applied to the points.
     pub(super) skin: Option<usize>,
 }
 
@@ -46,7 +46,7 @@ pub(super) struct PlacedNodes {
 struct SceneNode {
     /// The index in the file.
     index: usize,
-    /// The position of the parent in the list of nodes.
+    /// The index of the parent in the list of scene nodes.
     parent: Option<usize>,
     placement: Placement,
     to_scene: DAffine3,
@@ -103,7 +103,7 @@ fn note_left_out(document: &Document, notes: &mut Notes) {
     notes.left_out("lights", lights, None, "lights left out");
     let what = "animations left out";
     notes.left_out("animations", document.animations.len(), None, what);
-    let what = "skins left out, after the meshes are posed by the joints";
+    let what = "skins left out: the meshes have the pose of the joints";
     notes.left_out("skins", document.skins.len(), None, what);
 }
 
@@ -190,8 +190,8 @@ fn baked(
     Ok(placed)
 }
 
-/// Returns an object for each mesh that nodes show, in the order of the meshes. If only one node shows a mesh, the
-/// object is named after the node.
+/// Returns an object for each mesh that nodes reference, in the order of the meshes. If only one node references a
+/// mesh, the object gets the name of the node.
 fn shared(
     document: &Document,
     nodes: &[SceneNode],
@@ -200,7 +200,7 @@ fn shared(
     names: &mut Names,
     notes: &mut Notes,
 ) -> Result<Vec<PlacedMesh>, Fault> {
-    // For each mesh, the first node that shows it, and the number of nodes that show it.
+    // For each mesh, the first node that references it, and the number of such nodes.
     let mut uses: BTreeMap<usize, (usize, u64)> = BTreeMap::new();
     for node in nodes {
         if let Some(mesh) = document.nodes[node.index].mesh {
@@ -227,8 +227,8 @@ fn shared(
     Ok(placed)
 }
 
-/// Returns the graph of the scene, without the nodes that the writer adds by itself. Also returns the index in the
-/// graph of each node of the file.
+/// Returns the graph of the scene, without the nodes that the writer adds automatically. Also returns, for each node of
+/// the file, its index in the graph.
 fn graph(
     document: &Document,
     nodes: &[SceneNode],
@@ -300,7 +300,7 @@ fn text(json: &Json) -> String {
     Value::Object(json.clone()).to_string()
 }
 
-/// Whether a node is like the node that the writer adds for an object without nodes.
+/// Whether a node equals the node that the writer adds for an object without nodes.
 fn is_plain(node: &SceneNode, json: &NodeJson, object: &PlacedMesh) -> bool {
     node.parent.is_none()
         && json.children.is_empty()

@@ -1,4 +1,4 @@
-//! Writes the parts of the buffer and the container of a GLB file.
+//! Writes the parts of a buffer, and the container of a GLB file.
 
 use crate::error::Unwritable;
 

@@ -53,7 +53,7 @@ impl<'a> PreparedObject<'a> {
             note_changed(stream, mesh, &split, losses);
         }
         let isolated = mesh.n_isolated_vertices();
-        let reason = "isolated vertices, but only triangles are written to glTF";
+        let reason = "isolated vertices: only triangles are written to glTF";
         losses.add(Domain::Vertex, "position", isolated, reason);
         let reason = "coincident vertices, which readers of glTF merge";
         let merged = if deformation.is_none() {

@@ -21,16 +21,16 @@ use crate::fault::Fault;
 use crate::note::Notes;
 use crate::parallel;
 
-/// The cost in bytes of looking for an attribute that a primitive does not have. The cost of missing attributes limits
-/// time rather than memory.
+/// The cost in bytes of searching for an attribute that a primitive does not have. The cost of missing attributes
+/// limits time rather than memory.
 const SMALL: u64 = 16;
 
 /// All primitives of a mesh. A vertex on a seam is stored once for each side of the seam, as in glTF.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Triangles {
     pub(super) positions: Vec<DVec3>,
-    /// Corner attributes with one value for each vertex, and the vertex attributes that deform the mesh. The v
-    /// coordinate of textures points upwards.
+    /// Corner attributes with one value for each vertex, and the vertex attributes that deform the mesh. In texture
+    /// coordinates, v points up.
     pub(super) attributes: Attributes,
     /// Three corners for each triangle.
     pub(super) corners: Vec<u32>,
@@ -38,7 +38,7 @@ pub(super) struct Triangles {
     pub(super) materials: Vec<Option<usize>>,
 }
 
-/// Reads the primitives of mesh number `index`.
+/// Reads the primitives of the mesh with this index.
 ///
 /// # Errors
 ///
@@ -230,7 +230,7 @@ impl Triangles {
             let what = "the weights of joints and the morph targets of all primitives need too much memory";
             return Err(Fault::json(here.to_owned(), what));
         }
-        // If only other primitives have an attribute, its values are zero at the vertices of this primitive.
+        // If this primitive does not have an attribute of another primitive, its values are zero at the new vertices.
         for column in self.attributes.of(Domain::Corner) {
             if own.column(Domain::Corner, &column.name).is_none() {
                 let zeros = n * column.values.bytes_per_value();
@@ -297,7 +297,7 @@ fn read_column(
     Ok(Some(Column { name, rule, values }))
 }
 
-/// Returns the corners of the triangles of a primitive, as indices of vertices of the primitive.
+/// Returns the corners of the triangles of a primitive, as vertex indices within the primitive.
 fn corners(
     reader: &Reader,
     primitive: &Primitive,
@@ -332,7 +332,7 @@ fn corners(
                 0 => [w[0], w[1], w[2]],
                 _ => [w[0], w[2], w[1]],
             };
-            // Parts of a strip are connected by triangles without area.
+            // The parts of a strip are connected by degenerate triangles.
             let has_area = |[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
             let triangles = order.windows(3).enumerate().map(triangle);
             triangles.filter(has_area).flatten().collect()

@@ -1,17 +1,17 @@
 //! Writes quantized attributes, which are integers instead of floats (`KHR_mesh_quantization`).
 //!
 //! ```text
-//! node of the scene        name, placement, children, extras, ...: as without quantization
-//!  `- node of the grid     mesh, translation, scale
+//! node of the scene        name, placement, children, extras, ...: the same as without quantization
+//!  `- grid node             mesh, translation, scale
 //! ```
 //!
-//! The positions of an object are rounded to points of a grid. An additional node, the node of the grid, has the mesh
-//! and maps the grid to the space of the object. The node of the grid is a child of each node that shows the object, so
-//! the other nodes do not change. If no node shows the object, only the node of the grid is written. The scale of the
-//! grid is the same along all axes, so normals keep their directions.
+//! The positions of an object are rounded to points of a grid. An additional node, the grid node, has the mesh and maps
+//! the grid to the space of the object. The grid node is a child of each node that references the object, so the other
+//! nodes do not change. If no node references the object, only the grid node is written. The scale of the grid is the
+//! same along all axes, so normals keep their directions.
 //!
-//! Normals are rounded on an octahedron, in the same way as by the filter of compressed files. Therefore compressing a
-//! quantized file does not change its content.
+//! Normals are rounded on an octahedron, in the same way as by the filter for compressed files. Therefore, compressing
+//! a quantized file does not change its content.
 #![expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -37,7 +37,7 @@ use crate::{parallel, weld};
 /// The name of the extension.
 pub(super) const QUANTIZATION: &str = "KHR_mesh_quantization";
 
-/// Quantizes attributes, and collects the data for the report.
+/// Quantizes attributes, and collects data for the report.
 #[derive(Default)]
 pub(super) struct Quantizer<'a> {
     options: Option<Quantization>,
@@ -164,7 +164,7 @@ impl<'a> Quantizer<'a> {
                     (0.0..=1.0).contains(&x) && (0.0..=1.0).contains(&y)
                 });
                 if !is_inside {
-                    let reason = "coordinates are outside of the range from 0 to 1".to_owned();
+                    let reason = "coordinates are outside the range from 0 to 1".to_owned();
                     let name = prepared.object.name.clone();
                     let what = (name, stream.column.name.clone(), reason);
                     self.report.unquantized.push(what);
@@ -178,7 +178,7 @@ impl<'a> Quantizer<'a> {
         }
     }
 
-    /// Rounds unit vectors on an octahedron. A fourth number is kept.
+    /// Rounds unit vectors on an octahedron. A fourth component is kept.
     fn directions(&mut self, prepared: &PreparedObject, stream: &Stream, bits: Bits) -> Integers {
         let PreparedObject { mesh, split, .. } = prepared;
         let filter = Filter::Octahedral;
@@ -238,8 +238,8 @@ impl<'a> Quantizer<'a> {
         }
     }
 
-    /// Moves the meshes of quantized objects into nodes for their grids. `nodes` begins with the nodes of the graph.
-    /// Each of the other nodes shows one object.
+    /// Moves the meshes of quantized objects to grid nodes. `nodes` begins with the nodes of the graph. Each of the
+    /// other nodes references one object.
     pub(super) fn place(&mut self, graph: &Graph, nodes: &mut Vec<Value>) {
         let identity = DAffine3::IDENTITY;
         let maps = graph.to_scene();
@@ -269,8 +269,8 @@ impl<'a> Quantizer<'a> {
             });
             let index = nodes.len();
             if let Value::Array(children) = &mut nodes[i]["children"] {
-                // The node of the grid is the first child, so that readers find the objects in the same order as
-                // without quantization.
+                // The grid node is the first child, so that readers find the objects in the same order as without
+                // quantization.
                 children.insert(0, index.into());
             }
             nodes.push(child);
@@ -405,9 +405,9 @@ fn octahedral(v: DVec3, bits: Bits) -> [i16; 3] {
     [x, y, 1.0].map(|x| (x * f64::from(one)).round() as i16)
 }
 
-/// Returns an upper bound for the factor by which a map stretches lengths. The bound is exact for a rotation with a
-/// scale for each axis. The bound follows from the fact that the largest eigenvalue of a matrix is at most the largest
-/// sum of absolute values in a row.
+/// Returns an upper bound for the factor by which a map stretches lengths. The bound is exact for a rotation combined
+/// with a scale for each axis. It is based on the largest sum of absolute values in a row, which is an upper bound for
+/// the largest eigenvalue of a matrix.
 fn stretch(map: &DAffine3) -> f64 {
     let m = map.matrix3;
     let square = m.transpose() * m;

@@ -25,7 +25,7 @@ use crate::note::Notes;
 use crate::text::{BYTE_ORDER_MARK, TextPosition};
 use crate::{Parsed, ParsedObject, Placements, Polygons, Shape, parallel, weld};
 
-/// Reads the objects of a glTF file from its bytes and from the buffers next to it.
+/// Reads the objects of a glTF file from its bytes and from separate buffer files.
 ///
 /// # Errors
 ///
@@ -127,7 +127,7 @@ fn objects(
     Ok(Parsed { objects, graph })
 }
 
-/// Returns the pose in which a mesh is read, or `None` if nodes place and deform the mesh.
+/// Returns the pose that is applied to a mesh, or `None` if nodes place and deform the mesh.
 ///
 /// # Errors
 ///
@@ -154,7 +154,7 @@ fn pose(
         return Ok(Some(pose));
     };
     let joints = skin.joints.iter().map(|&joint| nodes.to_scene[joint]);
-    // If a joint is outside of the scene, the skin has no effect.
+    // If a joint is not in the scene, the skin has no effect.
     let Some(joints) = joints.collect::<Option<Vec<_>>>() else {
         return Ok(Some(pose));
     };
@@ -185,8 +185,8 @@ pub(super) fn parse(json: &[u8]) -> Result<Value, Fault> {
     })
 }
 
-/// Returns the materials that the triangles use, in the order of the document. Also returns the index in this list of
-/// each material of the document.
+/// Returns the materials that the triangles use, in the order of the document. Also returns, for each material of the
+/// document, its index in this list.
 fn used_materials(
     materials: &mut Materials,
     triangles: &Triangles,
@@ -212,8 +212,8 @@ fn cost_of_material(material: &Material) -> usize {
     size_of::<Material>() + material.name.len() + paths.map(str::len).sum::<usize>()
 }
 
-/// Builds polygons from a mesh. Vertices along the seams of glTF are merged. If the pose has joints, the joints place
-/// the polygons. Otherwise, `to_scene` places them.
+/// Builds polygons from a mesh. Vertices along seams are merged. If the pose has joints, the joints place the polygons.
+/// Otherwise, `to_scene` places them.
 fn polygons(
     triangles: Triangles,
     places: &BTreeMap<usize, i32>,

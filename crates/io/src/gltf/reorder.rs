@@ -1,5 +1,5 @@
-//! Orders triangles and vertices so that a compressed file is small. Each triangle follows its neighbors, and vertices
-//! are numbered in the order of their first use.
+//! Orders triangles and vertices to make a compressed file small. Each triangle follows its neighbors, and vertices are
+//! in the order of their first use.
 //!
 //! Source: Sander, Nehab, Barczak, "Fast Triangle Reordering for Vertex Locality and Reduced Overdraw", 2007. The order
 //! consists of fans: all remaining triangles around one vertex, then all remaining triangles around the next vertex,
@@ -12,7 +12,7 @@ use mesh::Mesh;
 use super::faces::{Faces, all_corners};
 use super::split::Split;
 
-/// The number of vertices that count as recent. The codec remembers about the same number of vertices and edges.
+/// The number of vertices that count as recent. The codec stores about the same number of recent vertices and edges.
 const RECENT: usize = 16;
 
 /// Orders the triangles of each material, then the vertices.
@@ -71,8 +71,8 @@ fn triangles_in_fans(corners: &[u32], n_vertices: usize) -> Vec<u32> {
             if left[c] == 0 {
                 continue;
             }
-            // Chooses the oldest vertex that is still recent after its fan. Each triangle of a fan adds about two
-            // vertices.
+            // Chooses the oldest vertex that is still recent after its fan is complete. Each triangle of a fan adds
+            // about two vertices.
             let age = time - last_use[c];
             let priority = if age + 2 * left[c] as usize <= RECENT {
                 age
@@ -181,7 +181,7 @@ mod tests {
                 cache.truncate(16);
             }
         }
-        // In a perfect order, the number of misses is half the number of triangles.
+        // In an optimal order, the number of misses is half the number of triangles.
         assert!(misses < 2 * n * n * 3 / 4, "{misses}");
     }
 }

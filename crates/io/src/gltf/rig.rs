@@ -12,7 +12,7 @@ use super::views::Reader;
 use crate::fault::Fault;
 use crate::note::Notes;
 
-/// Checks that the parts of skins and animations exist.
+/// Checks that all parts that skins and animations refer to exist.
 ///
 /// # Errors
 ///
@@ -80,8 +80,8 @@ pub(super) fn referenced(document: &Document) -> Vec<bool> {
 /// Reads arrays of numbers. Each accessor is read only once.
 pub(super) struct RigReader<'a, 'r> {
     pub(super) reader: &'a Reader<'r>,
-    /// The index of the array of each accessor. The key is the index of the accessor and the number of numbers in an
-    /// element.
+    /// For each accessor that was read, the index of its array. The key is the index of the accessor and the number of
+    /// components of an element.
     known: BTreeMap<(usize, usize), usize>,
     arrays: Vec<Vec<f32>>,
 }
@@ -95,7 +95,7 @@ impl<'a, 'r> RigReader<'a, 'r> {
         }
     }
 
-    /// Reads the skins and animations into the graph. Nodes get their indices in the graph.
+    /// Reads the skins and animations into the graph. Indices of nodes become indices in the graph.
     ///
     /// # Errors
     ///
@@ -119,7 +119,7 @@ impl<'a, 'r> RigReader<'a, 'r> {
                 extras: json.extras.as_ref().map(ToString::to_string),
             });
         }
-        // A skin with a joint outside of the scene is left out.
+        // A skin is left out if one of its joints is not in the scene.
         let complete: Vec<bool> = (document.skins.iter())
             .map(|skin| skin.joints.iter().all(|&node| nodes.places[node].is_some()))
             .collect();

@@ -9,28 +9,28 @@ use super::streams::Stream;
 use crate::loss::Losses;
 use crate::parallel::{self, BLOCK};
 
-/// The maximum number of comparisons for a corner. A corner is compared with the other corners around its vertex, the
-/// latest first. With this limit, the time for a vertex with a million corners stays linear. If a vertex has more
-/// distinct corners, equal corners can become two vertices.
+/// The maximum number of comparisons for a corner. A corner is compared with the other corners around its vertex,
+/// beginning with the latest one. This limit keeps the time for a vertex with a million corners linear. If a vertex has
+/// more distinct corners, equal corners can become different vertices.
 const MAX_COMPARED: usize = 64;
 
-/// The vertices of glTF. Unless they are reordered, vertices of glTF are in the order of the vertices of the mesh.
+/// The glTF vertices. By default, they are in the order of the vertices of the mesh.
 pub(super) struct Split {
     /// The number of vertices.
     pub(super) n: usize,
-    /// The splits; `None` if the vertices are those of the mesh.
+    /// The splits. `None` if the glTF vertices are the vertices of the mesh.
     seams: Option<Seams>,
 }
 
 struct Seams {
-    /// For each vertex of glTF, a corner that has the values of this vertex.
+    /// For each glTF vertex, a corner that has the values of this vertex.
     corners: Vec<u32>,
-    /// For each half-edge with a face, the vertex of glTF at its corner.
+    /// For each half-edge with a face, the glTF vertex at its corner.
     vertex_of: Vec<u32>,
 }
 
 impl Split {
-    /// The vertex of the mesh from which vertex `i` of glTF was made, and one of its corners.
+    /// The mesh vertex that the glTF vertex `i` was made from, and one of its corners.
     pub(super) fn corner(&self, mesh: &Mesh, i: usize) -> (VertexId, HalfEdgeId) {
         if let Some(seams) = &self.seams {
             let h = HalfEdgeId::new(seams.corners[i] as usize);
@@ -42,7 +42,7 @@ impl Split {
         (v, corners.next().unwrap_or(HalfEdgeId::new(0)))
     }
 
-    /// The vertex of the mesh from which vertex `i` of glTF was made.
+    /// The mesh vertex that the glTF vertex `i` was made from.
     pub(super) fn vertex(&self, mesh: &Mesh, i: usize) -> VertexId {
         match &self.seams {
             Some(seams) => mesh.origin(HalfEdgeId::new(seams.corners[i] as usize)),
@@ -68,7 +68,7 @@ impl Split {
         self.seams = Some(Seams { corners, vertex_of });
     }
 
-    /// The vertex of glTF at the corner of a half-edge with a face.
+    /// The glTF vertex at the corner of a half-edge with a face.
     pub(super) fn vertex_of(&self, mesh: &Mesh, h: HalfEdgeId) -> u32 {
         match &self.seams {
             Some(seams) => seams.vertex_of[h.index()],
@@ -77,7 +77,7 @@ impl Split {
     }
 }
 
-/// Adds losses for the written values that differ from the values of the mesh.
+/// Adds losses for the values that are written differently from the values of the mesh.
 pub(super) fn note_changed(stream: &Stream, mesh: &Mesh, split: &Split, losses: &mut Losses) {
     let changed = parallel::count(split.n, |i| {
         let (v, h) = split.corner(mesh, i);
@@ -96,7 +96,7 @@ pub(super) fn split(mesh: &Mesh, streams: &[Stream]) -> Split {
     }
     let vertex_of: Vec<AtomicU32> = mesh::zeroed(mesh.n_half_edges());
     let m = seams.len();
-    // In each block, the vertices are first numbered from 0. Later, the offset of the block is added to the numbers.
+    // In each block, the indices of vertices first start at 0. The offset of the block is added to the indices later.
     let blocks = parallel::blocks(n, |vertices| {
         let mut corners = Vec::with_capacity(BLOCK);
         let (mut values, mut own) = (Vec::new(), Vec::new());
@@ -144,7 +144,7 @@ fn same(a: &[[f32; 4]], b: &[[f32; 4]]) -> bool {
     pairs.all(|(a, b)| a.to_bits() == b.to_bits())
 }
 
-/// Converts the index of a vertex or half-edge, which is less than 2^32.
+/// Converts the index of a vertex or half-edge. The index is less than 2^32.
 fn number(i: usize) -> u32 {
     u32::try_from(i).unwrap_or(u32::MAX)
 }

@@ -1,4 +1,4 @@
-//! The vertex attributes of glTF: normals, texture coordinates, colors and custom attributes.
+//! The glTF vertex attributes: normals, texture coordinates, colors and custom attributes.
 
 use glam::DVec3;
 use gltf_json::accessor::Type;
@@ -9,7 +9,7 @@ use super::names::{custom_semantic, uv_set};
 use crate::loss::Losses;
 
 /// An attribute of a mesh in the form that glTF requires. Numbers have 32 bits, normals have length 1, the v coordinate
-/// points downwards, and colors are from 0 to 1.
+/// points down, and colors are from 0 to 1.
 pub(super) struct Stream<'a> {
     pub(super) semantic: Semantic,
     pub(super) kind: Type,
@@ -30,7 +30,7 @@ enum Meaning {
 /// Returns the streams of a mesh. Adds losses for all other attributes.
 pub(super) fn streams<'a>(mesh: &'a Mesh, losses: &mut Losses) -> Vec<Stream<'a>> {
     let mut streams: Vec<Stream> = Vec::new();
-    // In glTF, the sets of texture coordinates are numbered from 0, without gaps.
+    // In glTF, the indices of the sets of texture coordinates start at 0 and have no gaps.
     let is_uv = |set: u32| {
         let mut columns = mesh.attributes().of(Domain::Corner).iter();
         let is_it =
@@ -68,7 +68,7 @@ pub(super) fn streams<'a>(mesh: &'a Mesh, losses: &mut Losses) -> Vec<Stream<'a>
     streams
 }
 
-/// Whether a column has the weights of a joint or the deltas of a morph target, which are written separately.
+/// Whether a column has the weights of a joint or the deltas of a morph target, both of which are written separately.
 fn is_deformer(domain: Domain, column: &Column) -> bool {
     let is_joint = matches!(column.values, Values::Float(_)) && joint_of(&column.name).is_some();
     let is_morph = matches!(column.values, Values::Vec3(_)) && morph_of(&column.name).is_some();
@@ -105,8 +105,8 @@ fn stream(domain: Domain, column: &Column, n_uvs: u32) -> Option<Stream<'_>> {
 }
 
 impl Stream<'_> {
-    /// Returns the value at a corner, and whether it equals the value of the mesh. The value has as many numbers as the
-    /// kind of the stream.
+    /// Returns the value at a corner, and whether it equals the value of the mesh. The value has as many components as
+    /// the kind of the stream requires.
     pub(super) fn at(&self, mesh: &Mesh, v: VertexId, h: HalfEdgeId) -> ([f32; 4], bool) {
         let i = match self.domain {
             Domain::Vertex => v.index(),
@@ -147,9 +147,9 @@ impl Stream<'_> {
     /// Describes how values that glTF does not allow are changed, for a loss.
     pub(super) fn change(&self) -> &'static str {
         match self.meaning {
-            Meaning::Normal => "without a direction, so written as the normal of the face",
-            Meaning::Tangent => "without a direction, or with an invalid sign, so changed",
-            Meaning::Color => "outside of the range from 0 to 1, so clamped",
+            Meaning::Normal => "zero or not finite, so replaced by the normal of the face",
+            Meaning::Tangent => "zero, not finite, or with an invalid sign, so changed",
+            Meaning::Color => "outside the range from 0 to 1, so clamped",
             Meaning::Uv | Meaning::Custom => "not finite when rounded to 32 bits, so written as 0",
         }
     }
@@ -167,8 +167,8 @@ fn narrow(value: [f64; 4], good: bool) -> ([f32; 4], bool) {
     (narrow.map(|x| if x.is_finite() { x } else { 0.0 }), false)
 }
 
-/// Normalizes a vector, if it has a direction. A unit vector of 32 bits is returned unchanged. The length of such a
-/// vector is not exactly 1, so normalizing it would change it slightly each time it is written.
+/// Normalizes a vector. Returns `None` if it has no direction. A 32-bit unit vector is returned unchanged, because its
+/// length is not exactly 1: normalizing it would change it slightly each time it is written.
 fn unit(v: DVec3) -> Option<DVec3> {
     const ROUNDING: f64 = 1e-6;
     if (v.length_squared() - 1.0).abs() < ROUNDING {

@@ -1,7 +1,7 @@
-//! Materials, textures, samplers and images as types for the JSON of glTF.
+//! The types for the JSON of materials, textures, samplers and images in glTF.
 //!
-//! Reading and writing share these types. A member that is `None` is missing in the document. `gltf_json` has its
-//! own types, but they cannot store the transform of normal and occlusion textures.
+//! The reader and the writer share these types. A member that is `None` is missing in the document. The types in
+//! `gltf_json` cannot be used, because they cannot store the transform of normal and occlusion textures.
 
 use std::collections::BTreeMap;
 
@@ -99,8 +99,8 @@ pub(super) struct ImageJson {
 
 type Filters = (Option<Filter>, Option<Filter>);
 
-/// The number of each texture filter in glTF, with the filter between mipmap levels. Only the first two filters are
-/// valid for magnification.
+/// The code of each texture filter in glTF, with the filter between mipmap levels. Only the first two filters are valid
+/// for magnification.
 pub(super) const FILTERS: [(u32, Filters); 6] = [
     (9728, (Some(Filter::Nearest), None)),
     (9729, (Some(Filter::Linear), None)),
@@ -110,7 +110,7 @@ pub(super) const FILTERS: [(u32, Filters); 6] = [
     (9987, (Some(Filter::Linear), Some(Filter::Linear))),
 ];
 
-/// The number of each wrap mode in glTF. The first mode is the default.
+/// The code of each wrap mode in glTF. The first mode is the default.
 pub(super) const WRAPS: [(u32, Wrap); 3] = [
     (10497, Wrap::Repeat),
     (33648, Wrap::Mirror),

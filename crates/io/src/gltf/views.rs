@@ -1,4 +1,4 @@
-//! Reads buffer views, which are parts of the buffers and can be compressed, and the elements in them.
+//! Reads buffer views and their elements. A buffer view is a part of a buffer and can be compressed.
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -64,8 +64,8 @@ impl Reader<'_> {
         Ok(slot.get_or_init(|| decoded))
     }
 
-    /// Returns `length` bytes of a buffer, from byte `start` on. `at` is the location of the object that declares this
-    /// range.
+    /// Returns `length` bytes of a buffer, beginning at byte `start`. `at` is the location of the object that declares
+    /// this range.
     fn part(&self, buffer: usize, start: u64, length: u64, at: &str) -> Result<&[u8], Fault> {
         let bytes = get(self.buffers, buffer, format_args!("{at}/buffer"), "buffer")?;
         let range = || {
@@ -122,7 +122,7 @@ impl Reader<'_> {
     }
 }
 
-/// Rows of bytes, which have the same size and a constant stride. The last row does not need a full stride.
+/// Rows of bytes. All rows have the same size, and the stride is constant. The last row does not need a full stride.
 #[derive(Clone, Copy)]
 pub(super) struct Rows<'a> {
     pub(super) bytes: &'a [u8],

@@ -17,15 +17,15 @@ pub(super) struct Deformation<'a> {
     pub(super) sets: usize,
     /// For each vertex of the mesh, four joints for each set. Joints with larger weights come first.
     joints: Vec<u16>,
-    /// The weights of `joints`, which add up to 1 at each vertex.
+    /// The weights of `joints`. At each vertex, the weights add up to 1.
     weights: Vec<f32>,
     /// The deltas of each morph target. `None` if all deltas of the target are 0.
     pub(super) morphs: Vec<Option<&'a [DVec3]>>,
 }
 
 impl<'a> Deformation<'a> {
-    /// Determines the content to write, and adds losses for the other content. If `sets` is given, it replaces the
-    /// number of sets in the file from which the object was read.
+    /// Determines the content to write, and adds losses for the other content. `sets`, if given, replaces the number of
+    /// sets in the original file of the object.
     pub(super) fn new(
         object: &Object,
         mesh: &'a Mesh,
@@ -44,7 +44,7 @@ impl<'a> Deformation<'a> {
         let columns = mesh.attributes().joints();
         let n = mesh.n_vertices();
         let Some(n_joints) = n_joints else {
-            let reason = "no node shows the object with a skin";
+            let reason = "no node with a skin references the object";
             let n = if columns.is_empty() { 0 } else { n };
             losses.add(Domain::Vertex, "joint weights", n, reason);
             return deformation;
@@ -61,7 +61,7 @@ impl<'a> Deformation<'a> {
             reason,
         );
         if known.is_empty() {
-            let reason = "the mesh has no weights of joints, so it is written without its skin";
+            let reason = "the mesh has no joint weights, so it is written without its skin";
             losses.add(None, "skins", 1, reason);
             return deformation;
         }
@@ -143,8 +143,8 @@ impl<'a> Deformation<'a> {
         self.sets == 0 && self.morphs.is_empty()
     }
 
-    /// Compares the data that is written for two vertices of the mesh. The reader merges vertices only if these data
-    /// are equal.
+    /// Compares the data that is written for two vertices of the mesh. The reader merges the vertices only if the data
+    /// is equal.
     pub(super) fn compare(&self, a: usize, b: usize) -> Ordering {
         let row = |v: usize| 4 * v * self.sets..4 * (v + 1) * self.sets;
         let by_joints = self.joints[row(a)].cmp(&self.joints[row(b)]);
@@ -208,8 +208,8 @@ impl Bound {
     }
 }
 
-/// Returns the morph targets of an object. The number of morph targets is the number of weights in the label of the
-/// object or, if that is greater, the number of targets of the mesh.
+/// Returns the morph targets of an object. Their number is the number of weights in the label of the object, or the
+/// number of targets of the mesh if that is greater.
 fn morphs<'a>(
     object: &Object,
     mesh: &'a Mesh,
@@ -226,8 +226,8 @@ fn morphs<'a>(
         losses.add(None, "morph targets", in_file, reason);
         return Vec::new();
     };
-    // The number of targets is limited, so that a single attribute with a large number in its name does not lead to
-    // many targets.
+    // The number of targets is limited. Otherwise, a single attribute with a large number in its name would give many
+    // targets.
     let n = last.max(in_file).min(columns.len().max(in_file));
     let mut morphs = vec![None; n];
     let mut unnumbered = 0;
@@ -237,7 +237,7 @@ fn morphs<'a>(
             None => unnumbered += 1,
         }
     }
-    let reason = "morph targets after a gap in their numbers";
+    let reason = "morph targets after a gap in their numbering";
     losses.add(Domain::Vertex, "morph targets", unnumbered, reason);
     let missing = morphs.iter().filter(|deltas| deltas.is_none()).count();
     let reason = "the mesh has no deltas of the target, which are written as 0";

@@ -25,7 +25,7 @@ use crate::error::Unwritable;
 use crate::loss::Losses;
 use crate::{Compression, WriteOptions};
 
-/// Builds the document, and collects the functions that write the bytes to which the document refers.
+/// Builds the document, and collects the functions that write the bytes that the document refers to.
 #[derive(Default)]
 pub(super) struct Writer<'a> {
     pub(super) accessors: Vec<Value>,
@@ -36,13 +36,13 @@ pub(super) struct Writer<'a> {
     pub(super) nodes: NodeList,
     /// For each object that is written, its joints, weights and morph targets.
     pub(super) deformed: BTreeMap<&'a str, Deformed>,
-    /// The accessors of arrays. The key is the array, the number of numbers in each element, and the total number of
-    /// numbers.
+    /// The accessors of arrays. The key is the array, the number of components of each element, and the total number of
+    /// components.
     pub(super) number_accessors: BTreeMap<(usize, usize, usize), usize>,
     pub(super) pieces: Vec<Piece<'a>>,
     materials: MaterialWriter,
     pub(super) quantizer: Quantizer<'a>,
-    /// The views of the arrays that can be compressed, with the encoding of each.
+    /// The views of the arrays that can be compressed, each with its encoding.
     arrays: BTreeMap<usize, Array>,
     compression: Option<Compression>,
 }
@@ -63,8 +63,8 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Returns the document and the parts of its buffer. The buffer is the file `uri`, or the chunk after the
-    /// document if `uri` is `None`.
+    /// Returns the document and the parts of its buffer. The buffer is the file `uri`, or if `uri` is `None`, the chunk
+    /// after the document.
     pub(super) fn into_json(
         self,
         options: &WriteOptions,
@@ -281,7 +281,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Adds the morph targets, with the attributes of each.
+    /// Adds the morph targets, each with its attributes.
     fn targets(&mut self, prepared: &'a PreparedObject<'a>) -> Vec<Value> {
         let PreparedObject {
             mesh,
@@ -331,8 +331,8 @@ impl<'a> Writer<'a> {
 
     fn indices(&mut self, prepared: &'a PreparedObject<'a>, faces: &'a Faces) -> usize {
         let PreparedObject { mesh, split, .. } = prepared;
-        // The largest number of each type is not used as an index, because graphics cards interpret this number as the
-        // start of a new primitive.
+        // The largest number of each type is not used as an index, because graphics cards interpret it as the start of
+        // a new primitive.
         let short = u16::try_from(split.n).is_ok();
         let component = if short {
             ComponentType::U16

@@ -13,7 +13,7 @@ use super::surface::{
 use crate::assets::percent_encoded;
 use crate::loss::Losses;
 
-/// The unique materials, textures, samplers and images of a document.
+/// The materials, textures, samplers and images of a document, without duplicates.
 #[derive(Default)]
 pub(super) struct MaterialWriter {
     /// The material of the scene for each element of `materials`, without the textures that were dropped.
@@ -23,14 +23,14 @@ pub(super) struct MaterialWriter {
     pub(super) samplers: Vec<SamplerJson>,
     known_images: Vec<Image>,
     pub(super) images: Vec<ImageJson>,
-    /// The images whose bytes do not have a view yet. Each entry is the index of the image, and its bytes.
+    /// The images whose bytes do not have a view yet. Each entry is the index of the image and its bytes.
     pub(super) image_bytes: Vec<(usize, Arc<[u8]>)>,
     extensions: [bool; 3],
 }
 
 impl MaterialWriter {
     /// Returns the index in the document of a material for a mesh with `n_uvs` sets of texture coordinates. Equal
-    /// materials are shared.
+    /// materials get the same index.
     pub(super) fn index_of(
         &mut self,
         material: &Material,
@@ -41,7 +41,7 @@ impl MaterialWriter {
         let reason = "the mesh does not have the texture coordinates of this texture, so the texture is not written";
         let dropped = drop_textures(&mut material, |texture| texture.uv_set < n_uvs);
         losses.add(None, &material.name, dropped, reason);
-        let reason = "glTF only supports PNG and JPEG, so the texture is not written";
+        let reason = "glTF supports only PNG and JPEG, so the texture is not written";
         let dropped = drop_textures(&mut material, |texture| match &texture.image {
             Image::File(_) | Image::Loaded { .. } => true,
             Image::Embedded { mime, .. } => matches!(mime.as_str(), "image/png" | "image/jpeg"),
@@ -57,7 +57,7 @@ impl MaterialWriter {
         }
         let mut changed = 0;
         let json = self.json(&material, &mut changed);
-        let reason = "values outside of the range of glTF are clamped";
+        let reason = "values outside the range of glTF are clamped";
         losses.add(None, &material.name, changed, reason);
         self.materials.push(json);
         self.known.push(material);
@@ -177,7 +177,7 @@ impl MaterialWriter {
     }
 }
 
-/// Removes the textures for which `keep` returns false. Returns their number.
+/// Removes the textures for which `keep` returns false, and returns their number.
 fn drop_textures(material: &mut Material, keep: impl Fn(&Texture) -> bool) -> usize {
     let textures = [
         &mut material.base_color_texture,
@@ -227,7 +227,7 @@ fn uri(path: &str) -> String {
     parts.join("/")
 }
 
-/// Clamps `x` to a range and rounds it to 32 bits. If `x` is outside of the range, increases `changed` by 1.
+/// Clamps `x` to a range and rounds it to 32 bits. If `x` is outside the range, increases `changed` by 1.
 fn within(x: f64, low: f64, high: f64, changed: &mut usize) -> f64 {
     let inside = if x.is_nan() {
         high.min(1.0)

@@ -21,12 +21,12 @@ pub(super) struct NodeList {
     pub(super) skins: Vec<Value>,
     pub(super) animations: Vec<Value>,
     /// The parts of the document that come from [`Graph::document`](scene::Graph::document). Each entry is the name of
-    /// a part, and its members.
+    /// a part and its members.
     pub(super) kept: Vec<(String, Map<String, Value>)>,
 }
 
 impl Writer<'_> {
-    /// Adds the nodes of the graph, and then a node for each object that no node shows.
+    /// Adds the nodes of the graph, and then a node for each object that no node references.
     ///
     /// # Errors
     ///
@@ -109,7 +109,7 @@ fn write_deformation(
     json["weights"] = json!(weights);
 }
 
-/// Adds the placement of a node to its JSON. A translation, rotation or scale that changes nothing is left out.
+/// Adds the placement of a node to its JSON. A translation, rotation or scale that has no effect is left out.
 fn write_placement(node: &Node, json: &mut Value) -> Result<(), Unwritable> {
     let numbers = match &node.placement {
         Placement::Matrix(matrix) => {

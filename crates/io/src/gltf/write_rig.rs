@@ -93,7 +93,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Returns the type of the values of a channel. Returns `None` if the values do not match the keyframes or the
-    /// property that they change.
+    /// property that the channel changes.
     fn kind(&self, graph: &Graph, animation: &Animation, channel: &Channel) -> Option<Type> {
         let (kind, n) = match channel.property {
             AnimatedProperty::Translation | AnimatedProperty::Scale => (Type::Vec3, 1),
@@ -111,7 +111,7 @@ impl<'a> Writer<'a> {
         (expected > 0 && expected == graph.arrays[sampler.output].len()).then_some(kind)
     }
 
-    /// Adds an accessor of an array, or returns the accessor that was added before.
+    /// Returns the accessor of an array, and adds it if it does not exist yet.
     fn numbers(&mut self, array: usize, numbers: &'a [f32], kind: Type) -> usize {
         let key = (array, kind.multiplicity(), numbers.len());
         if let Some(&known) = self.number_accessors.get(&key) {

@@ -3,15 +3,15 @@
 //! | array | shape | content |
 //! | --- | --- | --- |
 //! | `vertices` | n, 3 | the positions of the vertices |
-//! | `faces` | m, k | the vertices of the faces, if all faces have k corners |
-//! | `faces`, `offsets` | corners; m + 1 | otherwise: the vertices of all faces one after the other; face i has the entries `offsets[i]` to `offsets[i + 1]` |
-//! | `edges` | e, 2 | the vertices of the edges, if edges have attributes |
+//! | `faces` | m, k | the vertex ids of the faces, if all faces have k corners |
+//! | `faces`, `offsets` | corners; m + 1 | otherwise: the vertex ids of all faces, one face after the other; face i has the entries `offsets[i]` to `offsets[i + 1]` |
+//! | `edges` | e, 2 | the vertex ids of the edges, if edges have attributes |
 //! | `vertex/name`, `face/name`, `edge/name` | elements, or elements and components | the attributes |
 //! | `corner/name` | corners, or corners and components | the attributes of corners, face by face |
 //!
-//! Numbers are `float64`, whole numbers `int32`, tags `bool`, and vertex numbers `int64`. The file is a zip archive of `.npy`
-//! files (version 1.0 of the format), which are not compressed. In the names of attributes, slashes and control characters become
-//! `_`.
+//! Numbers are `float64`, whole numbers `int32`, tags `bool`, and vertex ids `int64`. The file is a zip archive of
+//! `.npy` files (version 1.0 of the format), which are not compressed. In the names of attributes, slashes and
+//! control characters become `_`.
 
 mod zip;
 

@@ -4,7 +4,8 @@
 
 use flate2::Crc;
 
-/// An archive under construction. Equal content gives equal bytes: all files have the earliest date, 1980-01-01.
+/// An archive under construction. Equal content gives equal bytes, because all files have the earliest date,
+/// 1980-01-01.
 #[derive(Debug, Default)]
 pub(super) struct Archive {
     bytes: Vec<u8>,
@@ -14,12 +15,12 @@ pub(super) struct Archive {
 #[derive(Debug)]
 struct Entry {
     name: String,
-    /// The checksum and twice the size.
+    /// The checksum, the compressed size and the uncompressed size.
     sizes: [u64; 3],
     offset: u64,
 }
 
-/// The version that a reader needs (2.0), names in UTF-8, not compressed, and the time and date.
+/// The version that a reader needs (2.0), the flag for names in UTF-8, no compression, and the time and the date.
 const COMMON: [u16; 5] = [20, 1 << 11, 0, 0, (1 << 5) | 1];
 
 impl Archive {
@@ -45,7 +46,8 @@ impl Archive {
         self.files.push(entry);
     }
 
-    /// Returns the bytes of the archive; `None` if it exceeds the limits of archives, 4 GiB, 65,535 files, and names of 65,535 bytes.
+    /// Returns the bytes of the archive; `None` if it exceeds a limit of archives: 4 GiB, 65,535 files, or names of
+    /// 65,535 bytes.
     pub(super) fn finish(mut self) -> Option<Vec<u8>> {
         let start = u32::try_from(self.bytes.len()).ok()?;
         let count = u16::try_from(self.files.len()).ok()?.to_le_bytes();
@@ -53,7 +55,7 @@ impl Archive {
             u16::try_from(entry.name.len()).ok()?;
             self.bytes.extend_from_slice(b"PK\x01\x02\x14\x00");
             push_header(&mut self.bytes, entry);
-            // No comment, disk 0, no attributes.
+            // The entry has no comment, is on disk 0, and has no attributes.
             self.bytes.extend_from_slice(&[0; 10]);
             self.bytes.extend_from_slice(&low(entry.offset));
             self.bytes.extend_from_slice(entry.name.as_bytes());

@@ -261,7 +261,7 @@ fn count<T>(values: Option<&(T, CornerNumbers)>) -> usize {
     values.map_or(0, |(_, numbers)| numbers.firsts().len())
 }
 
-/// Assigns numbers to the distinct values on the corners of each vertex.
+/// Numbers the distinct values on the corners of each vertex.
 fn numbers<const N: usize>(
     mesh: &Mesh,
     value: impl Fn(HalfEdgeId) -> [f64; N] + Sync,
@@ -277,7 +277,7 @@ fn numbers<const N: usize>(
     CornerNumbers::new(mesh, |a, b| bits(a) == bits(b))
 }
 
-/// Returns the values, or only zeros if one of them is not finite.
+/// Returns the values, or zeros if one of them is not finite.
 fn finite<const N: usize>(values: [f64; N]) -> [f64; N] {
     let all = values.iter().all(|x| x.is_finite());
     if all { values } else { [0.0; N] }

@@ -1,4 +1,4 @@
-//! Parses the corners of faces, lines and points. Indices start at 1. Negative indices count backwards from the last
+//! Parses the corners of faces, lines and points. Indices start at 1. Negative indices count backward from the last
 //! element.
 
 use super::file::NONE;
@@ -23,9 +23,9 @@ pub(super) enum Index {
 /// The range of valid indices.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Limits {
-    /// There is no limit, because this is a part of a file, and the counts of the other parts are not known yet.
+    /// No limit: this is a part of a file, and the counts of the other parts are not known yet.
     Part,
-    /// This is the whole file, but the elements that later lines define are not known yet.
+    /// The whole file, but the elements that later lines define are not known yet.
     Start,
     /// The numbers of elements that the whole file defines.
     Whole(Counts),
@@ -45,7 +45,7 @@ fn counted(n: usize, (one, many): Noun) -> String {
 }
 
 /// Parses `v`, `v/vt`, `v//vn` or `v/vt/vn`. `now` has the numbers of elements that are defined before this corner.
-/// Negative indices count backwards from these numbers.
+/// Negative indices count backward from these numbers.
 ///
 /// # Errors
 ///

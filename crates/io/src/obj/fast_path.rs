@@ -50,7 +50,7 @@ impl Parser<'_> {
         length
     }
 
-    /// Appends the corners of a face. If the line turns out not to have the common form, corners may have been
+    /// Appends the corners of a face. If the line does not have the common form, some corners may already have been
     /// appended, and the caller must remove them.
     #[inline]
     fn fast_corners(&mut self, line: &[u8]) -> Option<usize> {

@@ -9,7 +9,7 @@ use crate::text::TextPosition;
 /// The index of a missing texture coordinate or normal.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// The material name by which programs say that the following faces have no material. The format has no other way to
+/// The material name by which programs state that the following faces have no material. The format has no other way to
 /// unset a material.
 pub(super) const NO_MATERIAL: &[u8] = b"(null)";
 
@@ -23,12 +23,12 @@ pub(super) struct ObjFile {
     pub(super) mrgb_colors: Vec<u32>,
     pub(super) uvs: Vec<DVec2>,
     pub(super) normals: Vec<DVec3>,
-    /// Polygon i has the corners from `offsets[i]` to `offsets[i + 1]`.
+    /// Polygon i has the corners from `offsets[i]` up to, but not including, `offsets[i + 1]`.
     pub(super) offsets: Vec<u32>,
     /// The indices of the positions, texture coordinates and normals of the corners. An index is [`NONE`] if it is
     /// missing; a list is empty if all its indices are missing.
     pub(super) corners: [Vec<u32>; 3],
-    /// Polylines: line i visits the vertices `line_corners[line_offsets[i]..line_offsets[i + 1]]`.
+    /// The offsets of polylines. Line i visits the vertices `line_corners[line_offsets[i]..line_offsets[i + 1]]`.
     pub(super) line_offsets: Vec<u32>,
     pub(super) line_corners: Vec<u32>,
     /// The groups, object, material and smoothing group of the faces. A run ends at the first face of the next run. If
@@ -66,9 +66,9 @@ pub(super) enum LeftOut {
     Statement(String),
     /// Words that are not a statement of the format.
     Unknown(String),
-    /// All unknown words other than the first [`MAX_LISTED_WORDS`](super::statement::MAX_LISTED_WORDS) distinct words.
+    /// All unknown words after the first [`MAX_LISTED_WORDS`](super::statement::MAX_LISTED_WORDS) distinct words.
     OtherUnknown,
-    /// Points (`p`). Each vertex of a statement counts.
+    /// Points (`p`). Each vertex of a statement is counted.
     Points,
     /// Faces with one or two corners.
     SmallFaces,

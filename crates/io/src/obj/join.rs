@@ -84,7 +84,7 @@ fn starts(lengths: impl Iterator<Item = usize>) -> Vec<usize> {
     starts
 }
 
-/// Joins pieces into an array. `fill` writes a piece into the array, and then the piece is freed.
+/// Joins pieces into an array. `fill` writes a piece into the array. After that, the piece is freed.
 fn filled<T, P>(
     pieces: Vec<P>,
     starts: &[usize],
@@ -114,8 +114,8 @@ fn together<'a, T: Zeroable + Copy + Send + Sync + 'a>(
     })
 }
 
-/// Joins a column of indices of corners. `before` is the number of elements before each part, from which relative
-/// indices count.
+/// Joins a column of corner indices. `before` is the number of elements before each part, and relative indices are
+/// added to it.
 fn column<'a>(
     pieces: impl Iterator<Item = &'a mut Indices>,
     before: &[usize],

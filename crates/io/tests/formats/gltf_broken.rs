@@ -231,7 +231,7 @@ fn errors_in_buffers_and_uris_name_the_pointer() {
             "/buffers/0/byteLength",
             json!(FOUR_BILLION),
             "/buffers/0/byteLength",
-            "only has 60",
+            "has only 60",
         ),
         (
             "/buffers/0/uri",

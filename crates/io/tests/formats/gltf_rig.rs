@@ -439,7 +439,7 @@ fn instances_have_the_pose_of_the_joints_and_the_weights_of_the_node() {
         notes,
         [
             "2 animations left out",
-            "1 skins left out, after the meshes are posed by the joints"
+            "1 skins left out: the meshes have the pose of the joints"
         ]
     );
     let mesh = baked.objects[0].as_mesh().unwrap();

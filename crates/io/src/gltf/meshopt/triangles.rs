@@ -1,5 +1,5 @@
-//! Decodes triangles. Most triangles share an edge with one of the last triangles, and their third vertex is new or was
-//! used recently.
+//! Decodes triangles. Most triangles share an edge with one of the last triangles, and their third vertex is either new
+//! or was used recently.
 //!
 //! ```text
 //! 0xe1 | a code for each triangle | numbers | table of 16 bytes, each a pair of 4-bit values
@@ -16,11 +16,11 @@ pub(super) fn shortest(count: u64) -> u64 {
     (count / 3).saturating_add(1 + u64::from(TABLE))
 }
 
-/// Decodes `n` triangles, and stores the three indices of each triangle in three slots.
+/// Decodes `n` triangles. The three indices of each triangle are stored in three slots.
 ///
 /// # Errors
 ///
-/// The position at which the stream breaks the rules.
+/// The position of the first error in the stream.
 pub(super) fn decode(
     stream: &[u8],
     n: usize,

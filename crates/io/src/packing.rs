@@ -9,12 +9,13 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Compression {
-    /// The extension `EXT_meshopt_compression`. Readers without the extension cannot read the file. Vertices and
-    /// triangles are reordered, and the corners of triangles can be rotated, such as (a, b, c) to (b, c, a).
+    /// The extension `EXT_meshopt_compression`. Readers that do not support this extension cannot read the file.
+    /// Vertices and triangles are reordered, and the corners of triangles can be rotated, for example from (a, b, c) to
+    /// (b, c, a).
     Meshopt,
 }
 
-/// The numbers of bits of the attributes of quantized glTF files. Each is from 8 to 16.
+/// The numbers of bits of the attributes of quantized glTF files. Each number is from 8 to 16.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Quantization {
@@ -26,8 +27,8 @@ pub struct Quantization {
     /// to 8.
     #[serde(default = "Bits::least")]
     pub normal: Bits,
-    /// The bits of each texture coordinate. If a set has coordinates outside of the range from 0 to 1, it is not
-    /// quantized. Defaults to 16.
+    /// The bits of each texture coordinate. A set with coordinates outside the range from 0 to 1 is not quantized.
+    /// Defaults to 16.
     #[serde(default = "Bits::most")]
     pub uv: Bits,
     /// The bits of each component of a color. Defaults to 8.
@@ -98,8 +99,8 @@ impl TryFrom<u32> for Bits {
 /// The effects of compression and quantization on a file.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct PackingReport {
-    /// The size in bytes that the files would have without compression and quantization. Copied images do not count,
-    /// and neither does compression by gzip.
+    /// The size in bytes that the files would have without compression and quantization. Copied images are not counted,
+    /// and compression with gzip is not considered.
     pub bytes_before: u64,
     /// The size in bytes of the same files as written.
     pub bytes_after: u64,
@@ -108,7 +109,7 @@ pub struct PackingReport {
     pub position_error: Option<f64>,
     /// The largest angle between a normal or a tangent and its quantized direction, in degrees.
     pub normal_error: Option<f64>,
-    /// The largest difference between a texture coordinate and its quantized coordinate.
+    /// The largest difference between a texture coordinate and its quantized value.
     pub uv_error: Option<f64>,
     /// The attributes that could not be quantized. Each entry has the object, the attribute and the reason.
     pub unquantized: Vec<(String, String, String)>,

@@ -1,7 +1,7 @@
 //! Runs work on all threads, in blocks of elements.
 //!
-//! All functions share one loop of the crate `rayon`. The loop calls its work through a pointer, once for each block. A
-//! generic loop would be compiled again for every closure, which is expensive.
+//! All functions share one loop of the crate `rayon`. The loop calls a function pointer once for each block. A generic
+//! loop would be compiled again for every closure, which is expensive.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
@@ -84,7 +84,7 @@ pub(crate) fn collect<T: Zeroable + Send>(n: usize, value: impl Fn(usize) -> T +
     all
 }
 
-/// Changes each value of a list.
+/// Calls `change` for each value of a list.
 pub(crate) fn change<T: Send>(all: &mut [T], change: impl Fn(&mut T) + Sync) {
     fill(all, |_, block| block.iter_mut().for_each(&change));
 }

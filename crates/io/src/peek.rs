@@ -18,7 +18,7 @@ pub struct Peek {
     pub animations: u64,
     /// The content that reading would leave out, as far as it is known without building the objects. Examples are
     /// unused elements of a PLY file, statements of an OBJ file that do not describe polygons, and missing images and
-    /// material libraries. Reading can leave out more.
+    /// material libraries. Reading can leave out more content.
     pub left_out: Vec<Note>,
 }
 
@@ -45,16 +45,16 @@ pub struct PeekObject {
     pub name: String,
     /// The kind and the counts of its geometry.
     pub geometry: PeekGeometry,
-    /// The number of nodes that show the object, or 1 in a file without nodes.
+    /// The number of nodes that reference the object, or 1 in a file without nodes.
     pub instances: u64,
-    /// The index of the skin of the first node that shows the object.
+    /// The index of the skin of the first node that references the object.
     pub skin: Option<u64>,
     /// The names of the materials of the object. `None` if the names are known only after reading.
     pub materials: Option<Vec<String>>,
 }
 
 impl PeekObject {
-    /// An object that is shown once.
+    /// Creates an object with one instance.
     pub(crate) fn new(name: String, geometry: PeekGeometry) -> Self {
         Self {
             name,
@@ -74,7 +74,7 @@ impl PeekObject {
     }
 }
 
-/// The kind and the counts of an object's geometry.
+/// The kind and the counts of the geometry of an object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PeekGeometry {
     /// A mesh.
@@ -119,8 +119,8 @@ impl PeekGeometry {
 /// The counts and attributes of a mesh according to its file.
 ///
 /// Reading never gives more faces or corners than these counts. Reading can give more vertices, because non-manifold
-/// vertices and edges are split. Reading can also give fewer vertices, because a glTF file has a vertex for each side
-/// of a seam.
+/// vertices and edges are split. Reading can also give fewer vertices, because a glTF file has a separate vertex for
+/// each side of a seam.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[expect(
     clippy::struct_excessive_bools,
@@ -187,7 +187,7 @@ impl PeekMesh {
         self.corners = self.corners.saturating_add(other.corners);
     }
 
-    /// Counts `n` more faces of `degree` corners.
+    /// Adds `n` faces with `degree` corners each to the counts.
     pub(crate) fn add_faces(&mut self, n: u64, degree: u64) {
         self.add(&Self {
             faces: n,

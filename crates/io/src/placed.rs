@@ -7,14 +7,14 @@ use scene::Scene;
 
 use crate::{Format, Loss, WriteError};
 
-/// A scene as a format stores it.
+/// A scene in the form that a format can store.
 pub(crate) struct Placed<'s> {
     pub(crate) scene: Cow<'s, Scene>,
     /// The parts of the graph that the format does not store.
     pub(crate) losses: Vec<Loss>,
 }
 
-/// The maximum size of all placed meshes, in bytes. The size is limited because many nodes can show the same mesh.
+/// The maximum size of all placed meshes, in bytes. The size is limited because many nodes can reference the same mesh.
 const MAX_PLACED_BYTES: u64 = 1 << 36;
 
 /// Returns the scene for a format. If the format has no nodes, every instance becomes an object in scene space.
@@ -59,7 +59,7 @@ pub(crate) fn placed<'s>(
         loss(
             graph.skins.len(),
             "skins",
-            "the format has no skins, so the meshes are posed by the joints",
+            "the format has no skins, so the meshes get the pose of the joints",
         ),
         loss(
             graph.animations.len(),

@@ -5,25 +5,25 @@ use serde::{Deserialize, Serialize};
 
 /// How to handle polygons that do not form a clean mesh.
 ///
-/// Two cases are not configurable. A corner that repeats the previous corner is removed: `f 1 2 2 3` is a triangle. A
-/// face that still visits a vertex twice is left out, because a mesh cannot represent such a face. Every change is
-/// reported as a [`Note`](crate::Note) with the affected elements.
+/// Two cases are not configurable. A corner that repeats the vertex of the previous corner is removed: `f 1 2 2 3` is a
+/// triangle. A face that still contains a vertex twice is left out, because a mesh cannot represent such a face. Every
+/// change is reported as a [`Note`](crate::Note) with the affected elements.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Policies {
-    /// Edges with more than two faces, and vertices where groups of faces meet that share no edge.
+    /// Edges with more than two faces, and vertices at which groups of faces meet without a common edge.
     pub non_manifold: NonManifold,
-    /// Neighboring faces with opposite orientation: both faces run in the same direction along their common edge.
+    /// Neighboring faces with opposite orientations: both traverse their common edge in the same direction.
     pub orientation: Orientation,
     /// Faces with the same vertices as an earlier face, in the same or the opposite circular order.
     pub duplicates: CleanupPolicy,
-    /// Faces without area. The area counts as zero if it is at most 1e-14 times the square of the longest side, which
+    /// Zero-area faces. The area counts as zero if it is at most 1e-14 times the square of the longest side, which
     /// allows for rounding errors.
     pub degenerate: CleanupPolicy,
     /// Vertices without a face.
     pub isolated: CleanupPolicy,
 }
 
-/// The handling of places where faces do not form a manifold.
+/// How to handle edges and vertices at which faces do not form a manifold.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum NonManifold {
@@ -34,14 +34,14 @@ pub enum NonManifold {
     Refuse,
 }
 
-/// The handling of neighboring faces with opposite orientations.
+/// How to handle neighboring faces with opposite orientations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Orientation {
     /// If possible, reverse faces so that neighbors have the same orientation, and list the reversed faces.
     #[default]
     Orient,
-    /// Keep the orientation of every face. An edge between faces of opposite orientation counts as non-manifold.
+    /// Keep the orientation of every face. An edge between faces with opposite orientations counts as non-manifold.
     Keep,
 }
 
@@ -49,7 +49,7 @@ pub enum Orientation {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Placements {
-    /// Keep the nodes. A mesh becomes one object in its own space, and the nodes show it any number of times.
+    /// Keep the nodes. Each mesh becomes one object in its own space, and any number of nodes can reference it.
     #[default]
     Keep,
     /// Apply the transforms of nodes to the points. Each node with a mesh becomes an object. The hierarchy, cameras and
@@ -57,13 +57,13 @@ pub enum Placements {
     Bake,
 }
 
-/// The handling of elements that are probably not needed.
+/// How to handle elements that are probably not needed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum CleanupPolicy {
     /// Keep them.
     #[default]
     Keep,
-    /// Leave them out, and list them. Of several duplicates, the first is kept.
+    /// Leave them out, and list them. Of several duplicates, the first one is kept.
     Drop,
 }

@@ -1,4 +1,4 @@
-//! Stores polygons with attributes in the form of a file, and builds a mesh from them.
+//! Stores polygons with attributes in the same form as in a file, and builds a mesh from them.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
@@ -21,8 +21,8 @@ use crate::{NonManifold, Orientation, Policies, ReadOptions, parallel};
 pub struct Polygons {
     /// The position of each vertex.
     pub positions: Vec<DVec3>,
-    /// Polygon f has the corners from `offsets[f]` to `offsets[f + 1]`, exclusive. There is one more offset than there
-    /// are polygons.
+    /// Polygon f has the corners from `offsets[f]` to `offsets[f + 1]`, exclusive. The number of offsets is the number
+    /// of polygons plus 1.
     pub offsets: Vec<u32>,
     /// The index of the vertex of each corner, counter-clockwise around each polygon.
     pub corners: Vec<u32>,
@@ -61,7 +61,7 @@ impl Polygons {
         self.offsets.len() - 1
     }
 
-    /// The arrays from which notes look up positions.
+    /// The arrays that give the positions of elements in notes.
     pub(crate) fn arrays(&self) -> PolygonArrays<'_> {
         PolygonArrays {
             positions: &self.positions,
@@ -129,7 +129,7 @@ impl Polygons {
     fn reverse_faces(&mut self) {
         let mut order: Vec<u32> = (0..).take(self.corners.len()).collect();
         for ends in self.offsets.windows(2) {
-            // The first corner of a polygon stays the first.
+            // The first corner of a polygon stays first.
             order[ends[0] as usize + 1..ends[1] as usize].reverse();
         }
         let corners = &self.corners;
@@ -138,7 +138,7 @@ impl Polygons {
     }
 
     /// Applies the weights of morph targets, and then the joints. Without joints, applies `to_scene` instead. Returns
-    /// the number of normals that are left out. Removes the weights of joints, which have no meaning without a skin.
+    /// the number of normals that are left out. Removes the joint weights, which have no meaning without a skin.
     pub(crate) fn apply_pose(&mut self, pose: &Pose, to_scene: &DAffine3) -> usize {
         let n = self.positions.len();
         pose.morph(&self.attributes, &mut self.positions);
@@ -251,11 +251,11 @@ impl Polygons {
         Ok((built.mesh, self.materials))
     }
 
-    /// Builds a mesh of the polygons; see [`mesh::build()`]. `kept` has the index in the file of each polygon.
+    /// Builds a mesh of the polygons; see [`mesh::build()`]. `kept` contains, for each polygon, its index in the file.
     ///
     /// # Errors
     ///
-    /// If there are too many elements, or if the polygons do not form a manifold and the policies refuse that.
+    /// If there are too many elements, or if the polygons do not form a manifold and the policies refuse such polygons.
     fn build(
         &mut self,
         path: &Path,
@@ -324,7 +324,7 @@ fn mark_copies(built: &mut BuildOutput, n_positions: usize) {
     built.mesh.insert_column(Domain::Vertex, column);
 }
 
-/// For each element of the mesh, the element of the input from which it gets its attribute values.
+/// For each element of the mesh, the element of the input that its attribute values come from.
 struct Sources {
     n_positions: usize,
     /// The original vertex of each copy. Copies come after the original vertices.
@@ -365,7 +365,7 @@ impl Sources {
         }
     }
 
-    /// Reorders values of the input for the elements of the mesh.
+    /// Converts values for the elements of the input to values for the elements of the mesh.
     fn gather(&self, domain: Domain, values: Values) -> Values {
         match (domain, &self.faces) {
             (Domain::Vertex, _) if !self.copies.is_empty() => {
@@ -384,8 +384,8 @@ impl Sources {
     }
 }
 
-/// Returns the values of vertices, if `same` is true for the corners of each vertex; otherwise `None`. Vertices without
-/// a corner get zero.
+/// Returns the values of vertices, if `same` is true for the corners of each vertex. Otherwise, returns `None`.
+/// Vertices without a corner get zero.
 pub(crate) fn vertex_values(
     mesh: &Mesh,
     values: &Values,

@@ -59,12 +59,12 @@ fn of_document(json: &[u8]) -> Option<String> {
     text.as_str().map(str::to_owned)
 }
 
-/// Returns the text with the keyword "Software" of a PNG file, if the text is stored as uncompressed international
-/// text.
+/// Returns the text with the keyword "Software" of a PNG file, if the text is in an uncompressed chunk for
+/// international text.
 ///
-/// A chunk consists of its length, four letters, the data, and a checksum. The data of an `iTXt` chunk are the keyword,
-/// two bytes about compression, the language, the translated keyword, and the text, separated by zero bytes (W3C,
-/// "Portable Network Graphics (PNG) Specification", 3rd edition, 2025, §11.3.3.4).
+/// A chunk consists of its length, four letters, the data, and a checksum. The data of an `iTXt` chunk consists of the
+/// keyword, two bytes about compression, the language, the translated keyword, and the text, separated by zero bytes
+/// (W3C, "Portable Network Graphics (PNG) Specification", 3rd edition, 2025, §11.3.3.4).
 fn of_png(bytes: &[u8]) -> Option<String> {
     let mut rest = bytes.strip_prefix(b"\x89PNG\r\n\x1a\n")?;
     loop {

@@ -12,25 +12,25 @@ use crate::parallel::consume;
 
 /// The content of a file that is about to be written.
 pub(crate) enum Content<'a> {
-    /// The bytes as they are.
+    /// Bytes in memory.
     Bytes(Vec<u8>),
     /// The bytes of an image.
     Shared(Arc<[u8]>),
     /// The bytes that the blocks append, in order. Several blocks at a time are produced while the file is written, so
-    /// that a large text is never in memory as a whole.
+    /// a large text is never completely in memory.
     Blocks(Vec<Block<'a>>),
 }
 
 /// A function that appends a block of a few hundred kilobytes to a file.
 pub(crate) type Block<'a> = Box<dyn Fn(&mut Vec<u8>) + Send + Sync + 'a>;
 
-/// First writes all files to temporary files. When all files are complete, moves them to their paths in the given
+/// Writes all files to temporary files first. When all of them are complete, moves them to their paths in the given
 /// order. The last file is compressed if its name ends in `.gz`. Returns the paths and the total size in bytes.
 ///
 /// # Errors
 ///
 /// [`WriteError::Io`] with the file that could not be written. Existing files are then unchanged, unless the system
-/// refused to rename one of the last files.
+/// failed to rename one of the later files.
 pub(crate) fn save(
     store: &dyn Store,
     files: Vec<(PathBuf, Content)>,

@@ -10,7 +10,7 @@ pub(crate) use crate::fault::{TextPosition, name, quoted};
 /// The byte order mark of UTF-8.
 pub(crate) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// Reads the bytes of a text in order. Lines end in LF, CR LF or CR.
+/// Reads the bytes of a text sequentially. Lines end in LF, CR LF or CR.
 #[derive(Clone, Debug)]
 pub(crate) struct Cursor<'a> {
     bytes: &'a [u8],
@@ -41,7 +41,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Creates a cursor for a part of a text that is not at the beginning of the text. A byte order mark is not
+    /// Creates a cursor for a part of a text that does not begin at the start of the text. A byte order mark is not
     /// skipped.
     pub(crate) fn inside(bytes: &'a [u8]) -> Self {
         Self {
@@ -69,8 +69,8 @@ impl<'a> Cursor<'a> {
         self.bytes.len() - self.at
     }
 
-    /// Whether the remaining bytes are enough for `n` times `words_each` words. Each word needs at least one byte and a
-    /// separator, but the last word needs no separator.
+    /// Whether the remaining bytes are enough for `n` times `words_each` words. Each word needs at least one byte, and
+    /// a separator unless it is the last word.
     pub(crate) fn has_room(&self, n: usize, words_each: usize) -> bool {
         let least = n.checked_mul(2 * words_each);
         least.is_some_and(|least| least <= self.remaining() + 1)
@@ -134,7 +134,7 @@ impl<'a> Cursor<'a> {
         self.argument().unwrap_or((self.place(), b""))
     }
 
-    /// Checks that the line has no more words. `why` is appended to the error message.
+    /// Checks that the line has no more words. `why` is the end of the error message.
     ///
     /// # Errors
     ///
@@ -165,8 +165,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Skips all remaining lines. Returns the number of lines with words, and the line number of the first of these
-    /// lines.
+    /// Skips all remaining lines. Returns the number of lines with words, and the line number of the first such line.
     pub(crate) fn count_rest(&mut self) -> (usize, usize) {
         self.skip_empty_lines();
         let first = self.place().line;
@@ -213,7 +212,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Whether a line end follows the byte at the cursor.
+    /// Whether the byte after the cursor is a line end.
     fn continues(&self) -> bool {
         self.bytes
             .get(self.at + 1)

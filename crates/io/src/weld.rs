@@ -1,8 +1,8 @@
 //! Merges vertices with exactly equal positions.
 //!
-//! Positions are distributed over buckets by a hash, and each bucket finds its equal positions in a small table that
-//! fits in the processor cache. Buckets are processed in parallel. Of several equal positions, the first is kept, and
-//! the kept positions stay in order. So the result does not depend on the hash.
+//! Positions are distributed over buckets by a hash. Each bucket finds its equal positions in a small table that fits
+//! in the processor cache. Buckets are processed in parallel. Of several equal positions, the first is kept, and the
+//! kept positions stay in order. Therefore, the result does not depend on the hash.
 
 use std::cmp::Ordering;
 use std::hash::{BuildHasher, RandomState};
@@ -15,14 +15,14 @@ use rayon::prelude::*;
 use crate::clean::gather;
 use crate::parallel;
 
-/// The number of positions that are hashed and numbered at a time.
+/// The number of positions that are hashed and indexed at a time.
 const CHUNK: usize = 1 << 15;
 /// The approximate number of positions in a bucket.
 const BUCKET: usize = 1 << 14;
 const MAX_BUCKETS: usize = 1 << 10;
 
 /// Counts the vertices with faces whose positions, rounded to 32 bits, equal the position of an earlier vertex. Readers
-/// of formats that identify vertices by position merge such vertices.
+/// of formats that identify vertices by position merge these vertices.
 pub(crate) fn n_merged(mesh: &Mesh) -> usize {
     n_merged_as(mesh, |position| position.as_vec3().as_dvec3())
 }
@@ -50,7 +50,7 @@ fn rounded_places(mesh: &Mesh, vertices: &[usize]) -> Vec<DVec3> {
     })
 }
 
-/// Like [`n_merged`], for a format in which vertices are merged only if `compare` returns that they are equal.
+/// Like [`n_merged`], for a format in which vertices are merged only if `compare` returns `Equal`.
 pub(crate) fn n_merged_if_equal(
     mesh: &Mesh,
     compare: impl Fn(usize, usize) -> Ordering + Sync,
@@ -64,7 +64,7 @@ pub(crate) fn n_merged_if_equal(
     used.len() - firsts.len()
 }
 
-/// Returns the distinct positions in order of first occurrence, and the index in this list of each given position. 0
+/// Returns the distinct positions in order of first occurrence, and for each given position, its index in this list. 0
 /// and -0 are equal. There must be fewer than 2^32 - 1 positions.
 ///
 /// If all positions are distinct, the list is returned unchanged.
@@ -134,8 +134,8 @@ pub(crate) fn weld_equal(
     (positions.collect(), vertex_of)
 }
 
-/// Splits each class of elements into classes of equal elements. Returns the first element of each class, in ascending
-/// order, and the index in this list of the class of each element.
+/// Splits each class of elements into classes of equal elements. Returns the first element of each class in ascending
+/// order, and for each element, the index of its class in this list.
 pub(crate) fn split_unequal(
     classes: &[u32],
     compare: impl Fn(usize, usize) -> Ordering + Sync,
@@ -211,10 +211,10 @@ fn firsts(positions: &[DVec3]) -> Vec<u32> {
     first.into_iter().map(AtomicU32::into_inner).collect()
 }
 
-/// The bits of an entry that hold a part of the hash. The other bits hold an index.
+/// The bits of an entry that store a part of the hash. The other bits store an index.
 const HIGH: u64 = !0 << 32;
 
-/// A hash table with open addressing. At most half of its places are used.
+/// A hash table with open addressing. At most half of its slots are used.
 struct Table {
     slots: Vec<u64>,
     shift: u32,
@@ -258,7 +258,7 @@ fn bits(p: DVec3) -> [u64; 3] {
     p.to_array().map(|x| (x + 0.0).to_bits())
 }
 
-/// Random keys of the hash. With random keys, nobody can craft a file in which the hashes of all positions collide.
+/// Random keys of the hash. They prevent files that are crafted so that the hashes of all positions collide.
 struct Keys([u64; 3]);
 
 impl Keys {

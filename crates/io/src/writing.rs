@@ -11,7 +11,7 @@ use crate::loss::Losses;
 use crate::parallel;
 use crate::polygons::vertex_values;
 
-/// Returns the mesh, or a compacted copy if it has dead elements.
+/// Returns the mesh, or a compacted copy if it has removed elements.
 pub(crate) fn dense(mesh: &Mesh) -> Cow<'_, Mesh> {
     if mesh.is_dense() {
         return Cow::Borrowed(mesh);
@@ -46,14 +46,14 @@ pub(crate) fn is_byte(x: f64) -> bool {
     (f64::from(to_byte(x)) / 255.0).to_bits() == x.to_bits()
 }
 
-/// Returns the texture coordinates of each vertex, if all corners of the vertex have the same bits; otherwise `None`.
-/// Vertices without a corner get zero.
+/// Returns the texture coordinates of each vertex, if all corners of the vertex have the same bits. Otherwise, returns
+/// `None`. Vertices without a corner get zero.
 pub(crate) fn uvs_of_vertices(mesh: &Mesh, uvs: &Values) -> Option<Values> {
     let bits = |h: usize| DVec2::of(uvs).map(|uvs| uvs[h].to_array().map(f64::to_bits));
     vertex_values(mesh, uvs, |a, b| bits(a) == bits(b))
 }
 
-/// The reason of the loss if text formats cannot represent numbers.
+/// The reason for the loss of numbers that text formats cannot represent.
 pub(crate) const NOT_FINITE: &str = "non-finite numbers, written as 0";
 
 /// Returns the values of a column. Replaces non-finite values by zero, and adds a loss for them.
@@ -96,16 +96,16 @@ pub(crate) fn zero_non_finite(values: &mut Values) -> usize {
     broken
 }
 
-/// The name of the vertex attribute that marks the copies of split vertices. Its value is the index of the copy minus
-/// the index of the original, and 0 for originals. Readers add this attribute if
+/// The name of the vertex attribute that marks the copies of split vertices. The value at a copy is the index of the
+/// copy minus the index of the original. The value at an original is 0. Readers add this attribute if
 /// [`ReadOptions::keep_vertices`](crate::ReadOptions::keep_vertices) is set.
 pub(crate) const COPY_DISTANCE: &str = "distance to the original vertex";
 
-/// The vertices of a mesh without the copies of split vertices. Without the copies, the vertices are those of the file
-/// from which the mesh was read.
+/// The vertices of a mesh without the copies of split vertices. These are the vertices of the file that the mesh was
+/// read from.
 pub(crate) struct FileVertices {
-    /// The vertices to write, and the number with which each vertex of the mesh is written. `None` if the mesh has no
-    /// copies.
+    /// The vertices to write, and for each vertex of the mesh, the index with which it is written. `None` if the mesh
+    /// has no copies.
     originals: Option<(Vec<u32>, Vec<u32>)>,
     n: usize,
 }
@@ -139,7 +139,7 @@ impl FileVertices {
         self.n
     }
 
-    /// The vertex of the mesh that is written with number `i`.
+    /// The vertex of the mesh that is written with index `i`.
     pub(crate) fn vertex(&self, i: usize) -> usize {
         match &self.originals {
             Some((written, _)) => written[i] as usize,
@@ -147,7 +147,7 @@ impl FileVertices {
         }
     }
 
-    /// Returns the number with which a vertex of the mesh is written.
+    /// Returns the index with which a vertex of the mesh is written.
     pub(crate) fn number(&self, v: VertexId) -> usize {
         match &self.originals {
             Some((_, numbers)) => numbers[v.index()] as usize,

@@ -13,16 +13,18 @@
 //!
 //! | glTF | in the scene |
 //! | --- | --- |
-//! | a mesh of a node | an object, with the name of the node; if it has none, of the mesh; if that has none, of the file; names are made unique |
-//! | a mesh of several nodes | one object, with the name of the mesh; if it has none, of the first node; if that has none, of the file |
-//! | a node | a node of the graph, with its placement, name, extras, camera and light; a root node without any of these is left out, because the writer adds it again |
-//! | the scene that `scene` refers to, or the first scene | all nodes of this scene are read; if the file has no scenes, all nodes of the file |
+//! | a mesh of a node | an object named after the node, or the mesh if the node is unnamed, or the file; names are made
+//! unique |
+//! | a mesh of several nodes | one object named after the mesh, or the first node if the mesh is unnamed, or the file |
+//! | a node | a node of the graph, with its placement, name, extras, camera and light; a root is omitted if the writer
+//! would add an equal node |
+//! | the scene that `scene` refers to, or the first scene | its nodes are read; without scenes, all nodes of the file |
 //! | triangles, strips and fans, with or without indices | triangles |
 //! | points, lines | left out, with a note |
 //! | `POSITION` | positions; vertices at exactly the same position are merged if their weights and deltas agree |
 //! | `NORMAL` | vertex attribute `normal` if the corners of each vertex agree, otherwise corner attribute |
 //! | `TANGENT` | corner attribute `tangent` with four numbers |
-//! | `TEXCOORD_0`, `TEXCOORD_n` | corner attributes `uv` and `uvn`, with v replaced by 1 - v, because v points up in the scene |
+//! | `TEXCOORD_0`, `TEXCOORD_n` | corner attributes `uv` and `uvn`, with 1 - v instead of v, because v points up in the scene |
 //! | `COLOR_0` | vertex or corner attribute `color`; alpha defaults to 1 |
 //! | `_NAME` | vertex or corner attribute `NAME` with 1 to 4 floats |
 //! | `JOINTS_n`, `WEIGHTS_n` | for each used joint, a vertex attribute [`mesh::joint_name`] with its weights |
@@ -32,7 +34,7 @@
 //! | `material` | face attribute `material`, and materials of the object |
 //! | textures, samplers, images | textures of the materials: the path of an image file, or the bytes of an image |
 //! | cameras, lights | kept in the graph unchanged |
-//! | `asset.copyright`, the name of the scene, `extras` of the asset, the scene and the document | kept in the graph unchanged |
+//! | `asset.copyright`, name of the scene, `extras` of asset, scene and document | kept in the graph unchanged |
 //! | other `extras` | left out, with a note |
 //! | other scenes | left out, with a note |
 //!

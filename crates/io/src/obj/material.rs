@@ -13,16 +13,16 @@ use crate::fault::Fault;
 use crate::note::Notes;
 use crate::text::{check_encoding, name, quoted};
 
-/// The maximum total size in bytes of the material libraries of a file. Further bytes are not read.
+/// The maximum total size in bytes of the material libraries of a file. More bytes are not read.
 const MAX_LIBRARY_BYTES: u64 = 1 << 28;
 /// The maximum number of library names that are looked up, including repeated names. The number is limited because
-/// searching for files takes time. Further names are left out.
+/// searching for files takes time. More names are left out.
 const MAX_NAMES: usize = 512;
 /// The largest length of a path in bytes.
 const MAX_PATH_BYTES: usize = 1024;
 
-/// Reads the materials of an OBJ file. The materials of its libraries come first, in order. Default materials follow
-/// for the names that no library defines.
+/// Reads the materials of an OBJ file. The materials of its libraries come first, in order. They are followed by
+/// default materials for the names that no library defines.
 ///
 /// # Errors
 ///
@@ -62,7 +62,7 @@ pub(super) fn read_libraries(
                         if known.insert(material.name.clone()) {
                             materials.push(material);
                         } else {
-                            let what = format!("repeated material `{}` left out", material.name);
+                            let what = format!("duplicate material `{}` left out", material.name);
                             library_notes.left_out("materials-repeated", 1, None, what);
                         }
                     }
@@ -88,8 +88,8 @@ pub(super) fn read_libraries(
     Ok(materials)
 }
 
-/// Returns the file names on an `mtllib` line. A name is in quotes, or is a sequence of words that together are the
-/// name of an existing file, or is a single word. Returns at most `most` names, and the number of words that remain.
+/// Returns the file names on an `mtllib` line. A name is either in quotes, or a sequence of words that together name an
+/// existing file, or a single word. Returns at most `most` names, and the number of remaining words.
 fn library_names(words: &str, most: usize, assets: &mut Assets) -> (Vec<String>, usize) {
     let mut is_file = |name: &str| {
         let short = Some(name).filter(|name| name.len() <= MAX_PATH_BYTES);
@@ -101,7 +101,8 @@ fn library_names(words: &str, most: usize, assets: &mut Assets) -> (Vec<String>,
     while !rest.is_empty() && names.len() < most {
         let quoted = rest.strip_prefix('"').and_then(|rest| rest.split_once('"'));
         let (name, behind) = quoted.unwrap_or_else(|| {
-            // The name is the longest beginning of the text that is the name of a file, or else the first word.
+            // The name is the longest prefix of the text that is the name of a file. If there is none, it is the
+            // first word.
             let blanks = rest.rmatch_indices(char::is_whitespace).take(MAX_BLANKS);
             let ends = std::iter::once(rest.len()).chain(blanks.map(|(at, _)| at));
             let first = rest.find(char::is_whitespace).unwrap_or(rest.len());
@@ -116,7 +117,7 @@ fn library_names(words: &str, most: usize, assets: &mut Assets) -> (Vec<String>,
     (names, rest.split_whitespace().count())
 }
 
-/// The maximum number of blanks in a line that are tried as the end of a file name.
+/// The maximum number of blanks in a line at which a file name is assumed to end.
 const MAX_BLANKS: usize = 16;
 
 /// Reads the materials of one library. Lines that cannot be read are left out, with a note.
@@ -187,7 +188,7 @@ impl Ignored {
         picture
     }
 
-    /// Returns the texture of a picture without its multiplier.
+    /// Returns the texture of a declaration without its multiplier.
     fn plain(&mut self, text: Option<String>) -> Option<Texture> {
         let picture = self.picture(text)?;
         self.0 += usize::from(picture.multiplier.is_some());
@@ -197,7 +198,7 @@ impl Ignored {
 
 fn converted(from: tobj::Material, ignored: &mut Ignored) -> Material {
     let mut unknown = from.unknown_param;
-    // If a comment has no blank after `#`, `tobj` treats it as a parameter.
+    // `tobj` treats a comment without a blank after `#` as a parameter.
     unknown.retain(|key, _| !key.starts_with('#'));
     let mut number = |key: &str| {
         let value = unknown.get(key)?.parse::<f64>().ok()?;
@@ -208,7 +209,7 @@ fn converted(from: tobj::Material, ignored: &mut Ignored) -> Material {
     let base_color_texture = ignored.plain(from.diffuse_texture);
     let emissive_texture = ignored.plain(unknown.remove("map_Ke"));
     let [rough, metal] = ["map_Pr", "map_Pm"].map(|key| ignored.plain(unknown.remove(key)));
-    // In the scene, as in glTF, roughness and metalness have one common texture. In MTL, each has its own texture.
+    // In the scene, as in glTF, one texture stores both roughness and metalness. In MTL, each has its own texture.
     let metallic_roughness_texture = if rough == metal {
         rough
     } else {

@@ -1,6 +1,6 @@
 //! Wavefront OBJ: polygons, polylines, groups and materials as text.
 //!
-//! A file is one object. Its statements become:
+//! A file is one object. Its statements are converted as follows:
 //!
 //! | statement | in the mesh |
 //! | --- | --- |
@@ -13,9 +13,9 @@
 //! | `g a b` | face tags `a` and `b` |
 //! | `o a` | face tag `o:a` |
 //! | `s 1` | face attribute `smoothing` |
-//! | `usemtl a`, `mtllib` | face attribute `material` and the object's materials |
+//! | `usemtl a`, `mtllib` | face attribute `material`, and materials of the object |
 //!
-//! The writer uses the same table in the other direction. Therefore this content is preserved when a written file is
+//! The writer uses the same table in the other direction. Therefore, this content is preserved when a written file is
 //! read, and when a file that was read is written again.
 //!
 //! Modules:
@@ -27,7 +27,7 @@
 //! | `statement` | parses a statement: `face` for `f`, `vertex` for `v`, `group` for `g` and so on |
 //! | `fast_path` | parses common forms of `v`, `vt`, `vn` and `f` faster |
 //! | `corner` | parses a corner such as `1/2/3` |
-//! | `part`, `join`, `file` | the content of a part, joining parts, the content of the file |
+//! | `part`, `join`, `file` | store the content of a part, join the parts, store the content of the file |
 //! | `material`, `picture` | read material libraries |
 //! | `peek` | counts the elements of a file |
 //! | `write`, `body`, `states`, `library` | write the file, a mesh, the groups and materials of faces, and the material library |

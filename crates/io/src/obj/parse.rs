@@ -10,14 +10,14 @@ use crate::parallel;
 use crate::text::{TextPosition, check_encoding, quoted};
 
 /// The approximate size of a part in bytes. The size is chosen so that the arrays of a part fit in the cache of a
-/// processor core. Parts end at line ends.
+/// processor core. Each part ends at the end of a line.
 pub(super) const PART: usize = 256 << 10;
 
 /// Parses the statements of an OBJ file.
 ///
 /// # Errors
 ///
-/// If a line breaks the rules of the format, or an index refers to a missing element.
+/// If a line violates the format, or an index refers to a missing element.
 pub(super) fn parse(bytes: &[u8]) -> Result<ObjFile, Fault> {
     check_encoding(bytes)?;
     parse_in_parts(bytes, PART)
@@ -37,21 +37,21 @@ fn parse_in_parts(bytes: &[u8], size: usize) -> Result<ObjFile, Fault> {
     }
 }
 
-/// Parses a file as a whole. The file is parsed as a whole if parsing in parts fails, usually to find the exact error.
+/// Parses a file as a whole. This is done if parsing in parts fails, usually to find the exact error.
 fn parse_whole(bytes: &[u8]) -> Result<Part, Fault> {
     let part = read_whole(bytes, Limits::Start)?;
     if fits(std::slice::from_ref(&part)) {
         return Ok(part);
     }
-    // A vertex can be defined after the faces that use it, so the first pass does not know all counts. If an index is
-    // too high, a second pass with the final counts finds the line of the index.
+    // A vertex can be defined after the faces that use it, so the first pass does not know the final counts. If an
+    // index is too high, a second pass with the final counts finds the line of the index.
     let counts: Counts = part.counts();
     drop(part);
     read_whole(bytes, Limits::Whole(counts))
 }
 
-/// Returns the error for the first unknown statement, if the file has no vertices. A file with unknown statements and
-/// without vertices is not an OBJ file.
+/// Returns the error for the first unknown statement, if the file has no vertices. A file that has unknown statements
+/// but no vertices is not an OBJ file.
 fn first_unknown(file: &ObjFile) -> Option<Fault> {
     let unknown = |(what, &(_, line)): (&LeftOut, &(usize, usize))| match what {
         LeftOut::Unknown(word) => Some((line, word.clone())),

@@ -1,4 +1,4 @@
-//! The state of parsing, which consists of the text and the elements parsed so far.
+//! The state of parsing: the text and the elements parsed so far.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ pub(super) struct Parser<'a> {
     pub(super) cursor: Cursor<'a>,
     pub(super) part: Part,
     pub(super) limits: Limits,
-    /// The groups, object, material and smoothing group for the following faces.
+    /// The groups, object, material and smoothing group that apply to the following faces.
     pub(super) current: PartRun,
     pub(super) sets: BTreeMap<Vec<u32>, usize>,
 }
@@ -27,7 +27,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Returns three flags: whether a corner so far has a position, a texture coordinate, or a normal.
+    /// Returns three flags: whether any corner so far has a position, a texture coordinate, and a normal.
     pub(super) fn columns(&self) -> [bool; 3] {
         self.part.corners.each_ref().map(|column| column.len() > 0)
     }

@@ -8,8 +8,8 @@ use super::corner::{Corner, Counts, Index};
 use super::file::{LeftOut, NONE};
 use crate::text::{TextPosition, name};
 
-/// The content of a part of an OBJ file. Lines are numbered from 1, and faces, sets and names from 0. All numbers start
-/// at the beginning of the part.
+/// The content of a part of an OBJ file. Line numbers count from 1, and indices of faces, sets and names count from 0.
+/// All counts start at the beginning of the part.
 #[derive(Debug, Default)]
 pub(super) struct Part {
     pub(super) positions: Vec<DVec3>,
@@ -19,12 +19,12 @@ pub(super) struct Part {
     pub(super) mrgb_colors: Vec<u32>,
     pub(super) uvs: Vec<DVec2>,
     pub(super) normals: Vec<DVec3>,
-    /// For each face, the number of corners up to its end.
+    /// For each face, the number of face corners of the part up to the end of this face.
     pub(super) face_ends: Vec<u32>,
     /// The indices of the positions, texture coordinates and normals of the corners. An index is [`NONE`] if it is
     /// missing; a list is empty if all its indices are missing.
     pub(super) corners: [Indices; 3],
-    /// For each polyline, the number of corners up to its end.
+    /// For each polyline, the number of polyline corners of the part up to the end of this polyline.
     pub(super) line_ends: Vec<u32>,
     /// The vertices of the corners of polylines.
     pub(super) line_corners: Indices,
@@ -44,8 +44,8 @@ pub(super) struct Part {
     pub(super) left_out: BTreeMap<LeftOut, (usize, usize)>,
     /// For positions, texture coordinates and normals, the highest absolute index plus 1.
     pub(super) highest: Counts,
-    /// For positions, texture coordinates and normals, the number of elements before the part to which relative indices
-    /// refer.
+    /// For positions, texture coordinates and normals, how many elements before the part are needed for the relative
+    /// indices of the part.
     pub(super) reach: Counts,
     /// The number of lines that end in this part.
     pub(super) n_lines: usize,
@@ -99,8 +99,8 @@ impl Part {
         }
     }
 
-    /// Removes the corners of faces from corner `n` on. Columns for which `had` is false become empty, because they had
-    /// no values before these corners.
+    /// Removes the corners of faces, beginning with corner `n`. Columns for which `had` is false become empty, because
+    /// they had no values before these corners.
     pub(super) fn truncate_corners(&mut self, n: usize, had: [bool; 3]) {
         for (column, had) in self.corners.iter_mut().zip(had) {
             column.truncate(if had { n } else { 0 });

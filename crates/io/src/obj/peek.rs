@@ -17,7 +17,7 @@ use crate::peek::{PeekGeometry, PeekMesh, PeekObject};
 use crate::text::{Cursor, TextPosition, name};
 
 /// Returns the counts and the materials of an OBJ file, and notes on statements, images and material libraries that are
-/// left out. Numbers and indices are not checked, so a file with errors has counts too.
+/// left out. Numbers and indices are not checked, so an invalid file can also have counts.
 ///
 /// # Errors
 ///

@@ -2,7 +2,7 @@
 
 use scene::Texture;
 
-/// A texture as a material library declares it.
+/// A texture, as declared in a material library.
 #[derive(Debug, PartialEq)]
 pub(super) struct Picture {
     /// The file of the texture.
@@ -14,8 +14,8 @@ pub(super) struct Picture {
 }
 
 impl Picture {
-    /// Parses the text after the keyword: options, followed by the name of a file, which can contain blanks. `None`
-    /// if the name is missing.
+    /// Parses the text after the keyword: options, followed by the name of a file, which can contain blanks. Returns
+    /// `None` if the name is missing.
     pub(super) fn of(text: &str) -> Option<Self> {
         let mut rest = text.trim();
         let (mut multiplier, mut n_options) = (None, 0);

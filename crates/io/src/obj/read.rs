@@ -25,7 +25,7 @@ pub(super) const POLYLINES: &str = "polylines (`l`) left out: the object is a me
 ///
 /// # Errors
 ///
-/// The first line that breaks the rules of the format, or the path of a library that leaves the folder.
+/// The first line that violates the format, or the path of a library that leaves the folder.
 pub(crate) fn read(bytes: &[u8], assets: &mut Assets, notes: &mut Notes) -> Result<Shape, Fault> {
     let mut file = parse(bytes)?;
     note_left_out(&file, notes);
@@ -137,7 +137,7 @@ fn missing(indices: &[u32]) -> usize {
     parallel::count(indices.len(), |i| indices[i] == NONE)
 }
 
-/// Returns the number of elements to which no index refers. `n` is the number of all elements.
+/// Returns the number of elements that no index refers to. `n` is the number of all elements.
 fn unused(n: usize, indices: &[u32]) -> usize {
     let used = parallel::index_flags(n, indices);
     used.iter().filter(|used| !used.load(Relaxed)).count()
@@ -145,7 +145,7 @@ fn unused(n: usize, indices: &[u32]) -> usize {
 
 // ---- Values of faces ---------------------------------------------------------------------------
 
-/// Returns the faces of run number `i`.
+/// Returns the faces of the run with index `i`.
 fn faces_of_run(file: &ObjFile, i: usize, n_faces: usize) -> Range<usize> {
     let next = file.runs.get(i + 1);
     file.runs[i].first_face..next.map_or(n_faces, |next| next.first_face)
@@ -186,12 +186,12 @@ fn set_tags(polygons: &mut Polygons, file: &ObjFile, notes: &mut Notes) {
     let what = "groups and objects left out: too many for a mesh of this size";
     notes.left_out("too-many-names", n - n_columns, None, what);
     let mut columns: Vec<Vec<bool>> = vec![vec![false; n_faces]; n_columns];
-    // Tags of objects come before tags of groups, so that objects are kept if there is no room for all tags.
+    // Tags of objects come before tags of groups. If there is no room for all tags, those of objects are kept.
     for (i, run) in file.runs.iter().enumerate() {
         let groups = file.group_sets[run.groups].iter();
         let of_groups = groups.map(|&g| objects + g as usize);
-        // The indices in a set are sorted. Therefore, if one group is left out, all later groups of the set are left
-        // out too.
+        // The indices in a set are sorted. Therefore, if one group is left out, all later groups of the set are also
+        // left out.
         let of_groups = of_groups.take_while(|&column| column < n_columns);
         for column in run.object.into_iter().chain(of_groups) {
             if let Some(marks) = columns.get_mut(column) {

@@ -12,14 +12,14 @@ use crate::text::{Cursor, TextPosition, is_not_finite, name, number, parsed};
 /// The text at the beginning of comments with vertex colors.
 const MRGB_COMMENT: &[u8] = b"#MRGB ";
 
-/// The largest number of distinct unknown words that are listed by name.
+/// The maximum number of distinct unknown words that are listed by name.
 pub(super) const MAX_LISTED_WORDS: usize = 8;
 
 /// Parses the statements of a part of a file. Whether indices are in range is checked later, when the parts are joined.
 ///
 /// # Errors
 ///
-/// The first line that breaks the rules of the format, or the first unknown word after [`MAX_LISTED_WORDS`] others.
+/// The first line that violates the format, or the first unknown word after [`MAX_LISTED_WORDS`] other unknown words.
 pub(super) fn read_part(bytes: &[u8], is_first: bool) -> Result<Part, Fault> {
     let cursor = if is_first {
         Cursor::new(bytes)
@@ -34,7 +34,7 @@ pub(super) fn read_part(bytes: &[u8], is_first: bool) -> Result<Part, Fault> {
 ///
 /// # Errors
 ///
-/// The first line that breaks the rules of the format.
+/// The first line that violates the format.
 pub(super) fn read_whole(bytes: &[u8], limits: Limits) -> Result<Part, Fault> {
     Parser::new(Cursor::new(bytes), limits).run()
 }
@@ -106,8 +106,8 @@ impl Parser<'_> {
     }
 
     /// Binary data can have any number of distinct unknown words. Only the first few unknown words of the file are
-    /// listed by name. From a part alone, it is not known which words these are. Therefore parsing the part fails, and
-    /// the whole file is parsed in order.
+    /// listed by name, and a part alone does not determine which words these are. Therefore, parsing the part fails,
+    /// and the whole file is parsed in order.
     fn unknown(&self, place: TextPosition, word: String) -> Result<LeftOut, Fault> {
         let key = LeftOut::Unknown(word);
         let known = &self.part.left_out;

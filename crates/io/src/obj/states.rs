@@ -9,7 +9,7 @@ use crate::loss::Losses;
 use crate::parallel;
 use crate::polygons::OBJECT_TAG;
 
-/// The groups, object, material and smoothing group for the following faces.
+/// The groups, object, material and smoothing group that apply to the following faces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct FaceState<'a> {
     pub(super) object: Option<&'a str>,

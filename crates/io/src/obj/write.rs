@@ -18,8 +18,8 @@ use crate::save::{Block, Content, save};
 use crate::writing::{dense, push_comment};
 use crate::{WriteOptions, WriteReport, fail_if_lost, gzip};
 
-/// Writes `scene` to an OBJ file. Before the OBJ file, writes `images` and, if there are materials, the material
-/// library.
+/// Writes `scene` to an OBJ file. Before the OBJ file, `images` are written, and the material library if there are
+/// materials.
 ///
 /// # Errors
 ///
@@ -88,7 +88,7 @@ pub(crate) fn write(
 
 /// The geometry of an object, if OBJ can store it.
 enum Shape<'a> {
-    /// A mesh without dead elements.
+    /// A mesh without removed elements.
     Mesh(Box<Cow<'a, Mesh>>),
     Polylines(&'a [Vec<DVec3>]),
 }

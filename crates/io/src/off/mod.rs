@@ -1,6 +1,6 @@
-//! OFF: polygons as text, as Geomview defines it.
+//! OFF: polygons as text, as defined by Geomview.
 //!
-//! A file is one object. Its content becomes:
+//! A file is one object. Its content is converted as follows:
 //!
 //! | in the file | in the mesh |
 //! | --- | --- |
@@ -9,16 +9,16 @@
 //! | `COFF`: `r g b` or `r g b a` | vertex attribute `color` |
 //! | `STOFF`: `s t` | corner attribute `uv` |
 //! | `n v0 v1 ..` | a polygon of any degree, in order |
-//! | `n v0 v1 .. r g b` or `.. r g b a` | face attribute `color`, gray (2/3) for faces without a color if other faces have one |
-//! | `n v0 v1 .. i` | face attribute `color_index`, -1 for faces without one if other faces have one; color maps are not supported |
+//! | `n v0 v1 .. r g b` or `.. r g b a` | face attribute `color`; if only some faces have a color, the others get gray (2/3) |
+//! | `n v0 v1 .. i` | face attribute `color_index`; if only some faces have an index, the others get -1; color maps are not supported |
 //! | comments, the number of edges | not kept |
 //!
 //! The letters can be combined, as in `STCNOFF`. A line then has position, normal, color and texture coordinates, in
 //! this order. The keyword can be missing. If all color components of a file are integers, and at least one is greater
-//! than 1, all components are divided by 255. Otherwise, the components are used as they are. Binary files are refused,
+//! than 1, all components are divided by 255. Otherwise, the components are used unchanged. Binary files are refused,
 //! and so are files with a different number of coordinates (`4OFF`, `nOFF`).
 //!
-//! The writer uses the same table in the other direction. Texture coordinates are only written if they agree around
+//! The writer uses the same table in the other direction. Texture coordinates are written only if they agree around
 //! each vertex.
 
 mod read;

@@ -22,7 +22,7 @@ type Words<'a, 'w> = &'w [(TextPosition, &'a [u8])];
 ///
 /// # Errors
 ///
-/// The first position that breaks the rules of the format.
+/// The first position that violates the format.
 pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
     check_encoding(bytes)?;
     let mut cursor = Cursor::new(bytes);
@@ -108,7 +108,7 @@ fn count(cursor: &mut Cursor, what: &str) -> Result<usize, Fault> {
     parsed(word).ok_or_else(expected)
 }
 
-/// Checks that the rest of the file can hold `n` items of `words` words each.
+/// Checks that the rest of the file is long enough for `n` items of `words` words each.
 fn check_room(cursor: &Cursor, n: usize, words: usize, what: &str) -> Result<(), Fault> {
     if cursor.has_room(n, words) {
         return Ok(());
@@ -314,8 +314,8 @@ fn faces(
     Ok(())
 }
 
-/// Adds notes about the faces with fewer than 3 corners and the lines after the last face. `first` is the line of the
-/// first such face.
+/// Adds notes about the faces with fewer than 3 corners and about the lines after the last face. `first` is the line of
+/// the first face with fewer than 3 corners.
 fn note_left_out(small: usize, first: Option<usize>, cursor: &mut Cursor, notes: &mut Notes) {
     let what = "faces with fewer than 3 corners left out";
     notes.left_out("faces-too-small", small, first, what);
@@ -324,7 +324,7 @@ fn note_left_out(small: usize, first: Option<usize>, cursor: &mut Cursor, notes:
         "extra-content",
         rest,
         first,
-        "lines after the last face left out",
+        "lines left out after the last face",
     );
 }
 
@@ -335,7 +335,7 @@ fn note_left_out(small: usize, first: Option<usize>, cursor: &mut Cursor, notes:
 ///
 /// # Errors
 ///
-/// If the header or the number of corners of a face breaks the rules of the format, or if the file ends too early.
+/// If the header or the number of corners of a face violates the format, or if the file ends too early.
 pub(crate) fn peek(bytes: &[u8], notes: &mut Notes) -> Result<PeekMesh, Fault> {
     let mut cursor = Cursor::new(bytes);
     let header = Header::read(&mut cursor)?;

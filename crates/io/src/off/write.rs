@@ -144,8 +144,8 @@ fn push_numbers(out: &mut Vec<u8>, numbers: &[f64]) {
     }
 }
 
-/// Whether all components are exact multiples of 1/255, and at least one of them is greater than 1/255. With such
-/// colors, a reader does not mistake the bytes for components from 0 to 1.
+/// Whether all components are exact multiples of 1/255, and at least one of them is greater than 1/255. A reader does
+/// not mistake the bytes of such colors for components from 0 to 1.
 fn are_bytes(values: &Values) -> bool {
     let Values::Vec4(colors) = values else {
         return false;
@@ -164,7 +164,7 @@ fn push_color(out: &mut Vec<u8>, color: DVec4, as_bytes: bool) {
         let start = out.len();
         push_number(out, x);
         let is_whole = |byte: &u8| byte.is_ascii_digit() || *byte == b'-';
-        // A decimal point says that the components are from 0 to 1 and not bytes.
+        // A decimal point shows that the components are numbers from 0 to 1, not bytes.
         if out[start..].iter().all(is_whole) {
             out.extend_from_slice(b".0");
         }

@@ -1,9 +1,9 @@
 //! Reads and writes comments that describe attributes of a mesh. A comment is necessary if the names and types of the
-//! properties in the file do not determine the attribute.
+//! properties in the file are not sufficient to determine the attribute.
 //!
-//! For example, `comment meshwright vertex vec3 normal tangent_x "tangent"` declares that three properties of
-//! `vertex`, beginning with `tangent_x`, are the components of the attribute `tangent`, whose values are unit
-//! vectors. The name is a JSON string. Other programs see three unrelated properties.
+//! For example, `comment meshwright vertex vec3 normal tangent_x "tangent"` declares an attribute `tangent`. Its values
+//! are unit vectors, and its components are three properties of `vertex`, beginning with `tangent_x`. The name is a
+//! JSON string. Other programs see three unrelated properties.
 
 use mesh::{Domain, Rule};
 
@@ -11,7 +11,7 @@ use super::columns::Kind;
 
 const WORD: &str = "meshwright";
 
-/// A comment that describes the attribute stored in some properties.
+/// A comment that describes an attribute and the properties that store it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct AttributeComment {
     pub(super) domain: Domain,
@@ -31,7 +31,7 @@ const RULES: [(Rule, &str); 4] = [
 ];
 
 impl AttributeComment {
-    /// Parses a comment; `None` if it does not describe an attribute.
+    /// Parses a comment. Returns `None` if it does not describe an attribute.
     pub(super) fn parse(comment: &str) -> Option<Self> {
         let mut words = comment.splitn(6, ' ');
         if words.next() != Some(WORD) {

@@ -1,7 +1,7 @@
 //! Provides the values of a PLY file as tables. The file can be binary or text.
 //!
-//! The rows of a text are first converted to binary rows, with 64 bits for every floating-point value. Thus the other
-//! modules only handle binary rows.
+//! The rows of a text file are first converted to binary rows, with 64 bits for every floating-point value. Therefore,
+//! the other modules only handle binary rows.
 
 use std::borrow::Cow;
 
@@ -25,11 +25,11 @@ pub(super) struct Body<'a> {
 }
 
 impl<'a> Body<'a> {
-    /// Prepares the elements for which `wanted` returns true; the other elements are skipped.
+    /// Prepares the elements for which `wanted` returns true; other elements are skipped.
     ///
     /// # Errors
     ///
-    /// The first position in a text that breaks the rules of the format.
+    /// The first position in a text file that violates the format.
     pub(super) fn new(
         file: &'a [u8],
         header: &'a Header,
@@ -59,12 +59,12 @@ impl<'a> Body<'a> {
         Ok(body)
     }
 
-    /// Returns the tables of all elements, in the order of the header. In a text, the tables of skipped elements are
-    /// empty.
+    /// Returns the tables of all elements, in the order of the header. In a text file, the tables of skipped elements
+    /// are empty.
     ///
     /// # Errors
     ///
-    /// If the file is too short or a list has a negative count. Extra bytes at the end become a note.
+    /// If the file is too short or a list has a negative count. Extra bytes at the end are reported by a note.
     pub(super) fn tables(&self, notes: &mut Notes) -> Result<Vec<Table<'_>>, Fault> {
         let mut at = self.start;
         let big = self.header.encoding == Encoding::BigEndian;
@@ -79,12 +79,12 @@ impl<'a> Body<'a> {
             "extra-content",
             rest,
             None,
-            "bytes after the last element left out",
+            "bytes left out after the last element",
         );
         Ok(tables)
     }
 
-    /// Creates an error about a value, with the line and column in a text or the byte in a binary file.
+    /// Creates an error about a value, with the line and column in a text file, or the byte in a binary file.
     pub(super) fn error(
         &self,
         tables: &[Table],
@@ -129,12 +129,12 @@ impl<'a> Body<'a> {
     }
 }
 
-/// Returns the type in which a value of this type in a text is stored.
+/// Returns the binary type in which a value of a text file is stored.
 fn stored(kind: Type) -> Type {
     if kind.is_float() { Type::Float64 } else { kind }
 }
 
-/// Converts the rows of a text to little-endian binary rows.
+/// Converts the rows of a text file to little-endian binary rows.
 fn transcoded(
     text: &[u8],
     header: &Header,
@@ -173,7 +173,7 @@ fn transcoded(
         "extra-content",
         lines,
         first,
-        "lines after the last element left out",
+        "lines left out after the last element",
     );
     Ok(out)
 }

@@ -23,7 +23,7 @@ pub(super) enum Kind {
     Vec4,
 }
 
-/// Each kind with its name in comments and the number of components of a value.
+/// Each kind, with its name in comments and the number of components of a value.
 const KINDS: [(Kind, &str, usize); 6] = [
     (Kind::Tag, "tag", 1),
     (Kind::Int, "int", 1),
@@ -64,10 +64,10 @@ impl Kind {
 /// Where the numbers of a column are stored.
 #[derive(Clone, Copy)]
 pub(super) enum Source<'a> {
-    /// In consecutive scalar properties. The number is the index of the first property.
+    /// In consecutive scalar properties. The field is the index of the first property.
     Scalars(usize),
-    /// In a list property, for corner attributes. The number is the index of the property. The offsets are the first
-    /// corner of each face, followed by the total number of corners.
+    /// In a list property, for corner attributes. The first field is the index of the property. The second field has
+    /// the offsets: the first corner of each face, followed by the total number of corners.
     List(usize, &'a [u32]),
 }
 
@@ -158,7 +158,7 @@ fn degree(offsets: &[u32], row: usize) -> usize {
     (offsets[row + 1] - offsets[row]) as usize
 }
 
-/// Calls `work` with the rows of each block and the part of `out` that belongs to these rows.
+/// For each block, calls `work` with the rows of the block and the corresponding part of `out`.
 fn for_blocks<V: Send>(
     offsets: &[u32],
     out: &mut [V],
@@ -175,11 +175,12 @@ fn for_blocks<V: Send>(
 /// The offsets of the list of each row, and the items of all lists.
 type Lists = (Vec<u32>, Vec<u32>);
 
-/// Reads the lists of a table as vertices. Returns the offsets and the vertices.
+/// Reads the lists of a table as vertex indices. Returns the offsets and the indices.
 ///
 /// # Errors
 ///
-/// The row and the item of the first value that is not a vertex, or `None` if there are too many values for 32 bits.
+/// The row and the item of the first value that is not a vertex index, or `None` if there are too many values for 32
+/// bits.
 pub(super) fn indices(
     table: &Table,
     property: usize,

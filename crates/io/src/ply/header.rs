@@ -7,10 +7,10 @@ use super::types::Type;
 use crate::fault::Fault;
 use crate::text::{BYTE_ORDER_MARK, TextPosition, name, parsed, quoted};
 
-/// The maximum number of properties of all elements together. The maximum limits the number of passes over the data.
-/// Programs write fewer properties.
+/// The maximum number of properties of all elements together. It limits the number of passes over the data. Files
+/// usually have far fewer properties.
 pub(super) const MAX_PROPERTIES: usize = 4096;
-/// The maximum number of elements. The maximum limits the time of searches by name. Programs write fewer elements.
+/// The maximum number of elements. It limits the time of searches by name. Files usually have far fewer elements.
 const MAX_ELEMENTS: usize = 1024;
 
 /// The encoding of the values of a file.
@@ -98,7 +98,7 @@ impl Element {
 ///
 /// # Errors
 ///
-/// The first line that breaks the rules of the format.
+/// The first line that violates the format.
 pub(super) fn parse(bytes: &[u8]) -> Result<Header, Fault> {
     let start = if bytes.starts_with(BYTE_ORDER_MARK) {
         BYTE_ORDER_MARK.len()

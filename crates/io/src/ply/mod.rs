@@ -1,6 +1,6 @@
 //! Stanford PLY: polygons with any properties, as text or as binary numbers in either byte order.
 //!
-//! A file is one object. Its elements and properties become:
+//! A file is one object. Its elements and properties are converted as follows:
 //!
 //! | in the file | in the mesh |
 //! | --- | --- |
@@ -9,22 +9,22 @@
 //! | `vertex`: `red green blue alpha`, `diffuse_red ..` or `r g b a` | vertex attribute `color`; integers are divided by 255 (`ushort`: by 65535) |
 //! | `vertex`: `s t`, `u v`, `texture_u texture_v` or `texture_s texture_t` | corner attribute `uv` |
 //! | `face`: `vertex_indices` or `vertex_index` | a polygon of any degree, in order |
-//! | `face`: `texcoord` (u and v for each corner, as `MeshLab` writes them) | corner attribute `uv` |
+//! | `face`: `texcoord` (u and v for each corner, as in files of `MeshLab`) | corner attribute `uv` |
 //! | `face`: `red green blue alpha`, `nx ny nz` | face attributes `color` and `normal` |
 //! | `tristrips`: `vertex_indices` with -1 between strips | triangles, if there are no faces |
-//! | any other scalar of `vertex` or `face` | an attribute of that name, with integers if they fit in 32 bits |
-//! | `comment meshwright ..` | describes the attribute that some properties were, see `attribute_comments` |
+//! | any other scalar of `vertex` or `face` | an attribute with the same name, of integers if they fit in 32 bits |
+//! | `comment meshwright ..` | describes the attribute that some properties store; see `attribute_comments` |
 //! | other lists, other elements (`edge`, `range_grid` and so on) | left out, with a note |
 //! | other comments, `obj_info` | not kept |
 //!
-//! Edits interpolate floating-point properties of vertices and copy all other properties. Non-finite positions
-//! are an error. Other non-finite values become 0, with a note.
+//! When the mesh is edited, floating-point properties of vertices are interpolated, and all other properties are
+//! copied. Non-finite positions are an error. Other non-finite values become 0, with a note.
 //!
 //! The writer uses the same table in the other direction and writes little-endian binary. All values are restored
 //! exactly when the file is read. Positions and custom attributes are written with 64 bits. Normals and texture
-//! coordinates are written with 32 bits if that is exact, and colors as bytes if every component is a multiple of
-//! 1/255. If texture coordinates agree around each vertex, they are written as `s t`. Corner attributes are written as
-//! lists of `face`. Materials and edge attributes cannot be stored.
+//! coordinates are written with 32 bits if that is exact. Colors are written as bytes if every component is a multiple
+//! of 1/255. If texture coordinates agree around each vertex, they are written as `s t`. Corner attributes are written
+//! as lists of `face`. Materials and edge attributes cannot be stored.
 
 mod attribute_comments;
 mod body;

@@ -13,7 +13,7 @@ use crate::peek::PeekMesh;
 ///
 /// # Errors
 ///
-/// If the header breaks the rules of the format, or if the file is shorter than the header declares.
+/// If the header violates the format, or if the file is shorter than the header declares.
 pub(crate) fn peek(bytes: &[u8], notes: &mut Notes) -> Result<PeekMesh, Fault> {
     let header = parse(bytes)?;
     let roles = Roles::of(&header)?;

@@ -23,8 +23,8 @@ use crate::{Polygons, parallel};
 ///
 /// # Errors
 ///
-/// The first position that breaks the rules of the format. In a text and in the header, the position is a line and a
-/// column. In binary values, the position is a byte.
+/// The first position that violates the format. In a text file and in a header, the position is a line and a column. In
+/// binary values, the position is a byte.
 pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
     let header = parse(bytes)?;
     let roles = Roles::of(&header)?;
@@ -103,7 +103,7 @@ impl Reader<'_, '_> {
         Err(self.body.error(self.tables, place, message))
     }
 
-    /// The vertices of the faces.
+    /// Returns the offsets of the faces, and the vertex indices of their corners.
     fn indices(&self, element: usize, list: usize) -> Result<(Vec<u32>, Vec<u32>), Fault> {
         let n = self.polygons.positions.len();
         let table = &self.tables[element];
@@ -120,8 +120,8 @@ impl Reader<'_, '_> {
         })
     }
 
-    /// Converts strips, in which -1 ends a strip, to triangles. Every second triangle is reversed. Triangles that visit
-    /// a vertex twice are left out, because they only connect parts of a strip.
+    /// Converts strips, in which -1 ends a strip, to triangles. Every second triangle of a strip is reversed. Triangles
+    /// that visit a vertex twice are left out, because they only connect parts of a strip.
     fn strips(&mut self, element: usize, list: usize) -> Result<(), Fault> {
         let table = &self.tables[element];
         let found = triangles_of_strips(table, list, self.polygons.positions.len());
@@ -342,7 +342,7 @@ pub(super) fn plain_rule(domain: Domain, kind: Type) -> Rule {
     }
 }
 
-/// Whether a property of this type can hold values of this kind.
+/// Whether a property of this type can store values of this kind.
 fn fits(kind: Kind, value: Type) -> bool {
     match kind {
         Kind::Tag => !value.is_float(),

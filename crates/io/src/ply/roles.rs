@@ -11,9 +11,9 @@ pub(super) struct Roles {
     pub(super) vertex: usize,
     /// The properties `x`, `y` and `z`.
     pub(super) position: [usize; 3],
-    /// The element of the faces and its list of vertices.
+    /// The element of the faces, and its list of vertex indices.
     pub(super) face: Option<(usize, usize)>,
-    /// The element of the triangle strips and its list of vertices, if there are no faces.
+    /// The element of the triangle strips and its list of vertex indices, if there are no faces.
     pub(super) strips: Option<(usize, usize)>,
 }
 
@@ -98,8 +98,8 @@ fn corner_list(element: &Element) -> Result<usize, Fault> {
     )))
 }
 
-/// A family is a list of property names, such as `s` and `t`. Returns the properties of the first family whose names
-/// all exist.
+/// Returns the properties of the first family whose names all exist. A family is a list of property names, such as `s`
+/// and `t`.
 fn family<const N: usize>(element: &Element, names: &[[&str; N]]) -> Option<[usize; N]> {
     names.iter().find_map(|family| {
         let mut found = [0; N];

@@ -3,15 +3,15 @@
 use super::columns::item_at;
 use super::table::Table;
 
-/// Three vertices for each triangle, the number of strips, and the number of triangles that are left out because they
-/// visit a vertex twice.
+/// The vertices of the triangles (three for each), the number of strips, and the number of triangles that are left out
+/// because they visit a vertex twice.
 type Strips = (Vec<u32>, usize, usize);
 
 /// Converts lists, in which -1 ends a strip, to triangles. Every second triangle of a strip is reversed.
 ///
 /// # Errors
 ///
-/// The row, the item and the message for the first item that is neither a vertex nor -1.
+/// The row and the item of the first item that is neither a vertex index nor -1, and a message.
 pub(super) fn triangles_of_strips(
     table: &Table,
     list: usize,

@@ -11,14 +11,14 @@ pub(super) struct Table<'a> {
     pub(super) properties: &'a [Property],
     pub(super) rows: usize,
     pub(super) big: bool,
-    /// The bytes from the first row on.
+    /// The bytes of the file, beginning with the first row.
     pub(super) bytes: &'a [u8],
     /// The position of `bytes` in the file.
     pub(super) start: usize,
     layout: Layout,
 }
 
-/// The positions of rows. A row is divided into segments: a new segment begins after each list whose length differs
+/// The positions of rows. A row is divided into segments. A new segment begins after each list whose length differs
 /// between rows. Each segment has its own list of positions.
 #[derive(Debug)]
 enum Layout {
@@ -42,8 +42,8 @@ enum Layout {
 }
 
 impl<'a> Table<'a> {
-    /// Locates the rows of an element in `file`, from `start` on. Returns the table and the position after its last
-    /// row.
+    /// Locates the rows of an element in `file`, beginning at `start`. Returns the table and the position after its
+    /// last row.
     ///
     /// # Errors
     ///
@@ -157,7 +157,7 @@ fn even(properties: &[Property], rows: usize, bytes: &[u8], big: bool) -> Option
     let length = stride.checked_mul(rows)?;
     bytes.get(..length)?;
     for (at, kind, count) in lists {
-        // In most lists, the count has one byte. For speed, this case does not use the generic loop.
+        // In most lists, the count has one byte. This case has its own loop, which is faster than the generic one.
         let is_same = if kind == Type::UInt8 {
             parallel::all(rows, |row| usize::from(bytes[row * stride + at]) == count)
         } else {
@@ -178,7 +178,7 @@ fn even(properties: &[Property], rows: usize, bytes: &[u8], big: bool) -> Option
     Some((layout, length))
 }
 
-/// Scans rows with different counts. Returns the layout and the total length of the rows.
+/// Scans rows whose lists have different counts. Returns the layout and the total length of the rows.
 fn scanned(
     element: &Element,
     all: &[u8],

@@ -15,7 +15,7 @@ pub(super) enum Type {
     Float64,
 }
 
-/// Each type with its old and new name and the size of a value in bytes.
+/// Each type, with its old name, its new name and the size of a value in bytes.
 const TYPES: [(Type, [&str; 2], usize); 8] = [
     (Type::Int8, ["char", "int8"], 1),
     (Type::UInt8, ["uchar", "uint8"], 1),
@@ -68,7 +68,7 @@ impl Type {
     }
 }
 
-/// Runs `$body`, in which `$t` is the Rust type of the values.
+/// Evaluates `$body`, in which `$t` is the Rust type of the values.
 macro_rules! with_type {
     ($type:expr, $t:ident => $body:expr) => {
         with_type!(@ $type, $t => $body;

@@ -82,14 +82,14 @@ struct Element<'a> {
     properties: Vec<String>,
     names: BTreeSet<String>,
     fields: Vec<Field<'a>>,
-    /// The largest number of corners of a face.
+    /// The maximum number of corners of a face.
     most: usize,
 }
 
 /// A field of each row.
 enum Field<'a> {
     Positions(&'a [DVec3]),
-    /// The vertices of a face, with the type of their count.
+    /// The vertex indices of a face, with the type of their count.
     Corners(Type),
     Values {
         values: Cow<'a, Values>,
@@ -131,7 +131,7 @@ impl<'a> Element<'a> {
         }
     }
 
-    /// Adds a property to the header. If `count` is given, the property is a list.
+    /// Adds a property to the header. The property is a list if `count` is given.
     fn property(&mut self, count: Option<Type>, form: Type, name: &str) {
         let list = count.map_or(String::new(), |count| format!("list {} ", count.name()));
         self.properties
@@ -188,8 +188,8 @@ impl<'a> Element<'a> {
         self.values(names, false, values, size, form);
     }
 
-    /// Adds values under the name of their attribute. If the name and the types are not enough to restore the
-    /// attribute, adds a comment.
+    /// Adds values under the name of their attribute. If the name and the types are not sufficient to restore the
+    /// attribute, a comment is added.
     fn free(&mut self, domain: Domain, column: &Column, values: Cow<'a, Values>) {
         let kind = Kind::of(&values);
         let form = match kind {
@@ -216,7 +216,7 @@ impl<'a> Element<'a> {
         self.values(&names, is_list, values, kind.size(), form);
     }
 
-    /// Returns names for the properties of an attribute with `n` components. No other property has these names.
+    /// Returns unused names for the properties of an attribute with `n` components.
     fn free_names(&mut self, name: &str, n: usize) -> Vec<String> {
         let is_fine = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.' | ':');
         let word = name.replace(|c| !is_fine(c), "_");

@@ -13,7 +13,7 @@ pub(super) struct Facets {
     pub(super) sides: [usize; 3],
     /// The number of facets whose attribute bytes are not 0.
     pub(super) colored: usize,
-    /// The names of solids, and the facets of each.
+    /// The name and the facets of each solid.
     pub(super) solids: Vec<(String, Range<usize>)>,
 }
 
@@ -29,7 +29,7 @@ pub(super) enum Side {
 
 /// Compares the normal of a facet with the normal of its corners. The two normals agree if the sine of the angle
 /// between them is at most 1/10 (6 degrees), which allows for rounding errors in a sliver. The normals also agree if
-/// the normal of the facet is zero or not finite, or the facet has no area.
+/// the normal of the facet is zero or not finite, or if the area of the facet is zero.
 #[inline]
 pub(super) fn compare(normal: DVec3, [a, b, c]: [DVec3; 3]) -> Side {
     let area = (b - a).cross(c - a);
@@ -46,7 +46,7 @@ pub(super) fn compare(normal: DVec3, [a, b, c]: [DVec3; 3]) -> Side {
         };
     }
     // If the facet is a sliver, the normals are not compared. The corners are rounded to 24 bits, and the area can be a
-    // result of this rounding.
+    // result of rounding errors.
     let size = a.abs().max(b.abs()).max(c.abs()).max_element();
     let longest = (b - a).length_squared().max((c - a).length_squared());
     let rounding = 4.0 / f64::from(1 << 24) * size;

@@ -1,20 +1,20 @@
 //! STL: triangles for 3D printing, as text or binary.
 //!
-//! A file is one object. Its content becomes:
+//! A file is one object. Its content is converted as follows:
 //!
 //! | in the file | in the mesh |
 //! | --- | --- |
 //! | facet | a triangle, in order |
 //! | corners of facets | vertices: corners at exactly the same position are merged (0 and -0 are equal) |
-//! | facet normal | not kept, because it follows from the corners; a note counts normals that deviate by more than a few degrees, except zero normals |
+//! | facet normal | not kept, because the corners determine it; a note counts nonzero normals that deviate by more than a few degrees |
 //! | `solid a`, if a text file has several solids | face tag `o:a` |
 //! | header, `solid a` of the only solid | not kept |
 //! | attribute bytes other than 0 (colors, in two dialects) | left out, with a note |
 //!
 //! If the size of a file matches the number of triangles that it declares, the file is binary, even if its first word
-//! is `solid`. Otherwise, a file that begins with `solid` is a text.
+//! is `solid`. Otherwise, a file that begins with `solid` is a text file.
 //!
-//! The writer creates binary files with 32 bits for a coordinate. Polygons are triangulated. The header stores
+//! The writer creates binary files with 32-bit coordinates. Polygons are triangulated. The header stores
 //! [`provenance`](crate::WriteOptions::provenance). All attributes are lost.
 
 mod binary;

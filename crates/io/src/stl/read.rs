@@ -16,14 +16,14 @@ use crate::text::BYTE_ORDER_MARK;
 use crate::weld::weld;
 
 /// The notes about content of binary files that is left out.
-const REST: &str = "bytes after the last facet left out";
+const REST: &str = "bytes left out after the last facet";
 const COLORED: &str = "facets with attribute bytes (possibly colors): these bytes are left out";
 
 /// Reads an STL file from its bytes.
 ///
 /// # Errors
 ///
-/// The first position that breaks the rules of the format.
+/// The first position that violates the format.
 pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
     let facets = match kind(bytes)? {
         Kind::Text => text::read(bytes)?,
@@ -42,7 +42,7 @@ pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
 
 enum Kind {
     Text,
-    /// A binary file. The number is the position of the end of its facets.
+    /// A binary file. The field is the position of the end of its facets.
     Binary(usize),
 }
 
@@ -58,8 +58,8 @@ fn kind(bytes: &[u8]) -> Result<Kind, Fault> {
         .unwrap_or(bytes)
         .trim_ascii_start();
     let word = start.get(..5).unwrap_or_default();
-    // The header of a binary file can also begin with `solid`. But a binary file has zero bytes near its beginning, and
-    // a text has none.
+    // The header of a binary file can also begin with `solid`. However, a binary file has zero bytes near its
+    // beginning, and a text file has none.
     if word.eq_ignore_ascii_case(b"solid") && !bytes[..n_bytes.min(512)].contains(&0) {
         return Ok(Kind::Text);
     }
@@ -91,7 +91,7 @@ fn polygons(facets: Facets, notes: &mut Notes) -> Polygons {
     notes.left_out("facet-attributes", facets.colored, None, COLORED);
     let (positions, corners) = weld(facets.corners);
     let n = positions.len();
-    let what = format!("corners merged into {n} vertices by equal positions");
+    let what = format!("corners merged into {n} vertices with distinct positions");
     notes.changed("corners-merged", n_corners, None, what);
     let mut polygons = Polygons {
         positions,

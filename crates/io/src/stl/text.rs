@@ -6,11 +6,11 @@ use super::facets::{Facets, compare};
 use crate::fault::Fault;
 use crate::text::{Cursor, is_not_finite, name, number, quoted};
 
-/// Reads the facets of a text.
+/// Reads the facets of a text file.
 ///
 /// # Errors
 ///
-/// The first word that breaks the rules of the format.
+/// The first word that violates the format.
 pub(super) fn read(bytes: &[u8]) -> Result<Facets, Fault> {
     let mut found = Facets::default();
     let mut cursor = Cursor::new(bytes);
@@ -59,7 +59,7 @@ fn solid(cursor: &mut Cursor, found: &mut Facets) -> Result<(), Fault> {
     }
 }
 
-/// Reads a normal. Some programs write `nan` for the normal of a facet without area. For `nan`, the normal is zero.
+/// Reads a normal. Some programs write `nan` as the normal of a zero-area facet, which is read as zero.
 fn normal(cursor: &mut Cursor) -> Result<DVec3, Fault> {
     let mut normal = DVec3::ZERO;
     for i in 0..3 {
@@ -77,7 +77,7 @@ fn normal(cursor: &mut Cursor) -> Result<DVec3, Fault> {
     })
 }
 
-/// Counts the facets of a text by the word `endfacet`.
+/// Counts the facets of a text file by the word `endfacet`.
 pub(super) fn count(bytes: &[u8]) -> u64 {
     let mut n = 0;
     let mut rest = bytes;

@@ -55,13 +55,13 @@ fn note_losses(mesh: &Mesh, losses: &mut Losses) {
     let reason = "rounded to the 32-bit numbers of STL";
     losses.add(Domain::Vertex, "position", rounded, reason);
     let isolated = mesh.n_isolated_vertices();
-    let reason = "isolated vertices, but STL only stores triangles";
+    let reason = "isolated vertices: STL stores only triangles";
     losses.add(Domain::Vertex, "position", isolated, reason);
     let reason = "coincident vertices, which readers of STL merge";
     losses.add(Domain::Vertex, "position", n_merged(mesh), reason);
     let is_polygon = |f: usize| !mesh.is_triangle(FaceId::new(f));
     let polygons = parallel::count(mesh.n_faces(), is_polygon);
-    let reason = "STL only stores triangles, so polygons are triangulated";
+    let reason = "STL stores only triangles, so polygons are triangulated";
     losses.add(Domain::Face, "polygon", polygons, reason);
 }
 
@@ -103,7 +103,7 @@ fn facets(mesh: &Mesh, faces: std::ops::Range<usize>) -> Vec<u8> {
     out
 }
 
-/// Appends a triangle with its unit normal, which is zero if the rounded triangle has no area.
+/// Appends a triangle with its unit normal. The normal is zero if the area of the rounded triangle is zero.
 fn push_facet(out: &mut Vec<u8>, corners: [DVec3; 3]) {
     let rounded = corners.map(DVec3::as_vec3);
     let [a, b, c] = rounded.map(Vec3::as_dvec3);

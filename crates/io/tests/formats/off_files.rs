@@ -236,7 +236,7 @@ fn content_left_out_is_counted() {
         [
             "2 vertices with extra numbers, which the keyword in the first line does not declare: left out",
             "2 faces with fewer than 3 corners left out",
-            "2 lines after the last face left out",
+            "2 lines left out after the last face",
         ]
     );
 }

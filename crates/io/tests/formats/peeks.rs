@@ -70,7 +70,7 @@ fn elements_and_extra_bytes_of_ply() {
     peek_notes(
         &[("a.ply", text.as_bytes())],
         &[
-            "a.ply:18: 1 line after the last element",
+            "a.ply:18: 1 line left out after the last element",
             "a.ply:7: 2 rows of element `camera`",
         ],
     );
@@ -103,7 +103,7 @@ fn attribute_bytes_and_extra_bytes_of_stl() {
     peek_notes(
         &[("a.stl", &bytes)],
         &[
-            "4 bytes after the last facet",
+            "4 bytes left out after the last facet",
             "1 facet with attribute bytes",
         ],
     );
@@ -118,7 +118,7 @@ fn small_faces_and_extra_lines_of_off() {
         )],
         &[
             "a.off:6: 1 face with fewer than 3 corners",
-            "a.off:8: 2 lines after the last face",
+            "a.off:8: 2 lines left out after the last face",
         ],
     );
 }

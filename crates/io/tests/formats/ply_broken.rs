@@ -295,7 +295,7 @@ fn bytes_after_the_last_element_are_noted() {
     assert!(
         loaded.notes[0]
             .to_string()
-            .ends_with("4 bytes after the last element left out")
+            .ends_with("4 bytes left out after the last element")
     );
 }
 

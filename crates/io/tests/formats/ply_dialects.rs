@@ -63,7 +63,7 @@ fn unknown_elements_and_lists_are_counted() {
     assert_eq!(
         notes,
         [
-            (1, Some(25), "lines after the last element left out"),
+            (1, Some(25), "lines left out after the last element"),
             (2, Some(3), "rows of element `edge` left out"),
             (1, Some(13), "rows of element `range_grid` left out"),
             (3, Some(10), "lists `near` of element `vertex` left out"),

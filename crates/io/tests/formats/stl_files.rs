@@ -81,7 +81,7 @@ fn the_size_determines_whether_a_file_is_binary() {
     let (polygons, notes) = found(binary(&[FLAT, NEXT]));
     assert_eq!(
         notes,
-        ["6 corners merged into 4 vertices by equal positions"]
+        ["6 corners merged into 4 vertices with distinct positions"]
     );
     assert_eq!(polygons.corners, [0, 1, 2, 1, 3, 2]);
     assert_eq!(polygons.offsets, [0, 3, 6]);
@@ -121,7 +121,7 @@ fn text_and_binary_files_give_the_same_mesh() {
     let (of_text, notes) = found(text);
     assert_eq!(
         notes,
-        ["6 corners merged into 4 vertices by equal positions"]
+        ["6 corners merged into 4 vertices with distinct positions"]
     );
     assert_eq!(of_text, found(binary(&[FLAT, NEXT])).0);
 }
@@ -200,7 +200,7 @@ fn bytes_after_the_last_facet_are_noted() {
     bytes[1] = 0;
     let (polygons, notes) = found(&bytes);
     assert_eq!(polygons.n_faces(), 1);
-    assert_eq!(notes[0], "4 bytes after the last facet left out");
+    assert_eq!(notes[0], "4 bytes left out after the last facet");
 }
 
 #[test]
@@ -261,7 +261,7 @@ fn written_normals_are_unit_vectors_and_match_the_corners() {
     }
     assert_eq!(
         found(bytes).1,
-        ["60 corners merged into 12 vertices by equal positions"]
+        ["60 corners merged into 12 vertices with distinct positions"]
     );
 }
 

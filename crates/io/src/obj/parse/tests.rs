@@ -1,4 +1,4 @@
-//! Parsing the statements of OBJ files, as a whole and in parts.
+//! Tests of parsing the statements of OBJ files, as a whole and in parts.
 
 use std::collections::BTreeMap;
 

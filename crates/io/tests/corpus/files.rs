@@ -1,4 +1,4 @@
-//! Checks properties that must hold if arbitrary bytes are read as a file of any format. The fuzzer and the test that
+//! Checks properties that must hold when arbitrary bytes are read as a file of any format. The fuzzer and the test that
 //! replays its corpus share these checks.
 
 use std::path::Path;
@@ -10,14 +10,14 @@ use scene::Scene;
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
 
-/// Reading can use the size of the file times this factor, plus [`SMALL`] bytes.
+/// Reading can use memory of the size of the file times this factor, plus [`SMALL`] bytes.
 const TIMES: usize = 64;
 
-/// The number of bytes for tables, threads and messages that reading can use in addition.
+/// The additional number of bytes that reading can use for tables, threads and messages.
 const SMALL: usize = 1 << 20;
 
 /// The maximum number of rounds of writing and reading after which the written bytes must stay the same. One round is
-/// not always enough: for example, an object that loses its last vertices is missing in the next round.
+/// not always sufficient. For example, an object that loses its last vertices is missing in the next round.
 const ROUNDS: usize = 4;
 
 /// The memory that repeated instances can use even in a small file.
@@ -60,7 +60,7 @@ pub(crate) fn check(extension: &str, bytes: &[u8]) {
         "dae" => path.with_extension("obj"),
         _ => path,
     };
-    // The format may be unable to store the content, such as numbers outside of the 32-bit range.
+    // The format may be unable to store the content, such as numbers outside the 32-bit range.
     let Some(mut last) = round_trip(&path, loaded) else {
         return;
     };

@@ -1,6 +1,6 @@
-//! Each file in `tests/fuzz/corpus/` is a separate test. The file must be read or refused in little time and memory,
-//! which the fuzzer also checks for random bytes. The corpus includes the files for which the fuzzer found errors, with
-//! descriptive names.
+//! Each file in `tests/fuzz/corpus/` is a separate test. The file must be read or refused in little time and memory.
+//! The fuzzer checks the same for random bytes. The corpus includes the files for which the fuzzer found errors. These
+//! files have descriptive names.
 
 mod files;
 

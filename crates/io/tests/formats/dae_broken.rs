@@ -1,4 +1,4 @@
-//! Invalid COLLADA files: errors have a position, and the reader does not panic.
+//! Tests of invalid COLLADA files. Errors have a position, and the reader does not panic.
 
 use std::fmt::Write;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! COLLADA files with nodes, libraries and other elements around the geometry.
+//! Tests of COLLADA files with nodes, libraries and other elements around the geometry.
 
 use geometry::shapes;
 use glam::{DVec2, DVec3};
@@ -204,7 +204,7 @@ fn peeking_counts_what_reading_gives() {
     );
 }
 
-/// The triangles as lists of three positions, in order.
+/// Returns the triangles in order, each as a list of three positions.
 fn triangles_of(loader: &mesh_loader::Mesh) -> Vec<[[f32; 3]; 3]> {
     let triangle = |f: &[u32; 3]| f.map(|v| loader.vertices[v as usize]);
     loader.faces.iter().map(triangle).collect()

@@ -1,4 +1,4 @@
-//! Handmade COLLADA files, compared with the expected result and with another reader.
+//! Tests of handmade COLLADA files, which are compared with the expected result and with another reader.
 
 use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4};
@@ -8,7 +8,7 @@ use scene::{AlphaMode, Object, Texture};
 
 use crate::{Folder, assert_same, polygons, read};
 
-/// Returns a file with one geometry, which has these lists of polygons, and one node, which has these transforms.
+/// Returns a file with one geometry that has these lists of polygons, and one node that has these transforms.
 pub(crate) fn file(lists: &str, transforms: &str) -> String {
     format!(
         r##"<?xml version="1.0" encoding="utf-8"?>

@@ -1,4 +1,4 @@
-//! Broken glTF files: errors have a JSON pointer, and the reader does not panic.
+//! Tests of invalid glTF files. Errors have a JSON pointer, and the reader does not panic.
 
 use mesh_io::{ReadError, ReadOptions};
 use proptest::prelude::*;
@@ -11,7 +11,7 @@ use crate::{Folder, read, write};
 
 const FOUR_BILLION: u32 = 4_000_000_000;
 
-/// Changes one value of a valid document, and checks the pointer and the words of the error.
+/// Changes one value of a valid document, and checks the pointer and the message of the error.
 fn assert_refused(change: &str, to: Value, pointer: &str, words: &str) {
     let mut json = square(&[0, 1, 2, 0, 2, 3], 4);
     let place = json.pointer_mut(change);

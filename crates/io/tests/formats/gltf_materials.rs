@@ -1,4 +1,4 @@
-//! Materials of glTF files: reading, writing and round trips.
+//! Tests of the materials of glTF files: reading, writing and round trips.
 
 use geometry::shapes;
 use glam::DVec2;
@@ -198,7 +198,7 @@ fn images_and_materials_are_written_once() {
     for (object, back) in objects.iter().zip(&loaded.objects) {
         assert_eq!(object.materials, back.materials);
     }
-    // All textures share the same bytes after reading.
+    // After reading, all textures share the same bytes.
     let image = |i: usize| {
         &loaded.objects[i].materials[0]
             .normal_texture

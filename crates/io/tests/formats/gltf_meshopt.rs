@@ -20,7 +20,7 @@ fn torus(name: &str) -> Mesh {
     only(&file(name)).as_mesh().unwrap().as_ref().clone()
 }
 
-/// The values of an attribute at each corner of each face, for any domain of the attribute.
+/// Returns the values of an attribute at each corner of each face, for an attribute of any domain.
 fn corners(mesh: &Mesh, name: &str) -> Vec<Vec<f64>> {
     let find = |domain| {
         let columns = mesh.attributes().of(domain);
@@ -145,8 +145,8 @@ fn fallback_buffers_are_never_read() {
         "torus_fallback.bin",
         std::fs::read(file("torus_fallback.bin")).unwrap(),
     );
-    // The file of the fallback buffer is missing. The first time, the buffer is declared as a fallback; the second
-    // time, it is not.
+    // The file of the fallback buffer is missing. In the first round, the buffer is declared as a fallback. In the
+    // second round, it is not.
     let path = folder.with("a.gltf", &gltf);
     assert_same(
         only(&path).as_mesh().unwrap(),
@@ -270,7 +270,7 @@ fn decoded_views_are_limited_to_64_times_the_file() {
     let count = |blocks: usize| 256 * blocks as u64 / 3 * 3;
     for (blocks, is_fine) in [(10, true), (10_000, false)] {
         let mut json = points(&stream(blocks), count(blocks));
-        // Equal elements become one vertex, and their triangles are dropped.
+        // Equal points are merged into one vertex, so the triangles become degenerate and are dropped.
         json["meshes"][0]["primitives"][0]["mode"] = json!(4);
         let result = read_json(&json);
         assert_eq!(result.is_ok(), is_fine, "{blocks}");

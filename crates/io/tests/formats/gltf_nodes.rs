@@ -1,4 +1,4 @@
-//! Tests of the nodes of glTF files: a file that is read and written again keeps its hierarchy, cameras, lights and
+//! Tests of the nodes of glTF files. A file that is read and written again keeps its hierarchy, cameras, lights and
 //! extras.
 
 use geometry::shapes;
@@ -12,8 +12,8 @@ use store::Disk;
 use crate::Folder;
 use crate::gltf_read::{read_json, square};
 
-/// Returns a document with a hierarchy of nodes. One mesh is shown twice, another mesh once, and there are a camera and
-/// two lights.
+/// Returns a document with a hierarchy of nodes. Two nodes reference the first mesh, and one node references each other
+/// mesh. There are two cameras and two lights.
 fn asset() -> Value {
     let mut json = square(&[0, 1, 2, 0, 2, 3], 4);
     let primitives = json["meshes"][0]["primitives"].clone();
@@ -47,8 +47,8 @@ fn asset() -> Value {
     json
 }
 
-/// Returns a form of the document that does not depend on the order and the numbers of its parts. The result is the
-/// tree of the nodes, with all parts to which the nodes refer.
+/// Returns a form of the document that does not depend on the order and the indices of its parts. The result is the
+/// tree of the nodes, with all parts that the nodes refer to.
 fn canonical(json: &Value) -> Value {
     fn node_tree(json: &Value, i: &Value) -> Value {
         let mut node = json["nodes"][index(i)].clone();
@@ -136,7 +136,7 @@ fn an_asset_that_no_step_touched_comes_out_as_it_went_in() {
     assert_eq!(canonical(&after), canonical(&asset()));
     assert_eq!(after["meshes"].as_array().unwrap().len(), 4);
     assert_eq!(after["nodes"].as_array().unwrap().len(), 8);
-    // If the written file is read again, the scene is the same bit by bit.
+    // When the written file is read again, the scene is identical bit for bit.
     let folder = Folder::new();
     for extension in ["glb", "gltf", "mws"] {
         let path = folder.path("a").with_extension(extension);
@@ -291,7 +291,7 @@ fn placed_instances_agree_with_baked_objects() {
         names.sort();
         names
     };
-    // The unnamed node of the wheel is named after the mesh.
+    // The object of the unnamed node has the name of its mesh.
     assert_eq!(names(&placed), ["a", "body", "left", "plain", "wheel"]);
     assert_eq!(names(&placed), names(&baked));
     for object in placed.objects() {
@@ -385,7 +385,7 @@ fn a_placement_beyond_32_bits_is_refused() {
     assert_eq!(folder.count(), 0);
 }
 
-/// The Khronos validator checks the file that this test writes.
+/// This test writes a file for the Khronos validator.
 #[test]
 fn nodes_cameras_and_lights_are_valid() {
     let mut json = asset();

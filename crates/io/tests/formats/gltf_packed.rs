@@ -65,7 +65,7 @@ fn torus() -> Mesh {
     mesh
 }
 
-/// Returns a scene with two objects below a node with a scale. Two nodes show one of the objects.
+/// Returns a scene with two objects below a node with a scale. Two nodes reference one of the objects.
 fn placed() -> Scene {
     let mut scene = scene([
         Object::mesh("torus", torus()),
@@ -118,8 +118,8 @@ fn baked(scene: &Scene, options: &WriteOptions) -> Vec<Object> {
     read_back(&folder, "a.glb", Placements::Bake).objects
 }
 
-/// Returns the faces in ascending order. Each face is a list of corners with all their numbers, and starts at its
-/// smallest corner.
+/// Returns the faces in ascending order. Each face is a list of corners that starts at its smallest corner. Each corner
+/// has all its numbers.
 fn sorted_faces(mesh: &Mesh) -> Vec<Vec<Vec<u64>>> {
     let corner = |h| {
         let v = mesh.origin(h);
@@ -222,7 +222,8 @@ fn quantized_positions_are_within_the_reported_error() {
             "{losses:?}"
         );
         let error = packing.position_error.unwrap();
-        // The error is at most half a step along each axis of the largest object, which is stretched at most 4 times.
+        // The error is at most half a step along each axis of the largest object. The object is stretched at most 4
+        // times.
         let step = 5.4 / f64::from((1 << position) - 1);
         assert!(error < 0.5 * step * 3.0_f64.sqrt() * 4.01, "{error}");
         let objects = read_back(&folder, "a.glb", Placements::Bake).objects;

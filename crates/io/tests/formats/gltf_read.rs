@@ -1,4 +1,4 @@
-//! Handmade glTF files, compared with the expected result.
+//! Tests of handmade glTF files, which are compared with the expected result.
 
 use glam::{DVec2, DVec3, DVec4};
 use mesh::{Mesh, UV, VERTEX_NORMAL};
@@ -54,7 +54,7 @@ pub(crate) fn floats(values: &[f32]) -> Vec<u8> {
     values.iter().flat_map(|x| x.to_le_bytes()).collect()
 }
 
-/// Four corners of a square, counter-clockwise.
+/// The four corners of a square, counter-clockwise.
 pub(crate) const SQUARE: [f32; 12] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0];
 
 /// Returns a document with the square. The indices follow the positions in the buffer, and `mode` is the mode of the
@@ -95,7 +95,7 @@ fn mesh_of(json: &Value) -> Mesh {
     loaded.objects[0].as_mesh().unwrap().as_ref().clone()
 }
 
-/// The triangles, rotated so that the lowest corner is first.
+/// Returns the triangles, each rotated so that its lowest corner is first.
 fn rotated_triangles(mesh: &Mesh) -> Vec<Vec<usize>> {
     let mut faces = polygons(mesh);
     for face in &mut faces {
@@ -114,7 +114,7 @@ fn lists_strips_and_fans_become_triangles() {
     );
     assert_eq!(rotated_triangles(&mesh_of(&square(&[0, 1, 2, 3], 6))), two);
     assert_eq!(rotated_triangles(&mesh_of(&square(&[1, 2, 0, 3], 5))), two);
-    // The strip has triangles without area, which are left out.
+    // The strip has degenerate triangles, which are left out.
     let jumping = mesh_of(&square(&[0, 1, 2, 2, 2, 3, 0], 5));
     assert_eq!(jumping.n_faces(), 2);
     assert!(jumping.is_dense() && jumping.n_edges() == 5);
@@ -291,7 +291,7 @@ fn content_left_out_is_noted() {
     json["materials"][0]["extensions"] = extensions;
     let kept = read_json(&json).unwrap();
     let loaded = read_baked(&json).unwrap();
-    // If nodes are kept, cameras, lights and skins are kept too, so there are three notes less.
+    // If nodes are kept, cameras, lights and skins are also kept, so there are three notes fewer.
     assert_eq!(kept.notes.len(), loaded.notes.len() - 3);
     let is_left_out =
         |note: &mesh_io::Note| note.what.contains("cameras") || note.what.contains("lights");

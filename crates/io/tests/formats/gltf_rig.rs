@@ -65,7 +65,7 @@ impl Accessors {
 /// The number of rings of the arm.
 const RINGS: usize = 5;
 
-/// Returns the vertices of an arm along the y axis, which consists of rings of four vertices.
+/// Returns the vertices of an arm along the y axis. The arm consists of rings of four vertices.
 fn positions() -> Vec<f32> {
     let square = [[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]];
     let ring = |r: usize| square.map(|[x, z]| [0.25 * x, 0.5 * r as f32, 0.25 * z]);
@@ -242,7 +242,7 @@ pub(crate) fn numbers(json: &Value, bytes: &[u8], accessor: &Value) -> Vec<f64> 
     }
 }
 
-/// Returns a form of a document that does not depend on the order and the numbers of its parts. Nodes are listed by
+/// Returns a form of a document that does not depend on the order and the indices of its parts. Nodes are listed by
 /// name, and each corner of a mesh has its joints sorted by weight.
 fn canonical(json: &Value, bytes: &[u8]) -> Value {
     let name = |node: &Value| match node.as_u64() {
@@ -372,8 +372,7 @@ fn an_asset_that_no_step_touched_keeps_skin_targets_and_animations() {
         assert_eq!(back.digest(), scene.digest(), "{extension}");
         assert_eq!(back, scene, "{extension}");
     }
-    // The scene has no weights at the node, because the validator would report that they replace the weights of the
-    // mesh.
+    // The node has no weights, because the validator would report that they replace the weights of the mesh.
     let valid = changed_scene(|j| drop(j["nodes"][4].as_object_mut().unwrap().remove("weights")));
     written("rigged_arm", &valid);
 }
@@ -401,7 +400,7 @@ fn weights_and_deltas_become_vertex_attributes() {
     assert_eq!(names, expected);
 }
 
-/// Returns the posed points. The posed points are computed directly from the definition in the specification.
+/// Returns the posed points, computed directly from the definition in the specification.
 fn posed_by_hand(scene: &Scene, turn: &DAffine3) -> Vec<DVec3> {
     let mesh = scene.objects()[0].as_mesh().unwrap();
     let at = |x: f64, y: f64| DAffine3::from_translation(DVec3::new(x, y, 0.0));

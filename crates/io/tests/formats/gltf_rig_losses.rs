@@ -51,7 +51,7 @@ fn what_a_written_file_cannot_store_is_a_loss() {
         losses(&|s| mesh(s, &|m| set(m, 0, -0.5))),
         ["20 joint weights", "4 joint weights"]
     );
-    // If a mesh has no deltas, an animation of the weights of its targets is lost.
+    // If a mesh has no deltas, each animation of the weights of its targets is lost.
     let unmorphed = |m: &mut mesh::Mesh| {
         (0..2).for_each(|t| drop(m.remove_column(mesh::Domain::Vertex, &morph_name(t))));
     };
@@ -61,7 +61,7 @@ fn what_a_written_file_cannot_store_is_a_loss() {
     );
     let one = |m: &mut mesh::Mesh| drop(m.remove_column(mesh::Domain::Vertex, &morph_name(0)));
     assert_eq!(losses(&|s| mesh(s, &one)), ["1 morph targets"]);
-    // Without the node of the arm, no node shows the arm with its skin.
+    // Without the node of the arm, no node with a skin references the arm.
     assert_eq!(losses(&|s| s.unplace("arm")), ["20 joint weights"]);
 }
 

@@ -1,5 +1,5 @@
 //! Writes scenes of all kinds as glTF into `target/tmp/gltf`, where the Khronos validator checks them (`.ci/run`). The
-//! tests in this file only check that two readers can read the scenes.
+//! tests in this file check only that two readers can read the scenes.
 
 use std::path::PathBuf;
 

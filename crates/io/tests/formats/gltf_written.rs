@@ -1,4 +1,4 @@
-//! Tests of written glTF files. The `gltf` crate reads and validates the files, and this crate reads them too.
+//! Tests of written glTF files. The `gltf` crate reads and validates the files, and this crate also reads them.
 
 use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4};
@@ -30,8 +30,8 @@ pub(crate) fn sphere() -> Mesh {
 
 type Corner = ([f32; 3], Option<[f32; 2]>);
 
-/// Returns the content of a file according to the `gltf` crate: the positions and the texture coordinates of the
-/// corners of the triangles of each object. Here, v points downwards.
+/// Returns the content of a file according to the `gltf` crate: for each object, the positions and the texture
+/// coordinates of the corners of its triangles. Here, v points down.
 fn read_by_gltf_crate(path: &std::path::Path) -> Vec<(String, Vec<Corner>)> {
     let file = gltf::Gltf::open(path).unwrap();
     let mut objects = Vec::new();

@@ -1,4 +1,5 @@
-//! Tests of the images of materials, which are found beside the model, embedded, copied, or reported as missing.
+//! Tests of the images of materials, which are read from the folder of the model, embedded, copied, or reported as
+//! missing.
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +10,7 @@ use store::{Memory, Store, files_below};
 const PNG: &[u8] = b"\x89PNG\r\n\x1a\n...";
 const JPEG: &[u8] = b"\xff\xd8\xff...";
 
-/// Returns a store with further files and an OBJ file whose only material has this texture.
+/// Returns a store with these files and an OBJ file whose only material has this texture.
 fn model(texture: &str, files: &[(&str, &[u8])]) -> Memory {
     let store = Memory::default();
     let obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n";
@@ -159,7 +160,7 @@ fn missing_and_unsafe_images_are_notes_with_the_path() {
         ("../secret.png", "leads out of the folder of the file"),
         (
             "/etc/x.png",
-            "is absolute, but must stay inside the folder of the file",
+            "is absolute, expected a path inside the folder of the file",
         ),
         ("http://example.com/x.png", "names a drive or a scheme"),
         ("a.mtl", "it is not an image"),

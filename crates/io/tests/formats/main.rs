@@ -1,4 +1,4 @@
-//! Tests of reading and writing whole files. The results are compared with general properties and with other readers.
+//! Tests of reading and writing whole files. The results must have general properties and agree with other readers.
 
 mod broken;
 mod compressed;
@@ -114,14 +114,14 @@ fn only(path: &Path) -> Object {
     objects.remove(0)
 }
 
-/// The faces of a mesh as lists of vertices.
+/// Returns the faces of a mesh as lists of vertex ids.
 fn polygons(mesh: &Mesh) -> Vec<Vec<usize>> {
     let polygon = |f| mesh.face_vertices(f).map(VertexId::index).collect();
     mesh.faces().map(polygon).collect()
 }
 
-/// Compares the polygons, positions and attributes of two meshes. Corner values are listed by face, so that the numbers
-/// of half-edges do not matter.
+/// Compares the polygons, positions and attributes of two meshes. Corner values are listed by face, so the ids of
+/// half-edges do not matter.
 fn assert_same(a: &Mesh, b: &Mesh) {
     assert_eq!(a.positions(), b.positions());
     assert_eq!(polygons(a), polygons(b));

@@ -1,4 +1,4 @@
-//! OBJ files with their material libraries.
+//! Tests of OBJ files with their material libraries.
 
 use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4};
@@ -98,7 +98,7 @@ fn assert_round_trip(object: &Object) {
     assert_same(back.as_mesh().unwrap(), object.as_mesh().unwrap());
     assert_eq!(back.materials, object.materials);
     assert_eq!(back.name, "it");
-    // If the objects that were read are written again, the bytes are the same.
+    // When the objects that were read are written again, the bytes are the same.
     let again = folder.path("again/it.obj");
     std::fs::create_dir(folder.path("again")).unwrap();
     write(&again, [back]);

@@ -1,4 +1,4 @@
-//! OBJ files, compared with another reader.
+//! Tests of OBJ files, which are compared with the result of another reader.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! OFF files, compared with the expected result and checked by general properties.
+//! Tests of OFF files. They are compared with the expected result, and general properties are checked.
 
 use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4};

@@ -1,5 +1,5 @@
 //! Tests with other readers. Simple readers read written PLY, STL and OFF files, and another program reads OBJ files of
-//! any dialect.
+//! all dialects.
 
 use geometry::shapes;
 use glam::DVec3;
@@ -105,8 +105,8 @@ fn another_reader_finds_the_same_facets_in_stl_files() {
     }
 }
 
-/// The form in which corners are written. Elements can be repeated for the same vertex, and texture coordinates and
-/// normals can be left out.
+/// How corners are written. Elements can be repeated for the same vertex, and texture coordinates and normals can be
+/// left out.
 #[derive(Clone, Copy, Debug)]
 struct Spelling {
     has_uv: bool,
@@ -145,7 +145,7 @@ impl Spelling {
 }
 
 proptest! {
-    /// If a corner has no texture coordinate or no normal, the crate `tobj` uses that of another corner.
+    /// If a corner has no texture coordinate or no normal, the crate `tobj` uses the one of another corner.
     #[test]
     fn tobj_reads_the_same_corners_of_any_dialect(
         points in prop::collection::vec((-1e3..1e3_f64, -10..10_i32, any::<i16>()), COUNT),

@@ -3,8 +3,8 @@
 use mesh_io::{ReadOptions, peek, read};
 use store::{Memory, Store};
 
-/// Checks that peeking at a file gives exactly the expected notes, and that reading gives these notes too. An expected
-/// note is given by a part of its text.
+/// Checks that peeking at a file gives exactly the expected notes, and that reading gives these notes too. Each
+/// expected string is a part of the text of a note.
 #[track_caller]
 fn peek_notes(files: &[(&str, &[u8])], expected: &[&str]) {
     let store = Memory::default();

@@ -1,4 +1,4 @@
-//! PLY files that break the rules of the format: errors have a position.
+//! Tests of invalid PLY files. Errors have a position.
 
 use std::time::{Duration, Instant};
 
@@ -29,7 +29,7 @@ fn assert_error(bytes: impl AsRef<[u8]>, expected: &str) {
     assert!(found.contains(expected), "{found}");
 }
 
-/// A text with three vertices and one face.
+/// Returns a text file with three vertices and one face.
 fn text(vertices: &str, face: &str) -> String {
     format!(
         "ply\nformat ascii 1.0\nelement vertex 3\n{VERTEX}element face 1\n\
@@ -351,8 +351,8 @@ proptest! {
 
 #[test]
 fn repeated_comments_for_a_list_do_not_take_long() {
-    // The last face does not match the comments. A naive reader would compare each comment with all faces, which takes
-    // long.
+    // The last face does not match the comments. A simple reader would compare each comment with all faces, which takes
+    // a long time.
     let n = 50_000;
     let comment = "comment meshwright corner float copy values \"a\"\n".repeat(20_000);
     let head = format!(

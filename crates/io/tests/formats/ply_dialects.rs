@@ -1,4 +1,4 @@
-//! PLY files as other programs write them.
+//! Tests of PLY files as other programs write them.
 
 use glam::{DVec2, DVec3, DVec4};
 use mesh::{COLOR, Domain, Rule, UV, Values};

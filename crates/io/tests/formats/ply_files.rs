@@ -1,4 +1,4 @@
-//! PLY files, checked by general properties.
+//! Tests of general properties of PLY files.
 
 use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4};
@@ -32,7 +32,7 @@ fn on_corners<T: Default + Clone>(mesh: &Mesh, value: impl Fn(f64) -> T) -> Vec<
     all
 }
 
-/// A mesh with polygons, an isolated vertex and attributes of every domain and type.
+/// Returns a mesh with polygons, an isolated vertex and attributes of every domain and type.
 pub(crate) fn rich() -> Mesh {
     let mut positions = shapes::cube().positions().to_vec();
     positions.push(DVec3::new(0.1, -1e-9, 1e300));

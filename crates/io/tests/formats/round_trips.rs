@@ -1,5 +1,5 @@
-//! Checks that writing a scene and reading it again preserves the scene, except for reported losses and for the changes
-//! that are listed in a table of the documentation of the crate.
+//! Checks that writing a scene and reading it again preserves the scene. The only exceptions are reported losses and
+//! the changes in a table in the documentation of the crate.
 
 mod flat;
 mod models;
@@ -185,9 +185,8 @@ fn measured(feature: &Feature, extension: &str) -> Outcome {
     }
 }
 
-/// Checks that the objects survive a round trip, except for reported losses and the changes in the table. A second
+/// Checks that a round trip preserves the objects, except for reported losses and the changes in the table. A second
 /// round trip must not change or lose anything, and must write the same bytes.
-///
 /// # Errors
 ///
 /// The first property that does not hold.
@@ -204,7 +203,7 @@ fn check_laws(objects: &[Object], extension: &str) -> Result<(), String> {
             .losses
             .iter()
             .any(|loss| loss.reason.contains(&new_name));
-        // A loss can be reported for corner values although they become vertex values later.
+        // A loss can be reported for corner values that later become vertex values.
         let as_corners = key(Domain::Corner, &what.1);
         let is_reported = reported.contains(what)
             || what.0 == Some(Domain::Vertex) && reported.contains(&as_corners)
@@ -233,7 +232,7 @@ fn check_laws(objects: &[Object], extension: &str) -> Result<(), String> {
             })?;
         }
     }
-    // Notes are only allowed if vertices were merged, or if the STL reader changed content.
+    // Notes are allowed only if vertices were merged, or if the STL reader changed content.
     let notes = &first.loaded.notes;
     // The images of some materials do not exist.
     let is_fine = |note: &Note| {
@@ -258,7 +257,7 @@ fn check_laws(objects: &[Object], extension: &str) -> Result<(), String> {
     ensure(third.bytes == second.bytes, || {
         "the third file differs from the second".to_owned()
     })?;
-    // Content that has a different form after the first round trip can be written differently in the second round trip.
+    // The second round trip can write content differently if its form changed in the first round trip.
     let other_forms = ["name", "domain", "rule", "order of faces"].map(|what| key(None, what));
     let has_other_form = other_forms.iter().any(|what| all.contains_key(what));
     let is_another_form = has_other_form || is_merged || has_empty_columns(objects);
@@ -277,7 +276,7 @@ fn check_laws(objects: &[Object], extension: &str) -> Result<(), String> {
     })
 }
 
-/// Whether a column only has default values, such as no material on any face.
+/// Whether a column has only default values, such as no material on any face.
 fn has_only_defaults(objects: &[Object], (domain, name): &Key) -> bool {
     let meshes = objects.iter().filter_map(Object::as_mesh);
     let mut columns = meshes.flat_map(|mesh| mesh.attributes().iter());

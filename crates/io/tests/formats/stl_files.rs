@@ -1,4 +1,4 @@
-//! STL files, compared with a simple reader in this file and checked by general properties.
+//! Tests of STL files. They are compared with a simple reader in this file, and general properties are checked.
 
 use geometry::shapes;
 use glam::DVec3;
@@ -44,7 +44,7 @@ const UP: [f32; 3] = [0.0, 0.0, 1.0];
 const FLAT: [[f32; 3]; 4] = [UP, [0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 const NEXT: [[f32; 3]; 4] = [UP, [1.0, 0.0, -0.0], [1.0, 1.0, 0.0], [-0.0, 1.0, 0.0]];
 
-/// The corners of all triangles, read directly from the bytes.
+/// Returns the corners of all triangles, read directly from the bytes.
 fn naive(bytes: &[u8]) -> Vec<DVec3> {
     let mut corners = Vec::new();
     for facet in bytes[84..].chunks(50) {

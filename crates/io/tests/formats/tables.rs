@@ -1,4 +1,4 @@
-//! Tables: `.csv` and `.npz` files, which are only written.
+//! Tests of tables: `.csv` and `.npz` files, which can only be written.
 
 use std::collections::BTreeMap;
 
@@ -192,7 +192,7 @@ impl Array {
     }
 }
 
-/// Reads a `.npz` file by the list at its end, and checks that the headers of the files agree with it.
+/// Reads a `.npz` file by its central directory, and checks that the headers of the files agree with the directory.
 fn arrays(folder: &Folder, name: &str) -> BTreeMap<String, Array> {
     let bytes = std::fs::read(folder.path(name)).unwrap();
     let short = |at: usize| usize::from(u16::from_le_bytes(bytes[at..at + 2].try_into().unwrap()));

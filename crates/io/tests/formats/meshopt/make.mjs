@@ -1,4 +1,4 @@
-// Makes the files in this folder with meshoptimizer and gltfpack, which wrote the format:
+// Makes the files in this folder with meshoptimizer and gltfpack, the original programs of the format:
 //
 //     npm install --no-save gltfpack@1.3.0 meshoptimizer@1.3.0
 //     node make.mjs
@@ -6,7 +6,7 @@
 // streams.json       arrays for every codec and filter, their streams, and the arrays that MeshoptDecoder decodes from them
 // torus_plain.glb    a torus, quantized by gltfpack and not compressed
 // torus_ext.glb      the same with EXT_meshopt_compression
-// torus_khr.glb      the same with KHR_meshopt_compression: version 1 of the attributes, filters
+// torus_khr.glb      the same with KHR_meshopt_compression: version 1 of the attribute codec, and filters
 // torus_floats.glb   the same with float attributes
 // torus_fallback.*   the same with an uncompressed copy of the arrays, for readers that cannot decompress
 import fs from "fs";
@@ -70,7 +70,7 @@ for (const [count, stride, ...levels] of [[1, 4, 3], [16, 4, 3], [17, 24, 0, 3],
     const streams = versions(elements(count, stride), count, stride, levels);
     add(`${count} elements of ${stride} bytes`, "ATTRIBUTES", "NONE", count, stride, streams);
 }
-// Larger elements have shorter blocks.
+// Blocks of larger elements have fewer elements.
 const long = Uint8Array.from({ length: 33 * 256 }, (_, i) => (i & 255) + (i >> 8 < 20 ? 0 : 1));
 add("33 elements of 256 bytes", "ATTRIBUTES", "NONE", 33, 256, versions(long, 33, 256, [3]));
 add("zeros", "ATTRIBUTES", "NONE", 600, 4, versions(new Uint8Array(2400), 600, 4, [3]));

@@ -7,14 +7,14 @@ use glam::DVec3;
 use mesh::{Column, Domain, HalfEdgeId, Mesh, Rule, Values, VertexId};
 use scene::{Geometry, Image, Material, Object};
 
-/// The part of an object that differs: the values of a domain with this name, or another part with this name. The names
-/// are the same as in losses.
+/// The part of an object that differs: either the values of a domain with this name, or another part with this name.
+/// The names are the same as in losses.
 pub(super) type Key = (Option<Domain>, String);
 
 /// The kind of difference between two scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Difference {
-    /// Numbers are equal in 32 bits.
+    /// The numbers are equal after rounding to 32 bits.
     Rounded,
     /// Any other difference.
     Other,
@@ -32,7 +32,7 @@ type Row = Vec<u64>;
 /// The type and the edit rule of values.
 type Kind = (&'static str, Rule);
 
-/// A mesh as lists. Corner values are in the order of the faces and their corners.
+/// A mesh in the form of lists. Corner values are in the order of the faces and their corners.
 #[derive(Clone, Debug, PartialEq)]
 struct Flat {
     positions: Vec<Row>,
@@ -42,8 +42,8 @@ struct Flat {
     edges: Vec<([usize; 2], usize)>,
 }
 
-/// The differences between a scene and the scene that was read back from a file. If `soup` is true, the format stores
-/// separate triangles, and the order of vertices and faces can change.
+/// Returns the differences between a scene and the scene that was read back from a file. If `soup` is true, the format
+/// stores separate triangles, and the order of vertices and faces can change.
 pub(super) fn differences(before: &[Object], after: &[Object], soup: bool) -> Differences {
     let mut all = Differences::new();
     if before.len() != after.len() {
@@ -351,7 +351,7 @@ impl Flat {
     }
 }
 
-/// Whether a column is empty or only has default values of materials or smoothing groups.
+/// Whether a column is empty or has only default values of materials or smoothing groups.
 pub(super) fn has_only_default_values(column: &Column) -> bool {
     match (&column.values, column.name.as_str()) {
         (Values::Int(values), "material") => values.iter().all(|&m| m == -1),

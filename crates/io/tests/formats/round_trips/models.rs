@@ -13,8 +13,8 @@ use scene::{AlphaMode, Geometry, Image, Material, Object, Texture};
 
 use super::flat::{Key, key};
 
-/// A row of the table. A row has a name, a scene with a feature, and the expected difference if a format does not store
-/// the feature.
+/// A row of the table: its name, a scene with a feature, and the expected difference if a format does not store the
+/// feature.
 pub(super) struct Feature {
     pub(super) name: &'static str,
     pub(super) key: Key,
@@ -26,12 +26,12 @@ fn base() -> Mesh {
     shapes::octahedron()
 }
 
-/// Unsorted numbers that fit in 32 bits.
+/// Returns number `i` of a sequence of unsorted numbers that fit in 32 bits.
 fn number(i: usize) -> f64 {
     [0.5, -0.25, 3.0, 0.0, 0.75][i * 7 % 5]
 }
 
-/// Unit vectors perpendicular to [`unit`], with signs.
+/// Returns a unit vector perpendicular to [`unit`], and a sign.
 fn tangent(i: usize) -> DVec4 {
     let sign = if i % 5 < 2 { -1.0 } else { 1.0 };
     [DVec3::Z, DVec3::X, DVec3::NEG_Y][i % 3].extend(sign)
@@ -50,7 +50,7 @@ pub(super) fn column(mesh: &mut Mesh, domain: Domain, name: &str, rule: Rule, va
     mesh.insert_column(domain, column);
 }
 
-/// The base mesh with a column of values.
+/// Returns the base mesh with a column of values.
 fn with<T: Value>(
     domain: Domain,
     name: &str,
@@ -85,7 +85,7 @@ fn painted(materials: Vec<Material>) -> Vec<Object> {
     }]
 }
 
-/// An image file beside the model.
+/// Returns an image file in the folder of the model.
 fn image_file(path: &str) -> Texture {
     Texture::new(Image::Loaded {
         path: path.to_owned(),

@@ -146,8 +146,8 @@ fn made(positions: Vec<DVec3>, faces: &[Vec<u32>], columns: &[Sketch]) -> Vec<Ob
     objects
 }
 
-/// Whether two edges join the same vertices, which can result from splitting. A file cannot distinguish these
-/// edges, and reading it splits them again.
+/// Whether two edges join the same vertices, which can result from splitting. A file cannot distinguish these edges, so
+/// reading splits them again.
 fn has_double_edges(objects: &[Object]) -> bool {
     let mesh = objects[0].as_mesh().unwrap();
     let mut ends: Vec<_> = mesh

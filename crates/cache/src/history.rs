@@ -132,7 +132,7 @@ fn parameter_changes(from: &str, to: &str) -> String {
         }
     }
     let text = |value: Option<&ron_tree::Value>| {
-        // Values are shown as in recipes: without `Some`.
+        // Values are written as in recipes, without `Some`.
         let value = value.map(|value| value.some().unwrap_or(value));
         value.map_or_else(|| "nothing".to_owned(), ToString::to_string)
     };

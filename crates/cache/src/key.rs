@@ -20,7 +20,7 @@ pub(crate) struct Ingredients {
     /// The parameters in canonical form, with all defaults written out.
     pub(crate) parameters: String,
     pub(crate) on: Option<Vec<String>>,
-    /// The label of the step, which seeds random choices.
+    /// The label of the step. It seeds random choices.
     pub(crate) stream: String,
     pub(crate) refused: Option<Refusal>,
     pub(crate) budget: u64,

@@ -97,8 +97,8 @@ impl StepCache for Caching<'_> {
 }
 
 impl Cache {
-    /// Returns the cache in `folder`, which is created when something is stored. The size of the cache is kept below
-    /// `limit` bytes. `program` identifies the program and its version: results of other programs are not used.
+    /// Returns the cache in `folder`. The folder is created when something is stored. The size of the cache is kept
+    /// below `limit` bytes. `program` identifies the program and its version. Results of other programs are not used.
     pub fn new(folder: impl Into<PathBuf>, limit: u64, program: impl Into<String>) -> Self {
         Self {
             folder: Folder::new(folder.into()),

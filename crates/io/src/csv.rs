@@ -46,7 +46,7 @@ impl Rows {
     }
 }
 
-/// Writes `scene`, and lists what the file does not store.
+/// Writes `scene`, and lists the content that the file does not store.
 ///
 /// # Errors
 ///

@@ -61,13 +61,13 @@ impl<'a> Meter<'a> {
         }
     }
 
-    /// Sets the number of parts between two reports. Useful for callers that add few parts at a time.
+    /// Sets the number of parts between two reports. This is useful for callers that add few parts in each call.
     #[must_use]
     pub fn every(self, interval: u64) -> Self {
         Self { interval, ..self }
     }
 
-    /// Adds `n` to the number of parts that are done. Adding 0 always reports, which checks for cancellation.
+    /// Adds `n` to the number of parts that are done. Adding 0 always reports and so checks for cancellation.
     ///
     /// # Errors
     ///

@@ -188,7 +188,7 @@ impl<'s> Parser<'s> {
     /// Reports an error about `current`, unless an error about `current` was already reported.
     pub(super) fn complain(&mut self, diagnostic: Diagnostic) {
         let start = self.current.span.start;
-        // Tokens of these kinds are errors by themselves, and `value` reports them.
+        // A token of one of these kinds is always an error, which `value` reports.
         let is_bad = matches!(
             self.current.kind,
             Some(TokenKind::UnclosedString | TokenKind::BadChar)

@@ -71,8 +71,9 @@ impl Scene {
         self.encode_to(&mut |bytes, _| sink(bytes));
     }
 
-    /// Returns the canonical form without the contents of long arrays, which have at least `min_long` bytes. Each long
-    /// array is passed to `array` in one piece, in order. [`decode`](Self::decode) needs both the form and the arrays.
+    /// Returns the canonical form without the contents of long arrays. An array is long if it has at least `min_long`
+    /// bytes. Each long array is passed to `array` in one piece, in order. [`decode`](Self::decode) needs both the form
+    /// and the arrays.
     pub fn encode_with_separate_arrays(
         &self,
         min_long: usize,

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! graph --- node "car" --- node "wheel left"  --- object "wheel"     (one mesh,
-//!              |      `--- node "wheel right" --- object "wheel"      shown twice)
+//!              |      `--- node "wheel right" --- object "wheel"      used twice)
 //!              `---------- object "body"
 //! ```
 //!

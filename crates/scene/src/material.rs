@@ -186,7 +186,7 @@ pub struct Sampler {
     pub mipmap: Option<Filter>,
 }
 
-/// The appearance of a texture outside of its image.
+/// The appearance of a texture outside its image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Wrap {
     /// The image is repeated.

@@ -53,7 +53,7 @@ fn damage_to_any_file_is_noticed() {
         },
         |path, _| fs::write(path, "").unwrap(),
         |path, _| fs::remove_file(path).unwrap(),
-        // Replaces the file by the content of another file, which is intact but has a different name.
+        // Replaces the content by that of another file, which is intact but belongs to a different name.
         |path, others| fs::write(path, &others[0]).unwrap(),
         |path, others| fs::write(path, others.last().unwrap()).unwrap(),
     ];

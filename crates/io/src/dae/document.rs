@@ -227,8 +227,8 @@ impl<'a> Document<'a> {
         self.find(node, id, kind).map(Some)
     }
 
-    /// Finds the element with this id, which must be of the given `kind`. `node` is the element that refers to it.
-    /// Errors have the position of `node`.
+    /// Finds the element with this id. The element must be of the given `kind`. `node` is the element that refers to
+    /// it. Errors have the position of `node`.
     ///
     /// # Errors
     ///

@@ -11,12 +11,12 @@
 //! | `node` with `instance_geometry` | an object with the name of the node, transformed by the node and its ancestors |
 //! | `instance_controller` | an object with the controlled geometry in its rest pose |
 //! | `instance_node` | another instance of the referenced node |
-//! | `matrix`, `translate`, `rotate`, `scale`, `lookat` | a part of the transform; if the transform is a reflection, the faces are reversed |
+//! | `matrix`, `translate`, `rotate`, `scale`, `lookat` | a part of the transform; reflections reverse the faces |
 //! | `triangles`, `polylist`, `polygons`, `tristrips`, `trifans` | faces; holes (`ph`) are left out |
 //! | input `POSITION` | vertices, in order and not merged |
 //! | input `NORMAL` | vertex attribute `normal` if the corners of each vertex agree, otherwise corner attribute |
 //! | input `COLOR` | attribute `color`, on the same domains; alpha defaults to 1 |
-//! | input `TEXCOORD` | corner attribute `uv`; further sets become `uv1`, `uv2` and so on, in the order of their set numbers; at most 8 sets |
+//! | input `TEXCOORD` | corner attributes `uv`, `uv1`, `uv2` and so on, in the order of the set numbers; at most 8 sets |
 //! | material of a list of polygons | face attribute `material`, and a material of the object |
 //! | effect: `diffuse` (`emission` of `constant`) | the base color, or its texture with the path of the image file |
 //! | effect: `transparent`, `transparency` | the alpha of the base color |
@@ -125,7 +125,7 @@ fn each_object<T>(
     Ok(objects)
 }
 
-/// An object of the file, and the data from which its polygons are built.
+/// An object of the file, and the data that its polygons are built from.
 struct Object<'a, 'd> {
     document: &'d Document<'a>,
     placed: &'d PlacedGeometry<'a>,

@@ -18,7 +18,7 @@ const COMPRESSED: u64 = 4;
 #[derive(Default)]
 pub(super) struct Budget {
     left: Cell<u64>,
-    /// The total size in bytes to which compressed views can still be decoded.
+    /// The number of bytes that decoded views can still take.
     inflation: Cell<u64>,
 }
 

@@ -30,7 +30,7 @@ impl Array {
         }
     }
 
-    /// Creates the encoding of triangles with indices of `size` bytes, which is 2 or 4.
+    /// Creates the encoding of triangles with indices of `size` bytes. The size is 2 or 4.
     pub(super) fn triangles(size: usize) -> Self {
         Self {
             mode: "TRIANGLES",

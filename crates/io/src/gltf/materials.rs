@@ -43,7 +43,7 @@ impl<'a> Materials<'a> {
         notes.left_out("textures", self.without_picture, None, what);
     }
 
-    /// Converts material `i` of the document, which must exist.
+    /// Converts material `i` of the document. The material must exist.
     ///
     /// # Errors
     ///
@@ -161,7 +161,7 @@ impl<'a> Materials<'a> {
     }
 }
 
-/// The name of material `i` of the document, which must exist.
+/// The name of material `i` of the document. The material must exist.
 pub(super) fn material_name(document: &Document, i: usize) -> String {
     let name = document.materials[i].name.clone();
     name.unwrap_or_else(|| format!("material {i}"))
@@ -186,7 +186,7 @@ pub(super) fn image_paths(document: &Document, i: usize) -> Vec<String> {
     infos.into_iter().flatten().filter_map(path).collect()
 }
 
-/// Decodes a URI reference to a path. A URI with a scheme is returned as it is.
+/// Decodes a URI reference to a path. A URI with a scheme is returned unchanged.
 fn decoded(uri: &str) -> String {
     if has_scheme(uri) {
         return uri.to_owned();

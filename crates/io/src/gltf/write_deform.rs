@@ -240,7 +240,7 @@ fn morphs<'a>(
     let reason = "morph targets after a gap in their numbering";
     losses.add(Domain::Vertex, "morph targets", unnumbered, reason);
     let missing = morphs.iter().filter(|deltas| deltas.is_none()).count();
-    let reason = "the mesh has no deltas of the target, which are written as 0";
+    let reason = "the mesh has no deltas of the target, so zeros are written";
     losses.add(None, "morph targets", missing, reason);
     let is_lost = |v: usize| {
         morphs

@@ -9,9 +9,9 @@
 //! | `vertex/name`, `face/name`, `edge/name` | elements, or elements and components | the attributes |
 //! | `corner/name` | corners, or corners and components | the attributes of corners, face by face |
 //!
-//! Numbers are `float64`, whole numbers `int32`, tags `bool`, and vertex ids `int64`. The file is a zip archive of
-//! `.npy` files (version 1.0 of the format), which are not compressed. In the names of attributes, slashes and
-//! control characters become `_`.
+//! Numbers are `float64`, whole numbers `int32`, tags `bool`, and vertex ids `int64`. The file is an uncompressed zip
+//! archive of `.npy` files (version 1.0 of the format). In the names of attributes, slashes and control characters
+//! become `_`.
 
 mod zip;
 
@@ -25,7 +25,7 @@ use crate::error::Unwritable;
 use crate::joined::{Names, joined};
 use zip::Archive;
 
-/// Writes `scene`, and lists what the file does not store.
+/// Writes `scene`, and lists the content that the file does not store.
 ///
 /// # Errors
 ///

@@ -14,8 +14,8 @@ pub(super) struct Picture {
 }
 
 impl Picture {
-    /// Parses the text after the keyword: options, followed by the name of a file, which can contain blanks. Returns
-    /// `None` if the name is missing.
+    /// Parses the text after the keyword: options, followed by a file name. The file name can contain blanks. Returns
+    /// `None` if the file name is missing.
     pub(super) fn of(text: &str) -> Option<Self> {
         let mut rest = text.trim();
         let (mut multiplier, mut n_options) = (None, 0);

@@ -170,7 +170,7 @@ fn vertices(
         }
         cursor.skip_line();
     }
-    let what = "vertices with extra numbers, which the keyword in the first line does not declare: left out";
+    let what = "vertices with extra numbers left out: the keyword in the first line does not declare these numbers";
     notes.left_out("extra-content", extra, first_extra, what);
     if header.normals {
         polygons.insert_known(VERTEX_NORMAL, normals);

@@ -234,7 +234,7 @@ fn content_left_out_is_counted() {
     assert_eq!(
         found(text).1,
         [
-            "2 vertices with extra numbers, which the keyword in the first line does not declare: left out",
+            "2 vertices with extra numbers left out: the keyword in the first line does not declare these numbers",
             "2 faces with fewer than 3 corners left out",
             "2 lines left out after the last face",
         ]

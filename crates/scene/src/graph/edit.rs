@@ -1,4 +1,4 @@
-//! Changes of a graph that follow from changes of the objects.
+//! Updates a graph after changes of the objects.
 
 use super::{AnimatedProperty, Graph, MeshLabel, Node};
 

@@ -94,9 +94,8 @@ pub(super) fn pointer(view: usize, extension: &str) -> String {
     format!("/bufferViews/{view}/extensions/{extension}")
 }
 
-/// Returns a flag for each buffer, which is true if the reader never reads the buffer. The reader does not read a
-/// buffer that is declared as a fallback, nor a buffer that is only referenced by the uncompressed ranges of compressed
-/// views.
+/// Returns a flag for each buffer. The flag is true if the reader never reads the buffer, for two possible reasons: the
+/// buffer is declared as a fallback, or it is referenced only by the uncompressed ranges of compressed views.
 pub(super) fn fallbacks(
     buffers: &[Value],
     views: &[View],

@@ -221,8 +221,8 @@ pub(crate) fn unreadable(error: io::Error) -> Unusable {
     }
 }
 
-/// Returns random bytes. The bytes come from the hash keys of the standard library, which the operating system
-/// generates.
+/// Returns random bytes. The bytes come from the hash keys of the standard library. The operating system
+/// generates these keys.
 fn random() -> Hash {
     let mut hasher = blake3::Hasher::new();
     for i in 0..4 {

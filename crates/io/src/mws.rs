@@ -4,7 +4,7 @@
 //! MWS1            4 bytes
 //! u64             length of the provenance in bytes, little-endian
 //! ..              the provenance, UTF-8
-//! ..              the canonical form of the scene, which determines its digest
+//! ..              the canonical form of the scene; the digest of the scene is computed from it
 //! ```
 //!
 //! Reading restores everything: the order of all elements, every attribute with its rule, names, and materials with

@@ -40,11 +40,11 @@
 //!
 //! With [`Placements::Bake`](crate::Placements::Bake), each node with a mesh becomes an object, the transforms are
 //! applied to positions and normals, and there is no graph. Skinned meshes get the pose of their joints. If a transform
+//! is a reflection, the faces are reversed.
+//!
 //! Accessors can be interleaved or sparse. They can contain integers, also normalized ones. If an accessor has no view,
 //! all its values are zero. Buffers are files inside the folder of the document, data URIs, or the second chunk of a
 //! GLB file.
-//! view, all its values are zero. Buffers are files inside the folder of the document, data URIs, or the second chunk
-//! of a GLB file.
 //!
 //! | extension | support |
 //! | --- | --- |

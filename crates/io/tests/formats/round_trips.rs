@@ -187,6 +187,7 @@ fn measured(feature: &Feature, extension: &str) -> Outcome {
 
 /// Checks that a round trip preserves the objects, except for reported losses and the changes in the table. A second
 /// round trip must not change or lose anything, and must write the same bytes.
+///
 /// # Errors
 ///
 /// The first property that does not hold.

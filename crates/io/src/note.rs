@@ -12,7 +12,7 @@ use mesh::{Elements, VertexId};
 pub struct Note {
     /// A stable name of the kind of note, for programs, such as `faces-reversed`.
     pub code: &'static str,
-    /// Whether the content is missing from the scene, or has only a different form.
+    /// Whether the content is missing from the scene, or is present in a different form.
     pub kind: NoteKind,
     /// The file that the note is about: the requested file or a file that it refers to.
     pub path: PathBuf,

@@ -13,11 +13,9 @@
 //!
 //! | glTF | in the scene |
 //! | --- | --- |
-//! | a mesh of a node | an object named after the node, or the mesh if the node is unnamed, or the file; names are made
-//! unique |
-//! | a mesh of several nodes | one object named after the mesh, or the first node if the mesh is unnamed, or the file |
-//! | a node | a node of the graph, with its placement, name, extras, camera and light; a root is omitted if the writer
-//! would add an equal node |
+//! | a mesh of a node | an object with the name of the node, mesh or file (the first that exists); names are made unique |
+//! | a mesh of several nodes | one object with the name of the mesh, first node or file (the first that exists) |
+//! | a node | a node of the graph, with its placement, name, extras, camera and light; roots that the writer adds again are omitted |
 //! | the scene that `scene` refers to, or the first scene | its nodes are read; without scenes, all nodes of the file |
 //! | triangles, strips and fans, with or without indices | triangles |
 //! | points, lines | left out, with a note |

@@ -230,7 +230,7 @@ impl Triangles {
             let what = "the weights of joints and the morph targets of all primitives need too much memory";
             return Err(Fault::json(here.to_owned(), what));
         }
-        // If this primitive does not have an attribute of another primitive, its values are zero at the new vertices.
+        // If only other primitives have an attribute, the values of the attribute are zero at the new vertices.
         for column in self.attributes.of(Domain::Corner) {
             if own.column(Domain::Corner, &column.name).is_none() {
                 let zeros = n * column.values.bytes_per_value();

@@ -63,7 +63,7 @@ impl Fault {
     }
 }
 
-/// A position in a text.
+/// A position in a text file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct TextPosition {
     /// The line, from 1.
@@ -120,7 +120,7 @@ pub(crate) fn name(bytes: &[u8]) -> String {
 
 #[cfg(test)]
 impl Fault {
-    /// Returns the line and the column of an error in a text.
+    /// Returns the line and the column of an error in a text file.
     pub(crate) fn place(&self) -> (usize, usize) {
         match self.at {
             Location::Text(TextPosition { line, column }) => (line, column),

@@ -123,7 +123,7 @@ fn find(path: &str, assets: &mut Assets, room: &mut u64) -> Result<Image, String
     if media_type(&name, &bytes).is_none() {
         return Err("it is not an image".to_owned());
     }
-    // If the path is relative to the model, it stays as written in the model.
+    // If the path is relative to the model, it is kept as written in the model.
     let path = if inside(path).as_ref() == Ok(&name) {
         path.to_owned()
     } else {

@@ -29,7 +29,7 @@
 //!
 //! | module | purpose |
 //! | --- | --- |
-//! | `text` | words and numbers of a text with their lines; `decimal` reads and writes numbers |
+//! | `text` | words and numbers of a text file, with their positions; `decimal` reads and writes numbers |
 //! | `fault` | errors in a file, with their positions |
 //! | `note`, `loss` | the content that a reader left out or changed; the content that a written file does not store |
 //! | `polygons`, `clean`, `weld` | building a mesh from polygons with attributes |

@@ -1,4 +1,4 @@
-//! Reads words and numbers from the bytes of a text, and tracks the line and the column.
+//! Reads words and numbers from the bytes of a text file, and tracks the line and the column.
 
 use std::str::FromStr;
 
@@ -10,7 +10,7 @@ pub(crate) use crate::fault::{TextPosition, name, quoted};
 /// The byte order mark of UTF-8.
 pub(crate) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// Reads the bytes of a text sequentially. Lines end in LF, CR LF or CR.
+/// Reads the bytes of a text file sequentially. Lines end in LF, CR LF or CR.
 #[derive(Clone, Debug)]
 pub(crate) struct Cursor<'a> {
     bytes: &'a [u8],
@@ -41,8 +41,8 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Creates a cursor for a part of a text that does not begin at the start of the text. A byte order mark is not
-    /// skipped.
+    /// Creates a cursor for a part of a text file that does not begin at the start of the file. A byte order mark is
+    /// not skipped.
     pub(crate) fn inside(bytes: &'a [u8]) -> Self {
         Self {
             bytes,

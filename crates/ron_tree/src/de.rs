@@ -38,7 +38,7 @@ impl serde::de::Error for Error {
 
 type Result<T> = std::result::Result<T, Error>;
 
-/// Parses a text and deserializes its value.
+/// Parses a source text and deserializes its value.
 ///
 /// # Errors
 ///

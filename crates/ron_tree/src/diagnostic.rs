@@ -2,14 +2,15 @@
 
 use std::ops::Range;
 
-/// An error or a warning about a text.
+/// An error or a warning about a source text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
     /// Whether the diagnostic is an error or a warning.
     pub severity: Severity,
     /// The message: one line that starts in lower case and has no final period.
     pub message: String,
-    /// The index of the text that the spans refer to, in the reader's list of texts. The first text has index 0.
+    /// The index of the text that the spans refer to, in the list of source texts of the reader. The first one has
+    /// index 0.
     pub source: usize,
     /// The span that the message is about, if it is about a part of the text.
     pub span: Option<Span>,
@@ -106,7 +107,7 @@ impl Severity {
     }
 }
 
-/// A range of bytes in a text. `end` is exclusive.
+/// A range of bytes in a source text. `end` is exclusive.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Span {
     /// The first byte.
@@ -160,7 +161,7 @@ impl Span {
     }
 }
 
-/// Finds lines and columns in a text.
+/// Finds lines and columns in a source text.
 #[derive(Clone, Debug)]
 pub struct LineIndex<'s> {
     source: &'s str,

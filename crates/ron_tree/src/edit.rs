@@ -1,4 +1,4 @@
-//! Replaces parts of a text and leaves the rest unchanged.
+//! Replaces parts of a source text and leaves the rest unchanged.
 
 use crate::diagnostic::Span;
 

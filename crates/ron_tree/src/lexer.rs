@@ -103,7 +103,7 @@ impl Bracket {
     }
 }
 
-/// The tokens of a text, in order.
+/// The tokens of a source text, in order.
 ///
 /// Lexing takes time linear in the length of the text, and constant memory.
 #[derive(Clone, Debug)]
@@ -121,8 +121,8 @@ impl<'s> Lexer<'s> {
     /// Creates a lexer for `source`.
     ///
     /// A string can span several lines. If a quote is missing, everything after it is misread: strings as other
-    /// tokens, and other tokens as strings. Therefore, in a text with an unclosed string, every string ends at the
-    /// latest at the end of its line, so that only the line with the missing quote is misread.
+    /// tokens, and other tokens as strings. Therefore, in a source text with an unclosed string, every string ends at
+    /// the latest at the end of its line, so that only the line with the missing quote is misread.
     pub fn new(source: &'s str) -> Self {
         let mut lexer = Self {
             source,

@@ -1,4 +1,4 @@
-//! Parses a text into a tree of values. A text with errors also becomes a tree.
+//! Parses a source text into a tree of values. A source text with errors also becomes a tree.
 //!
 //! Each error gives one diagnostic, and parsing continues after it. To recover from a bracket error, the parser assumes
 //! that only one bracket is missing or mistyped, that line breaks and indentation are right, and that each item of a
@@ -10,13 +10,13 @@ use super::recovery::OpenBracket;
 use super::tree::{Call, Name, Value, ValueKind};
 use crate::diagnostic::{Diagnostic, Span};
 
-/// The maximum length of a text, in bytes.
+/// The maximum length of a source text, in bytes.
 pub const MAX_BYTES: usize = 64 << 20;
 
 /// The maximum nesting depth of brackets.
 pub const MAX_DEPTH: usize = 128;
 
-/// The maximum number of values in a text. Each value takes about a hundred bytes of memory.
+/// The maximum number of values in a source text. Each value takes about a hundred bytes of memory.
 pub const MAX_VALUES: usize = 4 << 20;
 
 /// The maximum number of errors that are reported.
@@ -31,7 +31,7 @@ pub struct Parsed {
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Parses a text that contains one value.
+/// Parses a source text that contains one value.
 ///
 /// The attributes `#![type = ".."]` and `#![schema = ".."]` can precede the value. Takes time and memory proportional
 /// to the length of the text. Exceeding [`MAX_BYTES`], [`MAX_VALUES`] or [`MAX_DEPTH`] is an error.

@@ -1,4 +1,4 @@
-//! Tests of the parser as a whole: the values of valid texts and the errors of invalid texts.
+//! Tests of the parser as a whole: the values of valid source texts and the errors of invalid ones.
 
 mod de;
 
@@ -9,7 +9,7 @@ use serde_json::json;
 
 const RECIPE: &str = include_str!("tests/teapot.ron");
 
-/// Returns the message and the spanned text of each error in a text.
+/// Returns the message and the spanned text of each error in a source text.
 fn problems(source: &str) -> Vec<(String, &str)> {
     let place = |d: &Diagnostic| d.span.map_or("", |span| span.of(source));
     parse(source)
@@ -19,7 +19,7 @@ fn problems(source: &str) -> Vec<(String, &str)> {
         .collect()
 }
 
-/// Returns the only error in a text.
+/// Returns the only error in a source text.
 fn problem(source: &str) -> (String, &str) {
     let mut found = problems(source);
     assert_eq!(found.len(), 1, "{source}\n{found:#?}");
@@ -386,7 +386,7 @@ proptest! {
             prop_assert!(text.get(span.range()).is_some(), "{:?}", d);
         }
         let _ = (to_json(&parsed.value), parsed.value.to_string());
-        // If a text has no diagnostics, all its values could be read.
+        // If a source text has no diagnostics, all its values could be read.
         if parsed.diagnostics.is_empty() {
             prop_assert!(!parsed.value.has_errors());
         }

@@ -144,7 +144,7 @@ proptest! {
         let round = format!("1e{size}").parse::<f64>().unwrap();
         for x in [f64::from_bits(bits), small, round, small * round] {
             prop_assume!(x.is_finite());
-            // If two texts are equally short and equally close, either is valid.
+            // If two strings are equally short and equally close to the number, both are valid.
             let (text, theirs) = (written(x), expected(x));
             prop_assert_eq!(text.len(), theirs.len(), "{} {}", text, theirs);
             prop_assert_eq!(text.find(['.', 'e']), theirs.find(['.', 'e']));

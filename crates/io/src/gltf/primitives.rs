@@ -227,7 +227,8 @@ impl Triangles {
         let all = |attributes: &Attributes| attributes.of(Domain::Vertex).len();
         let bytes = (all(&own) + all(&self.attributes)) as u64 * 24 * (base + n) as u64;
         if base > 0 && all(&own) > 0 && !reader.budget.has(bytes) {
-            let what = "the weights of joints and the morph targets of all primitives need too much memory";
+            let what =
+                "the joint weights and the morph targets of all primitives need too much memory";
             return Err(Fault::json(here.to_owned(), what));
         }
         // If only other primitives have an attribute, the values of the attribute are zero at the new vertices.

@@ -64,8 +64,8 @@ fn first_unknown(file: &ObjFile) -> Option<Fault> {
     Some(TextPosition::of_line(line).error(message))
 }
 
-/// Cuts a text into parts of about `size` bytes. Each part except the last ends with a line that is not continued on
-/// the next line.
+/// Cuts the bytes of a file into parts of about `size` bytes. Each part except the last ends with a line that is not
+/// continued on the next line.
 pub(super) fn cut(bytes: &[u8], size: usize) -> Vec<&[u8]> {
     let mut parts = Vec::with_capacity(bytes.len() / size + 1);
     let mut start = 0;

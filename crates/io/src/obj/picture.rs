@@ -45,7 +45,7 @@ impl Picture {
     }
 }
 
-/// Splits off the option at the beginning of a text. Returns the option and the rest of the text.
+/// Splits off the option at the beginning of a string. Returns the option and the rest of the string.
 fn cut_option(text: &str) -> Option<(&str, &str)> {
     let (word, rest) = cut_word(text);
     (most_values(word) > 0).then_some((word, rest))
@@ -62,7 +62,7 @@ fn most_values(option: &str) -> usize {
     }
 }
 
-/// Splits off the first word of a text. Returns the word and the rest of the text.
+/// Splits off the first word of a string. Returns the word and the rest of the string.
 fn cut_word(text: &str) -> (&str, &str) {
     let end = text.find(char::is_whitespace).unwrap_or(text.len());
     (&text[..end], text[end..].trim_start())

@@ -8,7 +8,7 @@ use crate::{Folder, read};
 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
-/// Reads a text with a library `a.mtl`, and checks that reading takes little time.
+/// Reads an OBJ file with this text and with a library `a.mtl`, and checks that reading takes little time.
 fn read_quickly(text: &str, library: &str) -> Loaded {
     let folder = Folder::new();
     folder.with("a.mtl", library);

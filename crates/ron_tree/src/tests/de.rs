@@ -1,4 +1,5 @@
-//! Compares the deserializer with the deserializer of `ron`: both must give the same values and reject the same texts.
+//! Compares the deserializer with the deserializer of `ron`: both must give the same values and reject the same
+//! source texts.
 
 use std::collections::BTreeMap;
 
@@ -83,7 +84,7 @@ fn by_ron<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, String> {
     options.from_str(text).map_err(|error| error.to_string())
 }
 
-/// Returns a text that depends on every bit of each number. For example, `-0.0` and `0.0` give different texts.
+/// Returns a string that depends on every bit of each number. For example, `-0.0` and `0.0` give different strings.
 fn bits(value: &impl Serialize) -> String {
     ron::to_string(value).expect("plain data")
 }
@@ -151,7 +152,7 @@ prop_compose! {
     }
 }
 
-/// A text that uses every way to write values in a recipe.
+/// A source text that uses every way to write values in a recipe.
 const WRITTEN: &str = "Shapes(flag: true, small: (-1, +7), whole: (0x10, -1_000), unsigned: 18446744073709551615, \
     single: 1_0.5, double: 3, letter: 'x', text: r#\"a\"b\"#, option: Wraps(Wraps(Unit)), nested: Some(Some(1)), \
     list: [Tuple(0b1, (a: 2)), Struct(of: [Unit], at: Some(1e-3)), Option(None), Nothing(()), Inner(Inner(a: None))], \
@@ -176,7 +177,7 @@ proptest! {
         prop_assert_eq!(bits(&read), bits(&shapes));
     }
 
-    /// For nearly valid texts, both deserializers give the same value, or both reject the text.
+    /// For nearly valid source texts, both deserializers give the same value, or both reject the text.
     #[test]
     fn texts_that_ron_refuses_are_refused(
         edits in prop::collection::vec((0_usize..4, any::<prop::sample::Index>(), any::<prop::sample::Index>()), 0..3),

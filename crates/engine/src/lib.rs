@@ -100,7 +100,7 @@ impl<'r> Engine<'r> {
         }
     }
 
-    /// Returns this engine, changed to read and write its files in `store`.
+    /// Makes this engine read and write its files in `store`, and returns it.
     #[must_use]
     pub fn with_store(self, store: Arc<dyn Store>) -> Self {
         Self { store, ..self }

@@ -4,7 +4,7 @@ use recipe::{RecipeStep, did_you_mean};
 
 use crate::Loaded;
 
-/// Where a recipe stops. By default, the recipe runs to the end. If both places are given, the recipe stops at
+/// Where a recipe stops. By default, the recipe runs to the end. If both fields are set, the recipe stops at
 /// `before`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Stop<'a> {

@@ -72,15 +72,15 @@ impl<'a> Context<'a> {
         self.others = others;
     }
 
-    /// Forgets the object that [`set_object`](Self::set_object) has set.
+    /// Clears the object that [`set_object`](Self::set_object) has set.
     pub fn clear_object(&mut self) {
         self.materials.clear();
         self.object.clear();
         self.others.clear();
     }
 
-    /// Returns the mesh of another object of the scene, as it is before the step. `user` is what needs it, for messages:
-    /// `Project`.
+    /// Returns the mesh of another object of the scene, as it is before the step. `user` is the caller as named in
+    /// messages, such as `Project`.
     ///
     /// # Errors
     ///
@@ -107,7 +107,7 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// Adds a note to the report of the step, once for equal notes.
+    /// Adds a note to the report of the step, unless the report already has an equal note.
     pub(crate) fn note(&self, note: String) {
         let mut notes = self.notes.lock().unwrap_or_else(PoisonError::into_inner);
         if !notes.contains(&note) {
@@ -126,7 +126,7 @@ impl<'a> Context<'a> {
         self.progress
     }
 
-    /// Returns the files of the run: where files are read and written.
+    /// Returns the files of the run, which determine where files are read and written.
     pub fn files(&self) -> &Files {
         self.files
     }

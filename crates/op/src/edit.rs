@@ -10,7 +10,7 @@ use crate::{Context, OpError, Problem, Range, Report};
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum OnRefusal {
-    /// Fail. The mesh stays as it was before the step.
+    /// Fail, and leave the mesh unchanged.
     #[default]
     Error,
     /// Leave the element unchanged, count the refusal, and continue.
@@ -110,12 +110,12 @@ impl<E: EditTarget> EditTarget for [E; 2] {
 /// Edits the elements in order. Each edit is checked against the mesh as edited so far.
 ///
 /// The report counts the edits and, for [`OnRefusal::Skip`], the refused edits by reason. Elements that an
-/// earlier edit removed count as refused. `what` names the work in reports of the progress.
+/// earlier edit removed count as refused. `what` names the work in progress reports.
 ///
 /// # Errors
 ///
-/// [`OpError::Cancelled`], and the first refusal for [`OnRefusal::Error`]. The mesh may then be partly
-/// edited: the operation returns the error, and its caller rolls the edits back.
+/// Returns [`OpError::Cancelled`] if canceled. With [`OnRefusal::Error`], returns the first refusal. The mesh may
+/// then be partly edited: the operation returns the error, and its caller rolls the edits back.
 pub fn edit_each<I: EditTarget>(
     mesh: &mut Mesh,
     elements: &[I],

@@ -1,4 +1,4 @@
-//! Locations in a scene that errors of operations refer to.
+//! The locations in a scene that an error of an operation refers to.
 
 pub use scene::ErrorLocation;
 
@@ -16,7 +16,7 @@ mod tests {
         PlanContext, Problem, Report, edit_each,
     };
 
-    /// Splits the first edge, and then flips the edges with these numbers.
+    /// Splits the first edge, and then flips the edges with these ids.
     #[derive(Debug, Deserialize, JsonSchema, Serialize)]
     struct SplitAndFlip {
         edges: Vec<usize>,

@@ -23,7 +23,7 @@
 //!     const EXAMPLE: &'static str = "Lift(distance: 0.5)";
 //!
 //!     fn plan(&self, _: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-//!         Vec::new() // counts and attributes stay as they are
+//!         Vec::new() // counts and attributes do not change
 //!     }
 //!
 //!     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {

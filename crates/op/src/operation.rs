@@ -46,8 +46,8 @@ pub trait MeshOperation:
     /// Runs before any geometry exists and must be fast.
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem>;
 
-    /// Changes the mesh, which [is dense](Mesh::is_dense): ids are indices of its arrays, such as `positions()`. Calls
-    /// [`Context::advance`] before its first change. An operation that computes a new mesh stores it with
+    /// Changes the mesh. The mesh [is dense](Mesh::is_dense): ids are indices of its arrays, such as `positions()`.
+    /// Calls [`Context::advance`] before its first change. An operation that computes a new mesh stores it with
     /// [`Mesh::replace`].
     ///
     /// # Errors
@@ -169,8 +169,8 @@ impl<T: MeshOperation> Operation for T {
             }
         }
         for (name, change) in changes {
-            // The change can contain a whole mesh. The change is dropped here so that its memory is free before
-            // compacting allocates.
+            // The change can contain a whole mesh. It is dropped here so that its memory is free before compacting
+            // allocates memory.
             drop(change);
             mesh_mut(scene, name)?.compact();
         }

@@ -10,7 +10,7 @@ use scene::{Geometry, Scene};
 
 use crate::{Files, Loss};
 
-/// A range of possible counts, both ends included.
+/// A range of possible counts, including both ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Range {
     /// The lowest possible count.
@@ -157,7 +157,7 @@ pub struct MeshPlan {
 const ATTRIBUTE_VALUE_BYTES: Range = Range { min: 1, max: 32 };
 
 impl MeshPlan {
-    /// Creates the plan of a mesh of which nothing is known.
+    /// Creates the plan of a mesh about which nothing is known.
     pub const fn unknown() -> Self {
         Self {
             vertices: Range::ANY,
@@ -170,7 +170,7 @@ impl MeshPlan {
         }
     }
 
-    /// Creates the plan of a mesh of known counts, without attributes and materials.
+    /// Creates the plan of a mesh with known counts, without attributes and materials.
     pub const fn counted(vertices: u64, edges: u64, faces: u64, degrees: Range) -> Self {
         Self {
             vertices: Range::exactly(vertices),
@@ -183,7 +183,7 @@ impl MeshPlan {
         }
     }
 
-    /// Creates the exact plan of an existing mesh, whose materials are unknown.
+    /// Creates the exact plan of an existing mesh. The materials are unknown.
     pub fn of(mesh: &mesh::Mesh) -> Self {
         let degrees = mesh.faces().map(|f| mesh.degree(f) as u64);
         let degrees = degrees
@@ -227,12 +227,12 @@ impl MeshPlan {
         self.faces = self.faces.plus(faces);
     }
 
-    /// Returns an error message if the mesh certainly has no vertex with this number.
+    /// Returns an error message if the mesh certainly has no vertex with this id.
     pub fn missing_vertex_message(&self, number: u32) -> Option<String> {
         missing_element_message(u64::from(number), self.vertices, ["vertex", "vertices"])
     }
 
-    /// Returns an error message if the mesh certainly has no face with this number.
+    /// Returns an error message if the mesh certainly has no face with this id.
     pub fn missing_face_message(&self, number: u32) -> Option<String> {
         missing_element_message(u64::from(number), self.faces, ["face", "faces"])
     }
@@ -324,7 +324,7 @@ fn value_bytes(attribute: &PlannedAttribute) -> Range {
 pub enum PlannedGeometry {
     /// A mesh.
     Mesh(MeshPlan),
-    /// Bezier patches, with their number.
+    /// Bezier patches, with the number of patches.
     Patches(Range),
     /// A Bezier curve, with its number of control points.
     Curve(Range),
@@ -351,16 +351,16 @@ pub struct PlannedObject {
     pub name: String,
     /// The geometry.
     pub geometry: PlannedGeometry,
-    /// How nodes show the object.
+    /// The nodes that reference the object.
     pub shown: PlannedNodes,
 }
 
-/// The plan of the nodes that show an object.
+/// The plan of the nodes that reference an object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PlannedNodes {
-    /// The number of nodes; 1 if no node shows the object.
+    /// The number of nodes; 1 if no node references the object.
     pub instances: u64,
-    /// The number of the skin of the first node, counted over all files that are loaded.
+    /// The index of the skin of the first node, counted over all loaded files.
     pub skin: Option<u64>,
 }
 
@@ -390,8 +390,8 @@ pub struct Plan {
     pub skins: u64,
     /// The number of animations in the scene.
     pub animations: u64,
-    /// Whether an earlier step could not be read or planned. The scene can then have objects that are missing
-    /// in the plan.
+    /// Whether an earlier step could not be read or planned. The scene can then have objects that are missing from
+    /// the plan.
     pub incomplete: bool,
 }
 
@@ -483,7 +483,7 @@ impl Plan {
         taken
     }
 
-    /// Sets how nodes show the object that was added last.
+    /// Sets the nodes that reference the object that was added last.
     pub fn set_nodes_of_last(&mut self, shown: PlannedNodes) {
         if let Some(object) = self.objects.last_mut() {
             object.shown = shown;
@@ -536,7 +536,7 @@ impl Plan {
     }
 }
 
-/// The context that a step is planned in.
+/// The context in which a step is planned.
 #[derive(Clone, Copy, Debug)]
 pub struct PlanContext<'a> {
     /// Where files are read and written.
@@ -555,7 +555,7 @@ pub struct Problem {
     pub message: String,
     /// How to solve it.
     pub help: Option<String>,
-    /// The path of the parameter: names of fields and variants and indices of items, from the outside in.
+    /// The path of the parameter: the names of fields and variants, and the indices of items, from the outside in.
     /// Empty if the problem concerns the whole step.
     pub path: Vec<String>,
     /// Whether the recipe can run anyway.

@@ -16,7 +16,7 @@ pub fn readable(x: f64) -> String {
     }
 }
 
-/// Removes zeros at the end of the decimals.
+/// Removes trailing zeros after the decimal point.
 fn trimmed(text: &str) -> String {
     let (digits, exponent) = text.find('e').map_or((text, ""), |e| text.split_at(e));
     let digits = if digits.contains('.') {

@@ -35,7 +35,7 @@ pub struct ReadingChange {
     pub message: String,
 }
 
-/// Elements of a file, given by their numbers in the file, counted from 0.
+/// Elements of a file, given by their indices in the file, counted from 0.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub enum ReadingElements {
     /// Vertices.

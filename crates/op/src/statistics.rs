@@ -2,7 +2,7 @@
 
 use mesh::blocks;
 
-/// Statistics of values, of which some can be missing.
+/// Statistics of values. Some of the values can be missing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Statistics {
     /// The number of finite values, at least 1.
@@ -16,15 +16,15 @@ pub struct Statistics {
 }
 
 impl Statistics {
-    /// Returns the statistics of the finite values; `None` if there are none. The result has the same bits for any number of
-    /// threads.
+    /// Returns the statistics of the finite values; `None` if there are none. The result is identical bit for bit for
+    /// any number of threads.
     pub fn of(values: &[f64]) -> Option<Self> {
         let finite = || values.iter().copied().filter(|x| x.is_finite());
         let first = finite().next()?;
         let n = finite().count();
         let share = |i: usize| {
             let x = values[i];
-            // Divided first, so that the sum of large values is finite.
+            // Each value is divided before the sum, so that the sum of large values is finite.
             if x.is_finite() { x / n as f64 } else { 0.0 }
         };
         Some(Self {

@@ -98,8 +98,8 @@ pub fn target_names(
     Ok(targets.map(|o| o.name.clone()).collect())
 }
 
-/// Returns a scene of the objects that a step acts on: the objects named in `on:` with the nodes that place them, or
-/// all objects.
+/// Returns a scene of the objects that a step acts on: the objects named in `on:` with the nodes that reference them,
+/// or all objects.
 pub fn target_scene<'s>(scene: &'s Scene, cx: &Context) -> Cow<'s, Scene> {
     let Some(on) = cx.on else {
         return Cow::Borrowed(scene);

@@ -7,7 +7,7 @@
 //!
 //! `recipe.ron` is an ordinary recipe in which parameters are replaced by their values, and calls and repetitions by
 //! their steps. Steps keep their labels, so that random choices are the same. Files are read from their original
-//! places.
+//! locations.
 
 use std::path::{Path, PathBuf};
 

@@ -19,7 +19,7 @@ use std::fmt::Write as _;
 
 use crate::source::Source;
 
-/// Renders diagnostics with the lines that they are about, in the order of the text.
+/// Renders diagnostics with the lines that they refer to, in the order of the text.
 ///
 /// `sources` are the texts of the recipe. If `colours` is set, the output contains ANSI color codes.
 pub fn render(sources: &[Source], diagnostics: &[Diagnostic], colours: bool) -> String {

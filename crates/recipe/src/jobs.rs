@@ -167,8 +167,8 @@ where
     /// Runs jobs until no job can start. Wakes another thread whenever it has started a job and the limits allow one
     /// more. If `is_broadcast`, all threads were started together, so the first job wakes no other thread.
     fn work<'s>(&'s self, scope: &Scope<'s>, is_broadcast: bool) {
-        // This thread already runs a job, which waits for a part of a loop. If the thread started another job now, the
-        // waiting job could not continue before the other job has ended.
+        // This thread already runs a job. That job waits for a part of a loop. If the thread started another job now,
+        // the waiting job could not continue before the other job has ended.
         if RUNS_JOB.get() {
             return;
         }

@@ -22,7 +22,7 @@ pub struct Rebase<'a> {
     pub store: &'a dyn Store,
 }
 
-/// A parameter that a recipe declares. A step takes its value with `arg("name")`.
+/// A parameter that a recipe declares. A step uses its value with `arg("name")`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Param {
@@ -173,7 +173,7 @@ impl Param {
             }
             (Self::Choice { of, .. }, ValueKind::String(text) | ValueKind::Name(text)) => {
                 let word = text.chars().all(|c| c.is_alphanumeric() || c == '_');
-                // Words from the command line arrive as texts. In words from the command line, case does not matter.
+                // Names given on the command line are parsed as strings. The case of these names does not matter.
                 let is_text = matches!(written.kind, ValueKind::String(_));
                 let same = |choice: &&String| ***choice == **text;
                 let similar = |choice: &&String| is_text && choice.eq_ignore_ascii_case(text);

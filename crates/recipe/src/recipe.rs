@@ -188,7 +188,7 @@ impl RecipeStep {
     }
 }
 
-/// An expectation, with the place in the recipe where it is checked.
+/// An expectation, with the point in the recipe at which it is checked.
 #[derive(Clone, Debug)]
 pub struct RecipeExpectation {
     /// The index of the step after which the expectation is checked. If `None`, the expectation is checked at the end.

@@ -274,8 +274,8 @@ fn reference<T: JsonSchema>(defined: &mut SchemaGenerator) -> Json {
     defined.subschema_for::<T>().to_value()
 }
 
-/// Extends each enumeration marked with `x-shorthand`, whose outer name can be omitted, by the contents of its
-/// variants.
+/// Extends each enumeration marked with `x-shorthand` by the contents of its variants, because its outer name can be
+/// omitted.
 fn allow_shorthand(schema: &mut Json) {
     match schema {
         Json::Object(object) => {

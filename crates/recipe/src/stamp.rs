@@ -43,7 +43,7 @@ pub struct Run {
     pub inputs: Pairs,
 }
 
-/// Names with texts, sorted by name.
+/// Names with strings, sorted by name.
 pub type Pairs = std::collections::BTreeMap<String, String>;
 
 impl Stamp {

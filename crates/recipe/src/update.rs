@@ -1,5 +1,5 @@
-//! Updates the recorded values of a recipe: in the text of the recipe, replaces the recorded value of each expectation
-//! that does not hold by the actual value. The rest of the text stays unchanged.
+//! Updates the recorded values of a recipe. In the text of the recipe, the recorded value of each expectation that
+//! does not hold is replaced by the actual value. The rest of the text stays unchanged.
 //!
 //! Recorded values are `eq`, `is`, the corners of `Bounds`, `Digest`, and the reference file of `Output`. Requirements
 //! are never changed: one-sided bounds such as `min` and `below`, and conditions such as `Manifold`. Values that come

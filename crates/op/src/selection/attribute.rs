@@ -5,7 +5,8 @@ use mesh::{Column, Domain, Id, Mesh, Values};
 use super::{ElementKind, Select};
 use crate::{OpError, Refusal};
 
-/// Returns a function from the index of an element to its value of an attribute of numbers, or to a component of a vector.
+/// Returns a function that maps the index of an element to its value of the attribute, or to one component if the
+/// values are vectors.
 ///
 /// # Errors
 ///
@@ -24,7 +25,7 @@ pub(super) fn component_of<'m, S: Select>(
     Ok(move |element: usize| values.component(element, i))
 }
 
-/// Returns the index of the component of an attribute that a parameter chooses. An attribute with one number has no other component.
+/// Returns the index of the component that a parameter chooses. An attribute of numbers has only the component 0.
 ///
 /// # Errors
 ///
@@ -54,7 +55,7 @@ pub fn check_component(
     )))
 }
 
-/// Returns the refusal of an attribute that these elements do not have.
+/// Returns the refusal for an attribute that these elements do not have.
 fn missing<S: Select>(mesh: &Mesh, name: &str) -> OpError {
     let attributes = mesh.attributes();
     let refused = |message| OpError::refused(Refusal::Missing, message);

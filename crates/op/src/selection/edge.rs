@@ -15,11 +15,11 @@ selection! {
         inside: "Edges whose vertices all lie in a region or on its surface.",
         shares: "a vertex",
         nearest: "The edges whose midpoints are nearest to a point. If edges are equally near, those with the \
-                  lower numbers are selected."
+                  lower ids are selected."
     ) {
         /// Boundary edges: edges with a face on one side only.
         Boundary,
-        /// The edge between two vertices, given by their numbers. Refused if no edge joins them.
+        /// The edge between two vertices, given by their ids. Refused if no edge joins them.
         Between(u32, u32),
         /// Edges at which the normals of the two faces differ by more than the angle `above`.
         Sharp {
@@ -33,12 +33,12 @@ selection! {
             /// no angle and are never flat.
             below: AngleBetween,
         },
-        /// Edges longer than the length `than`.
+        /// Edges whose length is greater than `than`.
         Longer {
             /// The length, in scene units.
             than: Length,
         },
-        /// Edges shorter than the length `than`.
+        /// Edges whose length is less than `than`.
         Shorter {
             /// The length, in scene units.
             than: Length,
@@ -49,20 +49,20 @@ selection! {
         EdgesAround(VertexSelection),
         /// Edges with both ends among these vertices.
         EdgesWithin(VertexSelection),
-        /// These edges and the edge loops through them. A loop goes straight across vertices inside the mesh that
-        /// have four edges. A loop that starts at a boundary edge follows the boundary.
+        /// These edges and the edge loops through them. A loop goes straight across each interior vertex with four
+        /// edges. A loop that starts at a boundary edge follows the boundary.
         EdgeLoop(Box<Self>),
         /// These edges and the edge rings through them. A ring goes from an edge to the opposite edge of each face
         /// with four corners.
         EdgeRing(Box<Self>),
         /// The shortest path along edges from one vertex to another. Refused if no path exists.
         Path {
-            /// The number of the first vertex.
+            /// The id of the first vertex.
             from: u32,
-            /// The number of the last vertex.
+            /// The id of the last vertex.
             to: u32,
         },
-        /// The longest edges. If edges are equally long, those with the lower numbers are selected.
+        /// The longest edges. If edges are equally long, those with the lower ids are selected.
         Longest {
             /// The number of edges. If fewer are available, all are selected.
             #[serde(default = "super::one")]
@@ -76,7 +76,7 @@ selection! {
 
 impl EdgeSelection {
     /// Converts the parameter `at` of a recipe to a position on the edge `e`, measured from the origin of the first
-    /// half-edge of `e`. `at` runs from v to w in `Between(v, w)`, and otherwise from the end with the lower number to
+    /// half-edge of `e`. `at` runs from v to w in `Between(v, w)`, and otherwise from the end with the lower id to
     /// the other end. Returns `at` unchanged if the edge does not exist: the edit will refuse the edge.
     pub fn place_on(&self, mesh: &Mesh, e: EdgeId, at: f64) -> f64 {
         if !mesh.has_edge(e) {

@@ -9,7 +9,7 @@ use crate::{Context, OpError};
 
 /// A selection of vertices, edges or faces.
 ///
-/// Recipes may omit the outer name if the selection exists for only one kind of elements:
+/// Recipes may omit the outer name if the selection exists for only one kind of element:
 /// `Sharp(above: 30)` is short for `Edges(Sharp(above: 30))`, but `Boundary` exists for all kinds.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -64,7 +64,7 @@ impl ElementKind {
     }
 }
 
-/// The selected elements of a mesh, in order of their numbers.
+/// The selected elements of a mesh, in order of their ids.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Selected {
     /// Vertices.

@@ -13,16 +13,16 @@ selection! {
         inside: "Faces whose vertices all lie in a region or on its surface.",
         shares: "a vertex",
         nearest: "The faces whose centers (the means of their vertices) are nearest to a point. If faces are \
-                  equally near, those with the lower numbers are selected."
+                  equally near, those with the lower ids are selected."
     ) {
         /// Faces with at least one boundary edge.
         Boundary,
-        /// The faces with these numbers. Refused if a face does not exist.
+        /// The faces with these ids. Refused if a face does not exist.
         Faces(Vec<u32>),
         /// Faces with this number of corners.
         Degree(u32),
-        /// Faces that intersect another face of the object. Neighbors intersect only if they have more points in common than
-        /// their common vertices and edges. Vertices at the same position count as one.
+        /// Faces that intersect another face of the object. Adjacent faces intersect only if they share points other
+        /// than their common vertices and edges. Vertices at the same position count as one.
         SelfIntersecting,
         /// Faces with the material of this name. Refused if the object has no material of this name.
         Material(String),

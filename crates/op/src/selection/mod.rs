@@ -25,7 +25,7 @@ macro_rules! selection {
             #[doc = $inside]
             Inside(super::Region),
             #[doc = concat!(
-                "The ", $elements, " whose vertices are all inside the mesh of another object, by its name. A point is inside \
+                "The ", $elements, " whose vertices are all inside the mesh of another object, given by its name. A point is inside \
                  if the winding number of the mesh around it is above 1/2 in magnitude; small gaps do no harm."
             )]
             InsideOf(String),
@@ -449,7 +449,7 @@ fn mix(key: u64, counter: u64) -> u64 {
     z ^ (z >> 31)
 }
 
-/// Returns the vertex with a number from a recipe.
+/// Returns the vertex with an id from a recipe.
 fn named_vertex(mesh: &Mesh, index: u32) -> Result<VertexId, OpError> {
     let v = VertexId::new((index as usize).min(u32::MAX as usize - 1));
     if mesh.has_vertex(v) {
@@ -463,7 +463,7 @@ fn named_vertex(mesh: &Mesh, index: u32) -> Result<VertexId, OpError> {
     ))
 }
 
-/// Returns the refusal for an element number that does not exist in a mesh with `n` elements of this kind.
+/// Returns the refusal for an element id that does not exist in a mesh with `n` elements of this kind.
 fn missing_element(number: u32, singular: &str, n: usize, plural: &str) -> OpError {
     let noun = if n == 1 { singular } else { plural };
     let message = format!("{singular} {number} does not exist: the mesh has {n} {noun}");

@@ -357,7 +357,7 @@ proptest! {
         let grid = shapes::grid(5, 4);
         let not = |s: &EdgeSelection| EdgeSelection::Not(Box::new(s.clone()));
         let boxed = |s: &EdgeSelection| Box::new(s.clone());
-        // De Morgan.
+        // These are De Morgan's laws.
         let both = EdgeSelection::And(vec![a.clone(), b.clone()]);
         let neither = EdgeSelection::Or(vec![not(&a), not(&b)]);
         prop_assert_eq!(edges(&not(&both), &grid), edges(&neither, &grid));
@@ -398,7 +398,7 @@ fn ends(text: &str, mesh: &Mesh) -> Vec<usize> {
 
 #[test]
 fn loops_and_rings_go_around_a_torus() {
-    // The torus has 7 cross sections of 5 vertices. Vertex j of cross section i has the number 5 i + j.
+    // The torus has 7 cross sections of 5 vertices. Vertex j of cross section i has the id 5 i + j.
     let torus = shapes::torus(7, 5, 2.0, 1.0);
     let across: Vec<usize> = (0..5).collect();
     assert_eq!(ends("EdgeLoop(Between(0, 1))", &torus), across);

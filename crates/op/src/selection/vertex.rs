@@ -20,7 +20,7 @@ selection! {
         Boundary,
         /// Isolated vertices: vertices without edges.
         Isolated,
-        /// The vertices with these numbers. Refused if a vertex does not exist.
+        /// The vertices with these ids. Refused if a vertex does not exist.
         Vertices(Vec<u32>),
         /// Vertices with this number of edges.
         Valence(u32),

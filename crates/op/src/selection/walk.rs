@@ -7,8 +7,8 @@ use mesh::{Domain, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 
 use crate::{OpError, Refusal};
 
-/// Returns the edges and the edge loops through them. A loop goes straight across vertices inside the mesh that have
-/// four edges. A loop that starts at a boundary edge follows the boundary.
+/// Returns the edges and the edge loops through them. A loop goes straight across each interior vertex with four
+/// edges. A loop that starts at a boundary edge follows the boundary.
 pub(super) fn edge_loops(mesh: &Mesh, edges: &[EdgeId]) -> Vec<bool> {
     follow(mesh, edges, |h| {
         if mesh.is_boundary_edge(h.edge()) {
@@ -57,7 +57,7 @@ fn follow(
 }
 
 /// Returns the edges of the shortest path between two vertices, starting with the edge at `to`. If several shortest
-/// paths lead to a vertex, the path through the predecessor with the lowest number is chosen.
+/// paths lead to a vertex, the path through the predecessor with the lowest id is chosen.
 ///
 /// E. W. Dijkstra, "A note on two problems in connexion with graphs", 1959.
 ///

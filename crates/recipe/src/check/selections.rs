@@ -1,7 +1,7 @@
 //! Checks the numbers and names in selections: elements and materials that a mesh certainly does not have, and objects that
 //! do not exist.
 //!
-//! Selections are recognized by their syntax, as they can be nested in any parameter.
+//! Selections are recognized by their syntax, because they can be nested in any parameter.
 
 use op::{MeshPlan, Plan};
 use ron_tree::{Call, Diagnostic, Span, Value, ValueKind};

@@ -13,7 +13,7 @@ use geometry::distance::Distance;
 pub struct MeshDifference {
     /// The element counts and the sizes of the first and the second mesh.
     pub counts: [Counts; 2],
-    /// Whether the faces join the same vertices.
+    /// Whether the faces have the same vertices.
     pub connectivity: Connectivity,
     /// The vertices that moved. `None` if no vertex moved or the connectivity differs.
     pub moved: Option<Moved>,
@@ -45,10 +45,10 @@ pub struct Counts {
     pub bounds: Option<[DVec3; 2]>,
 }
 
-/// Whether the faces of two meshes join the same vertices.
+/// Whether the faces of two meshes have the same vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Connectivity {
-    /// The same faces join the same vertices, compared by ids.
+    /// Faces with the same id have vertices with the same ids.
     Same,
     /// The vertices have the same positions and the faces are the same, but ids differ.
     Reordered,

@@ -1,7 +1,7 @@
 //! Compares two scenes.
 //!
 //! Objects with the same name are compared. If exactly one other object remains in each scene, these two objects are
-//! compared too: a mesh that is alone in a file often has the name of the file.
+//! compared too, because a mesh that is alone in a file is often named after the file.
 
 mod attributes;
 mod meshes;
@@ -32,7 +32,7 @@ pub struct ObjectDifference {
     pub names: [String; 2],
     /// The kinds of geometry of the two objects.
     pub kinds: [&'static str; 2],
-    /// Whether the objects are identical bit by bit, except for their names.
+    /// Whether the objects are identical bit for bit, except for their names.
     pub identical: bool,
     /// The comparison of the meshes, if both objects are meshes.
     pub mesh: Option<Box<MeshDifference>>,
@@ -162,7 +162,7 @@ impl ObjectDifference {
     }
 }
 
-/// Whether two objects are identical bit by bit, except for their names.
+/// Whether two objects are identical bit for bit, except for their names.
 fn same_bits(a: &Object, b: &Object) -> bool {
     let digest = |object: &Object| {
         let mut scene = Scene::new();

@@ -165,7 +165,7 @@ pub enum Expectation {
         max: Option<u64>,
     },
     /// The dihedral angle, in degrees, of every selected edge between two faces: the angle between the
-    /// face normals, 0 if the faces are coplanar. Edges beside a face without area are skipped. Fails if no
+    /// face normals, 0 if the faces are coplanar. Edges beside a zero-area face are skipped. Fails if no
     /// selected edge has an angle.
     DihedralAngle {
         /// Which edges.
@@ -306,9 +306,10 @@ pub enum Expectation {
         #[serde(default = "yes")]
         connectivity: bool,
     },
-    /// How much texture coordinates stretch angles. A small circle on the surface becomes an ellipse in the texture. The
-    /// ratio of its axes is 1 if angles stay. The value is the ratio that 95 % of the area of the surface does not exceed,
-    /// for the mesh with the largest value. Fails if no mesh has the texture coordinates.
+    /// The stretch of texture coordinates. A small circle on the surface becomes an ellipse in the texture. The
+    /// stretch is the ratio of the axes of the ellipse: 1 if angles are preserved. The value of a mesh is the stretch
+    /// that 95 % of the surface area does not exceed. The largest value of all meshes counts. Fails if no mesh has
+    /// the texture coordinates.
     UvStretch {
         /// The name of the texture coordinates. Defaults to `uv`.
         #[serde(default = "uv")]
@@ -342,8 +343,8 @@ pub enum Expectation {
     Attribute {
         /// The name of the attribute.
         name: String,
-        /// Which elements. If omitted, all elements of the first of vertices, faces, corners and edges that have an attribute of
-        /// this name.
+        /// Which elements. If omitted, all elements of one kind: the first of vertices, faces, corners and edges that
+        /// has an attribute of this name.
         of: Option<Elements>,
         /// The component of a vector, from 0. Required for vectors.
         #[schemars(range(max = 3))]

@@ -126,9 +126,9 @@ fn with_written_file(
     Violation::unmet(format!("{}; the written file {why}", violation.message))
 }
 
-/// Whether a copy of the written file would be read as the same objects if it had the name of the reference file and
-/// were alone in a folder. Returns false for an OBJ file with a material library. Returns true if the written file
-/// cannot be read as objects.
+/// Whether a copy of the written file, alone in a folder and with the name of the reference file, would be read as
+/// the same objects. Returns false for an OBJ file with a material library. Returns true if the written file cannot
+/// be read as objects.
 fn stands_alone(written: &Path, golden: &Path, bytes: &[u8], subject: Subject) -> bool {
     let Ok(scene) = subject.reader.scene(written, subject.files) else {
         return true;

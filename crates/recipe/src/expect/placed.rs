@@ -6,7 +6,7 @@ use scene::Scene;
 
 use super::subject::{Subject, Violation};
 
-/// The largest size of all instances together, in bytes. Many nodes can show the same mesh.
+/// The largest size of all instances together, in bytes. Many nodes can reference the same mesh.
 const MAX_BYTES: u64 = 1 << 36;
 
 /// A subject whose objects are the instances of another subject, in scene space.

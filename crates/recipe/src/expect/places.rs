@@ -10,8 +10,8 @@ use super::subject::{Subject, selected, smallest_corner_angle};
 use super::{Expectation, symmetry};
 
 impl Expectation {
-    /// Returns the places in the scene that violate the expectation, at most [`ErrorLocation::MAX_ELEMENTS`]. Empty for
-    /// expectations that are not about elements, and for `Not`.
+    /// Returns the locations in the scene that violate the expectation, at most [`ErrorLocation::MAX_ELEMENTS`].
+    /// Empty for expectations that are not about elements, and for `Not`.
     pub fn places(&self, subject: Subject) -> Vec<ErrorLocation> {
         let mut places = Vec::new();
         let compares = matches!(
@@ -19,7 +19,8 @@ impl Expectation {
             Self::Same { .. } | Self::DistanceTo { .. } | Self::SymmetricUnder { .. }
         );
         if compares && !subject.scene.graph().is_empty() {
-            // Places must be in object space, but expectations that measure in space compare instances in scene space.
+            // Locations must be in object space, but expectations that measure in space compare instances in scene
+            // space.
             return places;
         }
         for (object, mesh) in subject.meshes().unwrap_or_default() {
@@ -139,7 +140,7 @@ impl CheckedMesh<'_> {
         found.unwrap_or_default()
     }
 
-    /// Returns the selected elements whose measure, if they have one, is out of bounds.
+    /// Returns the selected elements that have a measure which is out of bounds.
     fn out_of_bounds<S: Select, T: PartialOrd + Copy>(
         &self,
         of: &S,
@@ -173,7 +174,7 @@ impl CheckedMesh<'_> {
             !others.any_near(p, tolerance)
         }));
         let missing = other.vertices().map(|v| other.position(v));
-        // Each of the two meshes gets half of the maximum number of places.
+        // Each of the two meshes gets half of the maximum number of locations.
         places.truncate(ErrorLocation::MAX_ELEMENTS / 2);
         let missing = missing.filter(|&p| !these.any_near(p, tolerance));
         places.extend(missing.map(expected).take(ErrorLocation::MAX_ELEMENTS / 2));
@@ -202,7 +203,7 @@ fn within<T: PartialOrd + Copy>(found: T, min: Option<T>, max: Option<T>) -> boo
     min.is_none_or(|min| found >= min) && max.is_none_or(|max| found <= max)
 }
 
-/// Creates a place without a name.
+/// Creates a location without a name.
 fn point(at: DVec3) -> ErrorLocation {
     ErrorLocation {
         object: String::new(),
@@ -211,7 +212,7 @@ fn point(at: DVec3) -> ErrorLocation {
     }
 }
 
-/// Creates a place where an element is expected but missing.
+/// Creates a location where an element is expected but missing.
 fn expected(at: DVec3) -> ErrorLocation {
     ErrorLocation {
         name: ErrorLocation::EXPECTED.to_owned(),

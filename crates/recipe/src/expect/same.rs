@@ -22,8 +22,8 @@ impl<'m> PositionIndex<'m> {
         Self { mesh, tree }
     }
 
-    /// Returns the place in the tree of the free vertex nearest to `p`, if there is one within the tolerance. If several
-    /// vertices are equally near, returns the one with the lowest id.
+    /// Returns the index in the tree of the free vertex nearest to `p`, if there is one within the tolerance. If
+    /// several vertices are equally near, returns the one with the lowest id.
     fn nearest(&self, p: DVec3, tolerance: f64, free: &FreeVertices) -> Option<usize> {
         let mut best = (tolerance, VertexId::NONE, 0);
         let all = 0..self.tree.len();
@@ -38,7 +38,7 @@ impl<'m> PositionIndex<'m> {
         (best.1 != VertexId::NONE).then_some(best.2)
     }
 
-    /// Whether any vertex is near `p`: at a distance of at most the tolerance.
+    /// Whether any vertex is within the tolerance of `p`.
     pub(super) fn any_near(&self, p: DVec3, tolerance: f64) -> bool {
         let mut found = false;
         let all = 0..self.tree.len();
@@ -103,7 +103,7 @@ impl<'m> PositionIndex<'m> {
     }
 }
 
-/// Returns the place of the vertex that splits a part of the tree.
+/// Returns the index of the vertex that splits a part of the tree.
 fn middle(part: &Range<usize>) -> usize {
     part.start + part.len() / 2
 }

@@ -75,7 +75,7 @@ pub(super) fn count(mesh: &Mesh, motions: &[Motion], tolerance: f64, connectivit
     motions.iter().filter(|motion| keeps(motion)).count() as u64
 }
 
-/// Whether one of the motions maps the vertex to a place without a vertex.
+/// Whether one of the motions maps the vertex to a position without a vertex.
 pub(super) fn has_unmatched_image(
     mesh: &Mesh,
     points: &PositionIndex,

@@ -25,8 +25,8 @@ use ron_tree::{Span, Value, ValueKind};
 /// The maximum nesting depth of calls.
 const MAX_CALLS: usize = 32;
 
-/// The number that each call adds to the number of steps, in addition to the steps of the called recipe. This number
-/// limits the time for reading called recipes.
+/// How many steps each call counts as, in addition to the steps of the called recipe. This limits the time for
+/// reading called recipes.
 const STEPS_PER_CALL: usize = 20;
 
 /// Returns the kind of a step that contains steps, or `None` for other steps.
@@ -123,7 +123,7 @@ impl Reader<'_, '_> {
         // Both branches are read, so that errors are also found in the branch that is not taken.
         let known = self.ids.len();
         let then = self.steps(then);
-        // Only one branch is taken, so a step in each branch can have the same id.
+        // Only one branch is taken, so steps in the two branches can have the same id.
         let ids = self.ids.split_off(known);
         let otherwise = self.steps(otherwise);
         self.ids.extend(ids);

@@ -154,8 +154,8 @@ fn canonical(store: &dyn Store, path: &Path) -> PathBuf {
 #[derive(Clone)]
 struct Draft {
     step: RecipeStep,
-    /// The ids that end with this step: the id of the step itself, and the id of each call, repetition and condition
-    /// that ends with this step. Contains only ids of this text.
+    /// The ids of everything that ends with this step: the step itself, and each call, repetition and condition that
+    /// ends with it. Contains only ids of this text.
     ends: Vec<String>,
     /// The expectations that are checked after the step.
     then: Vec<RecipeExpectation>,

@@ -43,7 +43,7 @@ pub struct Failure<'a> {
     pub diagnostic: &'a Diagnostic,
     /// The current scene. For a failed step, the scene before the step.
     pub scene: &'a Scene,
-    /// The places in the scene that the failure is about, if any are known.
+    /// The locations in the scene that the failure refers to, if any are known.
     pub places: &'a [ErrorLocation],
     /// The actual value, if the recipe can be updated with it.
     pub found: Option<&'a ActualValue>,

@@ -351,7 +351,7 @@ impl Checker {
         }
     }
 
-    /// Checks a count against its limits: characters of a text or items of a list.
+    /// Checks a count against its limits: characters of a string or items of a list.
     fn check_count(
         &mut self,
         value: &Value,

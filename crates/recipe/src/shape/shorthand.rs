@@ -169,7 +169,7 @@ fn in_full(value: &Value, name: &str) -> Value {
     Value::new(span, ValueKind::Call(Box::new(Call { name, body })))
 }
 
-/// Counts the names in the value that `names` contains.
+/// Counts the names in the value that are also in `names`.
 fn n_known(value: &Value, names: &[String]) -> usize {
     let inside: usize = value.parts().map(|part| n_known(part, names)).sum();
     let is_known = |(name, _): (&str, _)| names.iter().any(|known| known == name);

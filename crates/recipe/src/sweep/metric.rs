@@ -82,7 +82,7 @@ pub enum Measured {
     Whole(i64),
     /// A number. Infinite if there is nothing to measure, such as the distance to a mesh without faces.
     Number(f64),
-    /// A text.
+    /// A string.
     Text(String),
 }
 

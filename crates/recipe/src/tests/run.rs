@@ -368,7 +368,7 @@ fn a_step_that_panics_fails_the_run_and_nothing_is_written() {
     assert_eq!(entries(folder.path()), [""; 0]);
 }
 
-/// A listener that records the message, the places and the scene's digest of each failure.
+/// A listener that records the message, the locations and the scene's digest of each failure.
 #[derive(Default)]
 struct Failures(Mutex<Vec<(String, Vec<ErrorLocation>, Digest)>>);
 

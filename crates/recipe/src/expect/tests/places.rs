@@ -23,7 +23,7 @@ fn places(scene: &Scene, text: &str) -> Vec<ErrorLocation> {
     })
 }
 
-/// Returns the names of the places.
+/// Returns the names of the locations.
 fn names(scene: &Scene, text: &str) -> Vec<String> {
     places(scene, text).into_iter().map(|p| p.name).collect()
 }

@@ -60,7 +60,7 @@ fn case_xml(case: &Case) -> String {
     )
 }
 
-/// Escapes a text for an XML attribute or for XML content. Removes characters that XML does not allow.
+/// Escapes a string for an XML attribute or for XML content. Removes characters that XML does not allow.
 fn escaped(text: &str) -> String {
     let mut xml = String::with_capacity(text.len());
     for c in text.chars() {

@@ -56,7 +56,7 @@ impl<'a> Terminal<'a> {
         ) {
             bar.set_style(style);
         }
-        // Periodic redrawing starts a thread, which fails if memory is short.
+        // Periodic redrawing starts a thread. Starting it can fail when memory is low.
         if !bar.is_hidden() {
             bar.enable_steady_tick(Duration::from_millis(120));
         }

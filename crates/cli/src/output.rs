@@ -149,8 +149,8 @@ fn terminal_width() -> Option<usize> {
         .filter(|&columns| columns > 0)
 }
 
-/// Aligns rows in columns. If the table is wider than `limit`, the titles are shortened first, then a last column of
-/// texts, and then the first column. Numbers are never shortened.
+/// Aligns rows in columns. If the table is wider than `limit`, the titles are shortened first, then the last column
+/// if it contains text, and then the first column. Numbers are never shortened.
 fn table_within(rows: &[Vec<String>], limit: Option<usize>, last_is_text: bool) -> String {
     /// Names are not shortened below this number of characters.
     const MIN: usize = 8;
@@ -195,7 +195,7 @@ fn table_within(rows: &[Vec<String>], limit: Option<usize>, last_is_text: bool) 
     text
 }
 
-/// Returns a text with at most `most` characters; an ellipsis replaces the rest.
+/// Shortens a string to at most `most` characters; an ellipsis replaces the rest.
 fn shortened(text: &str, most: usize) -> Cow<'_, str> {
     if text.chars().count() <= most {
         return Cow::Borrowed(text);
@@ -320,7 +320,7 @@ pub(crate) fn problems_json(
     diagnostics.iter().map(problem).collect()
 }
 
-/// Escapes control characters, so that a text stays on one line and cannot control the terminal.
+/// Escapes control characters, so that a string stays on one line and cannot control the terminal.
 pub(crate) fn escape_control(text: &str) -> Cow<'_, str> {
     if !text.contains(char::is_control) {
         return Cow::Borrowed(text);
@@ -332,7 +332,7 @@ pub(crate) fn escape_control(text: &str) -> Cow<'_, str> {
     Cow::Owned(text.chars().map(escaped).collect())
 }
 
-/// Quotes a text, if necessary, so that a shell reads it as one word.
+/// Quotes a string, if necessary, so that a shell reads it as one word.
 pub(crate) fn shell_quoted(text: &str) -> Cow<'_, str> {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "_-./=:,+%@".contains(c);
     if !text.is_empty() && text.chars().all(is_plain) {

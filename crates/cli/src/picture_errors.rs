@@ -64,7 +64,7 @@ struct Drawn {
 }
 
 impl Pictures {
-    /// Draws places of a scene, unless the maximum is reached. Errors are kept for [`warn`](Self::warn).
+    /// Draws locations of a scene, unless the maximum is reached. Errors are kept for [`warn`](Self::warn).
     pub(crate) fn draw(&self, scene: &Scene, places: &[ErrorLocation], caption: &str) {
         let (budget, progress) = (self.budget, &INTERRUPT);
         self.add(caption, || {
@@ -166,7 +166,7 @@ impl Pictures {
         let cells: Vec<Cell> = (images.into_iter().zip(captions))
             .filter_map(|(image, caption)| image.map(|image| Cell { image, caption }))
             .collect();
-        // Wide images are placed below each other.
+        // Wide images are placed one below the other.
         let is_wide =
             expected.width.max(found.width) > expected.height.max(found.height).saturating_mul(3);
         let style = SheetStyle {

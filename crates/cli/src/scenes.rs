@@ -21,7 +21,7 @@ pub(crate) struct SceneAtStep {
     pub(crate) stream: String,
 }
 
-/// Whether a file is a recipe, judged by its extension.
+/// Whether a file is a recipe according to its extension.
 pub(crate) fn is_recipe(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending == "ron")
 }

@@ -21,7 +21,7 @@ use crate::source::Source;
 
 /// Renders diagnostics with the lines that they refer to, in the order of the text.
 ///
-/// `sources` are the texts of the recipe. If `colours` is set, the output contains ANSI color codes.
+/// `sources` are the sources of the recipe. If `colours` is set, the output contains ANSI color codes.
 pub fn render(sources: &[Source], diagnostics: &[Diagnostic], colours: bool) -> String {
     let mut sorted: Vec<&Diagnostic> = diagnostics.iter().collect();
     sorted.sort_by_key(|d| (d.source, d.span, d.severity));

@@ -55,7 +55,7 @@ pub enum Param {
         /// The description of the parameter.
         doc: Option<String>,
     },
-    /// Text.
+    /// A string.
     Text {
         /// The default value.
         default: String,
@@ -71,11 +71,11 @@ pub enum Param {
         /// The description of the parameter.
         doc: Option<String>,
     },
-    /// One of several words, such as the variants of an operation's parameter.
+    /// One of several names, such as the variants of an operation's parameter.
     Choice {
         /// The default value.
         default: String,
-        /// The allowed words.
+        /// The allowed names.
         of: Vec<String>,
         /// The description of the parameter.
         doc: Option<String>,
@@ -105,9 +105,9 @@ impl Param {
             Self::Int { .. } => ("Int", "a whole number"),
             Self::Float { .. } => ("Float", "a number"),
             Self::Bool { .. } => ("Bool", "true or false"),
-            Self::Text { .. } => ("Text", "a text in quotes"),
+            Self::Text { .. } => ("Text", "a string in quotes"),
             Self::Path { .. } => ("Path", "a path in quotes"),
-            Self::Choice { .. } => ("Choice", "one of its words"),
+            Self::Choice { .. } => ("Choice", "one of the allowed names"),
             Self::Vector { .. } => ("Vector", "three numbers `(x, y, z)`"),
         }
     }

@@ -20,7 +20,8 @@ pub const MAX_STEPS: usize = 100_000;
 pub struct Recipe {
     /// The description of the recipe.
     pub about: Option<String>,
-    /// The texts that spans refer to: first the text of the recipe itself, then the texts of the recipes that it calls.
+    /// The sources that spans refer to: first the text of the recipe itself, then the text of each recipe that it
+    /// calls.
     pub sources: Vec<Source>,
     /// The scopes of parameters: first the scope of the recipe itself, then one scope for each call.
     pub scopes: Vec<Scope>,

@@ -1,4 +1,4 @@
-//! The texts of a recipe: the text of the recipe itself, and the texts of the recipes that it calls.
+//! The sources of a recipe: the text of the recipe itself, and the text of each recipe that it calls.
 
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;

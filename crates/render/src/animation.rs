@@ -18,7 +18,7 @@ pub struct Timing {
 
 /// Encodes images as an animated PNG file, with all colors and transparency.
 ///
-/// Each of `texts` is a keyword of 1 to 79 Latin-1 characters and a text.
+/// Each of `texts` is a keyword of 1 to 79 Latin-1 characters and a string.
 ///
 /// # Errors
 ///
@@ -48,8 +48,8 @@ pub fn to_apng(
 
 /// Encodes images as a GIF file, with one [`Palette`] for all images.
 ///
-/// Pixels that are less than half opaque become transparent, all others opaque. `comment` is a text that is stored in
-/// the file, for example to record its provenance.
+/// Pixels that are less than half opaque become transparent, all others opaque. `comment` is a string that is stored
+/// in the file, for example to record its provenance.
 ///
 /// # Errors
 ///

@@ -97,7 +97,7 @@ pub struct Line {
     pub width: f32,
     /// Linear red, green, blue and alpha.
     pub color: [f32; 4],
-    /// The faces beside the line. The faces beside a line never hide it. The numbers of faces continue from part to
+    /// The indices of the faces beside the line. These faces never hide the line. Face indices continue from part to
     /// part; [`NO_FACE`] means no face.
     pub faces: [u32; 2],
     /// The opacity of the line where a surface hides it, from 0 to 1. A hidden point is drawn as a ring.
@@ -110,19 +110,19 @@ pub struct Line {
 /// The face index that means "no face".
 pub const NO_FACE: u32 = u32::MAX;
 
-/// A text at a point of the scene.
+/// A label at a point of the scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Label {
     /// The position, in scene units.
     pub at: DVec3,
-    /// The text.
+    /// The string to draw.
     pub text: String,
 }
 
 /// All input of the rasterizer.
 #[derive(Clone, Debug, Default)]
 pub struct Drawing<'a> {
-    /// The parts. The numbers of triangles and faces continue from part to part, in this order.
+    /// The parts. The indices of triangles and faces continue from part to part, in this order.
     pub parts: Vec<Part<'a>>,
     /// Lines and points. Later ones are drawn on top.
     pub lines: Vec<Line>,

@@ -5,7 +5,7 @@
 pub enum PictureError {
     /// A side of an image is 0 or longer than [`LARGEST_SIDE`](crate::LARGEST_SIDE) pixels.
     #[error(
-        "expected an image of 1 to {limit} pixels a side, found {width} x {height}; choose another size",
+        "expected an image of 1 to {limit} pixels per side, found {width} x {height}; choose another size",
         limit = crate::LARGEST_SIDE
     )]
     Size {

@@ -123,7 +123,7 @@ impl Image {
 
     /// Encodes the image as a PNG file, without an alpha channel if all pixels are opaque.
     ///
-    /// Each of `texts` is a keyword of 1 to 79 Latin-1 characters and a text. The texts are stored in the file, for
+    /// Each of `texts` is a keyword of 1 to 79 Latin-1 characters and a string. They are stored in the file, for
     /// example to record its provenance.
     ///
     /// # Errors

@@ -13,7 +13,7 @@ const VERTEX_DIAMETER: f64 = 13.0;
 /// The exponent for smaller pictures: the width of edges is proportional to the shorter side raised to this exponent.
 /// If the width were proportional to the shorter side itself, edges in small pictures would be too thin to see.
 const EDGE_POWER: f64 = 0.25;
-/// The power for the diameter of vertices. `VERTEX_POWER` is used like `EDGE_POWER` for the width of edges.
+/// The exponent for the diameter of vertices, which is used like `EDGE_POWER` for the width of edges.
 const VERTEX_POWER: f64 = 0.4;
 
 /// The opacity of hidden edges.

@@ -12,7 +12,7 @@ use crate::error_locations::bits;
 /// The number of directions that are tried.
 const DIRECTIONS: u32 = 200;
 
-/// The sine of the maximum elevation of the camera, which is 75 degrees. If the camera looks straight down, the upward
+/// The sine of 75 degrees, which is the maximum elevation of the camera. If the camera looks straight down, the upward
 /// direction of the picture is unclear.
 const MAX_ELEVATION: f64 = 0.965_925_826_289_068_3;
 
@@ -123,7 +123,7 @@ fn triangle_distance([a, b, c]: [DVec3; 3], from: DVec3, direction: DVec3) -> f6
     let q = offset.cross(ab);
     let v = direction.dot(q) * inverse;
     let t = ac.dot(q) * inverse;
-    // For a triangle that has no area or is seen edge-on, the numbers are NaN, and the condition is false.
+    // For a triangle that is degenerate or seen edge-on, the numbers are NaN, and the condition is false.
     if u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 {
         t
     } else {

@@ -179,7 +179,7 @@ pub(crate) struct SweepArgs {
     /// Also write the table to a file
     #[arg(long, value_name = "FILE.csv|.json")]
     pub(crate) out: Option<PathBuf>,
-    /// Keep the outputs of each cell in a folder named by its number, below DIR
+    /// Keep the outputs of each cell in a folder named after its number, below DIR
     #[arg(long, value_name = "DIR")]
     pub(crate) keep_outputs: Option<PathBuf>,
     #[command(flatten)]

@@ -158,8 +158,8 @@ pub(crate) struct ConvertArgs {
     /// The format of standard output, such as `ply`
     #[arg(long, value_name = "FORMAT")]
     pub(crate) to: Option<String>,
-    /// Images of materials: Embed, Copy (next to the file) or Keep (only the paths); by default, GLB files embed them
-    /// and other files get copies
+    /// Images of materials: Embed, Copy (next to the file) or Keep (only the paths); by default, Embed for .glb files
+    /// and Copy for other files
     #[arg(long, value_name = "POLICY", value_parser = read::policy::<Images>)]
     pub(crate) images: Option<Images>,
     /// Compress the geometry of .glb and .gltf files without loss: Meshopt
@@ -177,7 +177,7 @@ pub(crate) struct ConvertArgs {
         value_parser = bits
     )]
     pub(crate) quantize: Option<Quantization>,
-    /// The elements that a .csv file has rows for: Vertices, Faces or Corners; by default, Vertices
+    /// The elements that are the rows of a .csv file: Vertices, Faces or Corners; by default, Vertices
     #[arg(long, value_name = "ELEMENTS", value_parser = read::policy::<Rows>)]
     pub(crate) rows: Option<Rows>,
     /// Output format

@@ -15,8 +15,8 @@ pub(crate) struct ReadArgs {
     /// Handling of non-manifold edges and vertices: Split or Refuse
     #[arg(long, default_value = "Split", value_name = "POLICY", value_parser = policy::<NonManifold>)]
     non_manifold: NonManifold,
-    /// Handling of neighboring faces with opposite orientations: Orient or Keep; `convert` keeps them, other commands
-    /// orient them by default
+    /// Handling of neighboring faces with opposite orientations: Orient or Keep; by default, Keep for `convert` and
+    /// Orient for other commands
     #[arg(long, value_name = "POLICY", value_parser = policy::<Orientation>)]
     pub(crate) orientation: Option<Orientation>,
     /// Handling of faces with the same vertices as an earlier face: Keep or Drop

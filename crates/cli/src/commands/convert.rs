@@ -11,7 +11,7 @@ use crate::scenes::read_file_or_input;
 
 pub(crate) fn run(args: &ConvertArgs) -> anyhow::Result<bool> {
     let mut options = args.read.options();
-    // A conversion repairs nothing unless an option asks for it.
+    // A conversion repairs nothing unless an option requests a repair.
     options.policies.orientation = args.read.orientation.unwrap_or(Orientation::Keep);
     options.keep_vertices = true;
     let input = pipes::mesh_name(&args.input, args.from.as_deref(), "stdin", "--from")?;

@@ -47,7 +47,7 @@ pub(crate) fn run(args: &DiffArgs, engine: &Engine) -> anyhow::Result<bool> {
         print(&object_text(object, &files))?;
     }
     print(&match (difference.identical, equal) {
-        (true, _) => "equal bit by bit\n".to_owned(),
+        (true, _) => "identical bit for bit\n".to_owned(),
         (false, true) if args.tolerance == 0.0 => "equal\n".to_owned(),
         (false, true) => format!("equal within {}\n", args.tolerance),
         (false, false) => "different\n".to_owned(),
@@ -64,7 +64,7 @@ fn object_text(object: &ObjectDifference, files: &[String; 2]) -> String {
     };
     let [kind, other] = object.kinds;
     if object.identical {
-        return format!("{name}: {kind}, equal bit by bit\n");
+        return format!("{name}: {kind}, identical bit for bit\n");
     }
     if kind != other {
         return format!("{name}: {kind} in {}, {other} in {}\n", files[0], files[1]);
@@ -111,7 +111,7 @@ fn mesh_text(mesh: &MeshDifference, files: &[String; 2]) -> String {
             Some(m) => {
                 let [n, all] = [m.count, mesh.counts[0].vertices].map(|n| group_digits(n as u64));
                 format!(
-                    "{n} of {all} differ, at most by {} at {}",
+                    "{n} of {all} differ; the largest difference is {} at {}",
                     number(m.by),
                     m.vertex
                 )
@@ -177,7 +177,10 @@ fn column_text(attribute: &AttributeDifference, files: &[String; 2]) -> String {
         ColumnDifference::Unknown => "in both, but on different elements".to_owned(),
         ColumnDifference::Values { count, by, element } => {
             let n = group_digits(*count as u64);
-            format!("{n} values differ, at most by {} at {element}", number(*by))
+            format!(
+                "{n} values differ; the largest difference is {} at {element}",
+                number(*by)
+            )
         }
     }
 }

@@ -124,7 +124,7 @@ impl Run {
             .collect()
     }
 
-    /// Returns the first place where the runs differ, if any, and the values that differ there.
+    /// Returns the first event in which the runs differ, if any, and the values that differ in that event.
     fn first_difference<'j>(&'j self, other: &'j Self) -> (Option<String>, Vec<ValuePair<'j>>) {
         for (i, (step, their)) in self.steps.iter().zip(&other.steps).enumerate() {
             let differing = differing_fields(step, their);

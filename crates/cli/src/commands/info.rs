@@ -22,7 +22,7 @@ pub(crate) fn run(args: &InfoArgs) -> anyhow::Result<bool> {
     let path = &pipes::mesh_name(&args.file, args.from.as_deref(), "stdin", "--from")?;
     let (scene, notes) = read_file_or_input(&args.file, path, &args.read.options())?;
     let pictures = args.picture_errors.of(path, BUDGET);
-    // The places of notes have coordinates in the space of their object.
+    // The locations of notes have coordinates in the space of their object.
     let mut unplaced = Scene::new();
     unplaced.append(scene.objects().to_vec(), Graph::default())?;
     for note in &notes {
@@ -152,7 +152,7 @@ fn joint_counts(mesh: &Mesh) -> (usize, usize) {
     (joints.len(), most.unwrap_or(0))
 }
 
-/// Returns the places of the elements of a note, for a picture.
+/// Returns the locations of the elements of a note, for a picture.
 fn places(note: &Note) -> Vec<ErrorLocation> {
     let names: Vec<String> = match &note.elements {
         Some(Elements::Vertices(list)) => list.iter().map(ToString::to_string).collect(),

@@ -220,7 +220,11 @@ impl Rerun {
             }
         }
         if reasons.is_empty() {
-            reasons.push("the recipe, the inputs and the program are unchanged: the file was modified, or a step is not deterministic".to_owned());
+            reasons.push(
+                "the recipe, the inputs and the program are unchanged, so either the output file was modified or a \
+                 step is not deterministic"
+                    .to_owned(),
+            );
         }
         reasons
     }

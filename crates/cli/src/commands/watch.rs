@@ -110,7 +110,7 @@ struct FolderWatcher {
     watcher: notify::RecommendedWatcher,
     events: Mutex<Receiver<notify::Result<notify::Event>>>,
     folders: BTreeSet<PathBuf>,
-    /// Knows the files that the recipe reads: changes of other files are ignored.
+    /// The store that records the files that the recipe reads. Changes of other files are ignored.
     disk: Arc<RecordingDisk>,
     /// Files that the runs write. Changes of files that the runs write are ignored.
     ignored: Mutex<BTreeSet<PathBuf>>,

@@ -22,7 +22,7 @@ fn folder() -> Folder {
         .with("scenes/part.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
 }
 
-/// The first line of an error, without its place.
+/// The first line of an error, without its location.
 fn first_line(stderr: &str) -> &str {
     stderr.lines().next().unwrap_or_default()
 }

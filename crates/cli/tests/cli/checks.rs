@@ -1,4 +1,4 @@
-//! `check` refuses what a run must refuse, and lists losses that files show without being read completely.
+//! `check` refuses what a run must refuse, and lists the losses that are known before the files are read completely.
 
 use crate::folder::Folder;
 

@@ -20,14 +20,14 @@ fn the_exit_code_is_0_for_equal_and_1_for_different_files() {
     folder
         .run("diff a.obj b.obj")
         .with_code(0)
-        .prints(&["equal bit by bit\n"]);
+        .prints(&["identical bit for bit\n"]);
     folder.run("diff a.obj c.obj").with_code(1).prints(&[
         "a.obj",
         "c.obj",
         "vertices",
         "area",
         "connectivity   the same\n",
-        "positions      1 of 4 differ, at most by 0.25 at v2\n",
+        "positions      1 of 4 differ; the largest difference is 0.25 at v2\n",
         "distance       ",
         "mean distance  ",
         "different\n",

@@ -107,14 +107,14 @@ impl Ended {
         self
     }
 
-    /// Checks that standard output contains these texts in this order.
+    /// Checks that standard output contains these strings in this order.
     #[track_caller]
     pub(crate) fn prints(self, texts: &[&str]) -> Self {
         assert_contains(&self.stdout, texts);
         self
     }
 
-    /// Checks that standard error contains these texts in this order.
+    /// Checks that standard error contains these strings in this order.
     #[track_caller]
     pub(crate) fn complains(self, texts: &[&str]) -> Self {
         assert_contains(&self.stderr, texts);

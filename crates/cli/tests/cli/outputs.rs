@@ -181,8 +181,8 @@ fn paths_that_lead_out_and_files_that_no_step_writes_are_refused() {
             "path: \"a/sheet.png\", as: \"/g.png\"",
             "must stay inside the recipe's folder",
         ),
-        ("path: \"a/sheet.png\", as: \"a/\"", "names no file"),
-        ("path: \"a/sheet.png\", as: \"\"", "names no file"),
+        ("path: \"a/sheet.png\", as: \"a/\"", "does not name a file"),
+        ("path: \"a/sheet.png\", as: \"\"", "does not name a file"),
         (
             "path: \"a/shet.png\", as: \"g.png\"",
             "did you mean `a/sheet.png`?",

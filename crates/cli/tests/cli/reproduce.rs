@@ -78,7 +78,7 @@ fn changes_since_the_run_are_reported() {
     folder
         .run("reproduce out/a.obj")
         .with_code(1)
-        .complains(&["the file was modified, or a step is not deterministic"]);
+        .complains(&["either the output file was modified or a step is not deterministic"]);
 }
 
 #[test]

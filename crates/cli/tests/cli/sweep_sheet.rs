@@ -241,6 +241,6 @@ fn invalid_options_of_the_sheet_are_refused_before_any_cell_runs() {
         .run("sweep a.sweep.ron --sheet s.png --size 16000x16000")
         .with_code(1);
     assert_eq!(ended.stdout, "");
-    ended.complains(&["expected an image of 1 to 16384 pixels a side"]);
+    ended.complains(&["expected an image of 1 to 16384 pixels per side"]);
     assert_eq!(folder.entries("."), ["a.sweep.ron", "recipe.ron"]);
 }

@@ -25,8 +25,9 @@ macro_rules! selection {
             #[doc = $inside]
             Inside(super::Region),
             #[doc = concat!(
-                "The ", $elements, " whose vertices are all inside the mesh of another object, given by its name. A point is inside \
-                 if the winding number of the mesh around it is above 1/2 in magnitude; small gaps do no harm."
+                "The ", $elements, " whose vertices are all inside the mesh of another object, given by its name. A \
+                 point is inside if the winding number of the mesh around the point is above 1/2 in magnitude. The \
+                 mesh can have small gaps."
             )]
             InsideOf(String),
             #[doc = concat!("The ", $elements, " with the tag of this name. Refused if no tag has this name.")]

@@ -39,7 +39,7 @@ pub(crate) fn golden(files: &Files, path: &str) -> Result<PathBuf, String> {
         ));
     }
     if relative.file_name().is_none() || path.ends_with('/') {
-        return Err(format!("the path \"{path}\" names no file"));
+        return Err(format!("the path \"{path}\" does not name a file"));
     }
     let input = if files.input.as_os_str().is_empty() {
         PathBuf::from(".")

@@ -140,7 +140,7 @@ impl CheckedMesh<'_> {
         found.unwrap_or_default()
     }
 
-    /// Returns the selected elements that have a measure which is out of bounds.
+    /// Returns the selected elements whose measure is out of bounds. Elements without a measure are not returned.
     fn out_of_bounds<S: Select, T: PartialOrd + Copy>(
         &self,
         of: &S,

@@ -49,9 +49,9 @@ impl<'m> PositionIndex<'m> {
         found
     }
 
-    /// Calls `at` for the places in a part of the tree whose vertices can be within a distance of `p`. The distance is
-    /// `limit` at first, and then the last value that `at` returned. Skips the parts of the tree for whose middle `enter`
-    /// returns `false`. Returns the final distance.
+    /// Calls `at` with the index of each vertex in a part of the tree that can be within a certain distance of `p`.
+    /// The distance is `limit` at first, and then the last value that `at` returned. Skips a part of the tree if
+    /// `enter` returns `false` for its middle. Returns the final distance.
     fn visit(
         &self,
         part: Range<usize>,

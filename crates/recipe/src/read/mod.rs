@@ -131,7 +131,7 @@ pub(crate) fn wrong_version(root: &Value, kind: &str, expected: i128) -> Option<
     Some(Diagnostic::error(version.span, message).with_help(help))
 }
 
-/// The state that the texts of one recipe share while they are read.
+/// The state that the sources of one recipe share while they are read.
 struct Shared<'a> {
     schemas: &'a Schemas<'a>,
     /// The store that called recipes are read from.

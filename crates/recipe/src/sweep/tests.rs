@@ -159,7 +159,7 @@ fn all_errors_in_the_values_are_reported_at_once() {
             "Range(from: 0, to: 1, steps: 2)",
             "expected a list of values `[..]`: `Range` is for numbers, but the parameter has the type Choice",
         ),
-        ("Area", "expected a text in quotes, found `Area`"),
+        ("Area", "expected a string in quotes, found `Area`"),
         ("\"n\"", "`n` has values in two places"),
         ("5", "expected a path in quotes, found 5"),
     ];

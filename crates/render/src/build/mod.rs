@@ -25,7 +25,7 @@ pub struct Overlays {
     pub colorings: Vec<Coloring>,
     /// Lines and dots that belong to no element. Strokes are drawn on top of all other lines and dots.
     pub strokes: Vec<Stroke>,
-    /// Texts at points of the scene.
+    /// Labels at points of the scene.
     pub labels: Vec<Label>,
 }
 

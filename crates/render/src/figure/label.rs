@@ -1,4 +1,4 @@
-//! Draws texts over images, and fits texts to a width.
+//! Draws text over images, and fits text to a width.
 
 use glam::DVec2;
 
@@ -46,8 +46,8 @@ pub fn text_width(text: &Text) -> f64 {
     line(DVec2::ZERO, text).width.into()
 }
 
-/// The maximum number of characters of a text that are measured. The limit bounds the time for long texts. No image is
-/// wide enough for more characters.
+/// The maximum number of characters of a string that are measured. The limit bounds the time for long strings. No image
+/// is wide enough for more characters.
 const MAX_CHARACTERS: usize = 4096;
 
 /// Shortens a text so that it fits into `width` pixels.

@@ -36,10 +36,10 @@ pub struct Legend {
 const TEXT: Color = [0x1f, 0x29, 0x37, 255];
 const LINE: Color = [0x6b, 0x72, 0x80, 255];
 
-/// The background is nearly opaque, so that the texts are readable over any picture.
+/// The background is nearly opaque, so that the text is readable over any picture.
 const BACKGROUND: Color = [255, 255, 255, 235];
 
-/// The distance from the texts to the edge of the legend, in pixels at scale 1.
+/// The distance from the text to the edge of the legend, in pixels at scale 1.
 const PADDING: f64 = 12.0;
 
 /// The font size, in pixels at scale 1.

@@ -7,7 +7,7 @@
 //! - [`half_edges`](mod@half_edges): the half-edges of a part of a mesh.
 //! - [`legend`](mod@legend): the legend that explains the colors of a picture.
 //! - [`uv_layout`](mod@uv_layout): the charts of texture coordinates.
-//! - [`label`](mod@label): texts at points of an image.
+//! - [`label`](mod@label): labels at points of an image.
 
 pub mod construction;
 pub mod half_edges;

@@ -1,4 +1,4 @@
-//! Writes SVG documents: shapes, texts and groups, in pixels from the top left corner.
+//! Writes SVG documents: shapes, text and groups, in pixels from the top left corner.
 //!
 //! Documents use only features that look the same in all programs and give the same pixels on every processor.
 //! Documents have no gradients, arcs, filters or style sheets. Coordinates have three decimals.
@@ -133,7 +133,7 @@ impl Run {
     }
 }
 
-/// The point of a text that is at the position of the text.
+/// The point of a line of text that is placed at its position.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum Anchor {
     /// The start of the baseline.

@@ -22,7 +22,7 @@ use crate::ColorMap;
 pub enum UvFill {
     /// Nothing: charts are not filled.
     None,
-    /// The charts: neighbors usually differ.
+    /// One color for each chart. Neighboring charts usually have different colors.
     Charts,
     /// The stretch of angles: dark for none, bright for an aspect of [`MAX_ASPECT`] or more.
     Stretch,
@@ -39,7 +39,7 @@ const BORDER: Color = [0x1f, 0x29, 0x37, 255];
 const MARGIN: f64 = 8.0;
 /// The largest coordinate of a figure, in pixels.
 const FAR: f64 = 1e6;
-/// The number of colors of a stretch. Faces of one color are one shape.
+/// The number of colors of a stretch. Faces of the same color form one shape.
 const N_COLORS: usize = 16;
 
 /// Draws the charts of texture coordinates, `width` pixels wide. Coordinates outside the page are drawn too, so the figure
@@ -96,7 +96,7 @@ pub fn uv_layout(
     let lines = |borders: bool| -> Vec<Command> {
         let chosen = corners().filter(|&h| {
             let is_border = is_border(mesh, uvs, h);
-            // An inner edge has the same place on both sides.
+            // Both half-edges of an inner edge have the same position, so only one of them is drawn.
             is_border == borders && (is_border || h < h.twin())
         });
         chosen
@@ -144,7 +144,7 @@ fn fills(
     place: &impl Fn(HalfEdgeId) -> DVec2,
 ) -> Vec<(Color, Vec<Command>)> {
     let opaque = |[r, g, b]: [u8; 3]| [r, g, b, 255];
-    // Light enough for dark lines.
+    // The colors are light, so that dark lines are visible on them.
     let light = |[r, g, b]: [u8; 3]| [r, g, b].map(|c| c / 2 + 127);
     let mut shapes: Vec<Vec<Command>> = Vec::new();
     let color: Box<dyn Fn(usize) -> Color> = match fill {
@@ -193,7 +193,8 @@ mod tests {
     use geometry::shapes;
     use geometry::uv::charts;
 
-    /// Two squares that share an edge, and the texture coordinates of which are x and y, one of them moved.
+    /// Returns two squares that share an edge, and their texture coordinates, which are computed from x and y. The
+    /// coordinates of the second square are moved by `shift` along x.
     fn two(shift: f64) -> (Mesh, Vec<DVec2>) {
         let mesh = shapes::grid(2, 1);
         let mut uvs = vec![DVec2::ZERO; mesh.n_half_edges()];

@@ -71,7 +71,7 @@ pub(super) struct TriangleData {
     /// The index of the triangle in the part.
     triangle: usize,
     corners: [DVec3; 3],
-    /// The unit normal; zero if the triangle has no area.
+    /// The unit normal; zero if the triangle is degenerate.
     normal: DVec3,
     /// The gradients of the barycentric coordinates of the second and the third corner.
     gradients: [DVec3; 2],
@@ -107,7 +107,7 @@ struct SurfacePoint {
     at: DVec3,
     /// The barycentric coordinates.
     weights: [f32; 3],
-    /// The unit normal of the triangle, on the side of the camera; zero if the triangle has no area.
+    /// The unit normal of the triangle, on the side of the camera; zero if the triangle is degenerate.
     normal: DVec3,
     is_back: bool,
     /// The direction towards the camera.
@@ -156,7 +156,7 @@ impl<'a> Shader<'a> {
         (part, (id - self.firsts[part][0]) as usize)
     }
 
-    /// Returns the face of a triangle, a point of the triangle, and a normal of any length. The number of the face is
+    /// Returns the face of a triangle, a point of the triangle, and a normal of any length. The index of the face is
     /// counted through all parts.
     pub(super) fn plane(&self, id: u32) -> (u32, DVec3, DVec3) {
         let (part, triangle) = self.locate(id);

@@ -246,7 +246,7 @@ struct Setup {
 }
 
 impl Setup {
-    /// Prepares a triangle. Returns `None` if the triangle has no area, or its bounding box is outside of the tile.
+    /// Prepares a triangle. Returns `None` if the triangle has zero area, or its bounding box is outside of the tile.
     fn new(projected: &ProjectedTriangle, tile: &Tile) -> Option<Self> {
         let [o, mut p, mut q] = *projected;
         let from_o = |c: GridPoint| [c.at[0] - o.at[0], c.at[1] - o.at[1]].map(i64::from);

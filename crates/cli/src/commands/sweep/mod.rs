@@ -293,7 +293,7 @@ fn rows(plan: &Plan, results: &[CellResult]) -> Vec<Vec<String>> {
     rows
 }
 
-/// Formats the value of a parameter for a table: texts without quotes.
+/// Formats the value of a parameter for a table: strings have no quotes.
 fn plain(setting: &Setting) -> String {
     match setting.json() {
         Json::String(text) => text,
@@ -301,7 +301,7 @@ fn plain(setting: &Setting) -> String {
     }
 }
 
-/// Shortens a long decimal number to six significant digits. In all other texts, escapes control characters for the
+/// Shortens a long decimal number to six significant digits. In all other strings, escapes control characters for the
 /// terminal.
 fn short(text: &str) -> String {
     match text.parse::<f64>() {

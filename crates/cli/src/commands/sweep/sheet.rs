@@ -284,7 +284,7 @@ pub(super) fn kept_bytes(budget: u64) -> u64 {
     budget / 4
 }
 
-/// The places of cells on a sheet, in order from left to right and from top to bottom.
+/// The positions of cells on a sheet, in order from left to right and from top to bottom.
 struct Layout {
     columns: usize,
     /// The labels of rows and columns, if exactly two parameters vary; otherwise empty.

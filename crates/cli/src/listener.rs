@@ -27,7 +27,7 @@ pub(crate) fn is_interrupted() -> bool {
     INTERRUPT.is_set()
 }
 
-/// Locks a mutex and ignores poisoning: a panic cannot leave the protected values half-changed.
+/// Locks a mutex and ignores poisoning, because a panic cannot leave the protected values half-changed.
 pub(crate) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

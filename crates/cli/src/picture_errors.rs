@@ -59,7 +59,7 @@ struct Drawn {
     files: Vec<(PathBuf, String)>,
     /// Errors while drawing or writing.
     problems: Vec<String>,
-    /// The number of failures beyond [`MAX_PICTURES`], which are not drawn.
+    /// The number of failures beyond [`MAX_PICTURES`]. These failures are not drawn.
     further: usize,
 }
 

@@ -17,7 +17,8 @@ use crate::pipes;
 /// A scene at one point of a recipe, or of a file.
 pub(crate) struct SceneAtStep {
     pub(crate) scene: Scene,
-    /// The label of the step before which the recipe stopped, which seeds random choices; otherwise empty.
+    /// The label of the step before which the recipe stopped; empty if it did not stop before a step. The label seeds
+    /// random choices.
     pub(crate) stream: String,
 }
 
@@ -30,7 +31,7 @@ pub(crate) fn is_recipe(path: &Path) -> bool {
 const IMAGES: &str = "image-missing";
 
 /// Loads the scene of a mesh file, or runs a recipe up to `stop`. Checks no expectations and writes no files. Missing
-/// images are not reported here: only pictures need images, and drawing a picture reports missing images.
+/// images are not reported here, because only pictures need images, and drawing a picture reports missing images.
 pub(crate) fn load_scene(
     path: &Path,
     options: &ReadOptions,

@@ -1,7 +1,7 @@
-//! The files of a run: which paths a recipe may read and write, and a log of their use.
+//! The files of a run: the paths that a recipe may read and write, and a log of all uses of files.
 //!
-//! Paths of input files are relative to the folder of the recipe. Output files are always inside the output
-//! folder: a path that leads out of it is refused.
+//! Paths of input files are relative to the folder of the recipe. Output files are always inside the output folder. A
+//! path that leads out of this folder is refused.
 //!
 //! All uses of files are logged, so that the step cache knows the dependencies of a step. An operation that reads files
 //! reports each file with [`Files::has_read`]. If an operation requests a path but does not report that it read the

@@ -440,8 +440,8 @@ impl Plan {
         &self.objects
     }
 
-    /// Returns the objects for modification. To add an object, use [`insert`](Self::insert) instead, which is faster:
-    /// its time does not grow with the number of objects.
+    /// Returns the objects for modification. To add an object, use [`insert`](Self::insert) instead, which is faster
+    /// because its time does not grow with the number of objects.
     pub fn objects_mut(&mut self) -> &mut Vec<PlannedObject> {
         self.is_edited = true;
         self.index_by_name.clear();

@@ -74,7 +74,7 @@ pub struct TypeDoc {
 }
 
 impl TypeDoc {
-    /// Whether the type is a selection, or a region, which is used only in selections.
+    /// Whether the type is a selection or a region. Regions are used only in selections.
     pub fn is_selection(&self) -> bool {
         self.name.ends_with("Selection") || self.name == "Region"
     }

@@ -1,8 +1,8 @@
 //! Runs a recipe.
 //!
-//! Steps run one after another on a scene. If a step fails, the run ends and no outputs are written: steps write to
-//! a temporary folder, and the files are moved to the output folder only after all steps have run and all expectations
-//! hold.
+//! Steps run one after another on a scene. If a step fails, the run ends and no outputs are written, because steps
+//! write to a temporary folder, and the files are moved to the output folder only after all steps have run and all
+//! expectations hold.
 //!
 //! With a [cache](StepCache), a step runs only if the cache does not have its result. A scene is loaded from the cache
 //! only if a step must run on it or an expectation must be checked against it.
@@ -58,8 +58,8 @@ pub fn run(recipe: &Recipe, settings: Settings, listener: &dyn Listener) -> Outc
 /// run again.
 ///
 /// Expectations after earlier steps are not checked again, and earlier steps do not write their files again. If `first`
-/// is not 0, the cache is not used: the cache identifies a scene by the steps that produced the scene, and whether the
-/// earlier steps produced `scene` is not known.
+/// is not 0, the cache is not used. The cache identifies a scene by the steps that produced it, and it is not known
+/// which steps produced `scene`.
 pub fn run_from(
     recipe: &Recipe,
     first: usize,

@@ -4,9 +4,9 @@
 //! meshwright 0.1.0, recipe 1f0c..e2, {"file":"teapot.ron","set":{"levels":"2"},"inputs":{"a.bez":"9a.."}}
 //! ```
 //!
-//! The digest of the recipe comes first, so that it is kept in formats that store only a short text. The stamp contains
-//! no absolute paths: an input is given by its path relative to the recipe's folder, or only by its file name if its
-//! path is absolute.
+//! The digest of the recipe comes first, so that it is kept in formats that store only a short text. The stamp
+//! contains no absolute paths. An input is given by its path relative to the recipe's folder, or only by its file
+//! name if its path is absolute.
 
 use std::fmt;
 use std::path::Path;
@@ -54,7 +54,7 @@ impl Stamp {
             let name = source.path.file_name().unwrap_or_default();
             run.file = name.to_string_lossy().into_owned();
             for input in inputs.iter().map(AsRef::as_ref) {
-                // A file that cannot be read is skipped: the run will fail anyway.
+                // A file that cannot be read is skipped, because the run will fail anyway.
                 if let Ok(digest) = digest(store, input) {
                     run.inputs.insert(shown(input, source.folder()), digest);
                 }

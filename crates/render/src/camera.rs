@@ -266,7 +266,7 @@ impl Side {
     }
 }
 
-/// A camera with the size of its picture, which projects points of the scene to pixels.
+/// A camera with the size of its picture. It projects points of the scene to pixels.
 ///
 /// Pixel coordinates start at the upper left corner of the picture and grow to the right and downwards.
 #[derive(Clone, Copy, Debug)]
@@ -278,8 +278,8 @@ pub struct View {
     /// The number of pixels per scene unit. With perspective, the number of pixels per scene unit at distance 1.
     scale: f64,
     is_perspective: bool,
-    /// The distance of the near plane: points that are nearer to the camera are not visible. Minus infinity without
-    /// perspective.
+    /// The distance of the near plane from the camera. Points nearer to the camera are not visible. Without
+    /// perspective, the distance is minus infinity.
     pub(crate) near: f64,
     /// The middle of the picture, in pixels.
     middle: DVec2,

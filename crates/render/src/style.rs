@@ -79,7 +79,7 @@ pub struct Style {
     pub background: Background,
     /// The color of all surfaces. If omitted, the colors of the scene.
     pub color: Option<Color>,
-    /// The color of the back of faces, which is visible where a mesh is open or inside out.
+    /// The color of the back of faces. The back is visible where a mesh is open or inside out.
     pub back: Option<Color>,
     /// Draws the edges of meshes, and grids on Bezier patches. Lines that are only a few pixels apart are thinner, so
     /// that they do not cover the surface.

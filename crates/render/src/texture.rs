@@ -23,7 +23,7 @@ pub struct Texture {
 /// How the alpha of a texture affects the opacity of the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Alpha {
-    /// Alpha is ignored: the surface is opaque.
+    /// Alpha is ignored, and the surface is opaque.
     Ignored,
     /// The surface is opaque where alpha is at least this cutoff, and invisible elsewhere.
     Cut(f32),

@@ -33,7 +33,7 @@ const MAX_DOTTED: usize = 200;
 const MAX_NAMES: usize = 24;
 /// The maximum number of faces of a scene whose edges the overview draws. More edges would cover the surface.
 const MAX_FACES_WITH_EDGES: usize = 5_000;
-/// The tangent of half the default field of view, which is 25 degrees.
+/// The tangent of half of 25 degrees, the default field of view.
 const TANGENT: f64 = 0.221_694_662_642_939_43;
 
 /// Draws a scene with the locations of errors in a strong color.
@@ -269,8 +269,8 @@ fn preferred_direction(normal: DVec3, locations: &[ErrorLocation], center: DVec3
         .map_or(center, |first| sphere(&first.points).0);
     let outward = normal.normalize_or((middle - center).normalize_or_zero());
     let direction = (outward + 0.45 * default).normalize_or(default);
-    // The elevation is limited to 75 degrees: if the camera looks almost straight down, the upward direction of the
-    // picture is unstable.
+    // The elevation is limited to 75 degrees. If the camera looked almost straight down, the upward direction of the
+    // picture would be unstable.
     let (azimuth, elevation) = angles(direction);
     let (sin, cos) = geometry::sin_cos_degrees(azimuth);
     let (up, horizontal) = geometry::sin_cos_degrees(elevation.clamp(-75.0, 75.0));

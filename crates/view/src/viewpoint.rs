@@ -26,7 +26,7 @@ pub(crate) struct Target<'a> {
     pub(crate) normal: DVec3,
 }
 
-/// Returns the direction from a target to the camera, which is a unit vector.
+/// Returns the direction from a target to the camera, as a unit vector.
 ///
 /// The candidates are directions on the outer side of the surface. A candidate is clear if no face hides the middle of
 /// the target in this direction. Returns the clear candidate nearest to `preferred`, a unit vector. If no candidate is

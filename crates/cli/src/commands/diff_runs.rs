@@ -151,8 +151,8 @@ impl Run {
     }
 }
 
-/// Returns the fields that differ between two events. Fields that only one event has are ignored: the other event can be
-/// from an older version.
+/// Returns the fields that differ between two events. Fields that only one event has are ignored, because the other
+/// event can be from an older version.
 fn differing_fields<'j>(a: &'j Json, b: &'j Json) -> Vec<ValuePair<'j>> {
     let names = a.as_object().into_iter().flat_map(Map::keys);
     names

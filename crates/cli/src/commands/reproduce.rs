@@ -130,8 +130,8 @@ impl Rerun {
             print_diagnostics(&loaded, &loaded.diagnostics);
             anyhow::bail!("{} cannot be run", loaded.path);
         }
-        // The expectations are not checked: they may not hold for these parameter values, and only the bytes matter
-        // here.
+        // The expectations are not checked, because they may not hold for these parameter values and only the bytes
+        // matter.
         loaded.recipe.expectations.clear();
         let run_again = engine::Run {
             keep_outputs: true,

@@ -1,7 +1,7 @@
 //! `meshwright watch`: runs a recipe again whenever the recipe, a recipe that it calls, or one of its inputs is saved.
 //!
 //! The program watches the folders of these files, since many editors save by replacing the file. Other files in the
-//! watched folders are ignored, and so are the files that the run writes. The cache compares contents: steps whose
+//! watched folders are ignored, and so are the files that the run writes. The cache compares contents, so steps whose
 //! inputs did not change are not run again, and saving an unchanged file prints no results. If a file is saved during a
 //! run, the run is canceled and the next one starts.
 
@@ -27,7 +27,7 @@ use crate::pipes;
 use crate::recording::{RecordingDisk, with_real_folder};
 use engine::Loaded;
 
-/// How long the files must stay unchanged before a run starts: editors save in several steps.
+/// How long the files must stay unchanged before a run starts. Editors save in several steps.
 const SETTLE_TIME: Duration = Duration::from_millis(50);
 
 /// The interval for checking whether Ctrl-C was pressed.

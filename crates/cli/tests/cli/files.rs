@@ -219,7 +219,7 @@ fn strict_conversions_lose_nothing_in_both_directions() {
     folder.run("convert a.obj a.ply --strict").with_code(0);
 }
 
-/// A glTF file with a triangle and a skin, which is lost when placements are applied.
+/// A glTF file with a triangle and a skin. The skin is lost when placements are applied.
 const SKINNED: &str = r#"{ "asset": { "version": "2.0" }, "skins": [{ "joints": [0] }],
     "nodes": [{ "mesh": 0 }], "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 } }] }],
     "accessors": [{ "componentType": 5126, "count": 3, "type": "VEC3", "bufferView": 0 }],

@@ -129,7 +129,7 @@ fn colors_mean_the_same_in_all_cells_and_are_explained_once() {
     assert!(height > 150);
     let made = pixels(&folder, "s.png");
     assert!(drawn(&made.part([plain, 0], [colored - plain, height])) > 1000);
-    // The second cell has the largest faces: only these faces have the last colors.
+    // The second cell has the largest faces, so only these faces have the last colors.
     let colors = |i: u32| {
         let cell = cell(&made, [0, 0], 68, [i, 0]);
         move |is: fn([u8; 3]) -> bool| cell.count(is)

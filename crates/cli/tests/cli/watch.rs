@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use crate::folder::{Folder, PROGRAM};
 
-/// The time to wait for output. Long enough for any machine: only a failing test waits this long.
+/// The time to wait for output. It is long enough for any machine. Only a failing test waits this long.
 const TIMEOUT: Duration = Duration::from_secs(120);
 
 struct Watching {

@@ -77,7 +77,7 @@ selection! {
 impl EdgeSelection {
     /// Converts the parameter `at` of a recipe to a position on the edge `e`, measured from the origin of the first
     /// half-edge of `e`. `at` runs from v to w in `Between(v, w)`, and otherwise from the end with the lower id to
-    /// the other end. Returns `at` unchanged if the edge does not exist: the edit will refuse the edge.
+    /// the other end. Returns `at` unchanged if the edge does not exist, because the edit will refuse the edge.
     pub fn place_on(&self, mesh: &Mesh, e: EdgeId, at: f64) -> f64 {
         if !mesh.has_edge(e) {
             return at;

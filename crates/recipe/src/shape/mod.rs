@@ -160,7 +160,7 @@ impl<'n> Place<'n> {
 #[derive(Default)]
 struct Checker {
     diagnostics: Vec<Diagnostic>,
-    /// The number of errors beyond [`MAX_DIAGNOSTICS`], which are only counted.
+    /// The number of errors beyond [`MAX_DIAGNOSTICS`]. These errors are only counted.
     more: usize,
     /// The old names that were found.
     renames: Vec<Rename>,

@@ -13,7 +13,7 @@ use super::listed;
 /// assert!(recipe::shape::nearest("Extrude", operations).is_empty());
 /// ```
 pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) -> Vec<&'c str> {
-    // Only the start of a long name is compared: the comparison is slow, and known names are short.
+    // Only the start of a long name is compared, because the comparison is slow and known names are short.
     let sought = plain(name.get(..name.len().min(64)).unwrap_or(name));
     let mut near: Vec<(usize, &str)> = candidates
         .into_iter()

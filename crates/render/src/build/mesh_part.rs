@@ -200,7 +200,7 @@ struct Triangulation {
     faces: Vec<u32>,
 }
 
-/// Triangulates the faces of a mesh, which can be concave.
+/// Triangulates the faces of a mesh. The faces can be concave.
 fn triangulate(mesh: &Mesh, with_corners: bool) -> Triangulation {
     let n = mesh.domain_len(Domain::Face);
     // If the mesh is dense and all faces are triangles, each triangle has the index of its face.

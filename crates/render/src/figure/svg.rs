@@ -121,7 +121,7 @@ impl Run {
         }
     }
 
-    /// Creates a superscript of digits above a subscript of `n_subscript` digits, which is the previous run.
+    /// Creates a superscript of digits above the previous run, which is a subscript of `n_subscript` digits.
     pub fn superscript(text: impl Into<String>, n_subscript: usize) -> Self {
         // The width of a digit is half the font size. Here the font size is 0.7 of the size of the text.
         Self {

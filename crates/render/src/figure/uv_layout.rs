@@ -193,7 +193,7 @@ mod tests {
     use geometry::shapes;
     use geometry::uv::charts;
 
-    /// Returns two squares that share an edge, and their texture coordinates, which are computed from x and y. The
+    /// Returns two squares that share an edge, and texture coordinates that are computed from x and y. The
     /// coordinates of the second square are moved by `shift` along x.
     fn two(shift: f64) -> (Mesh, Vec<DVec2>) {
         let mesh = shapes::grid(2, 1);

@@ -1,8 +1,8 @@
 //! Sorts triangles and lines into the tiles of the picture that they touch.
 //!
 //! Triangles and lines (items) are divided into chunks. One task sorts a chunk into lists, one list for each tile, with
-//! a counting sort. A tile reads its lists chunk by chunk. The size of the lists is bounded: items that touch many
-//! tiles are in one list that all tiles read.
+//! a counting sort. A tile reads its lists chunk by chunk. The size of the lists is bounded, because items that touch
+//! many tiles are in one list that all tiles read.
 
 use std::ops::Range;
 

@@ -229,7 +229,7 @@ impl<'a> Shader<'a> {
         let Some(occlusion) = &self.occlusion else {
             return 1.0;
         };
-        // Points of the same pixel and the same surface have nearly the same openness, which is therefore reused.
+        // Points of the same pixel and the same surface have nearly the same openness, so the openness is reused.
         let near = last.filter(|k| {
             let pixel = self
                 .view

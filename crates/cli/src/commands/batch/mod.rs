@@ -221,7 +221,7 @@ impl<'b> Chunk<'b> {
             Task::Keep(row) => return FileResult::unrecorded(row.clone()),
             Task::Fail(failed) => return failed.clone(),
         };
-        // The key is computed before the run: if an input changes during the run, the next batch processes the file
+        // The key is computed before the run, so if an input changes during the run, the next batch processes the file
         // again.
         let key = self.batch.key(self.files[i], loaded);
         let run = Run {

@@ -1,4 +1,4 @@
-//! The cells of a sweep: each is a run with its own parameter values.
+//! The cells of a sweep. Each cell is a run with its own parameter values.
 
 use std::ops::Range;
 use std::path::PathBuf;

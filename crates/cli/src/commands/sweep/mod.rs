@@ -310,8 +310,8 @@ fn short(text: &str) -> String {
     }
 }
 
-/// Shortens the table for a terminal: an error is replaced by a mark, because the errors are printed below the table,
-/// and numbers are shortened.
+/// Shortens the table for a terminal. An error is replaced by a mark, because the errors are printed below the table.
+/// Numbers are shortened.
 fn on_a_terminal(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
     rows.into_iter()
         .map(|mut row| {

@@ -252,7 +252,7 @@ fn explain_notes(recipe: &Recipe) -> String {
     if text.is_empty() { text } else { text + "\n" }
 }
 
-/// Lists for each step that it was cached or why it ran, and then the notes of the cache.
+/// Lists each step, with the reason why it ran or the note that it was cached, and then the notes of the cache.
 pub(crate) fn explain_steps(outcome: &Outcome) -> String {
     let mut text = String::new();
     for (i, step) in outcome.steps.iter().enumerate() {

@@ -19,7 +19,7 @@ pub struct Context<'a> {
     pub stream: &'a str,
     /// The memory budget of meshes, in bytes.
     pub budget: u64,
-    /// The names of the materials of the object that is being changed, for selections.
+    /// The names of the materials of the object that is being changed. Selections use these names.
     pub materials: Vec<String>,
     /// The name of the object that is being changed.
     object: String,
@@ -55,7 +55,7 @@ impl<'a> Context<'a> {
         Ok(self.progress.report(what, done, total)?)
     }
 
-    /// Sets the object that selections are evaluated on: its materials, and the other objects, which
+    /// Sets the object on which selections are evaluated: its materials, and the other objects, which
     /// [`other_mesh`](Self::other_mesh) finds. Until [`clear_object`](Self::clear_object) is called, the meshes of the other
     /// objects are shared.
     pub fn set_object(&mut self, scene: &Scene, name: &str) {

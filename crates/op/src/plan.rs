@@ -98,7 +98,7 @@ impl Range {
         self.times(Self::exactly(n))
     }
 
-    /// Returns the range from 0 to the highest count. Used if any number of the elements can be missing.
+    /// Returns the range from 0 to the highest count. Call this method if any number of the elements can be missing.
     #[must_use]
     pub const fn or_less(self) -> Self {
         Self::at_most(self.max)
@@ -253,7 +253,7 @@ impl MeshPlan {
             .retain(|a| a.domain != domain || a.name != name);
     }
 
-    /// Removes the normals and tangents of vertices and corners. Used by operations that change the shape.
+    /// Removes the normals and tangents of vertices and corners. Operations that change the shape use this method.
     pub fn drop_normals(&mut self) {
         self.drop_attribute(Domain::Vertex, VERTEX_NORMAL.name);
         self.drop_attribute(Domain::Corner, CORNER_NORMAL.name);
@@ -376,7 +376,7 @@ impl PlannedNodes {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Plan {
     objects: Vec<PlannedObject>,
-    /// The index of each object by its name. Empty between [`objects_mut`](Self::objects_mut) and the next
+    /// The index of each object by its name. The map is empty between [`objects_mut`](Self::objects_mut) and the next
     /// [`insert`](Self::insert).
     index_by_name: HashMap<String, usize>,
     is_edited: bool,
@@ -384,7 +384,7 @@ pub struct Plan {
     pub inputs: Vec<PathBuf>,
     /// The files that the steps so far write.
     pub outputs: Vec<PathBuf>,
-    /// What the current step certainly loses, apart from attributes of meshes.
+    /// The data that the current step certainly loses, apart from attributes of meshes.
     pub losses: Vec<Loss>,
     /// The number of skins in the scene.
     pub skins: u64,
@@ -551,12 +551,12 @@ pub struct PlanContext<'a> {
 /// A problem of a step, found before anything runs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
-    /// What is wrong: lower case, no full stop.
+    /// The description of the problem, in lower case and without a full stop.
     pub message: String,
-    /// How to solve it.
+    /// How to solve the problem.
     pub help: Option<String>,
     /// The path of the parameter: the names of fields and variants, and the indices of items, from the outside in.
-    /// Empty if the problem concerns the whole step.
+    /// The path is empty if the problem concerns the whole step.
     pub path: Vec<String>,
     /// Whether the recipe can run anyway.
     pub is_warning: bool,

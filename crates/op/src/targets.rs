@@ -10,7 +10,7 @@ use scene::{Geometry, Scene};
 use crate::source::named_object;
 use crate::{Context, OpError, Plan, PlanContext, PlannedGeometry, Problem, Range, Report};
 
-/// The words that messages use for the kind of objects that an operation works on.
+/// How messages describe the kind of objects that an operation works on.
 #[derive(Clone, Copy, Debug)]
 pub struct TargetKind {
     /// The name of the operation.

@@ -25,7 +25,7 @@ pub struct Recipe {
     pub sources: Vec<Source>,
     /// The scopes of parameters: first the scope of the recipe itself, then one scope for each call.
     pub scopes: Vec<Scope>,
-    /// The names of its presets.
+    /// The names of the presets of the recipe.
     pub presets: Vec<String>,
     /// The steps in the order in which they run. Calls, repetitions and conditions are replaced by their steps.
     pub steps: Vec<RecipeStep>,
@@ -141,9 +141,9 @@ pub struct RecipeStep {
     pub id: Option<String>,
     /// The current name of its operation. If the operation is unknown, the name as written.
     pub name: String,
-    /// The label, which is shown to users and seeds random choices. The label is the id or, if the step has no id, the
-    /// name of the operation. The names of the calls around the step are put in front, and the numbers of the
-    /// repetitions around the step at the end, as in `clean/Weld#2`.
+    /// The label, which is shown to users and seeds random choices. The label consists of the names of the calls
+    /// around the step, the id or (without an id) the name of the operation, and the numbers of the repetitions
+    /// around the step, as in `clean/Weld#2`.
     pub label: String,
     /// The operation. `None` if the step could not be read.
     pub step: Option<Arc<dyn Step>>,

@@ -192,7 +192,7 @@ impl Runner<'_> {
         self.check_expectations(None, listener)
     }
 
-    /// Takes the result of a step from the cache, or runs it.
+    /// Takes the result of a step from the cache, or runs the step.
     fn look_up_or_run(
         &mut self,
         i: usize,

@@ -17,7 +17,7 @@ use crate::shape;
 use ron_tree::{Diagnostic, Value, ValueKind};
 
 /// Reads a selection in the syntax of recipes. The selection selects elements of `kind`. If `kind` is `None`, the
-/// selection must be valid for only one kind of elements, and selects elements of that kind.
+/// selection must be valid for only one kind of element, and selects elements of that kind.
 ///
 /// # Errors
 ///
@@ -78,7 +78,7 @@ fn typed<T: DeserializeOwned + JsonSchema>(value: &Value) -> Result<T, Vec<Diagn
     shape::typed(value, &schema::of::<T>())
 }
 
-/// Returns the elements of an object of a scene that a selection matches. `stream` seeds random choices. To get the same choices
+/// Returns the elements of an object that a selection matches. `stream` seeds random choices. To get the same choices
 /// as a step, pass the label of the step.
 ///
 /// # Errors

@@ -243,7 +243,8 @@ impl Fix {
     }
 }
 
-/// Returns the edits of the numbers of a vector that are off by more than `allowed`. The other numbers stay as written.
+/// Returns edits for the coordinates of a vector that are off by more than `allowed`. The other coordinates are
+/// unchanged.
 fn vector(value: &Value, found: [f64; 3], allowed: f64) -> Result<Vec<(Span, String)>, String> {
     not_from_parameter(value)?;
     let body = match &value.kind {

@@ -18,7 +18,7 @@ pub enum ColorMap {
     /// From black to white.
     Gray,
     /// Eight colors that are easy to distinguish, one for each whole number. After eight numbers, the colors repeat.
-    /// For labels and classes.
+    /// This map is for labels and classes.
     Classes,
 }
 

@@ -28,22 +28,22 @@ pub struct Part<'a> {
     pub points: Cow<'a, [DVec3]>,
     /// The indices of the points of each triangle, counter-clockwise seen from the front.
     pub triangles: Vec<[u32; 3]>,
-    /// The indices of the corners of each triangle. Empty if no values are per corner.
+    /// The indices of the corners of each triangle. The list is empty if no values are per corner.
     pub corners: Vec<[u32; 3]>,
-    /// The face that each triangle belongs to, in ascending order. Empty if each triangle is a face.
+    /// The face that each triangle belongs to, in ascending order. The list is empty if each triangle is a face.
     pub faces: Vec<u32>,
     /// The number of faces.
     pub n_faces: u32,
     /// Normals, of any length. A zero normal means the normal of the triangle.
     pub normals: Channel<'a>,
-    /// Linear red, green and blue of the front, from 0 to 1. Multiplied with the color of the material.
+    /// Linear red, green and blue of the front, from 0 to 1. These values are multiplied by the color of the material.
     pub colors: Channel<'a>,
     /// The highlight color of each face; empty if there are no highlights. Highlight colors are blended by their alpha
     /// over all other colors, on both sides of the face.
     pub highlights: Vec<[f32; 4]>,
     /// The materials.
     pub materials: Vec<Surface>,
-    /// The index in `materials` for each face. Empty if all faces have the first material.
+    /// The index in `materials` for each face. The list is empty if all faces have the first material.
     pub material_of_face: Vec<u32>,
     /// Sets of texture coordinates of corners, with v upwards, for the textures of the materials.
     pub uvs: Vec<Cow<'a, [DVec2]>>,
@@ -103,7 +103,7 @@ pub struct Line {
     /// The opacity of the line where a surface hides it, from 0 to 1. A hidden point is drawn as a ring.
     pub hidden: f32,
     /// The distance to similar lines, such as other edges of a mesh, in scene units. Where such lines would cover the
-    /// surface, they are drawn thinner. Infinite for a single line.
+    /// surface, they are drawn thinner. For a single line, the distance is infinite.
     pub spacing: f64,
 }
 

@@ -27,7 +27,7 @@ const EXPECTED: Color = Color::rgb(0x1b, 0x8e, 0x3d);
 const HALO: Color = Color([255, 255, 255, 220]);
 /// The opacity of hidden marks.
 const HIDDEN: f64 = 0.4;
-/// Small locations get dots in the overview only if the number of locations is at most this.
+/// The maximum number of locations at which small locations get dots in the overview.
 const MAX_DOTTED: usize = 200;
 /// The maximum number of names in the close-up.
 const MAX_NAMES: usize = 24;

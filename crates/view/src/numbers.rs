@@ -80,7 +80,7 @@ pub(crate) struct ColorScale {
     map: ColorMap,
     /// The numbers that the first and the last color stand for.
     pub(crate) range: [f64; 2],
-    /// The different numbers of the scene, with [`ColorMap::Classes`] only.
+    /// The distinct numbers of the scene; only for [`ColorMap::Classes`].
     classes: Vec<f64>,
     /// Whether pictures have a legend.
     legend: bool,
@@ -171,8 +171,8 @@ pub fn existing_attributes(mut names: Vec<&str>) -> String {
 }
 
 impl Quantity {
-    /// Returns the domain of the quantity, and one number for each element of the domain, by index. The number is NaN
-    /// if the element has none. Returns `None` if the mesh does not have this quantity.
+    /// Returns the domain of the quantity, and one number for each element of the domain, by index. The number of an
+    /// element without a value is NaN. Returns `None` if the mesh does not have this quantity.
     fn values(&self, mesh: &Mesh, targets: &[Mesh]) -> Option<(Domain, Vec<f64>)> {
         let each = |domain, value: &dyn Fn(usize) -> Option<f64>| {
             let all = 0..mesh.domain_len(domain);

@@ -22,7 +22,7 @@ pub(crate) struct Target<'a> {
     pub(crate) points: &'a [DVec3],
     /// The middle of the points.
     pub(crate) middle: DVec3,
-    /// The outward normal of the surface at the location; zero without a surface.
+    /// The outward normal of the surface at the location; zero if there is no surface.
     pub(crate) normal: DVec3,
 }
 

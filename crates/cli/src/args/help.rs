@@ -56,7 +56,7 @@ const GROUPS: [(&str, &[(&str, &str)]); 4] = [
 
 /// Printed when the program is started without arguments.
 pub(crate) const FIRST_STEPS: &str = "\
-Meshwright edits 3D meshes by recipe. Three commands to start with:
+Meshwright edits 3D meshes with recipes. Three commands to start with:
 
   meshwright new part             write a small recipe, part.ron
   meshwright run part.ron         run it; its files are written to the folder out

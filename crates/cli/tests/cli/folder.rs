@@ -46,7 +46,8 @@ impl Folder {
         fs::read(self.path(path)).unwrap()
     }
 
-    /// The sorted names of all entries of a folder, including hidden files. Empty if the folder does not exist.
+    /// The sorted names of all entries of a folder, including hidden files. The result is empty if the folder does
+    /// not exist.
     pub(crate) fn entries(&self, path: &str) -> Vec<String> {
         names(&self.path(path))
     }

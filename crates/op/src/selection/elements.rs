@@ -38,8 +38,8 @@ impl ElementKind {
     /// All three kinds.
     pub const ALL: [Self; 3] = [Self::Vertices, Self::Edges, Self::Faces];
 
-    /// Returns the selections of this kind that take a selection of `other` elements, such as `EdgesOf` for the edges of
-    /// faces. Empty if the kinds are equal.
+    /// Returns the selections of this kind that take a selection of `other` elements, such as `EdgesOf` for the edges
+    /// of faces. The list is empty if the kinds are equal.
     pub fn conversions(self, other: Self) -> &'static [&'static str] {
         match (self, other) {
             (Self::Vertices, Self::Edges) => &["EndsOf"],

@@ -39,7 +39,7 @@ pub struct Counts {
     pub boundary_loops: usize,
     /// The sum of the areas of the faces.
     pub area: f64,
-    /// The enclosed volume. Meaningless if the mesh has boundary loops.
+    /// The enclosed volume. It is meaningless if the mesh has boundary loops.
     pub volume: f64,
     /// The lowest and highest coordinates. `None` if the mesh has no vertices.
     pub bounds: Option<[DVec3; 2]>,

@@ -198,7 +198,7 @@ pub enum Expectation {
         /// At most this value.
         max: Option<f64>,
     },
-    /// The mean over the selected faces of the smallest corner angle of each, in degrees; 60 for equilateral triangles. Fails
+    /// The mean of the smallest corner angles of the selected faces, in degrees; 60 for equilateral triangles. Fails
     /// if the selection is empty.
     MeanMinAngle {
         /// Which faces.

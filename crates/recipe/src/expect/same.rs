@@ -81,8 +81,8 @@ impl<'m> PositionIndex<'m> {
         limit
     }
 
-    /// Returns, for each vertex of `other` (by index), the vertex that is within the tolerance of the vertex's image.
-    /// `None` if the vertices do not match one to one.
+    /// Returns, for each vertex v of `other` (by index), the vertex of this mesh that is within the tolerance of the
+    /// image of v. `None` if the vertices do not match one to one.
     pub(super) fn matching(
         &self,
         other: &Mesh,

@@ -267,7 +267,8 @@ impl Reader<'_, '_> {
     }
 }
 
-/// Returns a suggestion of similar file names in the folder of a missing recipe. Empty if no file name is similar.
+/// Returns a suggestion of similar file names in the folder of a missing recipe. The result is empty if no file name
+/// is similar.
 fn similar_files(store: &dyn Store, path: &Path) -> String {
     let folder = path.parent().filter(|_| !store.exists(path));
     let siblings = folder.and_then(|folder| store.list(folder).ok());

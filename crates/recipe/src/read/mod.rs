@@ -49,7 +49,7 @@ impl Reading {
     }
 }
 
-/// Values for the parameters of a recipe that are set from outside. Empty by default.
+/// Values that are set from outside for the parameters of a recipe. By default, there are none.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Values<'a> {
     /// Names of parameters and their values as plain text.

@@ -188,7 +188,7 @@ impl Reader<'_, '_> {
     }
 }
 
-/// Returns the entries of a map. Empty if the value is not a map.
+/// Returns the entries of a map. The result is empty if the value is not a map.
 fn entries(value: Option<&Value>) -> &[(Value, Value)] {
     match value.map(|v| &v.kind) {
         Some(ValueKind::Map(entries)) => entries,

@@ -16,7 +16,7 @@ pub trait Listener: Progress {
     fn step_begins(&self, _number: usize, _label: &str) {}
     /// Called when a step is done.
     fn step_done(&self, _number: usize, _done: &StepDone) {}
-    /// Whether to compute the digest of the scene after each step. Slow for large scenes.
+    /// Whether to compute the digest of the scene after each step. This is slow for large scenes.
     fn wants_digests(&self) -> bool {
         false
     }
@@ -41,7 +41,7 @@ pub trait Listener: Progress {
 pub struct Failure<'a> {
     /// The error to report.
     pub diagnostic: &'a Diagnostic,
-    /// The current scene. For a failed step, the scene before the step.
+    /// The current scene. For a failed step, this is the scene before the step.
     pub scene: &'a Scene,
     /// The locations in the scene that the failure refers to, if any are known.
     pub places: &'a [ErrorLocation],

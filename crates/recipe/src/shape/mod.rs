@@ -56,8 +56,8 @@ pub(crate) fn checked(value: &Value, schema: &Json) -> Checked {
 ///
 /// # Errors
 ///
-/// All errors of the value against the schema. Empty if a part of the value could not be read, because the parser has
-/// already reported the reason.
+/// All errors of the value against the schema. The list is empty if a part of the value could not be read, because
+/// the parser has already reported the reason.
 pub(crate) fn typed<T: DeserializeOwned>(
     value: &Value,
     schema: &Json,

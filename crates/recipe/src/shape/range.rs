@@ -16,7 +16,7 @@ impl Checker {
             return self.mismatch(value, &schema.expectation(), place, None);
         }
         let (least, most) = integer_range(schema);
-        // A number that does not fit 128 bits is out of every range.
+        // A number that does not fit into 128 bits is out of every range.
         let out_of_range = if number.text().starts_with('-') {
             i128::MIN
         } else {

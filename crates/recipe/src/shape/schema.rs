@@ -101,7 +101,7 @@ impl<'s> Schema<'s> {
         self.layers.first()?.get(keyword)
     }
 
-    /// Returns the description of the schema itself. Empty if the schema has no description.
+    /// Returns the description of the schema itself. The result is empty if the schema has no description.
     pub(crate) fn doc(&self) -> String {
         let doc = self.own("description").and_then(Json::as_str);
         doc.unwrap_or_default().to_owned()
@@ -139,8 +139,8 @@ impl<'s> Schema<'s> {
             .map(|json| Self::new(self.root, json))
     }
 
-    /// Returns the allowed types. `null` is included only if it is the only allowed type. Empty if every type is
-    /// allowed.
+    /// Returns the allowed types. `null` is included only if it is the only allowed type. The result is empty if
+    /// every type is allowed.
     pub(crate) fn types(&self) -> Vec<&'s str> {
         let mut types: Vec<&str> = match self.all("type").next() {
             Some(Json::String(name)) => vec![name],

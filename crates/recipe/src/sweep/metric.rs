@@ -80,7 +80,7 @@ pub enum Statistic {
 pub enum Measured {
     /// A whole number.
     Whole(i64),
-    /// A number. Infinite if there is nothing to measure, such as the distance to a mesh without faces.
+    /// A number. It is infinite if there is nothing to measure, such as the distance to a mesh without faces.
     Number(f64),
     /// A string.
     Text(String),

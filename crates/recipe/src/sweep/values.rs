@@ -133,7 +133,7 @@ fn range(
     })
 }
 
-/// Returns the number of whole numbers from one number to another, including both. At most [`u32::MAX`].
+/// Returns the number of whole numbers from one number to another, including both. The result is at most [`u32::MAX`].
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

@@ -177,7 +177,8 @@ fn points(mesh: &Mesh) -> Cow<'_, [DVec3]> {
     Cow::Owned((0..mesh.positions().len()).map(position).collect())
 }
 
-/// Returns the sets of texture coordinates, up to the last set that a surface needs. Empty if a needed set is missing.
+/// Returns the sets of texture coordinates, up to the last set that a surface needs. The result is empty if a needed
+/// set is missing.
 fn uvs<'s>(mesh: &'s Mesh, surfaces: &[Surface]) -> Vec<Cow<'s, [DVec2]>> {
     let textured = surfaces.iter().filter(|s| s.texture.is_some());
     let Some(last) = textured.map(|s| s.uv_set).max() else {

@@ -56,7 +56,7 @@ impl Fit {
         self.tangent.map_or(DVec2::ZERO, |_| self.half)
     }
 
-    /// Returns the few points that determine the camera, which are the outermost points in all relevant directions.
+    /// Returns the few points that determine the camera: the outermost points in all relevant directions.
     pub(super) fn extreme_points(&self, points: &impl Fn(&mut dyn FnMut(DVec3))) -> Vec<DVec3> {
         let ([x, y, z], slant) = (self.axes, self.slant());
         let directions = [

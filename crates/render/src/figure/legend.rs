@@ -27,7 +27,7 @@ pub enum Scale {
 /// A legend.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Legend {
-    /// The title above the colors. Can be empty.
+    /// The title above the colors. It can be empty.
     pub title: String,
     /// The colors.
     pub scale: Scale,

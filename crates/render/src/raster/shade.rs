@@ -12,9 +12,9 @@ use crate::drawing::{Drawing, Part, Surface};
 use crate::style::Shading;
 use crate::{PictureError, View};
 
-/// The direction to the key light: right, upwards, towards the camera. Not a unit vector.
+/// The direction to the key light: right, upwards, towards the camera. The vector is not a unit vector.
 pub(super) const KEY: DVec3 = DVec3::new(-0.45, 0.65, 0.75);
-/// The direction to the fill light. Not a unit vector.
+/// The direction to the fill light. The vector is not a unit vector.
 pub(super) const FILL: DVec3 = DVec3::new(0.8, -0.05, 0.45);
 /// The linear red, green and blue of the key light.
 pub(super) const KEY_LIGHT: [f32; 3] = [0.84, 0.82, 0.78];

@@ -214,7 +214,7 @@ impl<'b> Chunk<'b> {
         problem.map(|()| rows)
     }
 
-    /// Does the task of a file. Several threads can call this method at the same time.
+    /// Performs the task of a file. Several threads can call this method at the same time.
     fn work(&self, i: usize) -> FileResult {
         let (loaded, begin) = match &self.tasks[i] {
             Task::Run(loaded, _) => (loaded, Instant::now()),

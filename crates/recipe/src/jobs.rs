@@ -278,7 +278,7 @@ impl<T> InOrder<T> {
 }
 
 /// The estimated memory for each byte of input files, if a forecast has no upper limit for its meshes: the file itself,
-/// the mesh (one to three times the size of the file, for text and for binary files), and an edited copy.
+/// the mesh (from the size of the file for text to three times the size for binary files), and an edited copy.
 const BYTES_FOR_EACH_BYTE_READ: u64 = 8;
 
 impl Forecast {

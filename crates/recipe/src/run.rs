@@ -1,8 +1,8 @@
 //! Runs a recipe.
 //!
-//! Steps run one after another on a scene. If a step fails, the run ends and no outputs are written, because steps
-//! write to a temporary folder, and the files are moved to the output folder only after all steps have run and all
-//! expectations hold.
+//! Steps run one after another on a scene. If a step fails, the run ends and no outputs are written. Steps write to a
+//! temporary folder, and the files are moved to the output folder only after all steps have run and all expectations
+//! hold.
 //!
 //! With a [cache](StepCache), a step runs only if the cache does not have its result. A scene is loaded from the cache
 //! only if a step must run on it or an expectation must be checked against it.

@@ -69,7 +69,7 @@ pub fn upgrade(source: &str, registry: &Registry) -> Result<Upgraded, Vec<Diagno
 
 fn missing_or_wrong_version(root: &Value) -> Option<Diagnostic> {
     let Some(version) = root.field("recipe") else {
-        let message = "expected a recipe, found a text without `recipe: 1`";
+        let message = "expected a recipe, found text without `recipe: 1`";
         return Some(Diagnostic::error(root.span, message));
     };
     if matches!(&version.kind, ValueKind::Number(number) if number.is_int()) {

@@ -69,7 +69,8 @@ fn recipe_of(
     match candidates.into_iter().find(is_named) {
         Some(path) => Ok((open(&path)?, run)),
         None => anyhow::bail!(
-            "{shown} was written by the recipe {} with the digest {}, which was not found below the working directory: name it with --recipe",
+            "{shown} was written by the recipe {} with the digest {}; this recipe was not found below the working \
+             directory: name it with --recipe",
             run.file,
             stamp.recipe
         ),

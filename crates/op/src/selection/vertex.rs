@@ -14,7 +14,7 @@ selection! {
         inside: "Vertices in a region or on its surface.",
         shares: "an edge",
         nearest: "The vertices nearest to a point. If vertices are equally near, those with the lower \
-                  numbers are selected."
+                  ids are selected."
     ) {
         /// Vertices with a boundary edge.
         Boundary,

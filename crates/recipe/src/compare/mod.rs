@@ -102,8 +102,8 @@ impl Difference {
         }
     }
 
-    /// Whether the scenes have the same objects with the same elements in the same order, and no position or attribute
-    /// value differs by more than `tolerance`, in the unit of that value.
+    /// Whether the scenes have the same objects with the same elements in the same order, and no position or
+    /// attribute value differs by more than `tolerance`. The unit of `tolerance` is the unit of each value.
     pub fn is_within(&self, tolerance: f64) -> bool {
         self.identical
             || (self.only_first.is_empty()

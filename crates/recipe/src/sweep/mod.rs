@@ -306,7 +306,7 @@ impl Sweep {
         })
     }
 
-    /// Reports names that are not parameters of the recipe, and names that have values in several places.
+    /// Reports names that are not parameters of the recipe, and names that have values at several locations.
     fn check_names(&self, parameters: &[Parameter], diagnostics: &mut Vec<Diagnostic>) {
         let mut seen: Vec<&Entry> = Vec::new();
         for entry in self.over.iter().chain(&self.zip).chain(&self.set) {
@@ -318,7 +318,7 @@ impl Sweep {
                 diagnostics.push(unknown.with_help(did_you_mean(name, known)));
             }
             if let Some(earlier) = seen.iter().find(|e| e.name == *name) {
-                let message = format!("`{name}` has values in two places");
+                let message = format!("`{name}` has values at two locations");
                 let twice = Diagnostic::error(entry.name_span, message);
                 diagnostics.push(twice.with_label(earlier.name_span, "and here"));
             }

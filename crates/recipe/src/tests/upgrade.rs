@@ -83,7 +83,7 @@ fn a_newer_recipe_or_a_text_without_version_is_refused() {
     );
     assert_eq!(
         refused("(steps: [Raise(by: 1)])"),
-        "expected a recipe, found a text without `recipe: 1`"
+        "expected a recipe, found text without `recipe: 1`"
     );
     assert_eq!(
         refused("(recipe: \"1\", steps: [])"),

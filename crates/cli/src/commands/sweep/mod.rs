@@ -1,8 +1,8 @@
 //! `meshwright sweep`: runs one recipe with many parameter values and tabulates the results.
 //!
-//! [`recipe::read_sweep`] describes the file. The table has a row for each cell, in the order of the grid, with
-//! its number, the values of the varying parameters, the values of `keep`, and the error of a failed cell.
-//! `--out FILE.csv` writes the table. `--out FILE.json` and `--format json` write one object:
+//! [`recipe::read_sweep`] describes the file. The table has a row for each cell, in the order of the grid. A row has
+//! the number of the cell, the values of the varying parameters, the values of `keep`, and the error of a failed
+//! cell. `--out FILE.csv` writes the table. `--out FILE.json` and `--format json` write one object:
 //!
 //! ```text
 //! {

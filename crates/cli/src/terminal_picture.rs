@@ -2,10 +2,10 @@
 //! letters.
 //!
 //! The abilities of the terminal are derived from environment variables. Querying the terminal would be more reliable,
-//! but the program would wait for terminals that do not answer, and could take typed keys for the answer.
+//! but the program would wait for terminals that do not answer, and could mistake typed keys for the answer.
 //!
-//! - Kitty, "Terminal graphics protocol": a PNG file in chunks, in base 64.
-//! - iTerm2, "Inline images protocol": a PNG file, in base 64.
+//! - Kitty, "Terminal graphics protocol": a PNG file in chunks, in base64.
+//! - iTerm2, "Inline images protocol": a PNG file, in base64.
 //! - Sixel: DEC, "VT330/VT340 Programmer Reference Manual", volume 2, 1988, chapter 14: bands of six rows;
 //!   each character encodes six pixels of one color, one above the other.
 

@@ -21,8 +21,8 @@ const HIDDEN_EDGES: f64 = 0.3;
 /// The opacity of the rings of hidden vertices.
 const HIDDEN_VERTICES: f64 = 0.75;
 
-/// Scales a length in a picture whose shorter side has 960 pixels to a picture of this size. In smaller pictures, the
-/// length is proportional to the shorter side raised to `power`.
+/// Converts a length in a picture whose shorter side has 960 pixels to a length in a picture of this size. In smaller
+/// pictures, the length is proportional to the shorter side raised to `power`.
 fn scaled(length: f64, power: f64, size: [u32; 2]) -> f64 {
     let scale = f64::from(size[0].min(size[1])) / 960.0;
     if scale < 1.0 {

@@ -78,7 +78,7 @@ pub struct Numbers {
 pub(crate) struct ColorScale {
     title: String,
     map: ColorMap,
-    /// The numbers that the first and the last color stand for.
+    /// The numbers that the first and the last color represent.
     pub(crate) range: [f64; 2],
     /// The distinct numbers of the scene; only for [`ColorMap::Classes`].
     classes: Vec<f64>,
@@ -223,7 +223,7 @@ impl Quantity {
         }
     }
 
-    /// Returns the default range for these values: the numbers that the first and the last color stand for.
+    /// Returns the default range for these values: the numbers that the first and the last color represent.
     fn range(&self, mut values: Vec<f64>) -> [f64; 2] {
         values.retain(|x| x.is_finite());
         values.sort_unstable_by(f64::total_cmp);

@@ -79,7 +79,7 @@ impl<'s> Subject<'s> {
 
 /// The view and the color range that a scene needs.
 ///
-/// With the [joined](Self::join) extents of several scenes, each scene can be [drawn](Shot::draw) separately: the
+/// With the [joined](Self::join) extents of several scenes, each scene can be [drawn](Shot::draw) separately, and the
 /// pictures have the same view and scale, and the same numbers have the same colors.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Extent {
@@ -99,7 +99,7 @@ impl Extent {
         }
     }
 
-    /// Returns the numbers that the first and the last color stand for, if numbers are shown as colors.
+    /// Returns the numbers that the first and the last color represent, if numbers are shown as colors.
     pub fn range(&self) -> Option<[f64; 2]> {
         self.scale.as_ref().map(|scale| scale.range)
     }

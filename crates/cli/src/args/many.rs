@@ -189,7 +189,7 @@ pub(crate) struct SweepArgs {
     /// Output format
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
-    /// Draw the scenes of all cells on one image (.png); the values of `keep` are shown where they fit
+    /// Draw the scenes of all cells in one image (.png); the values of `keep` are shown where they fit
     #[arg(long, value_name = "FILE", help_heading = SHEET)]
     pub(crate) sheet: Option<PathBuf>,
     /// Number of cells in a row; each cell has its values below it

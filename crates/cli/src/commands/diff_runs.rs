@@ -101,7 +101,7 @@ impl Run {
         if !has_end {
             let help = "record a run with `meshwright run RECIPE --format json`";
             let message = format!(
-                "{shown} is not a complete record of a run, the event `end` is missing; {help}"
+                "{shown} is not a complete record of a run: the event `end` is missing; {help}"
             );
             return Err(WrongUsage(message).into());
         }

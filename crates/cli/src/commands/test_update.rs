@@ -16,7 +16,7 @@ pub(crate) fn update_recorded_values(
     outcome: &mut Outcome,
 ) -> anyhow::Result<Vec<String>> {
     let update = update(&loaded.recipe, outcome);
-    // Reference files are written first: if one cannot be written, the recipe stays unchanged.
+    // Reference files are written first. If one cannot be written, the recipe stays unchanged.
     let files = update
         .files
         .iter()

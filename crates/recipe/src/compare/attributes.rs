@@ -26,7 +26,7 @@ pub enum ColumnDifference {
     OnlySecond,
     /// The types of the values differ.
     Types([&'static str; 2]),
-    /// The rules by which edits treat the values differ.
+    /// The edit rules of the attributes differ.
     Rules,
     /// The connectivity of the meshes differs, so that values cannot be compared.
     Unknown,

@@ -287,7 +287,7 @@ pub enum Expectation {
         #[schemars(range(min = 0.0))]
         below: f64,
     },
-    /// The number of motions of a symmetry group about the origin that map the mesh onto itself. If `eq`, `min` and
+    /// How many motions of a symmetry group about the origin map the mesh onto itself. If `eq`, `min` and
     /// `max` are omitted, all motions of the group must map the mesh onto itself.
     SymmetricUnder {
         /// The symmetry group.

@@ -36,7 +36,7 @@ pub const VERSION: i128 = 1;
 /// A recipe with its errors and warnings.
 #[derive(Debug)]
 pub struct Reading {
-    /// The recipe. If the recipe has errors, contains only the parts that could be read.
+    /// The recipe. If the recipe has errors, this value contains only the parts that could be read.
     pub recipe: Recipe,
     /// The errors and warnings, in the order of the text.
     pub diagnostics: Vec<Diagnostic>,

@@ -40,7 +40,7 @@ const SHORTENING: f64 = 0.17;
 
 /// Draws a figure of the half-edges of faces, `width` pixels wide, with the names of half-edges, vertices and faces.
 ///
-/// The faces are seen along their mean normal. Faces that face away, or are seen nearly from the side, are left out.
+/// The faces are seen along their mean normal. Back faces, and faces that are seen nearly edge-on, are left out.
 /// Returns the figure and the number of faces that are left out. A figure with more than [`MAX_FACES`] faces is
 /// unreadable.
 pub fn half_edges(mesh: &Mesh, faces: &[FaceId], width: f64) -> (Svg, usize) {

@@ -13,9 +13,9 @@ use crate::color::whole;
 pub enum Scale {
     /// A range of numbers, shown as a bar.
     Continuous {
-        /// The number that the first color stands for.
+        /// The number that the first color represents.
         low: f64,
-        /// The number that the last color stands for.
+        /// The number that the last color represents.
         high: f64,
         /// The colors of numbers at equal steps from `low` to `high`.
         colors: Vec<Color>,

@@ -167,8 +167,8 @@ fn clusters(text: &Text) -> Vec<Cluster> {
     clusters
 }
 
-/// Whether a character that no font has is invisible and has no width. Invisible characters join or separate other
-/// characters, or set the direction or variant of other characters.
+/// Whether a character that is missing in all fonts is invisible and has no width. Invisible characters join or
+/// separate other characters, or set the direction or variant of other characters.
 fn is_invisible(c: char) -> bool {
     matches!(c, '\u{ad}' | '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{206f}'
         | '\u{fe00}'..='\u{fe0f}' | '\u{feff}')

@@ -1,10 +1,10 @@
 //! Draws lines over triangles. Lines have a constant width and round ends, and are hidden where a triangle is in front
 //! of them.
 //!
-//! For each sample, the depths of line and surface are compared at the point of the axis of the line that is nearest to
-//! the sample. The depth of the surface at that point is the depth of the plane of the triangle that is visible at the
-//! sample. Thus a thick line on a slanted surface is visible in its full width, although half of the line is behind the
-//! surface.
+//! For each sample, the depths of line and surface are compared at the point on the axis of the line nearest to the
+//! sample. The depth of the surface at that point is the depth of the plane of the triangle that is visible at the
+//! sample. Thus a thick line on a slanted surface is visible in its full width, although half of the line is behind
+//! the surface.
 //!
 //! A hidden point is drawn as a ring, because a faint disc would look like a stain on the surface.
 

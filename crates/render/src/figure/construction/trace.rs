@@ -5,7 +5,7 @@ use glam::DVec2;
 
 use crate::figure::svg::Command;
 
-/// The maximum distance from the curve to the points of a path that are tested, in pixels.
+/// The maximum distance, in pixels, between the curve and the tested points of a path.
 const TOLERANCE: f64 = 0.02;
 
 /// The maximum number of times that the parameter interval is halved.

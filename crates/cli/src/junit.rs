@@ -1,4 +1,5 @@
-//! Writes results as JUnit XML, which CI servers read: a report with one suite, and a test case for each recipe or file.
+//! Writes results as JUnit XML, which CI servers read: a report with one suite, and a test case for each recipe or
+//! file.
 
 use std::path::Path;
 

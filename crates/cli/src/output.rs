@@ -75,7 +75,8 @@ pub(crate) fn step_table(recipe: &Recipe, outcome: &Outcome) -> String {
     text_table(&rows)
 }
 
-/// Returns the file that a step reads or writes, the number of elements that it changed, and the number of refused edits.
+/// Returns the file that a step reads or writes, the number of elements that it changed, and the number of refused
+/// edits.
 fn summary(step: &RecipeStep, done: &StepDone) -> String {
     let mut parts = Vec::new();
     let parameters = match &step.value.kind {
@@ -222,8 +223,8 @@ pub(crate) fn group_digits(n: u64) -> String {
     text
 }
 
-/// Returns a table with the origin of each parameter value, for the recipe and the recipes it calls, and the notes of the
-/// steps.
+/// Returns a table with the origin of each parameter value, for the recipe and the recipes it calls, and the notes of
+/// the steps.
 pub(crate) fn explain(recipe: &Recipe) -> String {
     let mut rows = vec![header_row(["parameter", "value", "from"])];
     for scope in &recipe.scopes {

@@ -56,8 +56,8 @@ impl<'a> Context<'a> {
     }
 
     /// Sets the object on which selections are evaluated: its materials, and the other objects, which
-    /// [`other_mesh`](Self::other_mesh) finds. Until [`clear_object`](Self::clear_object) is called, the meshes of the other
-    /// objects are shared.
+    /// [`other_mesh`](Self::other_mesh) finds. Until [`clear_object`](Self::clear_object) is called, the meshes of
+    /// the other objects are shared.
     pub fn set_object(&mut self, scene: &Scene, name: &str) {
         let (mut materials, mut others) = (Vec::new(), Vec::new());
         for object in scene.objects() {
@@ -84,7 +84,8 @@ impl<'a> Context<'a> {
     ///
     /// # Errors
     ///
-    /// [`OpError::Object`] if no object has this name, if it is not a mesh, or if it is the object that is being changed.
+    /// [`OpError::Object`] if no object has this name, if it is not a mesh, or if it is the object that is being
+    /// changed.
     pub fn other_mesh(&self, user: &str, name: &str) -> Result<Arc<Mesh>, OpError> {
         if name == self.object {
             return Err(OpError::Object(format!(

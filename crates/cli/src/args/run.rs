@@ -55,7 +55,8 @@ pub(crate) struct RunArgs {
     /// Do not check the recipe's expectations
     #[arg(long)]
     pub(crate) no_expect: bool,
-    /// Print the origin of each parameter value, the notes of the steps, and why each step was run instead of taken from the cache
+    /// Print the origin of each parameter value, the notes of the steps, and why each step was run instead of taken
+    /// from the cache
     #[arg(long)]
     pub(crate) explain: bool,
     #[command(flatten)]

@@ -1,5 +1,5 @@
-//! `meshwright new-op`: writes a working sample operation, either to a group of the workspace or as a separate crate with
-//! a program.
+//! `meshwright new-op`: writes a working sample operation, either to a group of the workspace or as a separate crate
+//! with a program.
 
 use std::fs;
 use std::path::{Path, PathBuf, absolute};

@@ -1,5 +1,5 @@
-//! `meshwright ops` and `meshwright expectations`: describe the contents of recipes, based on the types that recipes are
-//! parsed into.
+//! `meshwright ops` and `meshwright expectations`: describe the contents of recipes, based on the types that recipes
+//! are parsed into.
 
 use op::{Entry, Registry};
 use recipe::{

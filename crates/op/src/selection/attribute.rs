@@ -10,8 +10,8 @@ use crate::{OpError, Refusal};
 ///
 /// # Errors
 ///
-/// [`Refusal::Missing`] if no attribute of these elements has this name; [`OpError::Parameter`] if it is a tag, if a vector needs
-/// `component`, or if there is no such component.
+/// [`Refusal::Missing`] if no attribute of these elements has this name; [`OpError::Parameter`] if it is a tag, if a
+/// vector needs `component`, or if there is no such component.
 pub(super) fn component_of<'m, S: Select>(
     mesh: &'m Mesh,
     name: &str,

@@ -338,8 +338,8 @@ pub enum Expectation {
         /// The name of the attribute.
         name: String,
     },
-    /// The values of an attribute, for example one that `Measure` stored. Every mesh must have the attribute. Fails if no
-    /// element has a value.
+    /// The values of an attribute, for example one that `Measure` stored. Every mesh must have the attribute. Fails
+    /// if no element has a value.
     Attribute {
         /// The name of the attribute.
         name: String,

@@ -48,7 +48,8 @@ impl Reader<'_, '_> {
         self.fill(enabled) && enabled.kind == ValueKind::Bool(false)
     }
 
-    /// Reads a disabled step, so that its ids are known and its parameters count as used, and drops it with its problems.
+    /// Reads a disabled step, so that its ids are known and its parameters count as used, and drops it with its
+    /// problems.
     fn disabled(&mut self, item: Value) {
         let before = (
             self.diagnostics.len(),

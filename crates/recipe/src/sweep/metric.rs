@@ -46,15 +46,16 @@ pub enum Metric {
     },
     /// A statistic of the values of an attribute, for example one that `Measure` stored.
     Attribute {
-        /// The name of the attribute. If several kinds of elements have an attribute of this name, the first of vertices, faces,
-        /// corners and edges is used.
+        /// The name of the attribute. If several kinds of elements have an attribute of this name, the first of
+        /// vertices, faces, corners and edges is used.
         name: String,
         /// The statistic.
         statistic: Statistic,
         /// The component of a vector, from 0. Required for vectors.
         #[schemars(range(max = 3))]
         component: Option<u32>,
-        /// The name of the object to measure. If omitted, all meshes are measured together, and each must have the attribute.
+        /// The name of the object to measure. If omitted, all meshes are measured together, and each must have the
+        /// attribute.
         on: Option<String>,
     },
     /// The time that the steps took, in seconds. The only metric that differs between equal runs.

@@ -31,8 +31,8 @@ pub(super) struct Batch<'a> {
 }
 
 impl<'a> Batch<'a> {
-    /// Reads the recipe, lists the input files, and checks that their outputs do not collide. If the recipe has errors for
-    /// every file, prints them and returns `None`.
+    /// Reads the recipe, lists the input files, and checks that their outputs do not collide. If the recipe has
+    /// errors for every file, prints them and returns `None`.
     pub(super) fn plan(
         args: &'a BatchArgs,
         engine: &'a Engine<'a>,

@@ -15,21 +15,21 @@ use op::prelude::*;
 
 /// Replaces edges with faces of constant width.
 ///
-/// A selected edge and both of its ends are removed. In both faces beside the edge, the new face reaches to the same
-/// distance, the width. Each other edge at an end is cut where it has this distance, and between two selected edges
-/// the vertex moves into the face. If three or more new vertices surround an old vertex, another new face joins them. All edges are
-/// beveled together: a cube that is beveled at all edges keeps all of its symmetries.
+/// A selected edge and both of its ends are removed. A new face replaces the edge. Its sides are parallel to the old edge,
+/// at the distance `width` on both sides. Each other edge at an end is cut at this distance from the old edge. Between
+/// two selected edges, the new vertex lies in the face. If three or more new vertices surround an old vertex, another new
+/// face joins them. All edges are beveled together, so a cube that is beveled at all edges keeps all of its symmetries.
 ///
-/// The ends of the edges are removed, and later vertices are renumbered. New vertices are numbered last. Faces
-/// keep their numbers; new faces are numbered last: those of edges in the order of the edges, then those of vertices. Edges
-/// are renumbered.
+/// The ends of the edges are removed, so the ids of later vertices change. New vertices get the highest ids. Faces
+/// keep their ids. New faces get the highest ids: first the faces of edges, in order of the edges, then the faces of
+/// vertices. Edges get new ids.
 ///
-/// Values at new vertices are those at their places in the old faces, so textures do not change. A new face has the
+/// A new vertex has the values of the old face at its position, so textures do not change. A new face has the
 /// values (material, tags) of one of the faces beside it. Which one is not specified, but it is the same in
 /// every run. New edges have zero values (no crease, no tags). Normals are dropped.
 ///
-/// An edge is refused if it is on the boundary, if one of its ends has only one other edge, which is not selected, or if the bevels at both ends
-/// of an edge would overlap.
+/// An edge is refused if it is on the boundary, if one of its ends has only one other edge and this edge is not selected,
+/// or if the bevels at both ends of an edge would overlap.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct BevelEdges {
@@ -38,8 +38,8 @@ pub struct BevelEdges {
     /// The width: the distance of the new edges from the beveled edge in each of its two faces, in scene units.
     #[serde(default)]
     pub width: Option<PositiveLength>,
-    /// The width as a fraction of the length of the shortest edge at an end of a selected edge, in place of `width`. From
-    /// 0 to 1, exclusive.
+    /// The width as a fraction of the length of the shortest edge that shares an end with a selected edge. Replaces
+    /// `width`. From 0 to 1, exclusive.
     #[serde(default)]
     pub fraction: Option<Fraction>,
     /// What to do when an edge is refused.
@@ -157,7 +157,7 @@ mod tests {
         let mesh = applied(&step, shapes::cube());
         let counts = [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()];
         assert_eq!(counts, [16, 24, 10]);
-        // The base of the prism is an octagon: a square of side 2 without four triangles with legs of 1/2.
+        // The base of the prism is an octagon: a square of side 2 from which four triangles with legs of 1/2 are cut.
         assert!((geometry::volume(&mesh) - 2.0 * (4.0 - 0.5)).abs() < 1e-13);
         for &p in mesh.positions() {
             let (x, y) = (p.x.abs(), p.y.abs());
@@ -205,7 +205,7 @@ mod tests {
     fn edges_at_the_boundary_are_refused() {
         let step = parse("(edges: All, fraction: 0.25, on_refusal: Skip)");
         let (_, report) = try_applied(&step, shapes::grid(3, 3)).unwrap();
-        // The 12 edges inside, of which eight end at the boundary.
+        // Of the 12 inner edges, eight end at the boundary.
         assert_eq!(report.changed, 12);
         let step = parse("(edges: All, fraction: 0.25)");
         let refused = try_applied(&step, shapes::grid(3, 3));

@@ -10,11 +10,11 @@
 
 use op::prelude::*;
 
-/// Collapses edges: the two ends of each edge become one vertex.
+/// Collapses edges, so that the two ends of each edge become one vertex.
 ///
 /// In a mesh of triangles, a collapse removes 1 vertex, 3 edges and 2 faces or, on the boundary, 1 vertex, 2 edges and
 /// 1 face. A face with more than three corners beside the edge only loses a corner. Of the two ends, the vertex with
-/// the lower number is kept. Edges are collapsed in order of their numbers. An edge that an earlier collapse removed
+/// the lower id is kept. Edges are collapsed in order of their ids. An edge that an earlier collapse removed
 /// counts as refused.
 ///
 /// A collapse is refused if it would change the topology of the surface or make elements coincide:
@@ -29,7 +29,7 @@ use op::prelude::*;
 /// - `SameOpposite`: the two triangles beside the edge share another edge.
 ///
 /// Values at the remaining vertex and its corners are interpolated between the ends, on each side of a seam separately.
-/// When two edges become one, the remaining edge has the larger crease of the two, and the tags of both. Normals are
+/// When two edges become one, the remaining edge has the larger of the two creases, and the tags of both. Normals are
 /// dropped.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -115,7 +115,7 @@ mod tests {
         let before = shapes::icosahedron();
         let longest = "(edges: Longest(count: 1), at: 0)";
         let mesh = applied(&parse(longest), before.clone());
-        // No vertex moved: only the end with the higher number is removed.
+        // No vertex moves, and only the end with the higher id is removed.
         assert_eq!(mesh.n_vertices(), 11);
         assert!(
             mesh.positions()

@@ -18,7 +18,7 @@ use op::prelude::*;
 /// Sets the edge attribute `crease` of the selected edges and the vertex attribute `corner` of the selected vertices to
 /// `sharpness`. Other elements keep their values, or get 0 if the attribute did not exist. Loop and Catmull-Clark
 /// subdivision keep an edge or a vertex sharp for this number of levels and smooth it in later levels. For example, an
-/// edge with sharpness 2.5 is sharp for two levels and half sharp in the third. With sharpness 10, an edge is sharp at
+/// edge with sharpness 2.5 is sharp for two levels and half sharp in the third level. With sharpness 10, an edge is sharp at
 /// every level. Boundary edges are always sharp.
 ///
 /// At least one of `edges` and `vertices` must be given. The geometry does not change. The report counts the elements
@@ -46,7 +46,7 @@ impl MeshOperation for Crease {
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();
         if self.is_empty() {
-            let help = "`edges: All` selects every edge, `vertices: All` every vertex";
+            let help = "`edges: All` selects every edge, and `vertices: All` selects every vertex";
             problems.push(Problem::error(NO_SELECTION).help(help));
         }
         if self.edges.is_some() {
@@ -80,7 +80,7 @@ impl MeshOperation for Crease {
     }
 }
 
-const NO_SELECTION: &str = "expected `edges` or `vertices` or both";
+const NO_SELECTION: &str = "expected `edges`, `vertices` or both";
 
 impl Crease {
     fn is_empty(&self) -> bool {

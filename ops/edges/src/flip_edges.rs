@@ -1,4 +1,4 @@
-//! Flip edges: replaces the edge between two triangles by the other diagonal of the pair.
+//! Flip edges: replaces the edge between two triangles with the other diagonal of the two triangles.
 //!
 //! ```text
 //!        c                   c
@@ -8,8 +8,8 @@
 //!        d                   d
 //! ```
 //!
-//! Either each edge is flipped once, or edges are flipped while that improves the mesh (module `until`). The module
-//! `goal` defines what an improvement is.
+//! Either each edge is flipped once, or edges are flipped while flips improve the mesh (module `until`). The module
+//! `goal` defines an improvement.
 
 mod goal;
 mod until;
@@ -19,7 +19,7 @@ use op::prelude::*;
 
 use goal::Goal;
 
-/// Replaces the edge between two triangles by the other diagonal of the pair.
+/// Replaces the edge between two triangles with the other diagonal of the two triangles.
 ///
 /// Edges are flipped in order of their numbers. Each flip is checked against the mesh as edited so far. A flip is
 /// refused if the edge is on the boundary, if a face beside it is not a triangle, or if the opposite corners of the two
@@ -28,10 +28,10 @@ use goal::Goal;
 /// triangle gets one new corner. The new corner takes the values that the other triangle has at the same vertex; all
 /// other corners keep their values.
 ///
-/// With `until: Delaunay` or `until: Valence`, an edge is flipped only if that improves the mesh. Edges are checked
+/// With `until: Delaunay` or `until: Valence`, an edge is flipped only if the flip improves the mesh. Edges are checked
 /// again, pass after pass, until no edge is flipped. Flips with `until: Delaunay` or `until: Valence` neither fold the
-/// surface nor create triangles without area. If a flip that would improve the mesh is refused, the step does not fail:
-/// the edge is left unchanged, and the report counts the refusal by reason. The report also contains the number of
+/// surface nor create zero-area triangles. If a flip that would improve the mesh is refused, the step does not fail.
+/// The edge is left unchanged, and the report counts the refusals by reason. The report also contains the number of
 /// passes, and whether the step stopped because `passes` was reached.
 ///
 /// On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from `edges`,

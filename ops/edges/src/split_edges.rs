@@ -14,7 +14,7 @@ use op::prelude::*;
 ///
 /// In a mesh of triangles, a split adds 1 vertex, 3 edges and 2 faces, or 1 vertex, 2 edges and 1 face on the boundary.
 /// A face with more than three corners only gains the new vertex as a corner. Edges are split in order of their
-/// numbers; new edges are not split again. New vertices are numbered last, in the order of the splits. Values at the
+/// ids; new edges are not split again. New vertices get the highest ids, in the order of the splits. Values at the
 /// new vertex and its corners are interpolated between the ends, on each side of a seam separately.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -37,7 +37,7 @@ const fn half() -> Fraction {
 
 impl MeshOperation for SplitEdges {
     const NAME: &'static str = "SplitEdges";
-    const SUMMARY: &'static str = "Insert a vertex on edges and join it to the opposite corners";
+    const SUMMARY: &'static str = "Insert a vertex on each edge and join it to the opposite corners";
     const EXAMPLE: &'static str = "SplitEdges(edges: All)";
     const WORDS: &'static [&'static str] = &["insert", "refine", "divide"];
     const DONE: &'static str = "split";
@@ -49,7 +49,7 @@ impl MeshOperation for SplitEdges {
         let cuts = n.times(Range::between(u64::from(plan.is_triangles()), 2));
         plan.grow(n, n.plus(cuts), cuts);
         if !plan.is_triangles() {
-            // A face with more than three corners gains one corner for each of its sides that is split.
+            // A face with more than three corners gains one corner for each of its split sides.
             plan.degrees.max = plan.degrees.max.saturating_mul(2);
         }
         Vec::new()

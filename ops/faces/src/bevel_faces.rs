@@ -1,4 +1,4 @@
-//! Bevel faces: shrinks and raises faces, and surrounds each with a ring of faces.
+//! Bevel faces: shrinks and raises faces, and surrounds each face with a ring of faces.
 //!
 //! ```text
 //!                                    +------+
@@ -8,13 +8,13 @@
 
 use op::prelude::*;
 
-/// Shrinks and raises faces, and surrounds each with a ring of faces.
+/// Shrinks and raises faces, and surrounds each face with a ring of faces.
 ///
 /// Works like `InsetFaces`, and also moves the inner face along its normal. Each face is beveled separately, even if
-/// selected faces share edges. The inner face keeps the number of the face, and existing vertices do not move. A face
-/// with n corners adds n vertices, 2 n edges and n faces with four corners. New vertices and faces are numbered last:
-/// in order of the selected faces, and counter-clockwise around each face from its first corner. A face without area
-/// has no normal, and its inner face is not raised.
+/// selected faces share edges. The inner face keeps the id of the face, and existing vertices do not move. A face
+/// with n corners adds n vertices, 2 n edges and n faces with four corners. New vertices and faces get the highest ids:
+/// in order of the selected faces, and counter-clockwise around each face from its first corner. A zero-area face
+/// has no normal, so its inner face is not raised.
 ///
 /// Values at the new corners and vertices are interpolated between the outer corner and the mean of the face. The ring
 /// has the values of the face (material, tags), and the inner edges have the values of the outer edges. Normals are
@@ -26,8 +26,8 @@ use op::prelude::*;
 pub struct BevelFaces {
     /// The faces to bevel.
     pub faces: FaceSelection,
-    /// How far the corners of the inner face are from the old corners towards the center of the face. From 0 (the corner)
-    /// to 1 (the center), exclusive.
+    /// The position of the corners of the inner face on the lines from the old corners to the center of the face. From 0
+    /// (the corner) to 1 (the center), exclusive.
     #[serde(alias = "inset")]
     #[schemars(extend("aliases" = ["inset"]))]
     pub fraction: Fraction,
@@ -43,7 +43,7 @@ pub struct BevelFaces {
 
 impl MeshOperation for BevelFaces {
     const NAME: &'static str = "BevelFaces";
-    const SUMMARY: &'static str = "Shrink and raise faces, each with a ring of faces around it";
+    const SUMMARY: &'static str = "Shrink and raise faces, and surround each face with a ring of faces";
     const EXAMPLE: &'static str = "BevelFaces(faces: All, fraction: 0.25, distance: 0.5)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
@@ -81,7 +81,7 @@ mod tests {
         assert_eq!(plan.faces, Range::exactly(30));
         let mesh = applied(&step, shapes::cube());
         assert_eq!(mesh.n_faces(), 30);
-        // A frustum from area 4 to area 1 and of height 1 has volume (4 + 2 + 1) / 3.
+        // A frustum of height 1 with a base of area 4 and a top of area 1 has the volume (4 + 2 + 1) / 3.
         assert!((geometry::volume(&mesh) - 8.0 - 6.0 * 7.0 / 3.0).abs() < 1e-12);
         let top = mesh.face_center(FaceId::new(1));
         assert!((top - mesh::DVec3::new(0.0, 0.0, 2.0)).length() < 1e-15);

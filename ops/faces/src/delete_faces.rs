@@ -15,12 +15,12 @@ use op::prelude::*;
 ///
 /// All faces are removed at once, so their order does not matter. Edges left without a face are removed. Vertices that
 /// lose their last edge are also removed, unless `keep_vertices` is true. Vertices that were isolated before the step
-/// are kept. The remaining elements keep their order and their values but are renumbered. To delete edges or vertices
-/// together with their faces, use `FacesBeside(edges)` or `FacesAround(vertices)`.
+/// are kept. The remaining elements keep their order and their values but get new ids. To delete edges or vertices
+/// together with their faces, select the faces with `FacesBeside(edges)` or `FacesAround(vertices)`.
 ///
 /// The removal is refused if the remaining faces around a vertex would form separate fans that meet only at that
-/// vertex. With `on_refusal: Skip`, faces are instead removed one by one, in order of their numbers, in repeated passes
-/// until no more of the selected faces can be removed. The selected faces that remain are counted as refused.
+/// vertex. With `on_refusal: Skip`, faces are instead removed one by one, in order of their ids, in repeated passes
+/// until no more selected faces can be removed. The selected faces that remain are counted as refused.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DeleteFaces {
@@ -168,8 +168,8 @@ mod tests {
 
     #[test]
     fn a_refused_face_is_tried_again_after_later_faces() {
-        // Removing face 0 pinches a vertex while face 1 exists. Removing face 7, at the opposite corner, always pinches
-        // a vertex.
+        // Removing face 0 makes a vertex non-manifold while face 1 exists. Removing face 7, at the opposite corner, always
+        // makes a vertex non-manifold.
         let ring = applied(&parse("(faces: Faces([4]))"), shapes::grid(3, 3));
         let numbers = "(faces: Faces([0, 1, 7]), on_refusal: Skip)";
         let (mesh, report) = try_applied(&parse(numbers), ring).unwrap();

@@ -1,4 +1,4 @@
-//! Inset faces: shrinks faces and surrounds each with a ring of faces.
+//! Inset faces: shrinks faces and surrounds each face with a ring of faces.
 //!
 //! ```text
 //!    + ------------- +              + ------------- +
@@ -12,11 +12,11 @@
 
 use op::prelude::*;
 
-/// Shrinks faces and surrounds each with a ring of faces.
+/// Shrinks faces and surrounds each face with a ring of faces.
 ///
-/// Each face is inset separately, even if selected faces share edges. The inner face keeps the number of the face, and
+/// Each face is inset separately, even if selected faces share edges. The inner face keeps the id of the face, and
 /// existing vertices do not move. A face with n corners adds n vertices, 2 n edges and n faces with four corners. New
-/// vertices and faces are numbered last: in order of the selected faces, and counter-clockwise around each face from its
+/// vertices and faces get the highest ids: in order of the selected faces, and counter-clockwise around each face from its
 /// first corner.
 ///
 /// Values at the new corners and vertices are interpolated between the outer corner and the mean of the face, so
@@ -29,8 +29,8 @@ use op::prelude::*;
 pub struct InsetFaces {
     /// The faces to inset.
     pub faces: FaceSelection,
-    /// How far the corners of the inner face are from the old corners towards the center of the face. From 0 (the corner)
-    /// to 1 (the center), exclusive.
+    /// The position of the corners of the inner face on the lines from the old corners to the center of the face. From 0
+    /// (the corner) to 1 (the center), exclusive.
     pub fraction: Fraction,
     /// What to do when a face is refused.
     #[serde(default)]
@@ -39,7 +39,7 @@ pub struct InsetFaces {
 
 impl MeshOperation for InsetFaces {
     const NAME: &'static str = "InsetFaces";
-    const SUMMARY: &'static str = "Shrink faces, each with a ring of faces around it";
+    const SUMMARY: &'static str = "Shrink faces and surround each face with a ring of faces";
     const EXAMPLE: &'static str = "InsetFaces(faces: All, fraction: 0.25)";
     const WORDS: &'static [&'static str] = &["shrink"];
 

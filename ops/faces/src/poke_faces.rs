@@ -1,4 +1,4 @@
-//! Poke faces: inserts a vertex at the center of faces and joins it to their corners.
+//! Poke faces: inserts a vertex at the center of each face and connects it to the corners of the face.
 //!
 //! ```text
 //!    d ------- c          d ------- c
@@ -10,12 +10,12 @@
 
 use op::prelude::*;
 
-/// Inserts a vertex at the center of faces and joins it to their corners.
+/// Inserts a vertex at the center of each face and connects it to the corners of the face.
 ///
 /// A face with n corners becomes n triangles. Each poked face adds 1 vertex, n edges and n - 1 faces. The first
-/// triangle keeps the number of the face; the other triangles and the new vertices and edges are numbered last, in
+/// triangle keeps the id of the face; the other triangles and the new vertices and edges get the highest ids, in
 /// order of the faces. The new vertex is at the mean of the corners, moved along the normal of the face by `distance`.
-/// The vertex and corner values of the new vertex are also means, if the type of the attribute allows means. The
+/// The vertex and corner attributes of the new vertex are also means, if the type of the attribute allows means. The
 /// triangles have the values of their face, and the new edges have zero values (no crease, no tags). If `distance` is
 /// not 0, normals are dropped.
 ///
@@ -30,7 +30,7 @@ pub struct PokeFaces {
     /// The distance of the vertex from the center along the normal of the face, in scene units. A negative distance
     /// moves the vertex inwards.
     ///
-    /// A face without area has no normal: its vertex is at the center.
+    /// A zero-area face has no normal, so its vertex is at the center.
     #[serde(default, alias = "offset")]
     #[schemars(extend("aliases" = ["offset"]))]
     pub distance: Distance,
@@ -42,7 +42,7 @@ pub struct PokeFaces {
 impl MeshOperation for PokeFaces {
     const NAME: &'static str = "PokeFaces";
     const SUMMARY: &'static str =
-        "Insert a vertex at the center of faces and join it to their corners";
+        "Insert a vertex at the center of each face and connect it to the corners";
     const EXAMPLE: &'static str = "PokeFaces()";
     const WORDS: &'static [&'static str] = &["fan", "center"];
     const DONE: &'static str = "poked";
@@ -101,7 +101,7 @@ mod tests {
     fn the_distance_follows_the_normal() {
         let mesh = applied(&parse("(distance: 2)"), shapes::square());
         assert_eq!(mesh.position(VertexId::new(4)), DVec3::new(0.5, 0.5, 2.0));
-        // A cube with a roof of height 1 on each square of 2 x 2.
+        // A cube whose sides are 2 x 2 squares, each with a roof of height 1.
         let mesh = applied(&parse("(distance: 1)"), shapes::cube());
         assert!((geometry::volume(&mesh) - (8.0 + 6.0 * 4.0 / 3.0)).abs() < 1e-12);
     }

@@ -1,4 +1,4 @@
-//! Split faces: cuts faces in two with edges between their corners.
+//! Split faces: cuts each face in two with an edge between two of its corners.
 //!
 //! ```text
 //!    +-----w          +-----w
@@ -11,12 +11,12 @@
 use mesh::VertexId;
 use op::prelude::*;
 
-/// Cuts faces in two with edges between their corners.
+/// Cuts each face in two with an edge between two of its corners.
 ///
 /// Each pair (v, w) of vertices cuts the face that has both vertices as corners. The new edge joins the two vertices.
 /// Each cut adds 1 edge and 1 face. Cuts are made in the order of the list, so a face can be cut several times. The
-/// part of the face to the right of the line from v to w is the new face, and the other part keeps the number. New
-/// edges and faces are numbered last. Corners keep their values, the new face has the values of the old one, and the
+/// part of the face to the right of the line from v to w is the new face, and the other part keeps the id. New
+/// edges and faces get the highest ids. Corners keep their values, the new face has the values of the old face, and the
 /// new edge has zero values (no crease, no tags).
 ///
 /// A cut is refused if the two vertices are the same, if they are already joined by an edge, if no face has both as
@@ -24,7 +24,7 @@ use op::prelude::*;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct SplitFaces {
-    /// The cuts: a list of pairs of vertex numbers, for example `[(0, 2), (5, 9)]`.
+    /// The cuts, as a list of pairs of vertex ids, for example `[(0, 2), (5, 9)]`.
     pub between: Vec<(u32, u32)>,
     /// What to do when a cut is refused.
     #[serde(default)]
@@ -33,7 +33,7 @@ pub struct SplitFaces {
 
 impl MeshOperation for SplitFaces {
     const NAME: &'static str = "SplitFaces";
-    const SUMMARY: &'static str = "Cut faces in two with edges between their corners";
+    const SUMMARY: &'static str = "Cut each face in two with an edge between two of its corners";
     const EXAMPLE: &'static str = "SplitFaces(between: [])";
     const WORDS: &'static [&'static str] = &["knife", "connect"];
 
@@ -85,7 +85,7 @@ impl SplitFaces {
     }
 }
 
-/// Returns the vertex with a number. If the number is too large for an id, returns an id that no mesh contains.
+/// Returns the id with this number. If the number is too large for an id, returns an id that no mesh contains.
 fn vertex(number: u32) -> VertexId {
     if number == u32::MAX {
         VertexId::NONE

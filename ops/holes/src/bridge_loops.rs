@@ -16,8 +16,8 @@ use op::prelude::*;
 
 /// Joins two holes with a band of faces.
 ///
-/// Each hole is given by one of its vertices. An edge joins the two given vertices, and the band goes around both holes
-/// from there. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and n - m evenly spread
+/// Each hole is identified by one of its vertices. An edge joins the two vertices, and the band goes around both holes
+/// from this edge. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and n - m evenly spread
 /// triangles. The step adds n edges and no vertices. The holes may be in one part of the mesh, which then gets a tunnel
 /// or a handle, or in two parts of one object. (`Join` joins two objects into one.)
 ///
@@ -26,13 +26,13 @@ use op::prelude::*;
 ///
 /// The step is refused if a vertex is not on the boundary (`NotBoundary`), if both vertices are on the same hole
 /// (`WrongPlace`), or if the band would join two vertices that are already joined by an edge (`DuplicateEdge`). If the
-/// reason is `DuplicateEdge`, other start vertices may work.
+/// reason is `DuplicateEdge`, the step may succeed with other vertices.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct BridgeLoops {
-    /// The number of a vertex on the first hole.
+    /// The id of a vertex on the first hole.
     pub first: u32,
-    /// The number of the vertex on the second hole that is joined to `first`.
+    /// The id of the vertex on the second hole that is joined to `first`.
     pub second: u32,
 }
 
@@ -50,7 +50,7 @@ impl MeshOperation for BridgeLoops {
         }
         if self.first == self.second {
             let message =
-                "`first` and `second` must be on different holes, but are the same vertex";
+                "`first` and `second` must be on different holes, but they are the same vertex";
             problems.push(Problem::error(message).at(["second"]));
         }
         // The band has as many faces as the longer hole has edges, at least two.
@@ -75,7 +75,7 @@ impl MeshOperation for BridgeLoops {
     }
 }
 
-/// Returns the vertex with this number, which must be on the boundary.
+/// Returns the vertex with this id, which must be on the boundary.
 fn boundary_vertex(mesh: &Mesh, number: u32, cx: &Context) -> Result<VertexId, OpError> {
     let v = VertexSelection::Vertices(vec![number]).resolve(mesh, cx)?[0];
     if mesh.is_boundary_vertex(v) {

@@ -13,10 +13,10 @@ use op::prelude::*;
 
 /// Opens the mesh along edges.
 ///
-/// The edges may form paths, loops and trees; a loop cuts out a piece. Each edge becomes two edges, one for each side.
+/// The edges may form paths, loops and trees. A loop cuts out a piece. Each edge becomes two edges, one for each side.
 /// If the cuts separate the faces around a vertex into several parts, each part gets a separate copy of the vertex. The
-/// part that has the face with the lowest number keeps the number of the vertex, and new vertices are numbered last.
-/// Faces keep their numbers, and nothing moves. Copies have the values of the originals, and corners keep their values.
+/// part with the lowest face id keeps the id of the vertex, and new vertices get the highest ids.
+/// Faces keep their ids, and no vertex moves. Copies have the values of the originals, and corners keep their values.
 /// `Stitch` is the inverse.
 ///
 /// All edges are cut at once. An edge is refused if it is on the boundary (`Boundary`), or if the cut would not open

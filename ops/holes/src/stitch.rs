@@ -20,15 +20,15 @@ use pairs::Pairs;
 ///
 /// Two boundary edges coincide if both pairs of corresponding ends are at most `distance` apart. Two edges that
 /// coincide only with each other form a pair. Choose a distance below the lengths of the edges. An edge that coincides
-/// with several edges is refused (`NonManifold`), and none of the coinciding edges are joined. Unlike `Weld`, this
+/// with several edges is refused (`NonManifold`), and none of the coincident edges are joined. Unlike `Weld`, this
 /// operation never merges vertices inside the surface or vertices whose edges do not coincide.
 ///
-/// Of each pair of vertices or edges, the one with the lower number keeps its position and its values. The other vertex
-/// or edge is removed, and later elements are renumbered. Faces and corners do not change: different UVs become a seam.
-/// Remaining holes with two edges are also closed.
+/// Of each pair of vertices or edges, the one with the lower id keeps its position and its values. The other vertex
+/// or edge is removed, so the ids of later elements change. Faces and corners do not change, so an edge whose sides have
+/// different UVs becomes a seam. Remaining holes with two edges are also closed.
 ///
 /// A pair is refused if both edges belong to the same face (`SameFace`), if the ends of an edge would become one vertex
-/// or a face would visit a vertex twice (`WrongPlace`), or if two edges would join the same vertices (`DuplicateEdge`).
+/// or a face would contain a vertex twice (`WrongPlace`), or if two edges would join the same vertices (`DuplicateEdge`).
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stitch {

@@ -13,14 +13,14 @@ use op::prelude::*;
 /// Removes vertices and merges the faces around them.
 ///
 /// Vertices are removed in order of their numbers. Each removal is checked against the mesh as edited so far. All faces
-/// around the vertex become one face, which has the number and the values of the face with the lowest number. If the
+/// around the vertex become one face, which has the id and the values of the face with the lowest id. If the
 /// vertex is on the boundary, its two boundary edges become one. If the vertex has only two edges, these edges become
-/// one edge, and the faces beside the edge lose a corner. When two edges become one, the edge with the lower number is
-/// kept, with its values. The remaining elements keep their order and their values but are renumbered. Normals are
+/// one edge, and the faces beside the edge lose a corner. When two edges become one, the edge with the lower id is
+/// kept, with its values. The remaining elements keep their order and their values but get new ids. Normals are
 /// dropped.
 ///
 /// A vertex is refused if it is isolated or has a single edge, if a neighbor would be left with a single edge inside a
-/// face, if a face would visit a vertex twice or have fewer than three corners, or if an edge would join two vertices
+/// face, if a face would contain a vertex twice or have fewer than three corners, or if an edge would join two vertices
 /// that are already joined. At a seam, a vertex is refused unless `seams` is `Drop`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -50,7 +50,7 @@ impl MeshOperation for DissolveVertices {
         }
         let n = self.on_refusal.done(chosen);
         plan.vertices = plan.vertices.minus(n);
-        // At least one edge is removed with each vertex, and at least one face with its edges remains.
+        // Each removed vertex also removes at least one edge. At least one face and its edges remain.
         plan.edges = Range::between(plan.edges.min.min(3), plan.edges.minus(n).max);
         plan.faces.min = plan.faces.min.min(1);
         plan.degrees = Range::between(3, plan.edges.by(2).max.max(3));

@@ -10,13 +10,13 @@
 //!     \ i /   \ h /
 //! ```
 //!
-//! n(f) is the unit normal of f. The area of f is the length of its area vector: half the sum of the cross products of
-//! consecutive corners (Newell's method). The area vector is also defined for polygons that are not flat. With the
+//! n(f) is the unit normal of f. The area of f is the length of its area vector, which is half the sum of the cross
+//! products of consecutive corners (Newell's method). The area vector is also defined for polygons that are not flat. With the
 //! weight `Area`, N is the sum of the area vectors.
 //!
-//! Which weight is best depends on the surface that the mesh approximates: Max, "Weights for Computing Vertex Normals
-//! from Facet Normals", 1999, compares them. With `Angle`, the normals do not depend on how faces are triangulated:
-//! Thürmer and Wüthrich, "Computing Vertex Normals from Polygonal Facets", 1998.
+//! The best weight depends on the surface that the mesh approximates. Max, "Weights for Computing Vertex Normals
+//! from Facet Normals", 1999, compares the weights. With `Angle`, the normals do not depend on how faces are
+//! triangulated. Source: Thürmer and Wüthrich, "Computing Vertex Normals from Polygonal Facets", 1998.
 
 mod gather;
 
@@ -28,8 +28,8 @@ pub use gather::normals;
 /// Computes a unit normal for every vertex, from the faces around it.
 ///
 /// The normals are written to the vertex attribute `normal`, which is replaced if it exists. Corner normals are removed,
-/// because they would contradict the vertex normals. A vertex without faces, or whose face normals cancel each other
-/// out, gets the zero vector and is counted.
+/// because they would contradict the vertex normals. A vertex that has no faces, or whose face normals cancel each
+/// other out, gets the zero vector and is counted.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct VertexNormals {

@@ -9,18 +9,18 @@
 //! The energy is lowest for the equilateral triangle and grows without bound as the area approaches 0. A flip is an
 //! improvement if the energy of the two new triangles is lower than the energy of the two old ones. The sum over a mesh
 //! is the trace of its cotangent Laplacian (Pinkall and Polthier, "Computing Discrete Minimal Surfaces and Their
-//! Conjugates", 1993): the sum, over all vertices, of the Dirichlet energy of the function that is 1 at the vertex and
-//! 0 at all other vertices. In the plane, a flip does not change the Dirichlet energy of linear functions. For all
-//! other functions, a flip changes the Dirichlet energy by a quadratic form of rank one. The sign of this form depends
+//! Conjugates", 1993). For each vertex, take the Dirichlet energy of the function that is 1 at the vertex and 0 at all
+//! other vertices. The trace is the sum of these energies. In the plane, a flip does not change the Dirichlet energy of linear functions. For all
+//! other functions, a flip changes the Dirichlet energy by a quadratic form of rank 1. The sign of this form depends
 //! on whether the fourth corner is inside the circle through the other three corners (Rippa, "Minimal Roughness
 //! Property of the Delaunay Triangulation", 1990). So in the plane a flip reduces the energy exactly if the edge is not
 //! Delaunay, and flipping these edges ends with the Delaunay triangulation (Lawson, "Software for C1 Surface
 //! Interpolation", 1977). Four times the sum is the harmonic index of Musin, "Properties of the Delaunay
 //! Triangulation", 1997. The energy is also defined for surfaces in space.
 //!
-//! A flip that reduces the number of triangles without area is an improvement. If all four corners are collinear, both
-//! diagonals give triangles without area, and the shorter diagonal is better. This rule resolves groups of triangles
-//! without area.
+//! A flip that reduces the number of zero-area triangles is an improvement. If all four corners are collinear, both
+//! diagonals give zero-area triangles, and the shorter diagonal is better. This rule resolves groups of zero-area
+//! triangles.
 //!
 //! **Valence.** A flip is an improvement if it reduces the sum over all vertices of (valence - target)², where the
 //! target is 6 inside and 4 on the boundary. Source: Botsch and Kobbelt, "A Remeshing Approach to Multiresolution
@@ -30,8 +30,8 @@ use std::ops::Range;
 
 use mesh::{DVec3, EdgeId, Mesh, VertexId};
 
-/// A triangle whose height is less than this fraction of its size counts as a triangle without area: its computed area
-/// is rounding error.
+/// A triangle whose height is less than this fraction of its size counts as a zero-area triangle, because its computed
+/// area is rounding error.
 const NO_AREA: f64 = 1e-14;
 
 /// The range of squared lengths for which products of four lengths neither underflow nor overflow: lengths from 1e-60
@@ -73,8 +73,8 @@ impl Goal {
     ///
     /// For both goals, the sequence of improving flips is finite, regardless of rounding. For `Valence`, the sum of
     /// squares is an integer that decreases. For `Delaunay`, the computed energy of a triangle depends only on its
-    /// three vertices. Each flip reduces the first of these three values that it changes: the number of triangles
-    /// without area, the exact sum of the other energies, and the sum of the squared lengths of all edges.
+    /// three vertices. Each flip reduces the first of these three values that it changes: the number of zero-area
+    /// triangles, the exact sum of the other energies, and the sum of the squared lengths of all edges.
     pub(crate) fn is_improvement(&self, mesh: &Mesh, quad: &Quad) -> bool {
         match self {
             Self::Delaunay => {

@@ -1,9 +1,9 @@
 //! Flips edges as long as flips improve the mesh.
 //!
-//! A pass checks edges in order of their numbers. The first pass checks all edges. Each later pass checks only edges
-//! near vertices whose edges changed: the result of the check cannot be different at other edges. (A flip is refused if
+//! A pass checks edges in order of their ids. The first pass checks all edges. Each later pass checks only edges
+//! near vertices whose edges changed, because the result of the check cannot be different at other edges. (A flip is refused if
 //! an edge already joins the two opposite corners. If the joining edge is flipped away, the edges of both corners
-//! change.) A pass without a flip is the last. Refused edges are checked again in every pass, so the refusals of the
+//! change.) A pass without a flip is the last one. Refused edges are checked again in every pass, so the refusals of the
 //! last pass are complete.
 
 use mesh::{EdgeId, EditError, FaceId, Mesh, VertexId};

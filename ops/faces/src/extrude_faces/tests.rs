@@ -91,7 +91,7 @@ fn repeated_extrusions_of_a_cube_give_one_closed_component() {
         "(faces: Faces([3, 5]), by: Distance(1.5), scale: 0.8)",
         "(faces: Faces([3]), by: Distance(0.5), rotate: [(axis: Y, angle: -60)])",
         "(faces: Faces([3]), by: Distance(1))",
-        // The hips, whose side faces start at number 50. Two legs grow out of the left and right side faces.
+        // The hips, whose first side face has id 50. Two legs grow out of the left and right side faces.
         "(faces: Faces([0]), by: Distance(1))",
         "(faces: Faces([50, 52]), by: Distance(0.2), scale: 0.5, tag: \"legs\")",
         "(faces: Faces([50]), by: Offset((-0.4, 0, -0.4)), rotate: [(axis: Y, angle: -90)])",

@@ -20,7 +20,7 @@ pub(crate) struct Pairs {
 #[derive(Clone, Copy)]
 struct Rim {
     cell: [i64; 3],
-    /// The number of the half-edge among all boundary half-edges.
+    /// The index of the half-edge among all boundary half-edges.
     number: usize,
     ends: [DVec3; 2],
 }
@@ -41,7 +41,7 @@ impl Pairs {
         let total = rims.len() as u64;
         cx.advance("find coinciding edges", 0, total)?;
         let mut matches = vec![Matches::None; rims.len()];
-        // The rows of three cells around an edge begin at these places. The places only move forward, because the edges
+        // The rows of three cells around an edge begin at these positions. The positions only increase, because the edges
         // are visited in the order of their cells.
         let mut begins = [0; 9];
         for (i, rim) in rims.iter().enumerate() {
@@ -78,7 +78,7 @@ fn sorted_rims(
     let midpoints = || outer.iter().map(|h| midpoint(ends(h)));
     let least = midpoints().reduce(DVec3::min).unwrap_or_default();
     let most = midpoints().reduce(DVec3::max).unwrap_or_default();
-    // Cells of twice the distance leave room for rounding. The second argument of `max` limits the number of cells
+    // Cells of twice the distance leave a margin for rounding. The second argument of `max` limits the number of cells
     // along an axis.
     let size = (2.0 * distance).max(1e-9 * (most - least).max_element());
     let size = if size > 0.0 { size } else { 1.0 };
@@ -89,7 +89,7 @@ fn sorted_rims(
     };
     let mut rims: Vec<Rim> = outer.iter().enumerate().map(rim).collect();
     // Short parts are sorted and then merged, so that progress is reported and the run can be canceled in between. Two
-    // sorted parts are merged by sorting them together.
+    // sorted parts are merged by sorting their concatenation.
     let mut width = 1 << 16;
     loop {
         for (i, part) in rims.chunks_mut(width).enumerate() {
@@ -114,8 +114,8 @@ fn cell(place: DVec3) -> [i64; 3] {
     place.to_array().map(|x| x.floor().min(1e12) as i64)
 }
 
-/// Returns the boundary half-edges that coincide with `rim`, by their numbers. `begins` are the places where the rows
-/// of cells around the previous edge begin.
+/// Returns the boundary half-edges that coincide with `rim`, by their indices. `begins` contains the positions at which
+/// the rows of cells around the previous edge begin.
 fn matches_of(rims: &[Rim], rim: &Rim, begins: &mut [usize; 9], distance: f64) -> Matches {
     let mut matches = Matches::None;
     let [x, y, z] = rim.cell;

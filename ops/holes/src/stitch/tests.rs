@@ -7,7 +7,7 @@ fn parse(text: &str) -> Stitch {
     op::test::read(text).unwrap()
 }
 
-/// Returns the mesh cut along all its inner edges.
+/// Cuts the mesh along all inner edges and returns the result.
 fn cut_apart(mut mesh: Mesh) -> Mesh {
     let inner: Vec<EdgeId> = mesh
         .edges()

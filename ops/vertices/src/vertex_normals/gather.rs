@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::vertex_normals::Weight;
 
-/// A sum of face vectors counts as zero if it is shorter than this fraction of its parts: it is rounding error.
+/// A sum of face vectors that is shorter than this fraction of its parts counts as zero, because it is rounding error.
 const CANCELLED: f64 = 1e-14;
 
 /// Returns the unit normal of every vertex of a dense mesh, and the number of vertices without a normal, which get the

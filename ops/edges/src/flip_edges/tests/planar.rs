@@ -46,7 +46,7 @@ fn corners(mesh: &Mesh, points: &[Point], f: FaceId) -> [Point; 3] {
 
 /// Returns the square, triangulated by inserting the points one after the other, and its points: the corners of the
 /// square and then the inserted points without duplicates. A point inside or on the border of a triangle cuts it into
-/// three triangles, so a point on an edge gives a triangle without area.
+/// three triangles, so a point on an edge gives a zero-area triangle.
 fn cut_square(inside: &[Point]) -> (Vec<Point>, Mesh) {
     let mut points = vec![[0, 0], [SIDE, 0], [SIDE, SIDE], [0, SIDE]];
     let mut triangles = vec![[0, 1, 2], [0, 2, 3]];
@@ -123,7 +123,7 @@ proptest! {
 
 #[test]
 fn the_diagonals_of_squares_are_not_flipped() {
-    // All four corners are on a circle: neither diagonal is better.
+    // All four corners are on a circle, so neither diagonal is better.
     let grid = geometry::shapes::fans(&geometry::shapes::grid(9, 7));
     let (flipped, report) =
         try_applied(&parse("(edges: All, until: Delaunay)"), grid.clone()).unwrap();

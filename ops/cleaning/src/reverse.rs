@@ -12,14 +12,14 @@ use op::prelude::*;
 
 /// Reverses the orientation of faces, so that their other side is the outside.
 ///
-/// Adjacent faces must have the same orientation, so only whole connected components can be reversed: if a selected
+/// Adjacent faces must have the same orientation, so only whole connected components can be reversed. If a selected
 /// face shares an edge with a face that is not selected, the step is refused. No vertex moves, and all elements keep
-/// their numbers. The first corner of a face stays first, and the other corners follow in reverse order. Normals are
-/// negated. Other attributes stay with their elements, and corner values with their vertex and face.
+/// their ids. The first corner of a face stays first, and the other corners follow in reverse order. Normals are
+/// negated. Other attributes stay with their elements, and corner values stay with their vertex and face.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Reverse {
-    /// The faces to reverse: whole connected components.
+    /// The faces to reverse. They must form whole connected components.
     #[serde(default)]
     pub faces: FaceSelection,
 }

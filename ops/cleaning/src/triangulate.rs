@@ -9,8 +9,8 @@
 //! ```
 //!
 //! A face with n corners becomes n - 2 triangles, which replace the face in the order of the faces. Vertices and edges
-//! keep their numbers, and the n - 3 diagonals are added at the end. [`Triangulate`] documents which diagonals are
-//! chosen. The half-edges of the mesh are kept and new ones are added. The mesh is not built again from triangles, so a
+//! keep their ids, and the n - 3 diagonals are added at the end. [`Triangulate`] documents which diagonals are
+//! chosen. The half-edges of the mesh are kept, and new half-edges are added. The mesh is not built again from triangles, so a
 //! closed mesh stays closed even where two diagonals join the same two vertices.
 
 mod assemble;
@@ -24,18 +24,18 @@ use rayon::prelude::*;
 /// Cuts polygons into triangles.
 ///
 /// A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length (the relative difference
-/// of their squared lengths is at most 1e-12), it is cut along the diagonal at its vertex with the lowest number. A
-/// diagonal that gives a triangle without area, or a triangle that is turned over relative to the normal of the face,
+/// of their squared lengths is at most 1e-12), it is cut along the diagonal at its vertex with the lowest id. A
+/// diagonal that gives a zero-area triangle, or a triangle that is turned over relative to the normal of the face,
 /// is chosen only if the other diagonal is not better. A quadrilateral with a reflex corner is therefore cut at that
 /// corner. If a diagonal would join two vertices that are already joined by an edge or another diagonal, the other
 /// diagonal is chosen where possible. The remaining duplicate diagonals are counted.
 ///
 /// A face with more corners is projected along its normal, cut by ear clipping, and improved by flipping diagonals
-/// until it is a constrained Delaunay triangulation. A face that cannot be triangulated in this way, because it has no
-/// area or its sides cross, becomes a triangle fan around its vertex with the lowest number, and is counted.
+/// until it is a constrained Delaunay triangulation. A face that cannot be triangulated in this way, because it has
+/// zero area or its sides cross, becomes a triangle fan around its vertex with the lowest id, and is counted.
 ///
 /// The triangles replace their face in the order of the faces and have the values of the face. Vertices and edges keep
-/// their numbers. The corners of the triangles have the values of the corners of the face at the same vertices.
+/// their ids. The corners of the triangles have the values of the corners of the face at the same vertices.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Triangulate {
@@ -83,7 +83,7 @@ impl MeshOperation for Triangulate {
             return Ok(Report::default());
         }
         if 2 * (mesh.n_edges() + diagonals) >= u32::MAX as usize {
-            let message = format!("the {diagonals} new edges would exceed the supported number");
+            let message = format!("with {diagonals} new edges, the mesh would exceed the supported number of edges");
             return Err(OpError::refused(Refusal::Full, message));
         }
         cx.advance("triangulate", 1, 3)?;
@@ -92,7 +92,7 @@ impl MeshOperation for Triangulate {
         mesh.replace(assemble::assemble(mesh, &cuts, diagonals));
 
         let fans = cuts.iter().filter(|cut| cut.is_fan()).count();
-        let fan_note = "faces without area or with crossing sides, cut into fans";
+        let fan_note = "faces with zero area or with crossing sides, cut into fans";
         let duplicate_note = "diagonals between vertices that are also joined by another edge";
         let report = Report::changed(n_cut).count(fan_note, fans);
         Ok(report.count(duplicate_note, duplicates))

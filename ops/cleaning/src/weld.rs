@@ -8,7 +8,7 @@
 //!    +-----+ +-----+            +-----+-----+
 //! ```
 //!
-//! Vertices at most `distance` apart are linked, and vertices that are connected by links are merged into one. Two
+//! Vertices at most `distance` apart are linked, and vertices that are connected by links merge into one. Two
 //! vertices that are 0.9 times `distance` apart therefore always merge. Two vertices that are 1.1 times `distance`
 //! apart merge only if a chain of other vertices links them. The result depends neither on the order of the vertices
 //! nor on the number of threads.
@@ -20,15 +20,15 @@ use op::prelude::*;
 ///
 /// Vertices at most `distance` apart are linked, and vertices that are connected by a chain of links merge into one,
 /// even if the ends of the chain are farther apart than `distance`. The merged vertex has the position and the values
-/// of the vertex with the lowest number. The other vertices are removed, and later vertices are renumbered. Edges
-/// between the same two vertices become one edge with the values of the first. Corner values stay with their corners,
+/// of the vertex with the lowest id. The other vertices are removed, so the ids of later vertices change. Edges
+/// between the same two vertices become one edge with the values of the first edge. Corner values stay with their corners,
 /// so UV seams are kept.
 ///
 /// If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
-/// corners left or would visit a vertex twice. If joined faces have opposite orientations, the smaller group is
+/// corners left or would contain a vertex twice. If joined faces have opposite orientations, the smaller group is
 /// reversed, provided that all orientations then agree. Reversed faces are counted, and the normals of vertices and
 /// corners are dropped. Where the result would still not be manifold, vertices and edges are copied, and the copies are
-/// counted: for example, a third face at an edge gets a copy of the edge. If no vertices merge, the mesh does not
+/// counted. For example, a third face at an edge gets a copy of the edge. If no vertices merge, the mesh does not
 /// change.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]

@@ -16,10 +16,10 @@ use op::prelude::*;
 use op::{Operation, change_curves, plan_curves};
 use scene::Geometry;
 
-/// Replaces curves by the levels of de Casteljau's algorithm.
+/// Replaces curves with the levels of de Casteljau's algorithm.
 ///
 /// A curve with n control points becomes n polylines in the plane z = 0. The first polyline is the control polygon with
-/// n points. Each following polyline has one point less. The last polyline is the point of the curve at `t`.
+/// n points. Each of the following polylines has one point less. The last polyline is the point of the curve at `t`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CurveLevels {
@@ -44,7 +44,7 @@ fn too_large(n: u64, budget: u64) -> Option<String> {
 
 impl Operation for CurveLevels {
     const NAME: &'static str = "CurveLevels";
-    const SUMMARY: &'static str = "Replace curves by the levels of de Casteljau's algorithm";
+    const SUMMARY: &'static str = "Replace curves with the levels of de Casteljau's algorithm";
     const EXAMPLE: &'static str = "CurveLevels(t: 0)";
     const TAKES_ON: bool = true;
 

@@ -16,7 +16,7 @@ use scene::Geometry;
 /// Moves one control point of curves.
 ///
 /// The other control points do not move. The point of the curve at a parameter t moves in the same direction as the
-/// control point. The point of the curve moves as far as the control point, multiplied by the value at t of the
+/// control point. Its distance is the distance of the control point times the value at t of the
 /// Bernstein polynomial of the control point.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]

@@ -8,8 +8,8 @@
 //!    '-----'-----'            '--'--'--'--'
 //! ```
 //!
-//! The module `tessellate` of the crate `bezier` documents how vertices are numbered, how cells are divided,
-//! and how collapsed sides are handled.
+//! The module `tessellate` of the crate `bezier` documents the order of vertices, the division of cells,
+//! and the handling of collapsed sides.
 
 use std::sync::Arc;
 
@@ -22,10 +22,10 @@ use scene::Geometry;
 /// Turns Bezier patches into a mesh.
 ///
 /// Acts on all objects that consist of patches, or on the objects in `on`. Each object becomes one mesh of
-/// the same name. Every patch is divided into `segments` x `segments` cells. Elements are numbered patch
-/// after patch. Patches share no vertices, but if they have the same control points on a common side, the
-/// positions of their vertices there are equal bit for bit, so that `Weld(distance: 0)` joins them. A side
-/// whose points coincide, as at the pole of a teapot's lid, becomes one vertex. Patches without area give no
+/// the same name. Every patch is divided into `segments` x `segments` cells. The ids of elements follow
+/// the order of the patches. Patches share no vertices, but if they have the same control points on a common side, the
+/// positions of their vertices there are identical bit for bit, so that `Weld(distance: 0)` joins them. A side
+/// whose points coincide, as at the pole of a teapot's lid, becomes one vertex. Zero-area patches give no
 /// faces and are counted. The mesh has UVs and normals only if they are requested.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -53,7 +53,7 @@ pub enum Faces {
     /// Two triangles, divided by the diagonal from the corner with the lowest u and v.
     #[default]
     Triangles,
-    /// One quad, or one triangle if a side of the cell is a side of the patch whose points coincide.
+    /// One quad. A cell at a collapsed side of the patch (a side whose points coincide) becomes one triangle.
     Quads,
 }
 
@@ -116,8 +116,8 @@ impl Operation for Tessellate {
 }
 
 impl Tessellate {
-    /// Returns the plan of the mesh for this number of patches. Counts are upper limits: collapsed sides and patches
-    /// without area give fewer elements.
+    /// Returns the plan of the mesh for this number of patches. Counts are upper limits, because collapsed sides and
+    /// zero-area patches give fewer elements.
     fn planned(&self, patches: u64) -> MeshPlan {
         let n = u64::from(self.segments.get());
         let at_most = |each| Range::at_most(patches.saturating_mul(each));
@@ -198,7 +198,7 @@ impl Tessellate {
         if let [first, ..] = tessellation.empty_patches[..] {
             let n = tessellation.empty_patches.len();
             report = report.note(format!(
-                "patches without area, which have no faces: {n} (first: patch {first})"
+                "zero-area patches, which have no faces: {n} (first: patch {first})"
             ));
         }
         if !build_report.is_clean() {

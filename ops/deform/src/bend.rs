@@ -1,4 +1,4 @@
-//! Bend: bends an axis into an arc of a circle.
+//! Bend: bends a mesh, so that an axis becomes an arc of a circle.
 //!
 //! ```text
 //!    to    +---+                     .---+
@@ -14,20 +14,20 @@ use op::prelude::*;
 
 use crate::moved::{Stretch, moved, next};
 
-/// Bends an axis, and everything around it, into an arc of a circle.
+/// Bends a mesh, so that an axis becomes an arc of a circle.
 ///
 /// The plane at `from` does not move. Between `from` and `to`, the axis becomes an arc that keeps its length and turns
-/// by `angle` in total. Vertices beyond `to` move rigidly. Vertices between the axis and the center of the circle come
-/// closer together, and vertices on the other side of the axis move apart. The center is at the distance (to - from) /
-/// angle from the axis, with the angle in radians. Parts of the mesh beyond the center turn inside out. Source: Barr,
+/// by `angle` in total. Vertices beyond `to` move rigidly. Vertices between the axis and the center of the circle move
+/// closer together, and vertices on the other side of the axis move apart. The distance between the center and the axis
+/// is (to - from) / angle, with the angle in radians. Parts of the mesh beyond the center turn inside out. Source: Barr,
 /// "Global and Local Deformations of Solid Primitives", 1984.
 ///
-/// Faces, element numbers and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
-/// vertices move: refine the mesh first if its faces are large.
+/// Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
+/// vertices move, so refine the mesh first if its faces are large.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bend {
-    /// The axis that is bent.
+    /// The axis that becomes an arc.
     pub axis: Axis,
     /// The angle between the ends of the axis, in degrees. A negative angle bends to the other side.
     pub angle: Angle,
@@ -63,7 +63,7 @@ impl Bend {
 
 impl MeshOperation for Bend {
     const NAME: &'static str = "Bend";
-    const SUMMARY: &'static str = "Bend an axis into an arc of a circle";
+    const SUMMARY: &'static str = "Bend a mesh, so that an axis becomes an arc of a circle";
     const EXAMPLE: &'static str = "Bend(axis: Z, angle: 90)";
     const WORDS: &'static [&'static str] = &["curve", "arc", "curl", "deform"];
 
@@ -110,7 +110,7 @@ mod tests {
     #[test]
     fn the_ends_of_a_bar_are_at_right_angles_for_all_pairs_of_axes() {
         use std::f64::consts::PI;
-        // The axis of the cube from -1 to 1 becomes a quarter of a circle with the radius 4 / pi.
+        // The cube extends from -1 to 1. Its axis becomes a quarter of a circle with the radius 4 / pi.
         let radius = 4.0 / PI;
         let units = [("X", DVec3::X), ("Y", DVec3::Y), ("Z", DVec3::Z)];
         for (axis, a) in units {

@@ -18,13 +18,13 @@ use crate::moved::moved;
 ///
 /// Each vertex moves along its normal by `distance` times the value of `by`. The normal of a vertex is the mean of the
 /// normals of its faces, weighted by their areas. Vertices without a normal do not move and are counted. Faces, element
-/// numbers and attributes do not change. Normals are dropped.
+/// ids and attributes do not change. Normals are dropped.
 ///
-/// The values are computed without functions that differ between machines, so the result is the same everywhere.
+/// The values are computed without functions that differ between machines, so the result is identical on all machines.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Displace {
-    /// The values.
+    /// The values by which `distance` is multiplied.
     pub by: DisplaceBy,
     /// The distance for the value 1, in scene units. A negative distance moves inwards.
     pub distance: Distance,
@@ -33,7 +33,7 @@ pub struct Displace {
     pub vertices: VertexSelection,
 }
 
-/// The values that vertices are displaced by.
+/// The values by which the distance of a displacement is multiplied.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum DisplaceBy {
@@ -46,7 +46,7 @@ pub enum DisplaceBy {
         #[serde(default)]
         seed: u64,
     },
-    /// A random number from -1 to 1 for each vertex, which depends on the number of the vertex.
+    /// A random number from -1 to 1 for each vertex, which depends on the id of the vertex.
     Random {
         /// The seed. A different seed gives different numbers. Defaults to 0.
         #[serde(default)]

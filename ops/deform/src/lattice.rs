@@ -16,25 +16,26 @@ use crate::moved::moved;
 
 /// Deforms vertices with a box of control points.
 ///
-/// The box is divided by `size` control points along x, y and z. `moves` moves some of them, and the space in the box follows
-/// smoothly: each point is a sum of the control points with Bernstein polynomials as weights (Sederberg, Parry, "Free-Form
-/// Deformation of Solid Geometric Models", 1986). If all control points move by the same offset, the box moves by it. A
-/// control point attracts the surface, but the surface usually does not reach it, except at the corners of the box.
+/// The box has a grid of `size` control points along x, y and z. `moves` moves some of them, and the space in the box
+/// follows smoothly. Each point becomes a sum of the control points with Bernstein polynomials as weights (Sederberg,
+/// Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all control points move by the same offset, the
+/// whole box moves by this offset. A control point attracts the surface, but the surface usually does not reach it, except
+/// at the corners of the box.
 ///
-/// Vertices outside the box stay. Faces, numbers and attributes do not change, so textures stretch with the surface. Normals
-/// are dropped. Only vertices move: refine the mesh first if its faces are large.
+/// Vertices outside the box do not move. Faces, element ids and attributes do not change, so textures stretch with the
+/// surface. Normals are dropped. Only vertices move, so refine the mesh first if its faces are large.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Lattice {
     /// The number of control points along x, y and z, from 2 to 16 each.
     pub size: [Count<2, 16>; 3],
-    /// The control points that move: their numbers along x, y and z, counted from 0, and the offset in scene units. A
-    /// control point that is listed several times moves by the sum.
+    /// The control points that move: their indices along x, y and z, counted from 0, and the offset in scene units. A
+    /// control point that is listed several times moves by the sum of its offsets.
     pub moves: Vec<([u32; 3], Vector)>,
-    /// The lowest corner of the box. If omitted, that of the bounding box of the mesh.
+    /// The lowest corner of the box. If omitted, the lowest corner of the bounding box of the mesh.
     #[serde(default)]
     pub min: Option<Vector>,
-    /// The highest corner of the box. If omitted, that of the bounding box of the mesh.
+    /// The highest corner of the box. If omitted, the highest corner of the bounding box of the mesh.
     #[serde(default)]
     pub max: Option<Vector>,
     /// The vertices to move. If omitted, all vertices.
@@ -49,7 +50,7 @@ impl Lattice {
         let outside = |point: &[u32; 3]| point.iter().zip([x, y, z]).any(|(&i, n)| i >= n);
         let ([i, j, k], _) = self.moves.iter().find(|(point, _)| outside(point))?;
         Some(format!(
-            "`moves` has the control point ({i}, {j}, {k}), but `size` is ({x}, {y}, {z}) and numbers start at 0"
+            "`moves` has the control point ({i}, {j}, {k}), but `size` is ({x}, {y}, {z}) and indices start at 0"
         ))
     }
 
@@ -93,7 +94,7 @@ impl MeshOperation for Lattice {
         let max = self.max.map_or(high, Vector::get);
         if min.cmpgt(max).any() {
             return Err(OpError::Parameter(format!(
-                "`min` must not exceed `max`, found {min} and {max}; an omitted corner is that of the bounding box"
+                "`min` must not exceed `max`, found {min} and {max}; an omitted corner defaults to the corner of the bounding box"
             )));
         }
         let map = self.lattice(min, max);

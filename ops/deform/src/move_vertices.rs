@@ -15,14 +15,14 @@ use crate::moved::moved;
 
 /// Moves vertices.
 ///
-/// Faces, element numbers and attributes do not change, so textures stretch with the surface. Normals are dropped.
+/// Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped.
 ///
-/// With `falloff: r`, vertices near the selected vertices move along. At the distance d from the nearest selected
+/// With `falloff: r`, vertices near the selected vertices also move. At the distance d from the nearest selected
 /// vertex, the movement is multiplied by the weight (1 - (d/r)²)². The weight is 1 at selected vertices and falls
-/// smoothly to 0 at the distance r. Distances are straight, not along the surface.
+/// smoothly to 0 at the distance r. Distances are measured along straight lines, not along the surface.
 ///
-/// With `by: Distance(..)`, each vertex moves along its own normal: the mean of the normals of its faces, weighted by
-/// their areas. Vertices without a normal do not move and are counted.
+/// With `by: Distance(..)`, each vertex moves along its own normal, which is the mean of the normals of its faces, weighted
+/// by their areas. Vertices without a normal do not move and are counted.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MoveVertices {
@@ -40,11 +40,11 @@ pub struct MoveVertices {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum MoveBy {
-    /// By this much along x, y and z, in scene units.
+    /// By this offset along x, y and z, in scene units.
     Offset(Vector),
     /// By this distance along the normal of each vertex, in scene units. A negative distance moves inwards.
     Distance(Distance),
-    /// All by the same offset, which moves the mean of the selected vertices to this point.
+    /// By the offset that moves the mean of the selected vertices to this point. It is the same for all vertices.
     To(Vector),
 }
 

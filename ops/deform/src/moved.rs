@@ -93,7 +93,7 @@ impl Stretch {
         let to = self.to.map_or(axis.dot(max), Distance::get);
         if from > to {
             return Err(OpError::Parameter(format!(
-                "`from` must not exceed `to`, found {from} and {to}; an omitted end is the end of the bounding box"
+                "`from` must not exceed `to`, found {from} and {to}; an omitted end defaults to the end of the bounding box"
             )));
         }
         let about: DVec3 = self.about.into();

@@ -16,12 +16,12 @@ use crate::moved::moved;
 
 /// Moves vertices onto the surface of another object (shrinkwrap).
 ///
-/// Only vertices in `vertices` move, except those in `pin`; all others keep their exact positions. Without `on`, the step
-/// acts on all meshes except the object `onto`, which does not change. Faces, numbers and attributes do not change, so
+/// Only vertices in `vertices` that are not in `pin` move. All others keep their exact positions. Without `on`, the step
+/// acts on all meshes except the object `onto`, which does not change. Faces, element ids and attributes do not change, so
 /// textures stretch with the surface. Normals are dropped.
 ///
-/// Vertices that would move further than `distance` stay. With `Normal` and `Direction`, so do vertices whose line misses the
-/// surface. The report counts both.
+/// Vertices that would move farther than `distance` do not move. With `Normal` and `Direction`, vertices whose line misses
+/// the surface do not move either. The report counts both kinds of vertices.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Project {
@@ -33,7 +33,7 @@ pub struct Project {
     /// The vertices to move. If omitted, all vertices.
     #[serde(default)]
     pub vertices: VertexSelection,
-    /// Vertices that stay. If omitted, none.
+    /// Vertices that do not move. If omitted, no vertices.
     #[serde(default)]
     pub pin: Option<VertexSelection>,
     /// The largest distance that a vertex moves, in scene units. If omitted, any distance.
@@ -123,9 +123,9 @@ impl MeshOperation for Project {
             }
         }
         let report = moved(mesh, &mask, Self::NAME, "onto", |v, _| new[v.index()])?;
-        let report = report.count("vertices whose line misses the surface, which stay", missed);
+        let report = report.count("vertices whose line misses the surface, not moved", missed);
         Ok(report.count(
-            "vertices further than `distance` from the surface, which stay",
+            "vertices farther than `distance` from the surface, not moved",
             far,
         ))
     }
@@ -142,7 +142,8 @@ mod tests {
         op::test::read(text).unwrap()
     }
 
-    /// A sphere with radius 1 and a cube around it, whose faces are divided and whose surface is 2 away from the center.
+    /// Returns a scene with a sphere of radius 1 and a cube around it. The faces of the cube are divided, and their distance
+    /// from the center is 2.
     fn scene() -> Scene {
         let mut cube = subdivided_cube();
         cube.set(VERTEX_NORMAL, vec![DVec3::Z; cube.n_vertices()]);
@@ -201,12 +202,12 @@ mod tests {
     fn vertices_beyond_the_distance_stay_and_are_counted() {
         let mut scene = scene();
         let before = positions(&scene, "cube");
-        // Corners are √3 - 1 away, the centers of the sides 1.
+        // The distance from the sphere is √3 - 1 for corners, and 1 for the centers of the sides.
         let report = op::test::run(&step(r#"(onto: "ball", distance: 0.8)"#), &mut scene).unwrap();
         assert_eq!(report.changed, 8);
         assert_eq!(
             report.notes,
-            ["vertices further than `distance` from the surface, which stay: 6"]
+            ["vertices farther than `distance` from the surface, not moved: 6"]
         );
         assert_eq!(positions(&scene, "cube")[8..], before[8..]);
     }
@@ -219,7 +220,7 @@ mod tests {
         let report = op::test::run(&down, &mut scene).unwrap();
         assert_eq!(
             report.notes,
-            ["vertices whose line misses the surface, which stay: 13"]
+            ["vertices whose line misses the surface, not moved: 13"]
         );
         let top = before
             .iter()

@@ -17,16 +17,16 @@ use crate::moved::{Stretch, moved, next};
 /// Scales vertices towards or away from an axis, by a factor that changes along the axis.
 ///
 /// The factor changes linearly from 1 at `from` to `factor` at `to`. Below `from` and above `to`, the factor of the
-/// nearer end applies. Heights do not change. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
+/// nearer end applies. Coordinates along the axis do not change. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
 ///
-/// Faces, element numbers and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
-/// vertices move: refine the mesh first if its faces are large.
+/// Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
+/// vertices move, so refine the mesh first if its faces are large.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Taper {
-    /// The axis, which keeps its place.
+    /// The axis. Points on the axis do not move.
     pub axis: Axis,
-    /// The factor at `to`. More than 0: a factor below 1 makes the upper end narrower.
+    /// The factor at `to`. More than 0. A factor below 1 makes the upper end narrower.
     pub factor: PositiveFactor,
     /// A point on the axis. The coordinate of the point along the axis does not matter.
     #[serde(default)]

@@ -11,13 +11,13 @@ use op::{Loss, Operation, PlannedNodes, ReadingChange, ReadingElements};
 /// Reads the objects of a file into the scene.
 ///
 /// Formats: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl`, `.off`, `.dae`, `.bez` (Bezier patches), `.bzc` (a Bezier curve)
-/// and `.mws` (a complete scene). A file compressed by gzip has `.gz` after its extension, as in `.obj.gz`; `.glb` and
+/// and `.mws` (a complete scene). A file compressed with gzip has `.gz` after its extension, as in `.obj.gz`; `.glb` and
 /// `.mws` files cannot be compressed this way. An OBJ file becomes one object, and its objects (`o`) and groups (`g`)
-/// become face tags. A glTF file gives an object for each mesh, named after its node if it has only one node, and keeps
-/// the nodes, cameras, lights, skins, morph targets and animations. A COLLADA file gives an object for each node with a
+/// become face tags. A glTF file gives an object for each mesh. The object is named after the node if only one node references the
+/// mesh. The nodes, cameras, lights, skins, morph targets and animations of the file are kept. A COLLADA file gives an object for each node with a
 /// mesh. Content that the scene cannot hold is counted and listed. Images of materials are read from files next to the
-/// model. A corner that repeats the corner before it is removed, and a face that still visits a vertex twice is left
-/// out.
+/// model. A corner that repeats the previous corner is removed, and a face that still contains a vertex twice is
+/// left out.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
@@ -36,14 +36,14 @@ pub struct Load {
     /// What to do with faces that have the same vertices as an earlier face, in either direction.
     #[serde(default)]
     pub duplicates: CleanupPolicy,
-    /// What to do with faces without area.
+    /// What to do with zero-area faces.
     #[serde(default)]
     pub degenerate: CleanupPolicy,
     /// What to do with vertices without a face.
     #[serde(default)]
     pub isolated: CleanupPolicy,
     /// What to do with the nodes of a glTF file. If the nodes are kept, steps change a mesh in its own space, once for
-    /// all nodes that show the mesh.
+    /// all nodes that reference the mesh.
     #[serde(default)]
     pub placements: Placements,
     /// If true, the step fails if anything in the file would be left out.
@@ -114,7 +114,7 @@ impl Operation for Load {
         let appended = scene.append(loaded.objects, loaded.graph);
         let left_out = appended.map_err(|error| OpError::Object(error.to_string()))?;
         if left_out > 0 {
-            let what = "parts of the document left out, because an earlier file has them";
+            let what = "parts of the document left out, because an earlier file already defines them";
             report = report.count(what, left_out);
         }
         for note in &loaded.notes {
@@ -146,7 +146,7 @@ impl Load {
                 PeekGeometry::Curve { points } => PlannedGeometry::Curve(Range::exactly(points)),
                 PeekGeometry::Polylines { .. } => PlannedGeometry::Polylines,
             };
-            // Objects can have names in the file, which `name` does not replace.
+            // `name` does not replace the names that objects have in the file.
             let is_named_here = self.name.as_ref() == Some(&object.name);
             let field = if is_named_here { "name" } else { "path" };
             let taken = plan.insert(&object.name, geometry);

@@ -10,8 +10,8 @@ use scene::Object;
 
 /// Copies an object, with its attributes and materials, under a new name.
 ///
-/// The copy is added after all other objects. The elements of the copy have the same numbers as in the original. If
-/// nodes place the object, a node that places the copy is added beside each node that places the object.
+/// The copy is added after all other objects. The elements of the copy have the same ids as in the original. If
+/// nodes place the object, a node that places the copy is added next to each of them.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Copy {

@@ -9,7 +9,7 @@ use op::{Operation, named_object};
 
 /// Deletes objects.
 ///
-/// The remaining objects keep their order. The nodes that place a deleted object are also removed, unless they have
+/// The remaining objects keep their order. A node that places a deleted object is also removed, unless it has
 /// children, a camera or a light.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]

@@ -22,15 +22,15 @@ use crate::join::skin::KeptSkin;
 
 /// Joins meshes into one object.
 ///
-/// Each mesh becomes a part of the result. Vertices, edges and faces are numbered part by part, in the order of the
+/// Each mesh becomes a part of the result. The ids of vertices, edges and faces follow the parts, in the order of the
 /// list. The parts are not connected, even where they touch. The result replaces the first mesh of the list in the
-/// scene; the other meshes are removed.
-/// Nodes that place a part are applied to its points, once for each node, and the result has no node.
+/// scene; the other meshes are removed. If nodes place a part, the result contains a copy of the part for each node, with
+/// the transform of the node applied to its points. The result has no node.
 ///
 /// If a part lacks an attribute that another part has, the elements of this part get the value zero, or -1 (no
-/// material) for material numbers. Normals are dropped and reported as lost unless all parts have them. If an attribute
+/// material) for material indices. Normals are dropped and reported as lost unless all parts have them. If an attribute
 /// of a part has a different type than in earlier parts, the attribute of this part is dropped and reported as lost.
-/// Equal materials become one.
+/// Equal materials become one material.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Join {
@@ -166,7 +166,7 @@ impl Join {
         problems
     }
 
-    /// Joins parts, all of which are meshes.
+    /// Joins parts. All parts are meshes.
     fn joined(&self, parts: &[&Object], cx: &Context) -> Result<(Object, Report), OpError> {
         let meshes = parts.iter().filter_map(|o| o.as_mesh());
         let meshes: Vec<&Mesh> = meshes.map(Arc::as_ref).collect();
@@ -191,7 +191,7 @@ impl Join {
         Ok((object, report))
     }
 
-    /// Returns the plan of the result. Each part is given with the nodes that show it.
+    /// Returns the plan of the result. Each part is given with the nodes that reference it.
     fn joined_plan(&self, parts: &[(MeshPlan, PlannedNodes)]) -> MeshPlan {
         let mut joined = parts[0].0.clone();
         let none = Range::exactly(0);
@@ -234,7 +234,7 @@ impl Join {
     }
 }
 
-/// Returns all instances of the parts in scene space, under the names of the parts; `None` if no node places a part.
+/// Returns all instances of the parts in scene space, under the names of the parts, or `None` if no node places a part.
 fn placed(
     scene: &Scene,
     parts: &[&Object],

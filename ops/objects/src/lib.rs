@@ -1,4 +1,4 @@
-//! Operations that work on whole objects: copying, joining, placing.
+//! Operations on whole objects, such as copying, joining and moving.
 
 mod copy;
 mod delete;

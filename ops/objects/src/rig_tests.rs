@@ -233,7 +233,7 @@ fn a_deleted_object_keeps_joints_and_drops_channels() {
     );
     assert_eq!(scene.graph().nodes().len(), 3);
     assert_eq!(scene.graph().skins[0].joints, [0, 1]);
-    // A selection of one object keeps the joints of its skin only.
+    // A selection of one object keeps only the joints of its skin.
     let only = self::scene().only(|name| name == "body");
     assert_eq!(only.graph().nodes().len(), 3);
     assert_eq!(only.graph().n_channels(), 2);

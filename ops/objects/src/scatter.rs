@@ -12,28 +12,28 @@ use op::prelude::*;
 use op::{Axis, Operation, Refusal, check_name, named_object};
 use scene::{Geometry, Node, Object, Placement, transformed};
 
-/// Places copies of an object on a surface, spread evenly at random.
+/// Places copies of an object on a surface, at random and evenly spread.
 ///
 /// Exactly `count` points are chosen so that they keep their distance from each other (Yuksel, "Sample Elimination for
-/// Generating Poisson Disk Sample Sets", 2015). At each point, a node shows the object, so that the memory and the file do not
-/// grow with the copies: the origin of the object is moved to the point. To make one mesh of all copies, use `Join`
-/// afterwards. An object that no node has placed before is then shown only at the points.
+/// Generating Poisson Disk Sample Sets", 2015). Each copy is a node that references the object (an instance), so copies need almost no
+/// memory or file space. The node moves the origin of the object to the point. To make one mesh of all copies, use `Join`
+/// afterwards. If no node placed the object before, it then appears only at the points.
 ///
-/// Without `object`, a mesh of the points is made, with the normals of the surface and without faces.
+/// Without `object`, the result is a mesh of the points without faces. Its normals are those of the surface.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scatter {
     /// The name of the object that is placed. If omitted, only the points are made.
     #[serde(default)]
     pub object: Option<String>,
-    /// The name of the object with the surface: a mesh that is shown once.
+    /// The name of the object with the surface, which must be a mesh with a single instance.
     pub surface: String,
     /// The number of points.
     pub count: Count<1, 1_000_000>,
-    /// The number from which the random choices follow.
+    /// The seed. A different seed gives different points.
     #[serde(default)]
     pub seed: u64,
-    /// The axis of the object that is turned to the normal of the surface. If omitted, the copies are not turned.
+    /// The axis of the object that is aligned with the normal of the surface. If omitted, the copies are not rotated.
     #[serde(default)]
     pub align: Option<Axis>,
     /// The name of the mesh of points, without `object`. Defaults to `points`.
@@ -75,7 +75,7 @@ impl Operation for Scatter {
         }
         let object = plan.objects_mut().iter_mut().find(|o| o.name == *name);
         if let Some(object) = object {
-            // An object that no node shows has one instance, which disappears.
+            // An object without a node has one instance, which disappears.
             object.shown.instances = if object.shown.instances > 1 {
                 object.shown.instances + n
             } else {
@@ -107,7 +107,7 @@ impl Operation for Scatter {
         let [place] = places[..] else {
             let (name, n) = (&self.surface, places.len());
             let message = format!(
-                "expected a surface that is shown once, but \"{name}\" is shown {n} times; Join makes one object of all"
+                "expected a surface with one instance, but \"{name}\" has {n} instances; `Join` makes one object of them"
             );
             return Err(OpError::Object(message));
         };
@@ -236,7 +236,7 @@ mod tests {
         )
         .unwrap();
         for (text, words) in [
-            (r#"(surface: "tree", count: 2)"#, "shown 2 times"),
+            (r#"(surface: "tree", count: 2)"#, "has 2 instances"),
             (r#"(surface: "empty", count: 2)"#, "no area"),
             (r#"(surface: "none", count: 2)"#, "none"),
             (

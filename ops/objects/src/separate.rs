@@ -20,8 +20,8 @@ use scene::{Geometry, Graph, Object};
 /// parts are added after all other objects. Elements keep their order and their values, and every part has all
 /// materials. Vertices without a face are dropped and counted. A mesh without faces is refused.
 ///
-/// If nodes place the object, the nodes place the first part after the step, and each of them gets children that place
-/// the other parts.
+/// If nodes place the object, they place the first part after the step. Each of these nodes gets children that place the
+/// other parts.
 ///
 /// If parts of one component are separated, the edges and vertices between them are copied to both parts. If the faces
 /// of a part around a vertex form several fans, each fan gets a separate copy of the vertex.
@@ -43,7 +43,7 @@ pub struct Separate {
 #[derive(Clone, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum SeparateBy {
-    /// One part for each connected component, in order of the lowest face number in each component.
+    /// One part for each connected component, in order of the lowest face id in each component.
     #[default]
     Components,
     /// One part for each material that a face has, in order of the materials. Faces without a material are the last
@@ -169,8 +169,8 @@ impl Separate {
     /// Returns the plan of each part.
     fn part_of(&self, whole: &MeshPlan) -> MeshPlan {
         let mut part = whole.clone();
-        // If several fans of faces meet at a vertex, each fan gets a copy of the vertex: at most one copy for each
-        // edge.
+        // If several fans of faces meet at a vertex, each fan gets a copy of the vertex, so there is at most one copy
+        // for each edge.
         part.vertices = whole.vertices.plus(whole.edges).or_less();
         part.edges = whole.edges.or_less();
         part.faces = whole.faces.or_less();
@@ -195,7 +195,7 @@ impl Separate {
             .collect()
     }
 
-    /// Replaces the object by the parts. The names of the parts must be free.
+    /// Replaces the object with the parts. The names of the parts must be free.
     fn replace(&self, scene: &mut Scene, names: &[String], parts: Vec<Mesh>) {
         let (_, materials) = scene.parts_mut(&self.object).expect("it was found");
         let materials = materials.clone();

@@ -23,7 +23,7 @@ use crate::figure_file;
 
 /// Draws Bezier curves, and de Casteljau's construction of their points, into an image file.
 ///
-/// The figure has a panel for each curve and each `t`. With `by_level`, it has instead one panel for each curve, each
+/// The figure has a panel for each curve and each `t`. With `by_level`, it instead has a panel for each curve, each
 /// `t` and each level. A panel shows the control polygon, every level of de Casteljau's algorithm in a different color,
 /// the point, and the curve, with the same scale in both axes. The extension of the file determines the format: `.svg`
 /// or `.png`. The file is written only if the whole recipe succeeds. The scene does not change.
@@ -37,7 +37,7 @@ pub struct CurveFigure {
     /// polygons are drawn.
     #[serde(default = "half")]
     pub t: Vec<ClosedFraction>,
-    /// Draws a panel for each level of the algorithm, in place of one panel with all levels.
+    /// Whether each level of the algorithm has its own panel. If false, one panel shows all levels.
     #[serde(default)]
     pub by_level: bool,
     /// The name of a curve that shows an earlier state of the other curves. This curve is drawn faintly behind the
@@ -125,7 +125,7 @@ impl CurveFigure {
                 PlannedGeometry::Curve(points) if points.min > limit as u64 => {
                     let (name, found) = (&object.name, points.min);
                     problems.push(Problem::error(format!(
-                        "expected curves of at most {limit} control points, \"{name}\" has {found}"
+                        "expected curves of at most {limit} control points, but \"{name}\" has {found}"
                     )));
                 }
                 PlannedGeometry::Curve(points) if is_chosen => {

@@ -14,7 +14,7 @@ use crate::figure_file;
 /// are left out and reported. The extension of the file determines the format: `.svg` or `.png`. The file is written
 /// only if the whole recipe succeeds. The scene does not change.
 ///
-/// A name is a letter and the number of the element: `v` for vertices, `h` for half-edges, `f` for faces. Half-edges
+/// A name is a letter and the id of the element: `v` for vertices, `h` for half-edges, `f` for faces. Half-edges
 /// `2e` and `2e + 1` belong to edge `e`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -99,7 +99,7 @@ const CHOOSE_MESH: &str = "choose one with `on`";
 const SELECT_FACES: &str = "select some with `faces`";
 
 fn too_many(n_faces: u64, name: &str) -> String {
-    format!("expected at most {MAX_FACES} faces to draw, \"{name}\" has {n_faces}")
+    format!("expected at most {MAX_FACES} faces to draw, but \"{name}\" has {n_faces}")
 }
 
 #[cfg(test)]

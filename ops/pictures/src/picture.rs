@@ -26,7 +26,7 @@ use view::{ColorBy, Extent, HIGHLIGHT_COLOR, Shot, Subject, highlight};
 
 /// Draws the scene into an image file.
 ///
-/// The extension of the file determines the format: `.png` for an image; with `turntable`, `.gif` for an animated GIF,
+/// The extension of the file determines the format: `.png` for an image or, with `turntable`, `.gif` for an animated GIF
 /// and `.apng` or `.png` for an animated PNG. The file is written only if the whole recipe succeeds. The scene does not
 /// change. Drawing needs no GPU and gives the same bytes on every machine.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -41,7 +41,7 @@ pub struct Picture {
     /// The camera.
     #[serde(default)]
     pub camera: Camera,
-    /// Several cameras, in place of `camera`. The views of the cameras are placed side by side.
+    /// Several cameras, which replace `camera`. The views of the cameras are placed side by side.
     #[serde(default)]
     pub views: Vec<Camera>,
     /// The number of views in a row. If omitted, the number of views, but at most 4.
@@ -63,10 +63,10 @@ pub struct Picture {
     /// More elements to highlight, each in its color.
     #[serde(default)]
     pub marks: Vec<Mark>,
-    /// Numbers to show as colors of the surface.
+    /// The quantity to show as colors of the surface.
     #[serde(default)]
     pub color_by: Option<ColorBy>,
-    /// Makes an animation in which the camera moves once around the scene.
+    /// If given, the picture is an animation in which the camera moves once around the scene.
     #[serde(default)]
     pub turntable: Option<Turntable>,
     /// The folder of images that are not next to their model, relative to the folder of the recipe. If omitted, the
@@ -182,7 +182,7 @@ impl Picture {
         problems
     }
 
-    /// Returns the cameras of `views`, or `camera` if there are none.
+    /// Returns the cameras of `views`, or `camera` if `views` is empty.
     fn cameras(&self) -> &[Camera] {
         if self.views.is_empty() {
             std::slice::from_ref(&self.camera)
@@ -194,7 +194,7 @@ impl Picture {
     /// Draws scenes side by side at the same scale, each with its caption, which can be empty. Returns one image, or
     /// the images of a turntable, and notes on parts that are not drawn.
     ///
-    /// If `within` is given, [`Camera::Fit`] shows all of this extent, and the colors of numbers use its range. The
+    /// If `within` is given, [`Camera::Fit`] shows all of this extent, and the colors of quantities use its range. The
     /// images then have no legend, because the scenes have a [common legend](Extent::legend).
     ///
     /// # Errors
@@ -232,7 +232,7 @@ impl Picture {
         Ok((images.map_err(op_error)?, notes))
     }
 
-    /// Returns the [`Extent`] of a scene, so that several scenes can be drawn alike without being in memory together.
+    /// Returns the [`Extent`] of a scene, so that several scenes can be drawn in the same way without being in memory at the same time.
     ///
     /// # Errors
     ///
@@ -257,7 +257,7 @@ impl Picture {
         }
     }
 
-    /// Prepares a scene with its highlights and numbers. Also returns notes on parts that are not drawn. `placed` is
+    /// Prepares a scene with its highlights and quantities. Also returns notes on parts that are not drawn. `placed` is
     /// the scene with every instance as an object. Elements are selected in the space of each object.
     fn subject<'s>(
         &self,
@@ -341,7 +341,7 @@ impl Picture {
     ///
     /// # Errors
     ///
-    /// [`PictureError::Encode`] if the number of images is wrong or they are too large for the format;
+    /// [`PictureError::Encode`] if the number of images is wrong, or if the images are too large for the format;
     /// [`PictureError::Cancelled`].
     pub fn encode(
         &self,
@@ -430,7 +430,7 @@ fn placed<'s>(scene: &'s Scene, cx: &Context) -> Result<Cow<'s, Scene>, OpError>
     Ok(scene.placed())
 }
 
-/// Reads the image file of a material. `None` if the file does not exist, or is not inside of the folder.
+/// Reads the image file of a material. Returns `None` if the file does not exist or is not inside the folder.
 fn read_image(files: &Files, folder: Option<&str>, path: &str) -> Option<Vec<u8>> {
     let is_inside = |c: Component| matches!(c, Component::Normal(_) | Component::CurDir);
     if path.contains("://") || !Path::new(path).components().all(is_inside) {

@@ -11,8 +11,8 @@ use crate::figure_file;
 /// Draws the charts of the texture coordinates of a mesh into an image file.
 ///
 /// The frame is the page of the texture, with u and v from 0 to 1 and v upwards. Thick lines are the borders of charts,
-/// thin lines the other edges. Coordinates outside the page are drawn too, and make the figure higher or its scale
-/// smaller. The extension of the file determines the format: `.svg` or `.png`. The file is written only if the whole
+/// and thin lines are the other edges. Coordinates outside the page are also drawn. They make the figure higher or its
+/// scale smaller. The extension of the file determines the format: `.svg` or `.png`. The file is written only if the whole
 /// recipe succeeds. The scene does not change.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -43,11 +43,11 @@ pub struct UvPicture {
 pub enum UvFill {
     /// Nothing.
     None,
-    /// The charts. Eight colors repeat.
+    /// The charts, in eight colors that repeat.
     #[default]
     Charts,
-    /// How much angles are stretched: a small circle on the surface becomes an ellipse, and the color shows the ratio of
-    /// its axes, from dark for 1 to bright for 1.5 or more.
+    /// The stretch of angles. A small circle on the surface becomes an ellipse in the texture, and the color shows the ratio
+    /// of its axes, from dark for 1 to bright for 1.5 or more.
     Stretch,
 }
 
@@ -69,7 +69,7 @@ const fn scale() -> Count<1, 8> {
 
 impl Operation for UvPicture {
     const NAME: &'static str = "UvPicture";
-    const SUMMARY: &'static str = "Draw the charts of texture coordinates";
+    const SUMMARY: &'static str = "Draw the UV layout (the UV charts of a mesh)";
     const EXAMPLE: &'static str = r#"UvPicture(path: "uv.svg")"#;
     const WORDS: &'static [&'static str] = &["texture", "atlas", "layout", "diagram"];
     const TAKES_ON: bool = true;

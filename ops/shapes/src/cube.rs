@@ -9,7 +9,7 @@
 //!    0 ------ 1                       a ------ b
 //! ```
 //!
-//! The number of a vertex is (x > center) + 2 (y > center) + 4 (z > center). The squares, counter-clockwise seen from
+//! The id of a vertex is (x > center) + 2 (y > center) + 4 (z > center). The squares, counter-clockwise seen from
 //! outside, are bottom (0, 2, 3, 1), top (4, 5, 7, 6), front (0, 1, 5, 4), right (1, 3, 7, 5), back (3, 2, 6, 7) and
 //! left (2, 0, 4, 6), so the diagonals are 0-3, 4-7, 0-5, 1-7, 3-6 and 2-4.
 
@@ -20,7 +20,7 @@ use op::prelude::*;
 /// Creates a cube.
 ///
 /// The cube has 8 vertices and 6 squares: bottom (0, 2, 3, 1), top (4, 5, 7, 6), front (0, 1, 5, 4), right (1, 3, 7, 5),
-/// back (3, 2, 6, 7), left (2, 0, 4, 6). The number of a vertex is (x > center) + 2 (y > center) + 4 (z > center), where
+/// back (3, 2, 6, 7), left (2, 0, 4, 6). The id of a vertex is (x > center) + 2 (y > center) + 4 (z > center), where
 /// a true comparison counts as 1.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]

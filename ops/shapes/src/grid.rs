@@ -14,7 +14,7 @@ use op::prelude::*;
 
 /// Creates a flat sheet of squares whose normals point to +z.
 ///
-/// Vertices and faces are numbered in rows, from -x to +x and from -y to +y.
+/// The ids of vertices and faces follow the rows, from -x to +x and from -y to +y.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Grid {

@@ -16,8 +16,8 @@ use op::prelude::*;
 ///
 /// Point i becomes vertex i, and polygon i becomes face i. If connected faces have different orientations, the faces in
 /// the minority are reversed, provided that all orientations then agree. If the faces do not form a manifold, they are
-/// split: an edge keeps two faces with consistent orientations, a vertex keeps one fan of faces, and the other faces
-/// get copies of the vertices, which are numbered last. Both the report and the check of the recipe list the reversed
+/// split. An edge keeps two faces with consistent orientations, and a vertex keeps one fan of faces. The other faces
+/// get copies of the vertices, which get the highest ids. Both the report and the check of the recipe list the reversed
 /// and split elements.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -26,10 +26,10 @@ pub struct Polygons {
     /// taken.
     #[serde(default)]
     pub name: Option<String>,
-    /// The points: `(x, y, z)`, in scene units. Points that no face uses become isolated vertices.
+    /// The points `(x, y, z)`, in scene units. Points that no face uses become isolated vertices.
     pub points: Vec<Vector>,
-    /// The faces. Each is a list of the numbers of its points, counted from 0, counter-clockwise seen from outside. A face
-    /// has at least three points, without duplicates.
+    /// The faces. Each face is a list of the indices of its points, counted from 0, in counter-clockwise order seen from
+    /// outside. A face has at least three points, without duplicates.
     pub faces: Vec<Vec<u32>>,
 }
 
@@ -52,7 +52,7 @@ impl Polygons {
             );
             return Err(Problem::error(message).at(["faces", &at_face]));
         }
-        // The corners of the face, sorted by their points. The sort is stable: corners with the same point keep their
+        // The corners of the face, sorted by their points. The sort is stable, so corners with the same point keep their
         // order.
         let mut sorted: Vec<usize> = (0..face.len()).collect();
         sorted.sort_by_key(|&i| face[i]);

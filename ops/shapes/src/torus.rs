@@ -15,7 +15,7 @@ use op::prelude::*;
 
 /// Creates a torus of quadrilaterals around the z axis.
 ///
-/// Vertex `i * across + j` is vertex j of ring i across the tube. Ring 0 is in the direction +x, and its vertex 0 is the
+/// Vertex `i * across + j` is vertex j of ring i across the tube. Ring 0 is in the direction +x, and its vertex 0 is
 /// farthest from the axis.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]

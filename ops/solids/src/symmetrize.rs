@@ -1,4 +1,4 @@
-//! Symmetrize: replaces one half of a mesh by the mirror image of the other.
+//! Symmetrize: replaces one half of a mesh with the mirror image of the other half.
 //!
 //! ```text
 //!     +---.   |  .                     +---.   |   .---+
@@ -11,15 +11,15 @@
 use geometry::{SymmetrizeError, symmetrize};
 use op::prelude::*;
 
-/// Replaces one half of a mesh by the mirror image of the other half.
+/// Replaces one half of a mesh with the mirror image of the other half.
 ///
-/// The mesh is cut along a plane as by `Bisect`. The half on the side `from` is kept and mirrored, and the halves are joined
-/// at the plane. Vertices on the plane are moved onto it exactly, so that the result is symmetric. Faces in the plane are
+/// The mesh is cut along a plane, as with `Bisect`. The half on the side `from` is kept and mirrored, and the halves are joined
+/// at the plane. Vertices near the plane (see `Bisect`) are moved exactly onto it, so that the result is symmetric. Faces in the plane are
 /// removed, because they would be walls inside the result. Where the surface only touches the plane, the halves are not
 /// joined.
 ///
-/// The elements of the kept half come first, in their old order, then those of the mirror image. Attributes are copied:
-/// both halves have the same texture coordinates, tags and weights of joints. Normals and tangents are dropped.
+/// The elements of the kept half come first, in their old order. The elements of the mirror image follow. Attributes are
+/// copied, so both halves have the same texture coordinates, tags and weights of joints. Normals and tangents are dropped.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Symmetrize {
@@ -46,12 +46,12 @@ pub enum Side {
 
 impl MeshOperation for Symmetrize {
     const NAME: &'static str = "Symmetrize";
-    const SUMMARY: &'static str = "Replace one half of a mesh by the mirror image of the other";
+    const SUMMARY: &'static str = "Replace one half of a mesh with the mirror image of the other half";
     const EXAMPLE: &'static str = "Symmetrize(normal: (1, 0, 0))";
     const WORDS: &'static [&'static str] = &["mirror", "reflect", "plane"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // As for `Bisect`, then twice.
+        // Twice the plan of `Bisect`.
         let per_face = plan.degrees.max / 2;
         let crossings = plan.edges.or_less();
         let cuts = plan.faces.by(per_face).capped(crossings.max).or_less();

@@ -1,4 +1,4 @@
-//! Butterfly subdivision: splits every triangle into four; the smooth surface passes through the old vertices.
+//! Butterfly subdivision: splits every triangle into four, and smooths the surface without moving the old vertices.
 //!
 //! ```text
 //!    -1/16 ---- 1/8 ---- -1/16           s2    s1
@@ -14,7 +14,7 @@
 //!
 //! Each level adds a vertex on every edge and connects the three new vertices of each triangle. Old vertices do not
 //! move, so the surface passes through all of them. An inner vertex is extraordinary if its valence n is not 6. In the
-//! mask for a new vertex on an edge of an extraordinary vertex, neighbor number j of the extraordinary vertex has the
+//! mask for a new vertex on an edge of an extraordinary vertex, neighbor j of the extraordinary vertex has the
 //! weight (1/4 + cos(2πj/n) + cos(4πj/n)/2)/n; for n = 3 and n = 4, the weights are different. If both ends of an edge
 //! are extraordinary, the new vertex is the mean of the results of both masks. The scheme is the modified butterfly
 //! scheme of Zorin, Schröder and Sweldens, "Interpolating Subdivision for Meshes with Arbitrary Topology", 1996, after
@@ -63,7 +63,7 @@ impl Butterfly {
 impl MeshOperation for Butterfly {
     const NAME: &'static str = "Butterfly";
     const SUMMARY: &'static str =
-        "Split every triangle into four and smooth the surface, but keep the old vertices";
+        "Split every triangle into four and smooth the surface without moving the old vertices";
     const EXAMPLE: &'static str = "Butterfly(levels: 1)";
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {

@@ -41,16 +41,16 @@ use crate::step::{Step, Until};
 /// A level creates a quad at each corner of each face. A level turns V vertices, E edges and F faces with C corners in
 /// total into V + E + F vertices, 2 E + C edges and C quads, so V - E + F does not change. Old vertices keep their ids,
 /// the vertex on edge e has the id V + e, the vertex at the center of face f has the id V + E + f, and edge e becomes
-/// edges 2e and 2e + 1. Quads are numbered face by face, in order of the corners.
+/// edges 2e and 2e + 1. The ids of quads follow the order of the faces and of their corners.
 ///
 /// Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values are
 /// smoothed according to `face_varying`, and seams are kept. Parts of an edge or a face copy the values of the old edge
 /// or face. Normals are dropped, because they would be wrong. Edges and vertices that `Crease` made sharp stay sharp
-/// for a number of levels that is equal to their sharpness.
+/// for as many levels as their sharpness states.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CatmullClark {
-    /// The number of levels. Each level replaces every corner of a face by a quad. Defaults to 1. With `until`,
+    /// The number of levels. Each level replaces every corner of a face with a quad. Defaults to 1. With `until`,
     /// the maximum number of levels, which defaults to 16.
     #[serde(default)]
     pub levels: Option<Levels>,
@@ -71,7 +71,7 @@ pub struct CatmullClark {
     #[serde(default)]
     pub to_limit: bool,
     /// The faces to refine. If omitted, all faces. Faces next to the refined faces get the new vertices on common edges
-    /// as corners, and the surface outside of the refined faces does not move. For the ids of new elements see
+    /// as corners, and the surface outside the refined faces does not move. For the ids of new elements, see
     /// `subdivision::refine_faces`.
     #[serde(default)]
     pub faces: Option<FaceSelection>,

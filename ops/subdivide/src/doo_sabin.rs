@@ -1,4 +1,4 @@
-//! Doo-Sabin subdivision: replaces every edge and vertex by a face.
+//! Doo-Sabin subdivision: replaces every edge and every vertex with a face.
 //!
 //! ```text
 //!    d --------------- c          d --------------- c
@@ -10,7 +10,7 @@
 //!    a --------------- b          a --------------- b
 //! ```
 //!
-//! Every corner of a face becomes a vertex, a weighted mean of the corners of the face. Each boundary edge gets
+//! Every corner of a face becomes a vertex at a weighted mean of the corners of the face. Each boundary edge gets
 //! two more vertices:
 //!
 //! ```text
@@ -22,7 +22,7 @@
 //! ```
 //!
 //! In a face with n corners, the vertex of a corner has the weight (n + 5)/(4n) at that corner and (3 + 2
-//! cos(2πj/n))/(4n) at the j-th corner from there. Source: Doo and Sabin, "Behaviour of recursive division surfaces
+//! cos(2πj/n))/(4n) at the j-th corner after it. Source: Doo and Sabin, "Behaviour of recursive division surfaces
 //! near extraordinary points", 1978. On a grid of quads the limit surface is the biquadratic B-spline of the vertices.
 //! The limit surface touches every face at the mean of its corners and has a continuous tangent plane. The boundary is
 //! a quadratic B-spline curve (Chaikin, "An algorithm for high-speed curve generation", 1974).
@@ -34,16 +34,16 @@ use subdivision::{Rules, Scheme};
 
 use crate::step::{Step, Until};
 
-/// Replaces every edge and vertex by a face and shrinks the old faces, for a number of levels.
+/// Replaces every edge and every vertex with a face and shrinks the old faces, for a number of levels.
 ///
 /// A level turns a closed mesh with V vertices, E edges and F faces into a mesh with 2 E vertices, 4 E edges and V +
 /// E + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. V - E + F does not
 /// change. The face inside old face f has the id f, the face of edge e has the id F + e, and the faces of vertices
-/// follow. Isolated vertices are kept, after all other vertices. Isolated vertices and inner vertices of valence 2 do
-/// not become faces.
+/// follow. Isolated vertices are kept; their ids follow those of all other vertices. Isolated vertices and inner vertices
+/// of valence 2 do not become faces.
 ///
 /// Vertex attributes are smoothed with the weights of the positions. Corner values are smoothed within one old face.
-/// The new faces of edges and vertices have corner values of several old faces; at a seam, this distorts textures. A
+/// The new faces of edges and vertices have corner values of several old faces, which distorts textures at a seam. A
 /// face inside an old face copies the values of the old face; the face of an edge or a vertex copies the values of an
 /// adjacent face. The two edges along an old edge copy its values; other edges have zero values (no crease, no tags).
 /// Normals are dropped, because they would be wrong.
@@ -71,7 +71,7 @@ impl DooSabin {
 
 impl MeshOperation for DooSabin {
     const NAME: &'static str = "DooSabin";
-    const SUMMARY: &'static str = "Replace every edge and vertex by a face";
+    const SUMMARY: &'static str = "Replace every edge and every vertex with a face";
     const EXAMPLE: &'static str = "DooSabin(levels: 1)";
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {

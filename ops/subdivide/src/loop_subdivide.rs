@@ -23,7 +23,7 @@
 //! ```
 //!
 //! Here u = 3/16 for n = 3 and u = 3/(8n) otherwise. The masks are those of Loop, "Smooth Subdivision Surfaces
-//! Based on Triangles", 1987, with the simpler weights at old vertices by Warren, "Subdivision Methods for
+//! Based on Triangles", 1987, with the simpler weights at old vertices of Warren, "Subdivision Methods for
 //! Geometric Design", 1995 (also Warren and Weimer, same title, 2001). The boundary is a cubic B-spline curve
 //! that depends on boundary vertices only. The limit surface has continuous curvature except at old vertices
 //! whose valence is not 6.
@@ -44,7 +44,7 @@ use crate::step::{Step, Until};
 /// Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values are
 /// smoothed according to `face_varying`, and seams are kept. Parts of an edge or a triangle copy the values of the old
 /// edge or triangle. Normals are dropped, because they would be wrong. Edges and vertices that `Crease` made sharp stay
-/// sharp for a number of levels that is equal to their sharpness.
+/// sharp for as many levels as their sharpness states.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct LoopSubdivide {
@@ -72,8 +72,8 @@ pub struct LoopSubdivide {
     #[serde(default)]
     pub to_limit: bool,
     /// The faces to refine. If omitted, all faces. Triangles next to the refined faces are cut in two or four, so that
-    /// no vertex lies inside an edge, and the surface outside of the refined faces does not move. For the ids of new
-    /// elements see `subdivision::refine_faces`.
+    /// no vertex lies inside an edge, and the surface outside the refined faces does not move. For the ids of new
+    /// elements, see `subdivision::refine_faces`.
     #[serde(default)]
     pub faces: Option<FaceSelection>,
 }

@@ -13,7 +13,7 @@
 //! ```
 //!
 //! The connectivity is the same as in Loop and Catmull-Clark subdivision. Flat faces keep their plane, so the
-//! shape of the surface does not change; it only gets more faces, for a later step to deform.
+//! shape of the surface does not change. The surface only gets more faces, which a later step can deform.
 //!
 //! The crate `subdivision` implements all schemes.
 
@@ -28,8 +28,8 @@ use crate::step::{Step, Until};
 /// vertices, 2 E + 3 F edges and 4 F triangles. `into: Quads` accepts all polygons and creates a quad at each
 /// corner: V vertices, E edges and F faces with C corners in total become V + E + F vertices, 2 E + C edges and
 /// C quads. Old vertices keep their ids and positions, the vertex on edge e has the id V + e, and edge e becomes
-/// edges 2e and 2e + 1. Triangle f becomes faces 4f to 4f + 3. Quads are numbered face by face, and the vertex at
-/// the center of face f has the id V + E + f.
+/// edges 2e and 2e + 1. Triangle f becomes faces 4f to 4f + 3. The ids of quads follow the order of the faces, and the vertex
+/// at the center of face f has the id V + E + f.
 ///
 /// Vertex attributes are interpolated. Corner values are interpolated within one old face. Parts of an edge or a face
 /// copy the values of the old edge or face, including sharpness. Normals are dropped.
@@ -48,7 +48,7 @@ pub struct Midpoint {
     pub into: Split,
     /// The faces to refine. If omitted, all faces. With `into: Triangles`, triangles next to the refined faces are cut
     /// in two or four. With `into: Quads`, faces next to the refined faces get the new vertices on common edges as
-    /// corners. For the ids of new elements see `subdivision::refine_faces`.
+    /// corners. For the ids of new elements, see `subdivision::refine_faces`.
     #[serde(default)]
     pub faces: Option<FaceSelection>,
 }

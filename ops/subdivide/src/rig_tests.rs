@@ -1,4 +1,4 @@
-//! A subdivided character deforms like the original: posing and linear subdivision commute.
+//! Tests that a subdivided character deforms like the original, because posing and linear subdivision commute.
 
 use geometry::shapes;
 use mesh::{Column, DMat3, DVec3, Domain, Mesh, Rule, Values, joint_name, morph_name};
@@ -51,7 +51,7 @@ fn character(is_rigid: bool) -> Mesh {
     mesh
 }
 
-/// The mesh with its points posed: morphed with weight 0.7, then linear blend skinning.
+/// Returns the mesh in a pose: morphed with weight 0.7, then deformed by linear blend skinning.
 fn posed(mesh: &Mesh, joints: &[(DMat3, DVec3)]) -> Mesh {
     let mut posed = mesh.clone();
     let (weights, morphs) = (mesh.attributes().joints(), mesh.attributes().morphs());
@@ -73,7 +73,7 @@ fn largest_distance(a: &Mesh, b: &Mesh) -> f64 {
         .fold(0.0, |a: f64, b| if a > b { a } else { b })
 }
 
-/// Turns, scales and moves of three joints.
+/// The rotations, scales and translations of three joints.
 fn joints(turns: bool) -> [(DMat3, DVec3); 3] {
     let turn = DMat3::from_cols(DVec3::Y, DVec3::NEG_X, 2.0 * DVec3::Z);
     let linear = |turn| if turns { turn } else { DMat3::IDENTITY };

@@ -27,7 +27,7 @@
 //!
 //! Here a = (4 - 2 cos(2π/n))/9. A boundary changes only on every second level of a step, which cuts each
 //! boundary edge in three. Boundary edges are never flipped. Two levels cut every edge in three and replace each
-//! triangle by nine triangles; two levels of Loop subdivision replace it by sixteen. Source: Kobbelt,
+//! triangle with nine triangles; two levels of Loop subdivision replace it with sixteen. Source: Kobbelt,
 //! "√3-Subdivision", 2000. The limit surface has continuous curvature except at old vertices whose valence is not 6.
 //!
 //! The crate `subdivision` implements all schemes.
@@ -42,11 +42,11 @@ use crate::step::{Step, Until};
 /// A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles.
 /// Every second level adds one more vertex and one more edge for each boundary edge. V - E + F does not change.
 /// Old vertices keep their ids, the vertex in face f has the id V + f, and face f becomes faces 3f to 3f + 2. All faces
-/// must be triangles. Levels are counted from the start of the step: one step of two levels cuts the boundary
-/// edges, but two steps of one level leave the boundary unchanged.
+/// must be triangles. Levels are counted from the start of the step. One step of two levels therefore cuts the
+/// boundary edges, but two steps of one level leave the boundary unchanged.
 ///
 /// Vertex attributes are smoothed with the weights of the positions. Corner values are interpolated linearly within one
-/// old triangle. A triangle at a flipped edge lies in two old triangles. If the old edge was a seam, the triangle has
+/// old triangle. A triangle next to a flipped edge covers parts of two old triangles. If the old edge was a seam, the triangle has
 /// texture coordinates of both sides, which distorts textures. New triangles copy the values of their old triangle.
 /// Parts of a boundary edge copy the values of the edge; other edges have zero values (no crease, no tags). Normals are
 /// dropped, because they would be wrong.

@@ -21,7 +21,7 @@ pub enum Until {
         /// The length, in scene units.
         below: PositiveLength,
     },
-    /// Stops as soon as every vertex is nearer than `below` to its limit position. Only for Loop and
+    /// Stops as soon as the distance of every vertex to its limit position is less than `below`. Only for Loop and
     /// Catmull-Clark.
     LimitDistance {
         /// The distance, in scene units.
@@ -76,7 +76,7 @@ impl Step<'_> {
             .then(|| (SubdivisionError::NoLimit(scheme).to_string(), "until"))
     }
 
-    /// Changes `plan` as [`apply`](Self::apply) will change the mesh, and returns the problems found. `name` is
+    /// Changes `plan` in the same way as [`apply`](Self::apply) will change the mesh. Returns the problems. `name` is
     /// the name of the operation.
     pub(crate) fn plan(&self, name: &str, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();
@@ -341,7 +341,7 @@ fn push_to_limit(mesh: &mut Mesh, rules: Rules, cx: &Context) -> Result<(), OpEr
 }
 
 /// Adds the attributes of the limit surface to the plan. The normals are on vertices if no inner edge is sharp,
-/// otherwise on corners.
+/// and otherwise on corners.
 fn provide_limit(plan: &mut MeshPlan) {
     for (domain, name) in [
         (Domain::Vertex, VERTEX_NORMAL.name),

@@ -13,11 +13,11 @@ use scene::{Geometry, Object};
 
 use crate::simplify::{error, part, plan_goal, triangles_problem, unreached};
 
-/// Makes simplified copies of an object: its levels of detail.
+/// Makes simplified copies of an object, its levels of detail.
 ///
 /// The copies are named after the object, for example `rock_lod1`, `rock_lod2` and so on. Each copy is made from the
-/// previous one, as by `Simplify`, and keeps attributes, materials and lines as `Simplify` does. If nodes place the
-/// object, a node for each copy is added beside each node that places the object.
+/// previous copy in the same way as with `Simplify`, and keeps the same attributes, materials and lines. If nodes place
+/// the object, a node for each copy is added next to each of them.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Lods {
@@ -26,10 +26,10 @@ pub struct Lods {
     /// The number of faces of each copy, as a fraction of the number of faces of the object. Each fraction must be
     /// smaller than the previous one.
     pub ratios: Vec<Fraction>,
-    /// The names of the copies without their numbers. If omitted, the name of the object and `_lod`.
+    /// The start of the names of the copies, before the number. If omitted, the name of the object and `_lod`.
     #[serde(default)]
     pub to: Option<String>,
-    /// Edges that are kept as lines, for example `Sharp(above: 30)`. If omitted, only the lines that `Simplify` always
+    /// Edges whose lines are kept, for example `Sharp(above: 30)`. If omitted, only the lines that `Simplify` always
     /// keeps.
     #[serde(default)]
     pub features: Option<EdgeSelection>,

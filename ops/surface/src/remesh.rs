@@ -1,4 +1,4 @@
-//! Remesh: nearly equilateral triangles of a given size for the same surface.
+//! Remesh: replaces all triangles with nearly equilateral triangles of a given size.
 //!
 //! ```text
 //!     +---+-----------+            +-----+-----+
@@ -16,28 +16,27 @@ use op::prelude::*;
 
 use crate::simplify::triangles_problem;
 
-/// Replaces triangles by nearly equilateral triangles of a given size, on the same surface.
+/// Replaces all triangles with nearly equilateral triangles of a given size, on the same surface.
 ///
 /// Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
 /// vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target length. All
-/// vertices lie on the original surface. The target length is either `length`, or it follows the `curvature`: short
-/// edges where the surface is curved, long edges where it is flat (Dunyach and others, 2013). One of the two must be
-/// given. All faces must be triangles.
+/// vertices lie on the original surface. The target length is either `length`, or it follows `curvature`: edges are
+/// short where the surface is curved, and long where it is flat (Dunyach and others, 2013). One of the two must be given. All faces must be triangles.
 ///
-/// These are kept:
+/// The following properties are kept:
 ///
 /// - Topology: holes, handles and separate parts stay.
 /// - Lines: the boundary, seams of texture coordinates and normals, borders between face tags or materials, edges with
 ///   a tag or a crease, and `features`. Vertices on a line slide along it. The ends of lines, the vertices where lines
 ///   meet, and corners where a line turns by more than 40 degrees keep their exact positions. Other sharp edges are
 ///   rounded.
-/// - Attributes: they come from the same place of the original surface, and are never interpolated across a line.
-/// - Vertex tags: a new vertex has a tag if all vertices around its place had it. Tagged vertices without tagged
-///   neighbors keep their exact positions, and so do vertices with sharpness.
+/// - Attributes: they come from the same point of the original surface, and are never interpolated across a line.
+/// - Vertex tags: a new vertex has a tag if all old vertices around its position had the tag. Tagged vertices without
+///   tagged neighbors and vertices with sharpness keep their exact positions.
 ///
-/// Each step that would turn a triangle over is refused. Elements are numbered anew. If the result could be further from
-/// the original than `error`, the step is refused as `Unreached`; with `on_refusal: Skip`, the mesh then stays as it
-/// was.
+/// Edits that would turn a triangle over are refused. All elements get new ids. If the distance between the result and the
+/// original could exceed `error`, the step is refused as `Unreached`. With `on_refusal: Skip`, the mesh then does not
+/// change.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Remesh {
@@ -47,22 +46,22 @@ pub struct Remesh {
     /// Target lengths that follow the curvature, instead of `length`.
     #[serde(default)]
     pub curvature: Option<RemeshCurvature>,
-    /// Edges that are kept as lines, for example `Sharp(above: 30)`. If omitted, none in addition to those above.
+    /// Edges whose lines are kept, for example `Sharp(above: 30)`. If omitted, only the lines that are always kept.
     #[serde(default)]
     pub features: Option<EdgeSelection>,
-    /// The largest allowed distance between the old and the new surface, in scene units: the Hausdorff distance. Edges
+    /// The largest allowed Hausdorff distance between the old and the new surface, in scene units. Edges
     /// become shorter than the target length where this is necessary. The distance is measured at the end, in both
     /// directions and for all points. If omitted, there is no limit.
     #[serde(default)]
     pub error: Option<PositiveLength>,
-    /// Vertices that keep their exact positions, for example `Boundary`. If omitted, none.
+    /// Vertices that keep their exact positions, for example `Boundary`. If omitted, no vertices.
     #[serde(default)]
     pub pin: Option<VertexSelection>,
     /// The largest number of passes, from 1 to 1000. The step ends earlier if a pass changes almost nothing. Defaults to
     /// 10.
     #[serde(default = "ten")]
     pub passes: Count<1, 1000>,
-    /// What to do if the result could be further from the original than `error`.
+    /// What to do if the distance between the result and the original could exceed `error`.
     #[serde(default)]
     pub on_refusal: OnRefusal,
 }
@@ -71,8 +70,8 @@ pub struct Remesh {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct RemeshCurvature {
-    /// The distance between the surface and the triangles at which the lengths aim, in scene units. It is not guaranteed;
-    /// the parameter `error` of the step is.
+    /// The intended distance between the surface and the triangles, in scene units. It is not guaranteed. To guarantee a
+    /// distance, use the parameter `error` of the step.
     pub error: PositiveLength,
     /// The smallest length, in scene units.
     pub min: PositiveLength,
@@ -85,7 +84,7 @@ fn ten() -> Count<1, 1000> {
 }
 
 impl Remesh {
-    /// Returns the target length, or what is wrong with it.
+    /// Returns the target length, or an error message.
     fn target(&self) -> Result<Length, &'static str> {
         match (self.length, self.curvature) {
             (Some(length), None) => Ok(Length::Uniform(length.get())),
@@ -103,7 +102,8 @@ impl Remesh {
     }
 }
 
-/// Returns the largest number of faces whose arrays fit the memory budget: the result, and the copy that is changed.
+/// Returns the largest number of faces whose arrays fit the memory budget. The arrays are those of the result and of the
+/// copy that is changed.
 fn max_faces(mesh: &Mesh, budget: u64) -> usize {
     // Connectivity and positions, for half a vertex and one and a half edges for each face.
     const BYTES: u64 = 54;
@@ -132,7 +132,7 @@ fn notes(counts: &Counts) -> Report {
 impl MeshOperation for Remesh {
     const NAME: &'static str = "Remesh";
     const SUMMARY: &'static str =
-        "Replace triangles by nearly equilateral triangles of a given size";
+        "Replace all triangles with nearly equilateral triangles of a given size";
     const EXAMPLE: &'static str = "Remesh(length: 0.5)";
     const WORDS: &'static [&'static str] = &["isotropic", "retriangulate", "resample", "adaptive"];
 
@@ -141,7 +141,7 @@ impl MeshOperation for Remesh {
         problems.extend(self.target().err().map(|message| {
             Problem::error(message).help("write, for example, `Remesh(length: 0.02)`")
         }));
-        // The area is not known yet. No face is made where there is none.
+        // The area is not known yet. A mesh without faces gets no faces.
         for count in [&mut plan.vertices, &mut plan.edges, &mut plan.faces] {
             *count = Range {
                 min: count.min.min(1),

@@ -1,4 +1,4 @@
-//! Simplify: fewer triangles for nearly the same surface.
+//! Simplify: removes triangles, and changes the surface as little as possible.
 //!
 //! ```text
 //!     +---+---+---+---+           +-------+-------+
@@ -30,9 +30,9 @@ use op::prelude::*;
 ///   over in the texture. Normals are kept, so that a simplified mesh is shaded like the original.
 /// - Vertex tags: vertices with different tags or sharpness are not merged.
 ///
-/// No triangle is turned over. Remaining elements are numbered anew, in the order of their old numbers. If the number of
-/// faces cannot be reached, and no `error` is given, the step is refused as `Unreached`, with the reasons; with
-/// `on_refusal: Skip`, the result is kept.
+/// No triangle is turned over. Remaining elements get new ids, in the order of their old ids. If the number of faces
+/// cannot be reached and `error` is not given, the step is refused as `Unreached`, and the message states the reasons.
+/// With `on_refusal: Skip`, the result is kept.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Simplify {
@@ -43,18 +43,18 @@ pub struct Simplify {
     /// The number of faces to reach, as a fraction of the number of faces of each mesh.
     #[serde(default)]
     pub ratio: Option<Fraction>,
-    /// The largest allowed distance between the old and the new surface, in scene units: the Hausdorff distance. The
-    /// limit is guaranteed: the step adds up an upper bound of how far each collapse moves the surface. The true
-    /// distance is therefore usually much smaller. If omitted, there is no limit.
+    /// The largest allowed Hausdorff distance between the old and the new surface, in scene units. The limit is
+    /// guaranteed, because the step adds up an upper bound for the distance by which each collapse moves the surface.
+    /// The true distance is therefore usually much smaller. If omitted, there is no limit.
     #[serde(default)]
     pub error: Option<PositiveLength>,
-    /// Edges that are kept as lines, for example `Sharp(above: 30)`. If omitted, only the lines that are always kept.
+    /// Edges whose lines are kept, for example `Sharp(above: 30)`. If omitted, only the lines that are always kept.
     #[serde(default)]
     pub features: Option<EdgeSelection>,
-    /// Vertices that keep their exact positions, for example `Boundary`. If omitted, none.
+    /// Vertices that keep their exact positions, for example `Boundary`. If omitted, no vertices.
     #[serde(default)]
     pub pin: Option<VertexSelection>,
-    /// Whether faces may come to intersect other faces, which can happen where parts of the surface are close together.
+    /// Whether the step may create intersections of faces. They can occur where parts of the surface are close together.
     #[serde(default)]
     pub intersections: Intersections,
     /// What to do if the number of faces cannot be reached.
@@ -66,10 +66,11 @@ pub struct Simplify {
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Intersections {
-    /// They are not looked for.
+    /// New intersections are allowed, and not detected.
     #[default]
     Allow,
-    /// No changed face intersects another face: a mesh without self-intersections keeps none. The step takes longer.
+    /// No changed face intersects another face, so a mesh without self-intersections never gets any. The step takes
+    /// longer.
     Refuse,
 }
 
@@ -141,7 +142,7 @@ pub(crate) fn unreached(n_faces: usize, goal: u64, blocked: &[(Blocked, usize)])
         .collect();
     let n_edges: usize = blocked.iter().map(|(_, n)| n).sum();
     let message = format!(
-        "only {n_faces} faces were reached instead of {goal}, because no other edge can be collapsed: of {n_edges} edges, {}",
+        "only {n_faces} faces were reached instead of {goal}, because no further edge can be collapsed: of {n_edges} edges, {}",
         reasons.join(", ")
     );
     OpError::refused(Refusal::Unreached, message)
@@ -216,7 +217,7 @@ mod tests {
 
     #[test]
     fn intersections_are_refused_on_request() {
-        // Two spheres, one close around the other: the few triangles of one pass through the other.
+        // One sphere closely surrounds another sphere. Coarse triangles of one sphere pass through the other.
         let sphere = shapes::fans(&shapes::uv_sphere(40, 20));
         let n = u32::try_from(sphere.n_vertices()).unwrap();
         let number = |v: mesh::VertexId| u32::try_from(v.index()).unwrap();
@@ -279,7 +280,7 @@ mod tests {
         let refused = try_applied(&step("(faces: 2)"), shapes::tetrahedron()).unwrap_err();
         assert_eq!(
             refused.to_string(),
-            "only 4 faces were reached instead of 2, because no other edge can be collapsed: of 6 edges, 6 would change the topology"
+            "only 4 faces were reached instead of 2, because no further edge can be collapsed: of 6 edges, 6 would change the topology"
         );
         let skip = step("(faces: 2, on_refusal: Skip)");
         let (mesh, report) = try_applied(&skip, shapes::octahedron()).unwrap();

@@ -14,9 +14,9 @@ use op::prelude::*;
 
 /// Moves vertices so that noise disappears.
 ///
-/// Only vertices in `vertices` move, except those in `pin`. Vertices without faces stay. All other vertices keep their
-/// exact positions. Faces can have any number of corners, and degenerate faces are allowed. All elements keep their
-/// numbers. Attributes are kept, so textures stretch with the surface, but normals are dropped.
+/// Only vertices in `vertices` that are not in `pin` and have a face move. All other vertices keep their exact
+/// positions. Faces can have any number of corners, and degenerate faces are allowed. All elements keep their
+/// ids. Attributes are kept, so textures stretch with the surface, but normals are dropped.
 ///
 /// | `by` | use | size |
 /// | --- | --- | --- |
@@ -25,7 +25,7 @@ use op::prelude::*;
 /// | `Implicit` | strong smoothing of dense meshes in one pass | shrinks |
 /// | `Denoise` | scans of objects with flat sides and sharp edges | nearly the same |
 ///
-/// If `boundary` is `Fixed`, vertices on the boundary stay, so that adjacent objects fit as before.
+/// If `boundary` is `Fixed`, vertices on the boundary do not move, so that adjacent objects still fit together.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Smooth {
@@ -38,14 +38,14 @@ pub struct Smooth {
     /// The vertices to move. If omitted, all vertices.
     #[serde(default)]
     pub vertices: VertexSelection,
-    /// Vertices that stay. If omitted, none.
+    /// Vertices that do not move. If omitted, no vertices.
     #[serde(default)]
     pub pin: Option<VertexSelection>,
     /// How vertices on the boundary move.
     #[serde(default)]
     pub boundary: SmoothBoundary,
-    /// Whether the moved vertices are finally shifted along their normals, all by the same distance, until the mesh has the
-    /// volume that it had. The mesh must be closed.
+    /// Whether the moved vertices are finally shifted along their normals, all by the same distance, until the mesh has its
+    /// original volume. The mesh must be closed.
     #[serde(default)]
     pub keep_volume: bool,
 }
@@ -59,18 +59,18 @@ pub enum SmoothBy {
         /// The weights of the neighbors.
         #[serde(default)]
         weights: SmoothWeights,
-        /// The part of the way to the mean. From 0 to 1. Defaults to 0.5.
+        /// The distance of the movement, as a fraction of the distance to the mean. From 0 to 1. Defaults to 0.5.
         #[serde(default = "half")]
         factor: ClosedFraction,
     },
-    /// Moves each vertex towards the mean of its neighbors, then a little further back. Removes noise, and keeps larger
+    /// Moves each vertex towards the mean of its neighbors, then back by slightly more. Removes noise, and keeps larger
     /// shapes and the volume nearly unchanged. One pass consists of both steps.
     Taubin {
         /// The weights of the neighbors.
         #[serde(default)]
         weights: SmoothWeights,
-        /// The part of the way to the mean in the first step. From 0 to 1, exclusive; above about 0.65, the step back
-        /// amplifies noise. Defaults to 0.33.
+        /// The distance of the first step, as a fraction of the distance to the mean. From 0 to 1, exclusive. Above about
+        /// 0.65, the step back amplifies noise. Defaults to 0.33.
         #[serde(default = "taubin_factor")]
         factor: Fraction,
         /// The frequency below which shapes are kept. A lower value smooths more. From 0 to 1, exclusive. Defaults to 0.05.
@@ -78,7 +78,7 @@ pub enum SmoothBy {
         pass_band: Fraction,
     },
     /// Moves the surface by mean curvature flow for the given time, in one stable step. Details smaller than the square
-    /// root of the time disappear, no matter how dense the mesh is.
+    /// root of the time disappear, regardless of the density of the mesh.
     Implicit {
         /// The time, in squares of the scene unit.
         time: PositiveLength,
@@ -108,11 +108,11 @@ pub enum SmoothWeights {
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum SmoothBoundary {
-    /// The vertices stay.
+    /// The vertices do not move.
     #[default]
     Fixed,
-    /// The vertices are smoothed as curves: only their neighbors along the boundary affect them. With `Denoise`, they
-    /// move like all other vertices.
+    /// The boundary is smoothed as curves, so only neighbors along the boundary affect a vertex. With `Denoise`, vertices on
+    /// the boundary move like all other vertices.
     Free,
 }
 

@@ -15,17 +15,17 @@ use op::prelude::*;
 
 /// Copies attributes from the nearest points of another object.
 ///
-/// An attribute of vertices, corners or faces of the object `from` becomes one of the same kind: numbers and vectors of
-/// vertices and corners are interpolated inside the face of the nearest point; whole numbers, tags, and attributes that edits do
-/// not interpolate are copied from its nearest corner, and values of faces from its face. An attribute that exists already, with
-/// the same type of values, is overwritten. Without `on`, the step acts on all meshes except `from`.
+/// An attribute of vertices, corners or faces of the object `from` becomes an attribute of the same kind. Numbers and vectors
+/// of vertices and corners are interpolated inside the face of the nearest point. Whole numbers, tags, and attributes that
+/// edits do not interpolate are copied from the nearest corner of this face. Values of faces are copied from this face. An
+/// existing attribute with the same type of values is overwritten. Without `on`, the step acts on all meshes except `from`.
 ///
-/// All corners of a face take their values from one chart of the source: from faces that are connected without crossing a seam of
-/// the attribute. It is the chart nearest to the center of the face, so no triangle is stretched across a seam of texture
-/// coordinates.
+/// All corners of a face take their values from one chart of the source, that is, from faces that are connected without crossing
+/// a seam of the attribute. The chart is the one nearest to the center of the face, so no triangle is stretched across a seam of
+/// texture coordinates.
 ///
-/// Elements further than `within` from the source keep their values, or get zeros if the attribute is new, and are counted. For
-/// corners, the whole face does.
+/// Elements whose distance from the source exceeds `within` keep their values, or get zeros if the attribute is new, and are
+/// counted. If this applies to a corner of a face, it applies to all corners of the face.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Transfer {
@@ -44,7 +44,7 @@ impl Transfer {
             Some("Transfer needs at least one attribute")
         } else if self.attributes.iter().any(|name| name == "material") {
             Some(
-                "materials cannot be transferred: their numbers are places in the list of each object",
+                "materials cannot be transferred, because each object has its own list of materials",
             )
         } else {
             None
@@ -64,7 +64,7 @@ impl MeshOperation for Transfer {
     }
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // The domains are known only when the other object is.
+        // The domains are known only if the other object is known.
         plan.has_unlisted_attributes = true;
         let problem = |message| Problem::error(message).at(["attributes"]);
         self.problem().map(problem).into_iter().collect()
@@ -121,7 +121,7 @@ impl MeshOperation for Transfer {
         }
         for (domain, kept) in far {
             let what = format!(
-                "{} further than `within` from \"{}\", which keep their values",
+                "{} farther than `within` from \"{}\", which keep their values",
                 plural(domain),
                 self.from
             );
@@ -163,7 +163,7 @@ impl Transfer {
                     && old.values.type_name() != column.values.type_name()
                 {
                     let message = format!(
-                        "the {domain} attribute \"{name}\" of \"{}\" has values of the type \"{}\", and the existing one \"{}\"",
+                        "the {domain} attribute \"{name}\" of \"{}\" has values of the type \"{}\", and the existing attribute \"{}\"",
                         self.from,
                         column.values.type_name(),
                         old.values.type_name()
@@ -266,8 +266,8 @@ impl Source<'_> {
     }
 }
 
-/// Returns the number of the chart of each face, by face index, and the faces of each chart: the parts of the mesh that are
-/// connected by edges at which the values of the corners are the same on both sides.
+/// Returns the index of the chart of each face, by face index, and the faces of each chart. The faces of a chart are connected
+/// by edges at which the values of the corners are the same on both sides.
 fn charts(mesh: &Mesh, values: &Values) -> (Vec<usize>, Vec<Vec<FaceId>>) {
     let mut chart_of_face = vec![usize::MAX; mesh.domain_len(Domain::Face)];
     let mut charts: Vec<Vec<FaceId>> = Vec::new();

@@ -6,7 +6,7 @@ use op::prelude::*;
 /// Tags the selected faces and removes the tag from all other faces. In later steps, `Tagged("rim")` selects the faces
 /// with the tag `rim`.
 ///
-/// The parts of a tagged face are also tagged when it is split or subdivided. An existing tag of the same name is
+/// When a tagged face is split or subdivided, its parts are also tagged. An existing tag of the same name is
 /// replaced. If an attribute of another type has this name, the step fails. The geometry does not change. The report
 /// counts the faces that gained or lost the tag.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]

@@ -1,4 +1,4 @@
-//! What the operations of this group share: the attribute, the page and errors.
+//! Code shared by the operations of this group: the attribute, the page and errors.
 
 use geometry::uv::{Page, UvError};
 use mesh::{CORNER_TANGENT, Column, DVec2, Domain, UV, Value};
@@ -26,7 +26,7 @@ pub(crate) const fn page_of(size: Count<16, 16384>, padding: Count<0, 256>) -> P
     }
 }
 
-/// Returns the problem of a padding that leaves no room on the page.
+/// Returns the problem of a padding that leaves no space on the page.
 pub(crate) fn padding_problem(page: Page) -> Option<Problem> {
     let Page { size, padding } = page;
     (size <= 2 * padding).then(|| {
@@ -84,7 +84,7 @@ pub(crate) fn error(error: &UvError) -> OpError {
     }
 }
 
-/// Returns the part of the page that charts cover, in words.
+/// Returns a message with the part of the page that charts cover.
 pub(crate) fn coverage(part: f64) -> String {
     format!("the charts cover {:.1} % of the page", 100.0 * part)
 }

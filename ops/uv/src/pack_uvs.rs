@@ -1,4 +1,4 @@
-//! Pack UVs: charts that exist, moved to one page at one scale.
+//! Pack UVs: moves existing charts to one page, with one scale.
 //!
 //! ```text
 //!    +--+  +-----+           +-----+--+
@@ -16,12 +16,12 @@ use crate::attribute::{
     coverage, error, get, missing, padding, padding_problem, page, page_of, plan, set, uv,
 };
 
-/// Moves, turns and scales charts of texture coordinates so that they do not overlap and have one scale.
+/// Moves, rotates and scales charts of texture coordinates so that they do not overlap and have the same scale.
 ///
-/// A chart is a set of faces that are connected without seams of the texture coordinates. Afterwards, areas in the texture
-/// are proportional to areas on the surface, for whole charts. The shape of each chart stays, also if it is stretched,
-/// mirrored or overlaps itself; charts that overlap themselves are counted. Charts without area become a point and are
-/// counted. Each mesh gets a page of its own. Tangents are removed, because charts are turned.
+/// A chart is a set of faces that are connected without seams of the texture coordinates. Afterwards, the area of each chart in
+/// the texture is proportional to its area on the surface. The shape of each chart does not change, even if it is stretched,
+/// mirrored or overlaps itself. Charts that overlap themselves are counted. Each zero-area chart becomes a point and is
+/// counted. Each mesh gets its own page. Tangents are removed, because charts are rotated.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct PackUvs {
@@ -32,7 +32,8 @@ pub struct PackUvs {
     /// determines how large the padding is.
     #[serde(default = "page")]
     pub page: Count<16, 16384>,
-    /// The number of empty texels around each chart. Charts are at least twice as far from each other. Defaults to 2.
+    /// The number of empty texels around each chart. The distance between two charts is at least twice this number.
+    /// Defaults to 2.
     #[serde(default = "padding")]
     pub padding: Count<0, 256>,
 }
@@ -62,7 +63,7 @@ impl MeshOperation for PackUvs {
         let mut report = Report::changed(packed.n_charts);
         set(mesh, &self.uv, packed.uvs, &mut report);
         let mut report = report
-            .count("charts without area", packed.n_flat)
+            .count("zero-area charts", packed.n_flat)
             .count("charts that overlap themselves", packed.n_overlapping);
         report.notes.push(coverage(packed.coverage));
         Ok(report)

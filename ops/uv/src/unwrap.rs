@@ -1,4 +1,4 @@
-//! Unwrap: new texture coordinates without overlaps.
+//! Unwrap: computes texture coordinates without overlaps.
 //!
 //! ```text
 //!        +---+               +---+
@@ -20,12 +20,12 @@ use crate::attribute::{coverage, error, padding, padding_problem, page, page_of,
 /// The surface is cut into charts, which are flattened and packed into a square page. Charts grow from flat regions up to
 /// `max_angle`. They are flattened by least squares conformal maps (Levy and others, 2002) and the as-rigid-as-possible
 /// method (Liu and others, 2008), and are cut again where they would overlap themselves or exceed `max_stretch`. All
-/// charts of a mesh have one scale, and none is mirrored. A polygon stays in one chart. Each mesh gets a page of its own.
+/// charts of a mesh have the same scale, and no chart is mirrored. A polygon stays in one chart. Each mesh gets its own page.
 ///
 /// The coordinates are written to the corner attribute `uv`, which is replaced if it exists. Edges at which charts meet
-/// become its seams. Positions, faces and other attributes stay, except that tangents are removed. Faces without area
+/// become its seams. Positions, faces and other attributes do not change, but tangents are removed. Zero-area faces
 /// have no area in the texture and are counted. A polygon that is bent so far that it overlaps itself is refused as
-/// `WrongPlace`: triangulate it first. With `on_refusal: Skip`, its triangles overlap in the texture.
+/// `WrongPlace`, so triangulate it first. With `on_refusal: Skip`, its triangles overlap in the texture.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Unwrap {
@@ -38,7 +38,7 @@ pub struct Unwrap {
     #[serde(default = "max_angle")]
     #[schemars(range(min = 1.0, max = 89.0))]
     pub max_angle: f64,
-    /// The largest ratio between the scale of areas in a triangle and in its whole chart.
+    /// The largest ratio between the area scale of a triangle and the area scale of its whole chart.
     #[serde(default = "max_stretch")]
     #[schemars(range(min = 1.0, max = 1000.0))]
     pub max_stretch: f64,
@@ -46,7 +46,8 @@ pub struct Unwrap {
     /// determines how large the padding is.
     #[serde(default = "page")]
     pub page: Count<16, 16384>,
-    /// The number of empty texels around each chart. Charts are at least twice as far from each other. Defaults to 2.
+    /// The number of empty texels around each chart. The distance between two charts is at least twice this number.
+    /// Defaults to 2.
     #[serde(default = "padding")]
     pub padding: Count<0, 256>,
     /// The name of the texture coordinates. Defaults to `uv`.
@@ -102,7 +103,7 @@ impl MeshOperation for Unwrap {
         set(mesh, &self.uv, unwrapped.uvs, &mut report);
         let mut report = report
             .count("charts", unwrapped.charts.n)
-            .count("faces without area in the texture", unwrapped.flat.len());
+            .count("faces with zero area in the texture", unwrapped.flat.len());
         report.notes.push(coverage(unwrapped.coverage));
         Ok(report)
     }

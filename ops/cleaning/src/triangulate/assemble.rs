@@ -1,12 +1,12 @@
 //! Builds the arrays of the cut mesh.
 //!
-//! Old half-edges keep their indices: only their `next` and `face` change. The diagonals are added face by face, in
+//! Old half-edges keep their indices, and only their `next` and `face` change. The diagonals are added face by face, in
 //! the order of [`Cut::diagonals`]. The first half-edge of a diagonal starts at the corner with the lower index.
 
 use geometry::triangulate::Cut;
 use mesh::{EdgeId, FaceId, HalfEdgeId, Mesh, Sources, VertexId};
 
-/// Returns the mesh with its faces cut. `n_diagonals` is the number of all diagonals; ids must not overflow.
+/// Returns the mesh with its faces cut. `n_diagonals` is the number of all diagonals. With them, ids must not overflow.
 pub(crate) fn assemble(mesh: &Mesh, cuts: &[Cut], n_diagonals: usize) -> Mesh {
     let n_old = mesh.n_half_edges();
     let n = n_old + 2 * n_diagonals;

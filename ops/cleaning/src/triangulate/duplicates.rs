@@ -6,8 +6,8 @@
 //!    a ---- b             along b-d, it is a tetrahedron.
 //! ```
 //!
-//! A half-edge mesh can represent duplicate edges, but a file of triangles cannot: a mesh that is read from the file is
-//! split at these edges.
+//! A half-edge mesh can represent duplicate edges, but a file of triangles cannot. When the file is read, the mesh is split
+//! at these edges.
 
 use geometry::triangulate::Cut;
 use mesh::{FaceId, Mesh, VertexId};
@@ -16,7 +16,7 @@ use rayon::prelude::*;
 /// A diagonal: its vertices, the lower first, and its face.
 type Diagonal = ([VertexId; 2], FaceId);
 
-/// Replaces duplicate diagonals of quadrilaterals by the other diagonal if that is as good and not a duplicate.
+/// Replaces duplicate diagonals of quadrilaterals with the other diagonal if it is as good and not a duplicate.
 /// Returns the number of duplicates that remain.
 pub(crate) fn avoid(mesh: &Mesh, cuts: &mut [Cut]) -> usize {
     let diagonals = all(mesh, cuts);

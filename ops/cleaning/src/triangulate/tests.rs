@@ -125,7 +125,7 @@ fn equal_diagonals_are_decided_by_the_lowest_vertex() {
 
 #[test]
 fn a_quad_with_a_reflex_corner_is_cut_at_that_corner() {
-    // Two arrow heads. In the first arrow head, the diagonal inside is the longer one.
+    // Two arrow heads. In the first arrow head, the inner diagonal is the longer one.
     let arrow = [(0.0, 0.0), (1.0, -0.2), (8.0, 0.0), (1.0, 0.2)];
     let reflex = [(0.0, 0.0), (9.0, -0.1), (8.9, 0.0), (9.0, 0.1)];
     for (points, kept) in [(arrow, false), (reflex, true)] {
@@ -133,7 +133,7 @@ fn a_quad_with_a_reflex_corner_is_cut_at_that_corner() {
             let mut turned = points;
             turned.rotate_left(first);
             let cut = applied(&all(), polygon(&turned));
-            // `a` and `b` are the corners that had the numbers 0 and 2 before the rotation.
+            // `a` and `b` are the vertices that had the ids 0 and 2 before the rotation.
             let [a, b] = [(4 - first) % 4, (6 - first) % 4];
             assert_eq!(joined(&cut, a, b), kept, "{points:?} {first}");
         }
@@ -183,7 +183,7 @@ fn a_diagonal_between_joined_vertices_is_avoided() {
 
 #[test]
 fn unavoidable_duplicate_diagonals_are_counted_and_the_mesh_stays_closed() {
-    // Two arrow heads back to back: each has only one diagonal inside.
+    // Two arrow heads back to back. Each has only one inner diagonal.
     let points = vec![
         DVec3::ZERO,
         DVec3::new(2.0, 1.0, 0.0),
@@ -223,7 +223,7 @@ fn concave_faces_are_covered_once() {
         (0., 1.),
         (1., 1.),
     ];
-    // A square with a square hole that is connected by a slit: two vertices coincide at each end of the slit.
+    // A square with a square hole. A slit connects the hole to the border, and two vertices coincide at each end of the slit.
     let keyhole = [
         (0., 0.),
         (4., 0.),
@@ -280,7 +280,7 @@ fn faces_that_ear_clipping_cannot_cut_become_fans_and_are_counted() {
     for points in [&line[..], &[(1.0, 1.0); 5][..]] {
         let (cut, report) = checked(&all(), &polygon(points));
         assert_eq!(cut.n_faces(), points.len() - 2);
-        let note = "faces without area or with crossing sides, cut into fans: 1";
+        let note = "faces with zero area or with crossing sides, cut into fans: 1";
         assert_eq!(report.notes, [note]);
         assert_eq!(cut.valence(VertexId::new(0)), points.len() - 1);
     }

@@ -14,7 +14,7 @@ fn weld(distance: f64) -> Weld {
     Weld { distance }
 }
 
-/// Returns a mesh with the same faces, none of which share a vertex.
+/// Returns a mesh with the same faces, but without shared vertices.
 fn torn(mesh: &Mesh) -> Mesh {
     let mut positions = Vec::new();
     let mut polygons = Vec::new();
@@ -174,7 +174,7 @@ fn three_squares_at_one_edge_are_split_and_counted() {
 
 #[test]
 fn squares_of_opposite_orientation_agree_after_welding() {
-    // Two neighboring squares, the second of which has its corners in reverse order.
+    // Two neighboring squares. The second square has its corners in reverse order.
     let squares = [0.0, 1.0].map(|x| {
         [(x, 0.0), (x + 1.0, 0.0), (x + 1.0, 1.0), (x, 1.0)].map(|(x, y)| DVec3::new(x, y, 0.0))
     });

@@ -13,7 +13,7 @@ fn hill(height: impl Fn(usize, usize) -> f64) -> Patch {
 /// Returns a patch with collapsed sides: bits 0 to 3 of `mask` are the sides v = 0, u = 1, v = 1, u = 0.
 fn collapsed(mask: u32) -> Patch {
     let mut points = *hill(|r, c| ((r * 5 + c * 3) % 7) as f64 * 0.1).points();
-    // The sides are collapsed twice, so that adjacent collapsed sides have the same corner.
+    // The sides are collapsed twice, so that adjacent collapsed sides share a corner.
     for _ in 0..2 {
         for k in (0..4).filter(|k| mask & (1 << k) != 0) {
             let side = [0, 1, 2, 3].map(|i| [(0, i), (i, 3), (3, 3 - i), (3 - i, 0)][k]);
@@ -147,7 +147,7 @@ fn empty_patches_are_reported_and_no_patches_give_an_empty_mesh() {
     assert_eq!(mesh.n_faces(), 128);
     assert_eq!(
         report.notes,
-        ["patches without area, which have no faces: 2 (first: patch 0)"]
+        ["zero-area patches, which have no faces: 2 (first: patch 0)"]
     );
     assert_eq!(run(&parse("()"), Vec::new()).0, Mesh::default());
 }

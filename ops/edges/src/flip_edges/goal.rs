@@ -42,7 +42,7 @@ const SIZES: Range<f64> = 1e-120..1e120;
 /// square, keep their diagonal.
 const TIE: f64 = 1e-12;
 
-/// The energies of two triangles without area.
+/// The energies of two zero-area triangles.
 const BOTH_WITHOUT_AREA: [f64; 2] = [f64::INFINITY; 2];
 
 /// The goal of flips.

@@ -3,7 +3,7 @@
 use mesh::{Connectivity, DVec3, Mesh};
 use op::{Context, OpError};
 
-/// The largest number of elements of one kind: the largest id is 2^32 - 2.
+/// The largest number of elements of one kind. It follows from the largest id, 2^32 - 2.
 pub(crate) const MAX_ELEMENTS: u64 = u32::MAX as u64 - 1;
 
 pub(crate) fn too_many(n: u64) -> String {

@@ -1,8 +1,8 @@
 //! Joining skinned meshes.
 //!
-//! If all skinned parts have the same skin, the joined mesh keeps it. The other parts follow the first joint: their
-//! points are mapped by the inverse of the map of this joint, so that they stay where they were. Otherwise the parts
-//! are joined in the pose of their joints, and the skins are lost.
+//! If all skinned parts have the same skin, the joined mesh keeps this skin. The other parts follow the first joint. Their
+//! points are mapped by the inverse of the map of this joint, so that they do not move. If the parts have different skins,
+//! they are joined in the pose of their joints, and the skins are lost.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use scene::{Geometry, Instance, Object, Scene, transformed};
 
 /// The skin of a joined mesh.
 pub(super) struct KeptSkin {
-    /// The name of the first skinned part, whose node and morph weights are kept.
+    /// The name of the first skinned part. The node and the morph weights of this part are kept.
     pub(super) part: String,
     /// The map from the bound points of the first joint to the scene.
     first_joint: DAffine3,
@@ -80,7 +80,7 @@ fn remove_joints(mesh: &mut Mesh) {
     }
 }
 
-/// Plans the skin of the joined mesh. Returns the skin that all skinned parts have, or else the loss of the skins.
+/// Plans the skin of the joined mesh. Returns the skin if all skinned parts have the same one, otherwise the loss of the skins.
 pub(super) fn planned(parts: &[PlannedNodes], joined: &str) -> (Option<u64>, Option<Loss>) {
     let mut skinned = parts.iter().filter(|part| part.skin.is_some());
     let Some(first) = skinned.next() else {
@@ -103,7 +103,7 @@ fn lost_skin(joined: &str) -> Loss {
     }
 }
 
-/// Reports what becomes of skins and morph targets. Without a skin, the joined mesh loses the weights of joints.
+/// Reports the changes of skins and morph targets. Without a skin, the joined mesh loses the weights of joints.
 pub(super) fn report(
     scene: &Scene,
     parts: &[&Object],

@@ -40,12 +40,12 @@ impl Map {
         self.linear * v
     }
 
-    /// Returns the image of a unit normal; a zero vector stays zero. A mirror negates the normal, because it also turns
+    /// Returns the image of a unit normal. A zero vector stays zero. A mirror negates the normal, because it also turns
     /// the faces over. When the mesh is then reversed, the normal is negated again.
     ///
     /// Normals are transformed by the inverse transpose of R S, which is R S^-1 (Turkowski, "Properties of
     /// Surface-Normal Transformations", 1990). Only the direction of the result matters, so S^-1 is multiplied by the
-    /// smallest factor of the nonzero coordinates: then no coordinate overflows, and at least one coordinate does not
+    /// smallest factor of the nonzero coordinates. Then no coordinate overflows, and at least one coordinate does not
     /// underflow.
     pub(crate) fn normal(&self, n: DVec3) -> DVec3 {
         let zero = n.cmpeq(DVec3::ZERO);

@@ -15,7 +15,7 @@ fn moved(translation: [f64; 3], scale: [f64; 3]) -> Placement {
     }
 }
 
-/// A car with a body and two wheels, of which one is mirrored, a separate cube, and a camera at the top level.
+/// A car with a body and two wheels (one is mirrored), a separate cube, and a camera at the top level.
 fn car() -> Scene {
     let mut scene = Scene::new();
     for name in ["body", "wheel", "plain"] {
@@ -99,7 +99,7 @@ fn placed_points_move_as_points_do() {
                 .collect();
             assert_near(&points(&scene, name), &before);
         }
-        // The meshes of placed objects are untouched, and the camera moves along.
+        // The meshes of placed objects do not change, and the camera also moves.
         let mesh = |scene: &Scene| scene.object("wheel").unwrap().as_mesh().unwrap().clone();
         assert_eq!(mesh(&scene), mesh(&car()));
         let camera = |scene: &Scene| scene.graph().to_scene()[4];

@@ -5,8 +5,8 @@
 //! ```
 //!
 //! L places the node in its parent, and P places the parent in the scene. A map M in scene space moves a point from P L
-//! p to M P L p. So the new placement of the node is P'^-1 M P L, where P' places the parent after the move. If the
-//! parent has moved by M itself, P' = M P, and the placement does not change.
+//! p to M P L p. So the new placement of the node is P'^-1 M P L, where P' places the parent after the move. If M also
+//! moves the parent, P' = M P, and the placement of the node does not change.
 
 use glam::{DAffine3, DVec3};
 use op::{Context, OpError, Report};
@@ -100,7 +100,7 @@ fn insert_parents(scene: &mut Scene, maps: &mut Vec<Option<DAffine3>>) -> usize 
     maps.len() - before
 }
 
-/// Moves each node by its map in scene space. A node without a map moves along with its parent. If `only_moves` is set,
+/// Moves each node by its map in scene space. A node without a map moves with its parent. If `only_moves` is set,
 /// the maps neither scale nor rotate.
 fn move_by(scene: &mut Scene, maps: &[Option<DAffine3>], only_moves: bool) -> Result<(), OpError> {
     let old = scene.graph().to_scene();
@@ -118,7 +118,7 @@ fn move_by(scene: &mut Scene, maps: &[Option<DAffine3>], only_moves: bool) -> Re
             }
             let parent = node.parent.map_or(DAffine3::IDENTITY, |parent| new[parent]);
             let placed = if only_moves && of_parent.is_none() {
-                // The numbers of the scale and the rotation stay exactly the same.
+                // The scale and the rotation stay exactly the same.
                 let shift = parent.matrix3.inverse() * map.translation;
                 shift
                     .is_finite()

@@ -9,7 +9,7 @@ fn step(text: &str) -> Transfer {
     op::test::read(text).unwrap()
 }
 
-/// The coordinates of a chart: (x, y), and 5 further right for faces right of x = 0.
+/// The coordinates of a chart: (x, y), or (x + 5, y) for faces with x > 0.
 fn uv(p: DVec3, right: bool) -> DVec2 {
     DVec2::new(p.x + if right { 5.0 } else { 0.0 }, p.y)
 }
@@ -106,8 +106,8 @@ fn elements_that_are_too_far_keep_their_values_and_are_counted() {
     assert_eq!(
         report.notes,
         [
-            "vertices further than `within` from \"scan\", which keep their values: 1",
-            "corners further than `within` from \"scan\", which keep their values: 4"
+            "vertices farther than `within` from \"scan\", which keep their values: 1",
+            "corners farther than `within` from \"scan\", which keep their values: 4"
         ]
     );
     let mesh = low(&scene);
@@ -171,7 +171,7 @@ fn missing_and_unsuitable_attributes_are_refused() {
     );
     let error = refused(r#"(from: "scan", attributes: ["color"])"#, other);
     assert!(
-        error.contains("\"4 numbers\", and the existing one \"number\""),
+        error.contains("\"4 numbers\", and the existing attribute \"number\""),
         "{error}"
     );
     refused(r#"(from: "scan", attributes: ["material"])"#, target());

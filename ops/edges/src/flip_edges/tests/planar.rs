@@ -156,7 +156,7 @@ fn an_edge_through_a_vertex_is_flipped_to_end_at_the_vertex() {
 
 #[test]
 fn triangles_without_area_on_both_sides_of_an_edge_are_removed() {
-    // Vertices 4 and 5 are on the diagonal of the square, so the mesh has two triangles without area.
+    // Vertices 4 and 5 are on the diagonal of the square, so the mesh has two zero-area triangles.
     let (points, mesh) = cut_square(&[[1, 1], [4, 4]]);
     let is_flat = |mesh: &Mesh, f| turn(corners(mesh, &points, f)) == 0;
     assert_eq!(mesh.faces().filter(|&f| is_flat(&mesh, f)).count(), 2);

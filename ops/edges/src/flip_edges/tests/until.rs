@@ -13,7 +13,7 @@ use crate::flip_edges::{FlipEdges, Until};
 
 const UNLIMITED_PASSES: u32 = 100_000;
 
-/// Returns the number of triangles without area, and the sum of the cotangents of the angles of all other triangles.
+/// Returns the number of zero-area triangles, and the sum of the cotangents of the angles of all other triangles.
 fn energy(mesh: &Mesh) -> (usize, f64) {
     let mut without_area = 0;
     let mut sum = 0.0;
@@ -60,7 +60,7 @@ fn is_better(until: Until, e: EdgeId, new: &Mesh, old: &Mesh) -> bool {
         }
         Until::Valence => irregularity(new) < irregularity(old),
     };
-    // The normals of both new triangles are not zero and point to the same side.
+    // The normals of both new triangles are nonzero and point to the same side.
     is_less && n.dot(n + m) > 0.0 && m.dot(n + m) > 0.0
 }
 

@@ -177,7 +177,7 @@ fn has_recipes(n: usize) -> Trial {
 fn digests_name_recipes(recipes: &[Scene], digests: &Digests) -> Trial {
     let is_known = |name: &String| recipes.iter().any(|recipe| recipe.name == *name);
     let unknown: Vec<String> = digests.keys().filter(|n| !is_known(n)).cloned().collect();
-    Trial::test("digests.txt names existing recipes only", move || {
+    Trial::test("digests.txt names only existing recipes", move || {
         if !unknown.is_empty() {
             return fail(format!(
                 "digests.txt names missing recipes: {}",
@@ -336,7 +336,7 @@ fn every_step_is_needed(recipe: &Scene) -> Result<(), Failed> {
     fail(format!("the recipe succeeds without these steps:\n{steps}"))
 }
 
-/// Tests that a step is reported as unneeded if only the expectations that name the step depend on it.
+/// Tests that a step is reported as unneeded if it only affects expectations that name it.
 fn unneeded_steps_are_found() -> Result<(), Failed> {
     let source = r#"(
         recipe: 1,

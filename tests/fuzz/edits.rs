@@ -1,6 +1,6 @@
 //! Applies arbitrary edits in any order to a mesh. The mesh must stay valid, and a rollback must restore the mesh.
 //!
-//! The first byte chooses the mesh. Then every six bytes are an edit.
+//! The first byte determines the mesh. Each of the following groups of six bytes is an edit.
 
 #![no_main]
 
@@ -31,7 +31,7 @@ fuzz_target!(|bytes: &[u8]| {
         }
     }
     mesh.rollback();
-    assert!(mesh == start, "the rollback does not restore the start");
+    assert!(mesh == start, "the rollback does not restore the initial mesh");
 });
 
 fn start(shape: u8) -> Mesh {
@@ -51,7 +51,7 @@ fn start(shape: u8) -> Mesh {
     }
 }
 
-/// Adds values on every domain to a mesh. The first face has separate UVs.
+/// Adds attributes of every domain to a mesh. The first face has separate UVs.
 fn with_attributes(mut mesh: Mesh) -> Mesh {
     let uv = |h| {
         let chart = if mesh.face(h).is_some_and(|f| f.index() == 0) {

@@ -1,4 +1,4 @@
-//! Reads, checks and runs arbitrary texts as recipes, with all operations, selections and expectations. Files are in
+//! Reads, checks and runs arbitrary strings as recipes, with all operations, selections and expectations. Files are in
 //! memory. Either the recipe is refused, or its result is valid.
 
 #![no_main]

@@ -38,7 +38,7 @@ proptest! {
     ) {
         for start in meshes() {
             let mut mesh = start;
-            // Coordinates are small integers, so that some vertices coincide and some faces have no area.
+            // Coordinates are small integers, so that some vertices coincide and some faces have zero area.
             let mut numbers = coordinates.iter().cycle().map(|&x| f64::from(x));
             for p in mesh.positions_mut() {
                 *p = DVec3::from_array([(); 3].map(|()| numbers.next().expect("the numbers are cyclic")));
@@ -52,7 +52,7 @@ proptest! {
                 } else {
                     code
                 };
-                // Every tenth edit is made in an inner level of the journal, which is then rolled back.
+                // Every tenth edit is made in an inner level of the journal, and this level is then rolled back.
                 if i % 10 == 9 {
                     let before = mesh.clone();
                     mesh.begin();
@@ -65,9 +65,9 @@ proptest! {
             let end = mesh.clone();
             let change = mesh.commit().expect("the outermost level");
             let redo = mesh.revert(change);
-            prop_assert!(mesh == start, "reverting does not restore the start");
+            prop_assert!(mesh == start, "reverting does not restore the initial mesh");
             mesh.revert(redo);
-            prop_assert!(mesh == end, "redoing does not restore the end");
+            prop_assert!(mesh == end, "redoing does not restore the final mesh");
         }
     }
 }

@@ -5,14 +5,14 @@ use mesh::{DVec3, Domain, EdgeId, EditError, FaceId, HalfEdgeId, Mesh, Seams, Ve
 /// The number of kinds of edits.
 const KINDS: u8 = 27;
 
-/// An encoded edit: its kind, and numbers that choose its elements and parameters.
+/// An encoded edit: its kind, and numbers that determine its elements and parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct EditCode {
     /// The kind of edit.
     pub(crate) kind: u8,
-    /// Chooses the first element.
+    /// Determines the first element.
     pub(crate) a: u16,
-    /// Chooses a second element.
+    /// Determines the second element.
     pub(crate) b: u16,
     /// A small integer for positions and fractions.
     pub(crate) place: i8,
@@ -37,10 +37,10 @@ impl EditCode {
 
 const SPLIT: u8 = 1;
 
-/// Applies the edit. Numbers can be beyond the last element, and elements can be dead.
+/// Applies the edit. Ids can be beyond the last element, and elements can be dead.
 ///
 /// # Errors
-/// The reason why the edit was refused.
+/// The reason for which the edit was refused.
 pub(crate) fn edit(mesh: &mut Mesh, code: EditCode) -> Result<(), EditError> {
     let EditCode { kind, a, b, place } = code;
     let e = EdgeId::new(pick(mesh, Domain::Edge, a));
@@ -111,7 +111,7 @@ pub(crate) fn edit(mesh: &mut Mesh, code: EditCode) -> Result<(), EditError> {
     }
 }
 
-/// Returns the number of an element, or a number beyond the last element.
+/// Returns the id of an element, or an id beyond the last element.
 fn pick(mesh: &Mesh, domain: Domain, number: u16) -> usize {
     usize::from(number) % (mesh.domain_len(domain) + 1)
 }
@@ -126,7 +126,7 @@ fn exists(mesh: &Mesh, h: HalfEdgeId) -> bool {
     mesh.has_edge(h.edge())
 }
 
-/// Returns the half-edge that is k steps further around the face or the hole, where k is `steps` modulo 6.
+/// Returns the half-edge k steps after `h` around the face or the hole, where k is `steps` modulo 6.
 fn later(mesh: &Mesh, h: HalfEdgeId, steps: u16) -> HalfEdgeId {
     if exists(mesh, h) {
         (0..steps % 6).fold(h, |h, _| mesh.next(h))
@@ -135,7 +135,7 @@ fn later(mesh: &Mesh, h: HalfEdgeId, steps: u16) -> HalfEdgeId {
     }
 }
 
-/// Returns the half-edge that is k steps further around the vertex, where k is `steps` modulo 6.
+/// Returns the half-edge k steps after `h` around the vertex, where k is `steps` modulo 6.
 fn around(mesh: &Mesh, h: HalfEdgeId, steps: u16) -> HalfEdgeId {
     if exists(mesh, h) {
         (0..steps % 6).fold(h, |h, _| mesh.next(h.twin()))
@@ -144,7 +144,7 @@ fn around(mesh: &Mesh, h: HalfEdgeId, steps: u16) -> HalfEdgeId {
     }
 }
 
-/// Returns the first half-edge of a hole, counting from `h` on. If the mesh has no hole, returns `h`.
+/// Returns the first half-edge of a hole, starting at `h`. If the mesh has no hole, returns `h`.
 fn hole(mesh: &Mesh, h: HalfEdgeId) -> HalfEdgeId {
     let n = mesh.domain_len(Domain::Corner);
     (0..n)
@@ -154,7 +154,7 @@ fn hole(mesh: &Mesh, h: HalfEdgeId) -> HalfEdgeId {
 }
 
 /// Applies the edit and checks the guarantees of every edit. The mesh stays valid. If the mesh has no duplicate edges,
-/// the edit creates none, unless the documentation of the edit says that it can. If the edit is refused, nothing
+/// the edit creates no duplicate edges, unless the documentation of the edit says that it can. If the edit is refused, nothing
 /// changes.
 ///
 /// # Panics

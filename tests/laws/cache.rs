@@ -91,7 +91,7 @@ fn all_files(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// Damages every n-th file in one of four ways: one bit is changed, or the file is truncated, removed, or replaced by a
+/// Damages every n-th file in one of four ways: one bit is changed, or the file is truncated, removed, or replaced with a
 /// different file.
 fn damage(folder: &Path, n: usize) {
     let files = all_files(folder);

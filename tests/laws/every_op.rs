@@ -60,7 +60,7 @@ impl Case {
         self.run_on(self.scene.clone(), output, progress)
     }
 
-    /// Like [`run`](Self::run), on another scene.
+    /// Like [`run`](Self::run), but on another scene.
     pub(crate) fn run_on(
         &self,
         mut scene: Scene,
@@ -178,8 +178,8 @@ fn results_and_refusals_are_the_same_twice_and_for_any_number_of_threads() {
     assert_none(&failures);
 }
 
-/// Returns the part of a result that must be equal between runs. File errors are left out, because temporary folders
-/// have different names each time.
+/// Returns the part of a result that must be equal in all runs. File errors are left out, because temporary folders
+/// have a different name in each run.
 fn summary(result: &StepResult) -> String {
     match result {
         Ok((scene, report)) => format!("{} {report:?}", scene.digest()),
@@ -265,7 +265,7 @@ fn differences(scene: &Scene, plan: &Plan) -> Vec<String> {
         .iter()
         .map(|o| (o.name.as_str(), o.geometry.kind()))
         .collect();
-    // An incomplete plan has only some of the objects.
+    // An incomplete plan contains only some of the objects.
     let is_known = |object: &&(&str, &str)| !plan.incomplete || planned.contains(object);
     let known: Vec<_> = found.iter().filter(is_known).copied().collect();
     if known != planned {

@@ -8,7 +8,7 @@ use super::{assert_none, root};
 /// The crates that can access files directly: the program, the store, the step cache on disk, and benchmarks.
 const ALLOWED: [&str; 4] = ["benches", "cache", "cli", "store"];
 
-/// The words in source code that show direct access to files or clocks.
+/// The names in source code that indicate direct access to files or clocks.
 const WORDS: [&str; 13] = [
     "std::fs",
     "File::open",

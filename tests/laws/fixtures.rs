@@ -56,7 +56,7 @@ pub(crate) fn meshes() -> Vec<(&'static str, Mesh)> {
     ]
 }
 
-/// Returns the faces of a mesh as lists of vertex numbers, in order.
+/// Returns the faces of a mesh as lists of vertex ids, in order.
 fn polygons(mesh: &Mesh) -> Vec<Vec<u32>> {
     let number = |v: mesh::VertexId| u32::try_from(v.index()).expect("ids have 32 bits");
     mesh.faces()
@@ -252,6 +252,6 @@ fn the_fixtures_have_the_intended_properties() {
             "{name}"
         );
     }
-    // The mesh must have more vertices than one block of a sum that is computed in blocks.
+    // Some sums are computed in blocks. The mesh must have more vertices than one block.
     assert!(mesh("large torus of triangles").n_vertices() > 4096);
 }

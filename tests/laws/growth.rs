@@ -1,5 +1,5 @@
-//! Checks how the time of operations and expectations grows. If the mesh is twice as large, the work must take at most
-//! 2.3 times as long.
+//! Checks how the time of operations and expectations grows. If the size of the mesh is doubled, the work must take at
+//! most 2.3 times as long.
 //!
 //! These tests measure times, because the work cannot be counted: the number of progress reports does not depend on the
 //! size of the mesh, and a quadratic search allocates no memory. The tests run only on request, on a machine that does
@@ -10,8 +10,8 @@
 //! ```
 //!
 //! Each time is the median of several runs on one thread. The mesh is doubled twice between compared times. If a growth
-//! is too large, it is measured again, and then on a mesh that is four times as large, because the time also jumps where
-//! the data no longer fit in a cache.
+//! is too large, it is measured again, and then on a mesh that is four times as large, because the time also jumps at the
+//! size at which the data no longer fit in a cache.
 
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
@@ -33,7 +33,7 @@ use crate::samples::samples;
 /// The maximum growth of the time when the mesh is doubled twice, which is 2.3 squared.
 const MAX_GROWTH: f64 = 2.3 * 2.3;
 
-/// The minimum time that is measured. Meshes are enlarged until the work takes this long.
+/// The minimum time of a measurement. Meshes are enlarged until the work takes this long.
 const LONG_ENOUGH: Duration = Duration::from_millis(4);
 
 /// The maximum time for the smallest mesh. If the work takes longer, the test fails.
@@ -42,7 +42,8 @@ const TOO_LONG: Duration = Duration::from_secs(20);
 /// The number of faces of the first mesh, and of the largest mesh before it is doubled twice.
 const SIZES: [usize; 2] = [1000, 64_000];
 
-/// Operations that are not tested: their samples fit no generated scene, or their work does not grow with the mesh.
+/// Operations that are not tested, because their samples fit no generated scene, or because their work does not grow
+/// with the mesh.
 const OTHER: &str =
     "Load Polygons MoveControlPoint CurveLevels SampleCurve CurveFigure HalfEdgeFigure";
 
@@ -66,7 +67,7 @@ const SELECTIONS: &[&str] = &[
     "TagFaces(name: \"new\", faces: Component(All))",
 ];
 
-/// Creates scenes of about this many faces. The meshes have the names of the fixtures of all operations.
+/// Creates scenes with about `n` faces. The meshes have the names of the fixtures of all operations.
 fn scenes(n: usize) -> Vec<(&'static str, Scene)> {
     let side = side(n);
     let of = |object: Object| {
@@ -106,7 +107,7 @@ fn side(n: usize) -> u32 {
     (6..u32::MAX).find(is_enough).expect("ids have 32 bits")
 }
 
-/// Returns `n` cubes beside each other, as one mesh.
+/// Returns one mesh of `n` cubes side by side.
 fn cubes(n: usize) -> Mesh {
     let cube = shapes::cube();
     let number = |v: VertexId| u32::try_from(v.index()).expect("ids have 32 bits");
@@ -196,7 +197,7 @@ fn growth(scene: impl Fn(usize) -> Scene, work: impl Fn(Scene) -> bool) -> Growt
     if first <= MAX_GROWTH {
         return Growth::By(first);
     }
-    // The time can jump once, where data no longer fit in a cache or memory is no longer reused. A search that is too slow
+    // The time can jump once, at the size at which data no longer fit in a cache or memory is no longer reused. A slow search
     // also shows on larger meshes.
     Growth::By(first.min(growth(&large, &scene(16 * n))))
 }

@@ -9,7 +9,7 @@ use proptest::prelude::*;
 
 use crate::fixtures;
 
-/// An edit with the number of its element. Numbers can be beyond the last element.
+/// An edit with the id of its element. Ids can be beyond the last element.
 #[derive(Clone, Copy, Debug)]
 enum Edit {
     Flip(usize),
@@ -55,7 +55,7 @@ proptest! {
         edits in proptest::collection::vec(edit(), 1..24),
     ) {
         let mut mesh = MESHES[which].clone();
-        // Coordinates are small integers, so that some vertices coincide and some triangles have no area.
+        // Coordinates are small integers, so that some vertices coincide and some triangles have zero area.
         let mut numbers = coordinates.iter().cycle().map(|&x| f64::from(x));
         for p in mesh.positions_mut() {
             *p = DVec3::from_array([(); 3].map(|()| numbers.next().expect("the numbers are cyclic")));
@@ -120,8 +120,7 @@ fn has_parallel_edges(mesh: &Mesh) -> bool {
     ends.windows(2).any(|pair| pair[0] == pair[1])
 }
 
-/// Returns the expected result of an edit, and the expected value of V - E + F: the number of vertices minus edges plus
-/// faces.
+/// Returns the expected result of an edit, and the expected value of V - E + F, the Euler characteristic.
 fn expected(mesh: &Mesh, oracle: &Polygons, edit: Edit) -> (Result<Polygons, EditError>, i64) {
     let euler = mesh.euler_characteristic();
     match edit {
@@ -203,13 +202,13 @@ fn corners(mesh: &Mesh, f: FaceId) -> Vec<u32> {
     lowest_first(mesh.face_vertices(f).map(number).collect())
 }
 
-/// Returns the lexicographically smallest rotation of a face. A face can visit its lowest vertex twice.
+/// Returns the lexicographically smallest rotation of a face. A face can contain its lowest vertex twice.
 fn lowest_first(face: Vec<u32>) -> Vec<u32> {
     let turned = |i: usize| [&face[i..], &face[..i]].concat();
     (0..face.len()).map(turned).min().unwrap_or(face)
 }
 
-/// A mesh as a polygon list. Vertices have the same numbers as in the mesh.
+/// A mesh as a polygon list. Vertices have the same ids as in the mesh.
 #[derive(Clone, Debug, PartialEq)]
 struct Polygons {
     positions: Vec<DVec3>,
@@ -261,7 +260,7 @@ impl Polygons {
         self.faces.iter().position(has_side)
     }
 
-    /// Flips the edge between two faces: each end moves to the next corner. The checks are in the same order as in the
+    /// Flips the edge between two faces, so that each end moves to the next corner. The checks are in the same order as in the
     /// mesh.
     fn flip(&self, [a, b]: [u32; 2], e: EdgeId) -> Result<Self, EditError> {
         let (Some(f), Some(g)) = (self.with_side(a, b), self.with_side(b, a)) else {
@@ -270,7 +269,7 @@ impl Polygons {
         if f == g {
             return Err(EditError::SameFace(e));
         }
-        // One face is rotated so that it starts with a, b, and the other so that it starts with b, a. Then c and d are
+        // One face is rotated so that it starts with a, b, and the other face starts with b, a. Then c and d are
         // the next corners.
         let from = |f: usize, start: (u32, u32)| {
             let mut face = self.faces[f].clone();
@@ -377,7 +376,7 @@ impl Polygons {
         if !beside.contains(&None) && is_open(a) && is_open(b) {
             return Err(EditError::JoinsBoundaries(e));
         }
-        // If a larger face is beside all three sides of a triangle, both sides of the remaining edge would be in that
+        // If a larger face is adjacent to all three sides of a triangle, both sides of the remaining edge would be in that
         // face.
         let around = |f: usize| sides(&self.faces[f]).map(|(x, y)| self.with_side(y, x));
         let is_within = |f: usize, g: usize| {
@@ -476,7 +475,7 @@ impl Polygons {
         n
     }
 
-    /// Returns the number of fans at a vertex: groups of corners that share edges at the vertex.
+    /// Returns the number of fans at a vertex. A fan is a group of corners that share edges at the vertex.
     fn n_fans(&self, v: u32) -> usize {
         let mut fans: Vec<Vec<u32>> = Vec::new();
         for face in &self.faces {

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-/// Returns the paths in a folder. If the folder does not exist, returns no paths.
+/// Returns the paths in a folder, or no paths if the folder does not exist.
 fn list(folder: PathBuf) -> impl Iterator<Item = PathBuf> {
     let entries = std::fs::read_dir(folder).into_iter().flatten();
     entries.map(|entry| entry.expect("the folder can be listed").path())

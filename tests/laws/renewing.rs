@@ -1,4 +1,4 @@
-//! Tests the update of the recorded numbers of a recipe: the update restores changed numbers and keeps the rest of the
+//! Tests the update of the recorded numbers of a recipe. The update restores changed numbers and keeps the rest of the
 //! text. The tests use the recipes in `scenes/`.
 
 use engine::FileReader;

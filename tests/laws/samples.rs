@@ -1,4 +1,5 @@
-//! The steps with which general properties are tested. The list has the example of each operation, and the steps below.
+//! The steps with which general properties are tested. The list contains the example of each operation, and the steps
+//! below.
 
 use op::{Entry, Registry};
 use proptest::collection::vec;

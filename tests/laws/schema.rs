@@ -7,7 +7,7 @@ use serde_json::Value as Json;
 use crate::samples::samples;
 use crate::{assert_none, recipes};
 
-/// Calls `visit` with each schema inside of this schema, and its path.
+/// Calls `visit` with each schema inside this schema, and its path.
 fn walk<'s>(schema: &'s Json, path: &str, visit: &mut impl FnMut(&'s Json, &str)) {
     visit(schema, path);
     match schema {
@@ -173,7 +173,7 @@ fn every_sample_fits_the_schema() {
     assert_none(&failures);
 }
 
-/// A recipe with one example of each kind of part.
+/// A recipe with an example of each part of the language.
 const VALID: &str = r#"(
     recipe: 1,
     about: "a bit of everything",
@@ -197,12 +197,12 @@ const VALID: &str = r#"(
 const BROKEN: &[(&str, &str, &str)] = &[
     ("recipe: 1,", "", "no version"),
     ("recipe: 1,", "recipe: 2,", "a different version"),
-    ("recipe: 1,", "recipe: \"1\",", "a version that is a text"),
+    ("recipe: 1,", "recipe: \"1\",", "a version that is a string"),
     ("about:", "abuot:", "an unknown field of the recipe"),
     (
         "about: \"a bit of everything\"",
         "about: 7",
-        "a number instead of a text",
+        "a number instead of a string",
     ),
     (
         "Int(default: 3, min: 1)",
@@ -228,7 +228,7 @@ const BROKEN: &[(&str, &str, &str)] = &[
     ("rows: 2", "rows: 0", "a number below its range"),
     ("rows: 2", "rows: -2", "a negative count"),
     ("rows: 2", "rows: 2.5", "a fraction instead of a count"),
-    ("rows: 2", "rows: \"2\"", "a text instead of a count"),
+    ("rows: 2", "rows: \"2\"", "a string instead of a count"),
     ("(0, 0, 1)", "(0, 0)", "a vector of two numbers"),
     ("(0, 0, 1)", "(0, 0, 1, 1)", "a vector of four numbers"),
     ("at: 0.25", "at: 1.5", "a number above its range"),
@@ -258,7 +258,7 @@ const BROKEN: &[(&str, &str, &str)] = &[
     (
         "on: [\"sheet\"]",
         "on: \"sheet\"",
-        "a text instead of a list",
+        "a string instead of a list",
     ),
     (
         "note: \"two\"",

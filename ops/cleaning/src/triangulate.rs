@@ -83,7 +83,9 @@ impl MeshOperation for Triangulate {
             return Ok(Report::default());
         }
         if 2 * (mesh.n_edges() + diagonals) >= u32::MAX as usize {
-            let message = format!("with {diagonals} new edges, the mesh would exceed the supported number of edges");
+            let message = format!(
+                "with {diagonals} new edges, the mesh would exceed the supported number of edges"
+            );
             return Err(OpError::refused(Refusal::Full, message));
         }
         cx.advance("triangulate", 1, 3)?;

@@ -37,7 +37,8 @@ const fn half() -> Fraction {
 
 impl MeshOperation for SplitEdges {
     const NAME: &'static str = "SplitEdges";
-    const SUMMARY: &'static str = "Insert a vertex on each edge and join it to the opposite corners";
+    const SUMMARY: &'static str =
+        "Insert a vertex on each edge and join it to the opposite corners";
     const EXAMPLE: &'static str = "SplitEdges(edges: All)";
     const WORDS: &'static [&'static str] = &["insert", "refine", "divide"];
     const DONE: &'static str = "split";

@@ -43,7 +43,8 @@ pub struct BevelFaces {
 
 impl MeshOperation for BevelFaces {
     const NAME: &'static str = "BevelFaces";
-    const SUMMARY: &'static str = "Shrink and raise faces, and surround each face with a ring of faces";
+    const SUMMARY: &'static str =
+        "Shrink and raise faces, and surround each face with a ring of faces";
     const EXAMPLE: &'static str = "BevelFaces(faces: All, fraction: 0.25, distance: 0.5)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {

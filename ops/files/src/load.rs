@@ -114,7 +114,8 @@ impl Operation for Load {
         let appended = scene.append(loaded.objects, loaded.graph);
         let left_out = appended.map_err(|error| OpError::Object(error.to_string()))?;
         if left_out > 0 {
-            let what = "parts of the document left out, because an earlier file already defines them";
+            let what =
+                "parts of the document left out, because an earlier file already defines them";
             report = report.count(what, left_out);
         }
         for note in &loaded.notes {

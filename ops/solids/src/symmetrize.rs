@@ -46,7 +46,8 @@ pub enum Side {
 
 impl MeshOperation for Symmetrize {
     const NAME: &'static str = "Symmetrize";
-    const SUMMARY: &'static str = "Replace one half of a mesh with the mirror image of the other half";
+    const SUMMARY: &'static str =
+        "Replace one half of a mesh with the mirror image of the other half";
     const EXAMPLE: &'static str = "Symmetrize(normal: (1, 0, 0))";
     const WORDS: &'static [&'static str] = &["mirror", "reflect", "plane"];
 

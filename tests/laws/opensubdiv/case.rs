@@ -37,7 +37,7 @@ impl Lines {
         self.after("vertex").map(|words| point(&words)).collect()
     }
 
-    /// Returns the corners of each face. A corner has a vertex and, if the case has uvs, the number of a uv.
+    /// Returns the corners of each face. A corner has a vertex and, if the case has uvs, the index of a uv.
     pub(super) fn faces(&self) -> Vec<Vec<(u32, Option<usize>)>> {
         let corner = |word: &&str| match word.split_once('/') {
             Some((v, uv)) => (parse(v), Some(parse(uv))),

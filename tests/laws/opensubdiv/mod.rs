@@ -11,7 +11,7 @@ use subdivision::{Rules, Scheme, subdivide};
 
 use case::{Lines, case, folder, mesh_of, parse, point, result, rules_of};
 
-/// The tolerance for equal numbers. The tolerance is necessary because the results have seven digits, and OpenSubdiv
+/// The tolerance for equal numbers. It is necessary because the results have seven digits, and OpenSubdiv
 /// stores sharpness as `f32`.
 const TOLERANCE: f64 = 1e-6;
 
@@ -271,16 +271,16 @@ fn assert_positions(case: &str, expected_values: &[([f64; 3], usize)]) {
 
 #[test]
 fn the_stored_results_of_small_meshes_equal_those_computed_by_hand() {
-    // With Loop subdivision, an old vertex p of valence 3 has the weight 7/16, and each neighbor the weight 3/16. The
+    // With Loop subdivision, an old vertex p of valence 3 has the weight 7/16, and each neighbor has the weight 3/16. The
     // sum of the neighbors is -p. For the new vertex on an edge, each end has the weight 3/8, and each of the two
-    // opposite vertices the weight 1/8.
+    // opposite vertices has the weight 1/8.
     let quarter = [0.0, 0.0, 0.25];
     assert_positions(
         "known_tetrahedron",
         &[(quarter, 3), ([0.25; 3], 1), ([0.0, 0.25, 0.25], 6)],
     );
     // With Catmull-Clark subdivision, an old vertex p of the cube has the weight 1/3, and each neighbor and each face
-    // point the weight 1/9. The sum of the three neighbors is p, and so is the sum of the three face points.
+    // point has the weight 1/9. The sum of the three neighbors is p, and the sum of the three face points is also p.
     let [near, corner, far] = [[0.0, 0.0, 1.0], [5.0 / 9.0; 3], [0.0, 0.75, 0.75]];
     assert_positions("known_cube", &[(near, 6), (corner, 8), (far, 12)]);
     // With sharpness 1/2, each position is halfway between the results of the smooth rule and the sharp rule. The sharp

@@ -154,8 +154,8 @@ fn hole(mesh: &Mesh, h: HalfEdgeId) -> HalfEdgeId {
 }
 
 /// Applies the edit and checks the guarantees of every edit. The mesh stays valid. If the mesh has no duplicate edges,
-/// the edit creates no duplicate edges, unless the documentation of the edit says that it can. If the edit is refused, nothing
-/// changes.
+/// the edit creates no duplicate edges, unless the documentation of the edit says that it can. If the edit is refused,
+/// nothing changes.
 ///
 /// # Panics
 ///

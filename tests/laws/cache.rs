@@ -91,8 +91,8 @@ fn all_files(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// Damages every n-th file in one of four ways: one bit is changed, or the file is truncated, removed, or replaced with a
-/// different file.
+/// Damages every n-th file in one of four ways: one bit is changed, or the file is truncated, removed, or replaced with
+/// a different file.
 fn damage(folder: &Path, n: usize) {
     let files = all_files(folder);
     for (i, path) in files.iter().enumerate().filter(|(i, _)| i % n == 0) {

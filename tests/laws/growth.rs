@@ -10,8 +10,8 @@
 //! ```
 //!
 //! Each time is the median of several runs on one thread. The mesh is doubled twice between compared times. If a growth
-//! is too large, it is measured again, and then on a mesh that is four times as large, because the time also jumps at the
-//! size at which the data no longer fit in a cache.
+//! is too large, it is measured again, and then on a mesh that is four times as large, because the time also jumps at
+//! the size at which the data no longer fit in a cache.
 
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
@@ -197,8 +197,8 @@ fn growth(scene: impl Fn(usize) -> Scene, work: impl Fn(Scene) -> bool) -> Growt
     if first <= MAX_GROWTH {
         return Growth::By(first);
     }
-    // The time can jump once, at the size at which data no longer fit in a cache or memory is no longer reused. A slow search
-    // also shows on larger meshes.
+    // The time can jump once, at the size at which data no longer fit in a cache or memory is no longer reused. A slow
+    // search also shows on larger meshes.
     Growth::By(first.min(growth(&large, &scene(16 * n))))
 }
 

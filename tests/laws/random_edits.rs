@@ -260,8 +260,8 @@ impl Polygons {
         self.faces.iter().position(has_side)
     }
 
-    /// Flips the edge between two faces, so that each end moves to the next corner. The checks are in the same order as in the
-    /// mesh.
+    /// Flips the edge between two faces, so that each end moves to the next corner. The checks are in the same order as
+    /// in the mesh.
     fn flip(&self, [a, b]: [u32; 2], e: EdgeId) -> Result<Self, EditError> {
         let (Some(f), Some(g)) = (self.with_side(a, b), self.with_side(b, a)) else {
             return Err(EditError::Boundary(e));
@@ -376,8 +376,8 @@ impl Polygons {
         if !beside.contains(&None) && is_open(a) && is_open(b) {
             return Err(EditError::JoinsBoundaries(e));
         }
-        // If a larger face is adjacent to all three sides of a triangle, both sides of the remaining edge would be in that
-        // face.
+        // If a larger face is adjacent to all three sides of a triangle, both sides of the remaining edge would be in
+        // that face.
         let around = |f: usize| sides(&self.faces[f]).map(|(x, y)| self.with_side(y, x));
         let is_within = |f: usize, g: usize| {
             let larger = self.faces[f].len() == 3 && self.faces[g].len() > 3;

@@ -3,7 +3,7 @@
 //! ```text
 //!       c                    c
 //!     /   ^                ^   \
-//!   /   f   \     --->   /   f   \       all counts and numbers stay the same
+//!   /   f   \     --->   /   f   \       all counts and ids stay the same
 //!  v         \          /         v
 //!  a ------> b          a <------ b
 //! ```

@@ -9,8 +9,8 @@
 //! ```
 //!
 //! A face with n corners becomes n - 2 triangles, which replace the face in the order of the faces. Vertices and edges
-//! keep their ids, and the n - 3 diagonals are added at the end. [`Triangulate`] documents which diagonals are
-//! chosen. The half-edges of the mesh are kept, and new half-edges are added. The mesh is not built again from triangles, so a
+//! keep their ids, and the n - 3 diagonals are added at the end. [`Triangulate`] documents which diagonals are chosen.
+//! The half-edges of the mesh are kept, and new half-edges are added. The mesh is not built again from triangles, so a
 //! closed mesh stays closed even where two diagonals join the same two vertices.
 
 mod assemble;

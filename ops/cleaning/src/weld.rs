@@ -3,7 +3,7 @@
 //! ```text
 //!    +-----+ +-----+            +-----+-----+
 //!    |     a b     |            |     |     |       a and b merge at the position of the one
-//!    |     | |     |    -->     |     |     |       with the lower number; so do c and d;
+//!    |     | |     |    -->     |     |     |       with the lower id; so do c and d;
 //!    |     c d     |            |     |     |       the two edges become one
 //!    +-----+ +-----+            +-----+-----+
 //! ```
@@ -20,9 +20,9 @@ use op::prelude::*;
 ///
 /// Vertices at most `distance` apart are linked, and vertices that are connected by a chain of links merge into one,
 /// even if the ends of the chain are farther apart than `distance`. The merged vertex has the position and the values
-/// of the vertex with the lowest id. The other vertices are removed, so the ids of later vertices change. Edges
-/// between the same two vertices become one edge with the values of the first edge. Corner values stay with their corners,
-/// so UV seams are kept.
+/// of the vertex with the lowest id. The other vertices are removed, so the ids of later vertices change. Edges between
+/// the same two vertices become one edge with the values of the first edge. Corner values stay with their corners, so
+/// UV seams are kept.
 ///
 /// If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
 /// corners left or would contain a vertex twice. If joined faces have opposite orientations, the smaller group is

@@ -19,8 +19,8 @@ use crate::moved::{Stretch, moved, next};
 /// The plane at `from` does not move. Between `from` and `to`, the axis becomes an arc that keeps its length and turns
 /// by `angle` in total. Vertices beyond `to` move rigidly. Vertices between the axis and the center of the circle move
 /// closer together, and vertices on the other side of the axis move apart. The distance between the center and the axis
-/// is (to - from) / angle, with the angle in radians. Parts of the mesh beyond the center turn inside out. Source: Barr,
-/// "Global and Local Deformations of Solid Primitives", 1984.
+/// is (to - from) / angle, with the angle in radians. Parts of the mesh beyond the center turn inside out. Source:
+/// Barr, "Global and Local Deformations of Solid Primitives", 1984.
 ///
 /// Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
 /// vertices move, so refine the mesh first if its faces are large.
@@ -40,8 +40,8 @@ pub struct Bend {
     /// The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate of the mesh.
     #[serde(default)]
     pub from: Option<Distance>,
-    /// The coordinate along the axis at which the deformation is complete. If omitted, the highest coordinate of the mesh. Must
-    /// not be less than `from`.
+    /// The coordinate along the axis at which the deformation is complete. If omitted, the highest coordinate of the
+    /// mesh. Must not be less than `from`.
     #[serde(default)]
     pub to: Option<Distance>,
     /// The vertices to move. If omitted, all vertices.

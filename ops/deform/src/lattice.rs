@@ -19,8 +19,8 @@ use crate::moved::moved;
 /// The box has a grid of `size` control points along x, y and z. `moves` moves some of them, and the space in the box
 /// follows smoothly. Each point becomes a sum of the control points with Bernstein polynomials as weights (Sederberg,
 /// Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all control points move by the same offset, the
-/// whole box moves by this offset. A control point attracts the surface, but the surface usually does not reach it, except
-/// at the corners of the box.
+/// whole box moves by this offset. A control point attracts the surface, but the surface usually does not reach it,
+/// except at the corners of the box.
 ///
 /// Vertices outside the box do not move. Faces, element ids and attributes do not change, so textures stretch with the
 /// surface. Normals are dropped. Only vertices move, so refine the mesh first if its faces are large.

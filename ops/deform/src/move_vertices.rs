@@ -21,8 +21,8 @@ use crate::moved::moved;
 /// vertex, the movement is multiplied by the weight (1 - (d/r)²)². The weight is 1 at selected vertices and falls
 /// smoothly to 0 at the distance r. Distances are measured along straight lines, not along the surface.
 ///
-/// With `by: Distance(..)`, each vertex moves along its own normal, which is the mean of the normals of its faces, weighted
-/// by their areas. Vertices without a normal do not move and are counted.
+/// With `by: Distance(..)`, each vertex moves along its own normal, which is the mean of the normals of its faces,
+/// weighted by their areas. Vertices without a normal do not move and are counted.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MoveVertices {
@@ -30,8 +30,8 @@ pub struct MoveVertices {
     pub vertices: VertexSelection,
     /// How the vertices move.
     pub by: MoveBy,
-    /// The distance from the selected vertices at which the movement has fallen to 0, in scene units. If omitted, only the
-    /// selected vertices move.
+    /// The distance from the selected vertices at which the movement has fallen to 0, in scene units. If omitted, only
+    /// the selected vertices move.
     #[serde(default)]
     pub falloff: Option<PositiveLength>,
 }

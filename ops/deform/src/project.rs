@@ -16,12 +16,12 @@ use crate::moved::moved;
 
 /// Moves vertices onto the surface of another object (shrinkwrap).
 ///
-/// Only vertices in `vertices` that are not in `pin` move. All others keep their exact positions. Without `on`, the step
-/// acts on all meshes except the object `onto`, which does not change. Faces, element ids and attributes do not change, so
-/// textures stretch with the surface. Normals are dropped.
+/// Only vertices in `vertices` that are not in `pin` move. All others keep their exact positions. Without `on`, the
+/// step acts on all meshes except the object `onto`, which does not change. Faces, element ids and attributes do not
+/// change, so textures stretch with the surface. Normals are dropped.
 ///
-/// Vertices that would move farther than `distance` do not move. With `Normal` and `Direction`, vertices whose line misses
-/// the surface do not move either. The report counts both kinds of vertices.
+/// Vertices that would move farther than `distance` do not move. With `Normal` and `Direction`, vertices whose line
+/// misses the surface do not move either. The report counts both kinds of vertices.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Project {
@@ -48,8 +48,8 @@ pub enum ProjectAlong {
     /// To the nearest point of the surface.
     #[default]
     Nearest,
-    /// To the nearest point of the surface on the line through the vertex along its normal, on either side. The normal is
-    /// the sum of the area vectors of the faces of the vertex.
+    /// To the nearest point of the surface on the line through the vertex along its normal, on either side. The normal
+    /// is the sum of the area vectors of the faces of the vertex.
     Normal,
     /// To the first point of the surface in this direction.
     Direction(Direction),
@@ -142,8 +142,8 @@ mod tests {
         op::test::read(text).unwrap()
     }
 
-    /// Returns a scene with a sphere of radius 1 and a cube around it. The faces of the cube are divided, and their distance
-    /// from the center is 2.
+    /// Returns a scene with a sphere of radius 1 and a cube around it. The faces of the cube are divided, and their
+    /// distance from the center is 2.
     fn scene() -> Scene {
         let mut cube = subdivided_cube();
         cube.set(VERTEX_NORMAL, vec![DVec3::Z; cube.n_vertices()]);

@@ -17,7 +17,8 @@ use crate::moved::{Stretch, moved, next};
 /// Scales vertices towards or away from an axis, by a factor that changes along the axis.
 ///
 /// The factor changes linearly from 1 at `from` to `factor` at `to`. Below `from` and above `to`, the factor of the
-/// nearer end applies. Coordinates along the axis do not change. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
+/// nearer end applies. Coordinates along the axis do not change. Source: Barr, "Global and Local Deformations of Solid
+/// Primitives", 1984.
 ///
 /// Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
 /// vertices move, so refine the mesh first if its faces are large.
@@ -34,8 +35,8 @@ pub struct Taper {
     /// The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate of the mesh.
     #[serde(default)]
     pub from: Option<Distance>,
-    /// The coordinate along the axis at which the deformation is complete. If omitted, the highest coordinate of the mesh. Must
-    /// not be less than `from`.
+    /// The coordinate along the axis at which the deformation is complete. If omitted, the highest coordinate of the
+    /// mesh. Must not be less than `from`.
     #[serde(default)]
     pub to: Option<Distance>,
     /// The vertices to move. If omitted, all vertices.

@@ -35,8 +35,8 @@ pub struct Twist {
     /// The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate of the mesh.
     #[serde(default)]
     pub from: Option<Distance>,
-    /// The coordinate along the axis at which the deformation is complete. If omitted, the highest coordinate of the mesh. Must
-    /// not be less than `from`.
+    /// The coordinate along the axis at which the deformation is complete. If omitted, the highest coordinate of the
+    /// mesh. Must not be less than `from`.
     #[serde(default)]
     pub to: Option<Distance>,
     /// The vertices to move. If omitted, all vertices.

@@ -15,10 +15,11 @@ use op::prelude::*;
 
 /// Replaces edges with faces of constant width.
 ///
-/// A selected edge and both of its ends are removed. A new face replaces the edge. Its sides are parallel to the old edge,
-/// at the distance `width` on both sides. Each other edge at an end is cut at this distance from the old edge. Between
-/// two selected edges, the new vertex lies in the face. If three or more new vertices surround an old vertex, another new
-/// face joins them. All edges are beveled together, so a cube that is beveled at all edges keeps all of its symmetries.
+/// A selected edge and both of its ends are removed, and a new face replaces the edge. In both faces beside the edge,
+/// the new face ends at the distance `width` from the old edge. Each other edge at an end is cut at this distance.
+/// Between two selected edges, the new vertex lies in the face. If three or more new vertices surround an old vertex,
+/// another new face joins them. All edges are beveled together, so a cube that is beveled at all edges keeps all of its
+/// symmetries.
 ///
 /// The ends of the edges are removed, so the ids of later vertices change. New vertices get the highest ids. Faces
 /// keep their ids. New faces get the highest ids: first the faces of edges, in order of the edges, then the faces of
@@ -28,8 +29,8 @@ use op::prelude::*;
 /// values (material, tags) of one of the faces beside it. Which one is not specified, but it is the same in
 /// every run. New edges have zero values (no crease, no tags). Normals are dropped.
 ///
-/// An edge is refused if it is on the boundary, if one of its ends has only one other edge and this edge is not selected,
-/// or if the bevels at both ends of an edge would overlap.
+/// An edge is refused if it is on the boundary, if one of its ends has only one other edge and this edge is not
+/// selected, or if the bevels at both ends of an edge would overlap.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct BevelEdges {

@@ -38,7 +38,7 @@ pub struct CollapseEdges {
     pub edges: EdgeSelection,
     /// The position of the remaining vertex on the edge, from 0 to 1.
     ///
-    /// If `edges` is `Between(v, w)`, 0 is at v and 1 is at w. Otherwise 0 is at the end with the lower number.
+    /// If `edges` is `Between(v, w)`, 0 is at v and 1 is at w. Otherwise 0 is at the end with the lower id.
     #[serde(default = "half")]
     pub at: ClosedFraction,
     /// What to do when a collapse is refused.

@@ -10,11 +10,11 @@ use op::prelude::*;
 
 /// Removes edges and merges the faces beside them.
 ///
-/// Edges are removed in order of their numbers. Each removal is checked against the mesh as edited so far. After a
-/// removal, the mesh has 1 edge and 1 face less. Of the two faces beside the edge, the one with the lower number is
+/// Edges are removed in order of their ids. Each removal is checked against the mesh as edited so far. After a
+/// removal, the mesh has 1 edge and 1 face less. Of the two faces beside the edge, the face with the lower id is
 /// kept, with its values. No vertex is removed or moved. To remove vertices that are left with two edges, use
 /// `DissolveVertices(vertices: Valence(2))` in a later step. The remaining elements keep their order and their values
-/// but are renumbered.
+/// but get new ids.
 ///
 /// An edge is refused if it is on the boundary, if the same face is on both of its sides, if one of its ends has only
 /// two edges, or if its two faces have common corners other than its ends. An edge that is a seam is refused unless

@@ -21,10 +21,10 @@ use goal::Goal;
 
 /// Replaces the edge between two triangles with the other diagonal of the two triangles.
 ///
-/// Edges are flipped in order of their numbers. Each flip is checked against the mesh as edited so far. A flip is
+/// Edges are flipped in order of their ids. Each flip is checked against the mesh as edited so far. A flip is
 /// refused if the edge is on the boundary, if a face beside it is not a triangle, or if the opposite corners of the two
 /// triangles are already joined by an edge or are the same vertex. At a seam, a flip is refused unless `seams` is
-/// `Drop`. All elements keep their numbers, and no vertex moves. Vertices, edges and faces keep their values. Each
+/// `Drop`. All elements keep their ids, and no vertex moves. Vertices, edges and faces keep their values. Each
 /// triangle gets one new corner. The new corner takes the values that the other triangle has at the same vertex; all
 /// other corners keep their values.
 ///
@@ -39,7 +39,7 @@ use goal::Goal;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct FlipEdges {
-    /// The edges to flip. The edges are selected before the first flip. An edge keeps its number when it is flipped.
+    /// The edges to flip. The edges are selected before the first flip. An edge keeps its id when it is flipped.
     pub edges: EdgeSelection,
     /// Which edges are flipped, and when to stop.
     #[serde(default)]

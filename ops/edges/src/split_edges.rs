@@ -23,7 +23,7 @@ pub struct SplitEdges {
     pub edges: EdgeSelection,
     /// The position of the new vertex on the edge. From 0 to 1, exclusive.
     ///
-    /// If `edges` is `Between(v, w)`, 0 is at v and 1 is at w. Otherwise 0 is at the end with the lower number.
+    /// If `edges` is `Between(v, w)`, 0 is at v and 1 is at w. Otherwise 0 is at the end with the lower id.
     #[serde(default = "half")]
     pub at: Fraction,
     /// What to do when a split is refused.
@@ -97,7 +97,7 @@ mod tests {
     fn otherwise_the_position_is_measured_from_the_lower_number() {
         let mesh = applied(&parse("(edges: All, at: 0.25)"), shapes::icosahedron());
         let before = shapes::icosahedron();
-        // New vertices are in the order of the edges, and each new vertex is closer to the end with the lower number.
+        // New vertices are in the order of the edges, and each new vertex is closer to the end with the lower id.
         for (e, m) in before.edges().zip(12..) {
             let [a, b] = before.edge_vertices(e);
             let (low, high) = (a.min(b), a.max(b));

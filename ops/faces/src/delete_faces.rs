@@ -168,8 +168,8 @@ mod tests {
 
     #[test]
     fn a_refused_face_is_tried_again_after_later_faces() {
-        // Removing face 0 makes a vertex non-manifold while face 1 exists. Removing face 7, at the opposite corner, always
-        // makes a vertex non-manifold.
+        // Removing face 0 makes a vertex non-manifold while face 1 exists. Removing face 7, at the opposite corner,
+        // always makes a vertex non-manifold.
         let ring = applied(&parse("(faces: Faces([4]))"), shapes::grid(3, 3));
         let numbers = "(faces: Faces([0, 1, 7]), on_refusal: Skip)";
         let (mesh, report) = try_applied(&parse(numbers), ring).unwrap();

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!                             +------ +
-//!                            /   f   / |            f keeps its number and gets a new rim
+//!                            /   f   / |            f keeps its id and gets a new rim
 //!     +-------- +           +------ +  |
 //!    /    f    /     -->    |   s   | .+            s: one side face for each edge of the old rim,
 //!   +-------- +             +------ +               which does not move
@@ -25,21 +25,21 @@ use region::Region;
 ///
 /// Selected faces that share an edge form a region and move together, with one normal and one center. A region is first
 /// scaled, then rotated, both about the mean of its vertices, and then moved. Side faces with four corners are added
-/// along the rim of the region, which consists of the edges with a face of the region on one side only. If all faces of an
-/// open sheet are extruded, the result is a box that is open where the sheet was. A closed region has no rim and no
+/// along the rim of the region, which consists of the edges with a face of the region on one side only. If all faces of
+/// an open sheet are extruded, the result is a box that is open where the sheet was. A closed region has no rim and no
 /// normal, so its faces only move, and `by` must be an `Offset`.
 ///
-/// The faces keep their ids, so the same selection can be extruded again in later steps, for example to grow an arm
-/// out of a body. Vertices and edges inside a region also keep their ids. The vertices and edges of the old rim do
-/// not move, and the moved faces get a new rim. New side faces get the highest ids: region by region, in order of
-/// the lowest face id of each region, then in order of the faces, then counter-clockwise around each face from its first
+/// The faces keep their ids, so the same selection can be extruded again in later steps, for example to grow an arm out
+/// of a body. Vertices and edges inside a region also keep their ids. The vertices and edges of the old rim do not
+/// move, and the moved faces get a new rim. New side faces get the highest ids: region by region, in order of the
+/// lowest face id of each region, then in order of the faces, then counter-clockwise around each face from its first
 /// corner. New vertices are in the same order. Each new vertex is a copy of the first vertex of its side face.
 ///
 /// A side face has the values of the adjacent moved face (material, tags). The corners of a side face have the values
-/// of the corners of the moved face, so textures have no seam there. Each side face, however, shows only one line of the
-/// texture (the line along its edge), stretched over the face. The new edges of the rim have the values of the old ones
-/// (creases, tags), and the edges between the old and the new rim have zero values (no crease, no tags). Normals are
-/// dropped.
+/// of the corners of the moved face, so textures have no seam there. Each side face, however, shows only one line of
+/// the texture (the line along its edge), stretched over the face. The new edges of the rim have the values of the old
+/// ones (creases, tags), and the edges between the old and the new rim have zero values (no crease, no tags). Normals
+/// are dropped.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExtrudeFaces {

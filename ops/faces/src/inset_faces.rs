@@ -16,8 +16,8 @@ use op::prelude::*;
 ///
 /// Each face is inset separately, even if selected faces share edges. The inner face keeps the id of the face, and
 /// existing vertices do not move. A face with n corners adds n vertices, 2 n edges and n faces with four corners. New
-/// vertices and faces get the highest ids: in order of the selected faces, and counter-clockwise around each face from its
-/// first corner.
+/// vertices and faces get the highest ids: in order of the selected faces, and counter-clockwise around each face from
+/// its first corner.
 ///
 /// Values at the new corners and vertices are interpolated between the outer corner and the mean of the face, so
 /// textures do not change. The ring has the values of the face (material, tags), and the inner edges have the values of
@@ -29,8 +29,8 @@ use op::prelude::*;
 pub struct InsetFaces {
     /// The faces to inset.
     pub faces: FaceSelection,
-    /// The position of the corners of the inner face on the lines from the old corners to the center of the face. From 0
-    /// (the corner) to 1 (the center), exclusive.
+    /// The position of the corners of the inner face on the lines from the old corners to the center of the face. From
+    /// 0 (the corner) to 1 (the center), exclusive.
     pub fraction: Fraction,
     /// What to do when a face is refused.
     #[serde(default)]

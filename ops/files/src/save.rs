@@ -8,19 +8,19 @@ use op::{Loss, Operation, target_scene};
 
 /// Writes objects to a file in the output folder.
 ///
-/// The extension determines the format: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl` or `.off` for meshes, `.bez` for
-/// Bezier patches, `.bzc` for a curve, and `.mws` for a complete scene without any loss.
-/// `.csv` is a table of the positions and attributes of vertices, faces or corners, and `.npz` has the arrays of a mesh for
-/// `NumPy`. These two formats cannot be read. If the name ends with `.gz`, as in `a.obj.gz`, the file is compressed with
-/// gzip. Content that the format cannot store is reported. The file is only created when the whole recipe has succeeded.
+/// The extension determines the format: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl` or `.off` for meshes, `.bez` for Bezier
+/// patches, `.bzc` for a curve, and `.mws` for a complete scene without any loss. `.csv` is a table of the positions
+/// and attributes of vertices, faces or corners, and `.npz` has the arrays of a mesh for `NumPy`. These two formats
+/// cannot be read. If the name ends with `.gz`, as in `a.obj.gz`, the file is compressed with gzip. Content that the
+/// format cannot store is reported. The file is only created when the whole recipe has succeeded.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Save {
     /// The file. The path is relative to the output folder. `{name.stem}` is replaced by the name, without
     /// extension, of the file in the recipe parameter `name`.
     pub path: String,
-    /// What to do with the images of materials. By default, images are embedded in `.glb` files. For `.gltf` and `.obj`,
-    /// images in the folder of the source model are copied to the folder of the output file. OBJ cannot embed
+    /// What to do with the images of materials. By default, images are embedded in `.glb` files. For `.gltf` and
+    /// `.obj`, images in the folder of the source model are copied to the folder of the output file. OBJ cannot embed
     /// images, so embedded images are also written to files.
     #[serde(default)]
     pub images: Option<Images>,
@@ -28,8 +28,8 @@ pub struct Save {
     /// compressed.
     #[serde(default)]
     pub compress: Option<Compression>,
-    /// The number of bits for each attribute of the geometry in `.glb` and `.gltf` files. If omitted, numbers are stored
-    /// as 32-bit floats. `quantize: ()` uses the default of each attribute. The report lists the largest errors.
+    /// The number of bits for each attribute of the geometry in `.glb` and `.gltf` files. If omitted, numbers are
+    /// stored as 32-bit floats. `quantize: ()` uses the default of each attribute. The report lists the largest errors.
     #[serde(default)]
     pub quantize: Option<Quantization>,
     /// For `.gltf` and `.glb`, the number of sets of four joints that are written for each vertex of a skinned mesh. If

@@ -17,12 +17,12 @@ use op::prelude::*;
 /// Joins two holes with a band of faces.
 ///
 /// Each hole is identified by one of its vertices. An edge joins the two vertices, and the band goes around both holes
-/// from this edge. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and n - m evenly spread
-/// triangles. The step adds n edges and no vertices. The holes may be in one part of the mesh, which then gets a tunnel
-/// or a handle, or in two parts of one object. (`Join` joins two objects into one.)
+/// from this edge. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and n - m evenly
+/// spread triangles. The step adds n edges and no vertices. The holes may be in one part of the mesh, which then gets a
+/// tunnel or a handle, or in two parts of one object. (`Join` joins two objects into one.)
 ///
-/// New faces have the values of the adjacent faces at the longer hole. New corners have the values of the corners at the
-/// same vertices in the adjacent faces. Normals are dropped.
+/// New faces have the values of the adjacent faces at the longer hole. New corners have the values of the corners at
+/// the same vertices in the adjacent faces. Normals are dropped.
 ///
 /// The step is refused if a vertex is not on the boundary (`NotBoundary`), if both vertices are on the same hole
 /// (`WrongPlace`), or if the band would join two vertices that are already joined by an edge (`DuplicateEdge`). If the

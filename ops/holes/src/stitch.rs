@@ -3,7 +3,7 @@
 //! ```text
 //!    +-----+ +-----+          +-----+-----+
 //!    |     a b     |          |     |     |       a and b merge at the position of the one
-//!    |     | |     |    -->   |     |     |       with the lower number; so do c and d;
+//!    |     | |     |    -->   |     |     |       with the lower id; so do c and d;
 //!    |     c d     |          |     |     |       the two edges become one
 //!    +-----+ +-----+          +-----+-----+
 //! ```
@@ -23,12 +23,13 @@ use pairs::Pairs;
 /// with several edges is refused (`NonManifold`), and none of the coincident edges are joined. Unlike `Weld`, this
 /// operation never merges vertices inside the surface or vertices whose edges do not coincide.
 ///
-/// Of each pair of vertices or edges, the one with the lower id keeps its position and its values. The other vertex
-/// or edge is removed, so the ids of later elements change. Faces and corners do not change, so an edge whose sides have
+/// Of each pair of vertices or edges, the one with the lower id keeps its position and its values. The other vertex or
+/// edge is removed, so the ids of later elements change. Faces and corners do not change, so an edge whose sides have
 /// different UVs becomes a seam. Remaining holes with two edges are also closed.
 ///
 /// A pair is refused if both edges belong to the same face (`SameFace`), if the ends of an edge would become one vertex
-/// or a face would contain a vertex twice (`WrongPlace`), or if two edges would join the same vertices (`DuplicateEdge`).
+/// or a face would contain a vertex twice (`WrongPlace`), or if two edges would join the same vertices
+/// (`DuplicateEdge`).
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stitch {

@@ -17,11 +17,13 @@ use crate::MeasureOf;
 
 /// Stores a quantity, such as a curvature or a distance, as an attribute of vertices or faces.
 ///
-/// Later steps can select elements by the attribute with `Where`, `Displace` vertices by it, show it in a `Picture`, and save it
-/// to files. The attribute is not updated when the mesh changes. Positions and other attributes do not change. Quantities are
-/// computed in the space of the mesh, without the transforms of nodes. The report states the lowest, the mean and the highest value of each object.
+/// Later steps can select elements by the attribute with `Where`, `Displace` vertices by it, show it in a `Picture`,
+/// and save it to files. The attribute is not updated when the mesh changes. Positions and other attributes do not
+/// change. Quantities are computed in the space of the mesh, without the transforms of nodes. The report states the
+/// lowest, the mean and the highest value of each object.
 ///
-/// An attribute of the same name is replaced if it has one number for each element of the same kind. Otherwise the step fails.
+/// An attribute of the same name is replaced if it has one number for each element of the same kind. Otherwise the step
+/// fails.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Measure {
@@ -30,8 +32,8 @@ pub struct Measure {
     /// The name of the attribute. If omitted, the name of the quantity in lower case, such as `mean_curvature`.
     #[serde(default)]
     pub name: Option<AttributeName>,
-    /// The value for elements at which the quantity is not defined, such as the curvature of a vertex without faces. These
-    /// elements are counted. If omitted, 0 for quantities that can be negative, and -1 for all others.
+    /// The value for elements at which the quantity is not defined, such as the curvature of a vertex without faces.
+    /// These elements are counted. If omitted, 0 for quantities that can be negative, and -1 for all others.
     #[serde(default)]
     pub missing: Option<Number>,
 }

@@ -13,46 +13,49 @@ use crate::Measure;
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum MeasureOf {
-    /// The mean curvature at each vertex, in 1 / scene unit: 1 / r on a sphere of radius r, 1 / (2 r) on a cylinder, and
-    /// negative where the surface is concave (Cohen-Steiner, Morvan, 2003).
+    /// The mean curvature at each vertex, in 1 / scene unit: 1 / r on a sphere of radius r, 1 / (2 r) on a cylinder,
+    /// and negative where the surface is concave (Cohen-Steiner, Morvan, 2003).
     MeanCurvature,
-    /// The Gaussian curvature at each vertex, in 1 / scene unit²: the angle defect divided by the area of the vertex (Meyer,
-    /// Desbrun, Schröder, Barr, 2003). It is 1 / r² on a sphere, 0 on a cylinder, and negative at saddles.
+    /// The Gaussian curvature at each vertex, in 1 / scene unit²: the angle defect divided by the area of the vertex
+    /// (Meyer, Desbrun, Schröder, Barr, 2003). It is 1 / r² on a sphere, 0 on a cylinder, and negative at saddles.
     GaussianCurvature,
-    /// A principal curvature at each vertex, in 1 / scene unit: an eigenvalue of the curvature tensor of Cohen-Steiner and
-    /// Morvan, 2003. On a cylinder of radius r, the two principal curvatures are 0 and 1 / r.
+    /// A principal curvature at each vertex, in 1 / scene unit: an eigenvalue of the curvature tensor of Cohen-Steiner
+    /// and Morvan, 2003. On a cylinder of radius r, the two principal curvatures are 0 and 1 / r.
     PrincipalCurvature(Principal),
     /// The area of each face, in scene units².
     Area,
-    /// The area of each vertex, in scene units². Each face of the vertex contributes its area divided by its number of corners.
+    /// The area of each vertex, in scene units². Each face of the vertex contributes its area divided by its number of
+    /// corners.
     VertexArea,
     /// The smallest angle of each face, in degrees.
     MinAngle,
-    /// The aspect ratio of each face: 1 for regular polygons, more for others. Zero-area faces have none (Stimpson, Ernst,
-    /// Knupp, Pébay, Thompson, "The Verdict Geometric Quality Library", 2007).
+    /// The aspect ratio of each face: 1 for regular polygons, more for others. Zero-area faces have none (Stimpson,
+    /// Ernst, Knupp, Pébay, Thompson, "The Verdict Geometric Quality Library", 2007).
     AspectRatio,
-    /// The distance from each vertex to the nearest point of another mesh of the scene, in scene units. Unless `on` names
-    /// objects, all meshes but the other mesh are measured.
+    /// The distance from each vertex to the nearest point of another mesh of the scene, in scene units. Unless `on`
+    /// names objects, all meshes but the other mesh are measured.
     Distance {
         /// The name of the object with the other mesh.
         to: String,
-        /// Whether distances are negative inside the other mesh: where its winding number is more than 1/2 or less than -1/2.
+        /// Whether distances are negative inside the other mesh: where its winding number is more than 1/2 or less than
+        /// -1/2.
         #[serde(default)]
         signed: bool,
     },
-    /// The distance along the surface from each vertex to the nearest selected vertex, in scene units, by the heat method
-    /// (Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013; Sharp, Crane, 2020). On fine meshes of smooth surfaces, the mean
-    /// error is below 1 %. A vertex that no path of edges joins to a selected vertex has no distance.
+    /// The distance along the surface from each vertex to the nearest selected vertex, in scene units, by the heat
+    /// method (Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013; Sharp, Crane, 2020). On fine meshes of smooth
+    /// surfaces, the mean error is below 1 %. A vertex that no path of edges joins to a selected vertex has no
+    /// distance.
     Geodesic {
         /// The vertices to start from.
         from: VertexSelection,
     },
-    /// The thickness of the solid at each vertex, in scene units. For each face of the vertex, a ray starts at the vertex, runs
-    /// inward at a right angle to the face, and ends where it leaves the solid. The thickness is the length of the shortest
-    /// ray. If no ray leaves the solid, the vertex has no thickness.
+    /// The thickness of the solid at each vertex, in scene units. For each face of the vertex, a ray starts at the
+    /// vertex, runs inward at a right angle to the face, and ends where it leaves the solid. The thickness is the
+    /// length of the shortest ray. If no ray leaves the solid, the vertex has no thickness.
     Thickness,
-    /// The ambient occlusion of each vertex, from 0 (open) to 1 (enclosed), which is the fraction of the rays from the vertex that
-    /// meet the mesh. There are more rays near the normal, in proportion to the cosine of the angle.
+    /// The ambient occlusion of each vertex, from 0 (open) to 1 (enclosed), which is the fraction of the rays from the
+    /// vertex that meet the mesh. There are more rays near the normal, in proportion to the cosine of the angle.
     Occlusion {
         /// The number of rays from each vertex. At most 4096. Defaults to 64.
         #[serde(default = "sixty_four")]
@@ -61,9 +64,10 @@ pub enum MeasureOf {
         #[serde(default)]
         seed: u64,
     },
-    /// The winding number of another mesh of the scene around each vertex: 1 inside, 0 outside, and numbers between 0 and 1 near
-    /// gaps of the other mesh (Jacobson, Kavan, Sorkine-Hornung, 2013; Barill, Dickson, Schmidt, Levin, Jacobson, 2018). The error is usually
-    /// below 0.001. Unless `on` names objects, all meshes but the other mesh are measured.
+    /// The winding number of another mesh of the scene around each vertex: 1 inside, 0 outside, and numbers between 0
+    /// and 1 near gaps of the other mesh (Jacobson, Kavan, Sorkine-Hornung, 2013; Barill, Dickson, Schmidt, Levin,
+    /// Jacobson, 2018). The error is usually below 0.001. Unless `on` names objects, all meshes but the other mesh are
+    /// measured.
     Winding {
         /// The name of the object with the other mesh.
         of: String,
@@ -112,8 +116,8 @@ impl MeasureOf {
         }
     }
 
-    /// Returns the default value for elements at which the quantity is not defined: 0 for quantities that can be negative, and
-    /// otherwise -1.
+    /// Returns the default value for elements at which the quantity is not defined: 0 for quantities that can be
+    /// negative, and otherwise -1.
     pub(crate) fn default_missing(&self) -> f64 {
         match self {
             Self::MeanCurvature
@@ -134,12 +138,13 @@ impl MeasureOf {
         }
     }
 
-    /// Returns the values of a mesh, by index. Missing values are represented by values that are not finite. The mesh must be dense.
+    /// Returns the values of a mesh, by index. Missing values are represented by values that are not finite. The mesh
+    /// must be dense.
     ///
     /// # Errors
     ///
-    /// [`OpError::Object`] if the other mesh is missing or has no faces; [`OpError::Refused`] by a selection; [`OpError::Budget`];
-    /// [`OpError::Cancelled`].
+    /// [`OpError::Object`] if the other mesh is missing or has no faces; [`OpError::Refused`] by a selection;
+    /// [`OpError::Budget`]; [`OpError::Cancelled`].
     pub(crate) fn values(
         &self,
         mesh: &Mesh,

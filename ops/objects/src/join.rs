@@ -24,8 +24,8 @@ use crate::join::skin::KeptSkin;
 ///
 /// Each mesh becomes a part of the result. The ids of vertices, edges and faces follow the parts, in the order of the
 /// list. The parts are not connected, even where they touch. The result replaces the first mesh of the list in the
-/// scene; the other meshes are removed. If nodes place a part, the result contains a copy of the part for each node, with
-/// the transform of the node applied to its points. The result has no node.
+/// scene; the other meshes are removed. If nodes place a part, the result contains a copy of the part for each node,
+/// with the transform of the node applied to its points. The result has no node.
 ///
 /// If a part lacks an attribute that another part has, the elements of this part get the value zero, or -1 (no
 /// material) for material indices. Normals are dropped and reported as lost unless all parts have them. If an attribute

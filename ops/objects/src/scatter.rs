@@ -15,9 +15,9 @@ use scene::{Geometry, Node, Object, Placement, transformed};
 /// Places copies of an object on a surface, at random and evenly spread.
 ///
 /// Exactly `count` points are chosen so that they keep their distance from each other (Yuksel, "Sample Elimination for
-/// Generating Poisson Disk Sample Sets", 2015). Each copy is a node that references the object (an instance), so copies need almost no
-/// memory or file space. The node moves the origin of the object to the point. To make one mesh of all copies, use `Join`
-/// afterwards. If no node placed the object before, it then appears only at the points.
+/// Generating Poisson Disk Sample Sets", 2015). Each copy is a node that references the object (an instance), so copies
+/// need almost no memory or file space. The node moves the origin of the object to the point. To make one mesh of all
+/// copies, use `Join` afterwards. If no node placed the object before, it then appears only at the points.
 ///
 /// Without `object`, the result is a mesh of the points without faces. Its normals are those of the surface.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]

@@ -20,8 +20,8 @@ use scene::{Geometry, Graph, Object};
 /// parts are added after all other objects. Elements keep their order and their values, and every part has all
 /// materials. Vertices without a face are dropped and counted. A mesh without faces is refused.
 ///
-/// If nodes place the object, they place the first part after the step. Each of these nodes gets children that place the
-/// other parts.
+/// If nodes place the object, they place the first part after the step. Each of these nodes gets children that place
+/// the other parts.
 ///
 /// If parts of one component are separated, the edges and vertices between them are copied to both parts. If the faces
 /// of a part around a vertex form several fans, each fan gets a separate copy of the vertex.

@@ -30,15 +30,15 @@ use crate::transform::map::Map;
 ///
 /// Points are first scaled, then rotated, then moved. The step changes the points of meshes, patches, curves and
 /// polylines. If nodes of a glTF file place an object, the step changes the placements of these nodes instead, and
-/// everything below the nodes also moves. A skinned mesh moves with its joints. A node whose placement is animated gets a
-/// parent, which is moved instead. Without `on:`, root nodes with cameras and lights also move,
-/// unless `about` is `Center`. A curve must stay in the plane z = 0.
+/// everything below the nodes also moves. A skinned mesh moves with its joints. A node whose placement is animated gets
+/// a parent, which is moved instead. Without `on:`, root nodes with cameras and lights also move, unless `about` is
+/// `Center`. A curve must stay in the plane z = 0.
 ///
 /// Ids do not change. Normals and the deltas of morph targets are transformed; other attributes do not change. A mirror
 /// (one or three negative factors in `scale`) also reverses the faces, so that they are counter-clockwise seen from
 /// outside. The first corner of a face stays first, and the other corners follow in reverse order. In mirrored patches,
-/// u and v are exchanged, so that the outside stays the outside. A mirror drops attributes with the rule `Drop`, as does
-/// any step that changes the connectivity.
+/// u and v are exchanged, so that the outside stays the outside. A mirror drops attributes with the rule `Drop`, as
+/// does any step that changes the connectivity.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Transform {
@@ -63,8 +63,8 @@ pub struct Transform {
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Space {
-    /// The space of the scene. If nodes place an object, the placements of the nodes change. Otherwise the points of the object
-    /// change.
+    /// The space of the scene. If nodes place an object, the placements of the nodes change. Otherwise the points of
+    /// the object change.
     #[default]
     Scene,
     /// The space of each object. The points of the object change, and therefore all instances of the object.

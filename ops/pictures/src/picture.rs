@@ -1,7 +1,7 @@
 //! Picture: draws the scene into an image file.
 //!
 //! ```text
-//!   scene, selections, numbers --> view::Subject --view::Shot--> images --encode--> .png, .apng, .gif
+//!   scene, selections, quantities --> view::Subject --view::Shot--> images --encode--> .png, .apng, .gif
 //! ```
 
 mod colors;
@@ -26,9 +26,9 @@ use view::{ColorBy, Extent, HIGHLIGHT_COLOR, Shot, Subject, highlight};
 
 /// Draws the scene into an image file.
 ///
-/// The extension of the file determines the format: `.png` for an image or, with `turntable`, `.gif` for an animated GIF
-/// and `.apng` or `.png` for an animated PNG. The file is written only if the whole recipe succeeds. The scene does not
-/// change. Drawing needs no GPU and gives the same bytes on every machine.
+/// The extension of the file determines the format: `.png` for an image or, with `turntable`, `.gif` for an animated
+/// GIF and `.apng` or `.png` for an animated PNG. The file is written only if the whole recipe succeeds. The scene does
+/// not change. Drawing needs no GPU and gives the same bytes on every machine.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Picture {
@@ -232,7 +232,8 @@ impl Picture {
         Ok((images.map_err(op_error)?, notes))
     }
 
-    /// Returns the [`Extent`] of a scene, so that several scenes can be drawn in the same way without being in memory at the same time.
+    /// Returns the [`Extent`] of a scene, so that several scenes can be drawn in the same way without being in memory
+    /// at the same time.
     ///
     /// # Errors
     ///

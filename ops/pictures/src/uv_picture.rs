@@ -12,8 +12,8 @@ use crate::figure_file;
 ///
 /// The frame is the page of the texture, with u and v from 0 to 1 and v upwards. Thick lines are the borders of charts,
 /// and thin lines are the other edges. Coordinates outside the page are also drawn. They make the figure higher or its
-/// scale smaller. The extension of the file determines the format: `.svg` or `.png`. The file is written only if the whole
-/// recipe succeeds. The scene does not change.
+/// scale smaller. The extension of the file determines the format: `.svg` or `.png`. The file is written only if the
+/// whole recipe succeeds. The scene does not change.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct UvPicture {
@@ -46,8 +46,8 @@ pub enum UvFill {
     /// The charts, in eight colors that repeat.
     #[default]
     Charts,
-    /// The stretch of angles. A small circle on the surface becomes an ellipse in the texture, and the color shows the ratio
-    /// of its axes, from dark for 1 to bright for 1.5 or more.
+    /// The stretch of angles. A small circle on the surface becomes an ellipse in the texture, and the color shows the
+    /// ratio of its axes, from dark for 1 to bright for 1.5 or more.
     Stretch,
 }
 

@@ -19,14 +19,14 @@ use op::prelude::*;
 
 /// Creates a cube.
 ///
-/// The cube has 8 vertices and 6 squares: bottom (0, 2, 3, 1), top (4, 5, 7, 6), front (0, 1, 5, 4), right (1, 3, 7, 5),
-/// back (3, 2, 6, 7), left (2, 0, 4, 6). The id of a vertex is (x > center) + 2 (y > center) + 4 (z > center), where
-/// a true comparison counts as 1.
+/// The cube has 8 vertices and 6 squares: bottom (0, 2, 3, 1), top (4, 5, 7, 6), front (0, 1, 5, 4), right (1, 3, 7,
+/// 5), back (3, 2, 6, 7), left (2, 0, 4, 6). The id of a vertex is (x > center) + 2 (y > center) + 4 (z > center),
+/// where a true comparison counts as 1.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cube {
-    /// The name of the new object. Defaults to the name of the operation in lower case, with a number if this name is
-    /// taken.
+    /// The name of the new object. Defaults to the name of the operation in lower case, followed by a number if this
+    /// name is taken.
     #[serde(default)]
     pub name: Option<String>,
     /// The length of the edges, in scene units. More than 0.
@@ -35,8 +35,8 @@ pub struct Cube {
     /// The center of the cube, in scene units.
     #[serde(default)]
     pub center: Vector,
-    /// Whether to cut each square (a, b, c, d) along its diagonal from a to c into the triangles (a, b, c) and (a, c, d).
-    /// Square f becomes the faces 2 f and 2 f + 1. The diagonals are 0-3, 4-7, 0-5, 1-7, 3-6 and 2-4.
+    /// Whether to cut each square (a, b, c, d) along its diagonal from a to c into the triangles (a, b, c) and (a, c,
+    /// d). Square f becomes the faces 2 f and 2 f + 1. The diagonals are 0-3, 4-7, 0-5, 1-7, 3-6 and 2-4.
     #[serde(default)]
     pub triangles: bool,
 }

@@ -20,8 +20,8 @@ use op::prelude::*;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cylinder {
-    /// The name of the new object. Defaults to the name of the operation in lower case, with a number if this name is
-    /// taken.
+    /// The name of the new object. Defaults to the name of the operation in lower case, followed by a number if this
+    /// name is taken.
     #[serde(default)]
     pub name: Option<String>,
     /// The number of sides. At least 3. Defaults to 32.

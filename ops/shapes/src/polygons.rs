@@ -22,14 +22,14 @@ use op::prelude::*;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Polygons {
-    /// The name of the new object. Defaults to the name of the operation in lower case, with a number if this name is
-    /// taken.
+    /// The name of the new object. Defaults to the name of the operation in lower case, followed by a number if this
+    /// name is taken.
     #[serde(default)]
     pub name: Option<String>,
     /// The points `(x, y, z)`, in scene units. Points that no face uses become isolated vertices.
     pub points: Vec<Vector>,
-    /// The faces. Each face is a list of the indices of its points, counted from 0, in counter-clockwise order seen from
-    /// outside. A face has at least three points, without duplicates.
+    /// The faces. Each face is a list of the indices of its points, counted from 0, in counter-clockwise order seen
+    /// from outside. A face has at least three points, without duplicates.
     pub faces: Vec<Vec<u32>>,
 }
 
@@ -52,8 +52,8 @@ impl Polygons {
             );
             return Err(Problem::error(message).at(["faces", &at_face]));
         }
-        // The corners of the face, sorted by their points. The sort is stable, so corners with the same point keep their
-        // order.
+        // The corners of the face, sorted by their points. The sort is stable, so corners with the same point keep
+        // their order.
         let mut sorted: Vec<usize> = (0..face.len()).collect();
         sorted.sort_by_key(|&i| face[i]);
         let n = self.points.len();

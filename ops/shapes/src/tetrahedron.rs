@@ -15,13 +15,13 @@ use op::prelude::*;
 
 /// Creates a regular tetrahedron with 4 vertices and 4 triangles.
 ///
-/// The vertices are four of the eight corners of a cube with the same center. The signs of their coordinates relative to
-/// the center are (+, +, +), (-, -, +), (-, +, -) and (+, -, -), in this order.
+/// The vertices are four of the eight corners of a cube with the same center. The signs of their coordinates relative
+/// to the center are (+, +, +), (-, -, +), (-, +, -) and (+, -, -), in this order.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tetrahedron {
-    /// The name of the new object. Defaults to the name of the operation in lower case, with a number if this name is
-    /// taken.
+    /// The name of the new object. Defaults to the name of the operation in lower case, followed by a number if this
+    /// name is taken.
     #[serde(default)]
     pub name: Option<String>,
     /// The distance from the center to the vertices, in scene units. More than 0.

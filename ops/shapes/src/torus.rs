@@ -20,8 +20,8 @@ use op::prelude::*;
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Torus {
-    /// The name of the new object. Defaults to the name of the operation in lower case, with a number if this name is
-    /// taken.
+    /// The name of the new object. Defaults to the name of the operation in lower case, followed by a number if this
+    /// name is taken.
     #[serde(default)]
     pub name: Option<String>,
     /// The number of faces around the z axis. At least 3. Defaults to 32.
@@ -33,7 +33,8 @@ pub struct Torus {
     /// The distance from the z axis to the center of the tube, in scene units. More than 0.
     #[serde(default = "crate::one")]
     pub major: PositiveLength,
-    /// The radius of the tube, in scene units. More than 0. The tube intersects itself unless `minor` is less than `major`.
+    /// The radius of the tube, in scene units. More than 0. The tube intersects itself unless `minor` is less than
+    /// `major`.
     #[serde(default = "quarter")]
     pub minor: PositiveLength,
     /// The center of the torus, in scene units.

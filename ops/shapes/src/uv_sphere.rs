@@ -15,13 +15,13 @@ use op::prelude::*;
 
 /// Creates a sphere of meridians and rings, with poles at -z and +z.
 ///
-/// Vertex 0 is the lower pole. The circles of vertices follow from the bottom to the top; each starts in the direction +x
-/// and is counter-clockwise seen from above. The last vertex is the upper pole.
+/// Vertex 0 is the lower pole. The circles of vertices follow from the bottom to the top; each starts in the direction
+/// +x and is counter-clockwise seen from above. The last vertex is the upper pole.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct UvSphere {
-    /// The name of the new object. Defaults to the name of the operation in lower case, with a number if this name is
-    /// taken.
+    /// The name of the new object. Defaults to the name of the operation in lower case, followed by a number if this
+    /// name is taken.
     #[serde(default)]
     pub name: Option<String>,
     /// The number of meridians. At least 3. Defaults to 32.

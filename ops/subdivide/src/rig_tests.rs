@@ -6,8 +6,8 @@ use op::test::{applied, read};
 
 use crate::{CatmullClark, Midpoint};
 
-/// A sphere with weights of three joints and the deltas of a morph target. If `is_rigid`, each face and its neighbors follow
-/// all joints with the same weights.
+/// A sphere with weights of three joints and the deltas of a morph target. If `is_rigid`, each face and its neighbors
+/// follow all joints with the same weights.
 fn character(is_rigid: bool) -> Mesh {
     let mut mesh = applied(
         &read::<Midpoint>("(levels: 2)").unwrap(),

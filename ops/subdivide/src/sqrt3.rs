@@ -46,10 +46,10 @@ use crate::step::{Step, Until};
 /// boundary edges, but two steps of one level leave the boundary unchanged.
 ///
 /// Vertex attributes are smoothed with the weights of the positions. Corner values are interpolated linearly within one
-/// old triangle. A triangle next to a flipped edge covers parts of two old triangles. If the old edge was a seam, the triangle has
-/// texture coordinates of both sides, which distorts textures. New triangles copy the values of their old triangle.
-/// Parts of a boundary edge copy the values of the edge; other edges have zero values (no crease, no tags). Normals are
-/// dropped, because they would be wrong.
+/// old triangle. A triangle next to a flipped edge covers parts of two old triangles. If the old edge was a seam, the
+/// triangle has texture coordinates of both sides, which distorts textures. New triangles copy the values of their old
+/// triangle. Parts of a boundary edge copy the values of the edge; other edges have zero values (no crease, no tags).
+/// Normals are dropped, because they would be wrong.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sqrt3 {

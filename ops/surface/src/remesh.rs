@@ -19,9 +19,10 @@ use crate::simplify::triangles_problem;
 /// Replaces all triangles with nearly equilateral triangles of a given size, on the same surface.
 ///
 /// Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
-/// vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target length. All
-/// vertices lie on the original surface. The target length is either `length`, or it follows `curvature`: edges are
-/// short where the surface is curved, and long where it is flat (Dunyach and others, 2013). One of the two must be given. All faces must be triangles.
+/// vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target length.
+/// All vertices lie on the original surface. The target length is either `length`, or it follows `curvature`: edges are
+/// short where the surface is curved, and long where it is flat (Dunyach and others, 2013). One of the two must be
+/// given. All faces must be triangles.
 ///
 /// The following properties are kept:
 ///
@@ -34,9 +35,9 @@ use crate::simplify::triangles_problem;
 /// - Vertex tags: a new vertex has a tag if all old vertices around its position had the tag. Tagged vertices without
 ///   tagged neighbors and vertices with sharpness keep their exact positions.
 ///
-/// Edits that would turn a triangle over are refused. All elements get new ids. If the distance between the result and the
-/// original could exceed `error`, the step is refused as `Unreached`. With `on_refusal: Skip`, the mesh then does not
-/// change.
+/// Edits that would turn a triangle over are refused. All elements get new ids. If the distance between the result and
+/// the original could exceed `error`, the step is refused as `Unreached`. With `on_refusal: Skip`, the mesh then does
+/// not change.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Remesh {
@@ -57,8 +58,8 @@ pub struct Remesh {
     /// Vertices that keep their exact positions, for example `Boundary`. If omitted, no vertices.
     #[serde(default)]
     pub pin: Option<VertexSelection>,
-    /// The largest number of passes, from 1 to 1000. The step ends earlier if a pass changes almost nothing. Defaults to
-    /// 10.
+    /// The largest number of passes, from 1 to 1000. The step ends earlier if a pass changes almost nothing. Defaults
+    /// to 10.
     #[serde(default = "ten")]
     pub passes: Count<1, 1000>,
     /// What to do if the distance between the result and the original could exceed `error`.
@@ -70,8 +71,8 @@ pub struct Remesh {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct RemeshCurvature {
-    /// The intended distance between the surface and the triangles, in scene units. It is not guaranteed. To guarantee a
-    /// distance, use the parameter `error` of the step.
+    /// The intended distance between the surface and the triangles, in scene units. It is not guaranteed. To guarantee
+    /// a distance, use the parameter `error` of the step.
     pub error: PositiveLength,
     /// The smallest length, in scene units.
     pub min: PositiveLength,
@@ -102,8 +103,8 @@ impl Remesh {
     }
 }
 
-/// Returns the largest number of faces whose arrays fit the memory budget. The arrays are those of the result and of the
-/// copy that is changed.
+/// Returns the largest number of faces whose arrays fit the memory budget. The arrays are those of the result and of
+/// the copy that is changed.
 fn max_faces(mesh: &Mesh, budget: u64) -> usize {
     // Connectivity and positions, for half a vertex and one and a half edges for each face.
     const BYTES: u64 = 54;

@@ -54,7 +54,8 @@ pub struct Simplify {
     /// Vertices that keep their exact positions, for example `Boundary`. If omitted, no vertices.
     #[serde(default)]
     pub pin: Option<VertexSelection>,
-    /// Whether the step may create intersections of faces. They can occur where parts of the surface are close together.
+    /// Whether the step may create intersections of faces. They can occur where parts of the surface are close
+    /// together.
     #[serde(default)]
     pub intersections: Intersections,
     /// What to do if the number of faces cannot be reached.

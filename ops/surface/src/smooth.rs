@@ -44,8 +44,8 @@ pub struct Smooth {
     /// How vertices on the boundary move.
     #[serde(default)]
     pub boundary: SmoothBoundary,
-    /// Whether the moved vertices are finally shifted along their normals, all by the same distance, until the mesh has its
-    /// original volume. The mesh must be closed.
+    /// Whether the moved vertices are finally shifted along their normals, all by the same distance, until the mesh has
+    /// its original volume. The mesh must be closed.
     #[serde(default)]
     pub keep_volume: bool,
 }
@@ -69,11 +69,12 @@ pub enum SmoothBy {
         /// The weights of the neighbors.
         #[serde(default)]
         weights: SmoothWeights,
-        /// The distance of the first step, as a fraction of the distance to the mean. From 0 to 1, exclusive. Above about
-        /// 0.65, the step back amplifies noise. Defaults to 0.33.
+        /// The distance of the first step, as a fraction of the distance to the mean. From 0 to 1, exclusive. Above
+        /// about 0.65, the step back amplifies noise. Defaults to 0.33.
         #[serde(default = "taubin_factor")]
         factor: Fraction,
-        /// The frequency below which shapes are kept. A lower value smooths more. From 0 to 1, exclusive. Defaults to 0.05.
+        /// The frequency below which shapes are kept. A lower value smooths more. From 0 to 1, exclusive. Defaults to
+        /// 0.05.
         #[serde(default = "pass_band")]
         pass_band: Fraction,
     },
@@ -111,8 +112,8 @@ pub enum SmoothBoundary {
     /// The vertices do not move.
     #[default]
     Fixed,
-    /// The boundary is smoothed as curves, so only neighbors along the boundary affect a vertex. With `Denoise`, vertices on
-    /// the boundary move like all other vertices.
+    /// The boundary is smoothed as curves, so only neighbors along the boundary affect a vertex. With `Denoise`,
+    /// vertices on the boundary move like all other vertices.
     Free,
 }
 

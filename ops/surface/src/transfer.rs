@@ -15,17 +15,18 @@ use op::prelude::*;
 
 /// Copies attributes from the nearest points of another object.
 ///
-/// An attribute of vertices, corners or faces of the object `from` becomes an attribute of the same kind. Numbers and vectors
-/// of vertices and corners are interpolated inside the face of the nearest point. Whole numbers, tags, and attributes that
-/// edits do not interpolate are copied from the nearest corner of this face. Values of faces are copied from this face. An
-/// existing attribute with the same type of values is overwritten. Without `on`, the step acts on all meshes except `from`.
+/// An attribute of vertices, corners or faces of the object `from` becomes an attribute of the same kind. Numbers and
+/// vectors of vertices and corners are interpolated inside the face of the nearest point. Whole numbers, tags, and
+/// attributes that edits do not interpolate are copied from the nearest corner of this face. Values of faces are copied
+/// from this face. An existing attribute with the same type of values is overwritten. Without `on`, the step acts on
+/// all meshes except `from`.
 ///
-/// All corners of a face take their values from one chart of the source, that is, from faces that are connected without crossing
-/// a seam of the attribute. The chart is the one nearest to the center of the face, so no triangle is stretched across a seam of
-/// texture coordinates.
+/// All corners of a face take their values from one chart of the source, that is, from faces that are connected without
+/// crossing a seam of the attribute. The chart is the one nearest to the center of the face, so no triangle is
+/// stretched across a seam of texture coordinates.
 ///
-/// Elements whose distance from the source exceeds `within` keep their values, or get zeros if the attribute is new, and are
-/// counted. If this applies to a corner of a face, it applies to all corners of the face.
+/// Elements whose distance from the source exceeds `within` keep their values, or get zeros if the attribute is new,
+/// and are counted. If this applies to a corner of a face, it applies to all corners of the face.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Transfer {
@@ -217,8 +218,8 @@ impl Source<'_> {
         Some([(face, 1.0), (face, 0.0), (face, 0.0)])
     }
 
-    /// Returns the origins of all corners. `vertices` and `faces` are the nearest points of the vertices and of the centers of
-    /// the faces of the target.
+    /// Returns the origins of all corners. `vertices` and `faces` are the nearest points of the vertices and of the
+    /// centers of the faces of the target.
     fn of_corners(
         &self,
         target: &Mesh,
@@ -266,8 +267,8 @@ impl Source<'_> {
     }
 }
 
-/// Returns the index of the chart of each face, by face index, and the faces of each chart. The faces of a chart are connected
-/// by edges at which the values of the corners are the same on both sides.
+/// Returns the index of the chart of each face, by face index, and the faces of each chart. The faces of a chart are
+/// connected by edges at which the values of the corners are the same on both sides.
 fn charts(mesh: &Mesh, values: &Values) -> (Vec<usize>, Vec<Vec<FaceId>>) {
     let mut chart_of_face = vec![usize::MAX; mesh.domain_len(Domain::Face)];
     let mut charts: Vec<Vec<FaceId>> = Vec::new();
@@ -299,7 +300,8 @@ fn charts(mesh: &Mesh, values: &Values) -> (Vec<usize>, Vec<Vec<FaceId>>) {
     (chart_of_face, charts)
 }
 
-/// Returns the new column of the target: values of `column` at the origins, and the values of `old`, or zeros, elsewhere.
+/// Returns the new column of the target: values of `column` at the origins, and the values of `old`, or zeros,
+/// elsewhere.
 fn transferred(column: &Column, old: Option<&Column>, origins: &[Origin]) -> Column {
     let mut values = column.values.clone();
     let n = values.len();

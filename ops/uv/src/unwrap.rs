@@ -17,10 +17,11 @@ use crate::attribute::{coverage, error, padding, padding_problem, page, page_of,
 
 /// Computes texture coordinates without overlaps.
 ///
-/// The surface is cut into charts, which are flattened and packed into a square page. Charts grow from flat regions up to
-/// `max_angle`. They are flattened by least squares conformal maps (Levy and others, 2002) and the as-rigid-as-possible
-/// method (Liu and others, 2008), and are cut again where they would overlap themselves or exceed `max_stretch`. All
-/// charts of a mesh have the same scale, and no chart is mirrored. A polygon stays in one chart. Each mesh gets its own page.
+/// The surface is cut into charts, which are flattened and packed into a square page. Charts grow from flat regions up
+/// to `max_angle`. They are flattened by least squares conformal maps (Levy and others, 2002) and the
+/// as-rigid-as-possible method (Liu and others, 2008), and are cut again where they would overlap themselves or exceed
+/// `max_stretch`. All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays in one chart.
+/// Each mesh gets its own page.
 ///
 /// The coordinates are written to the corner attribute `uv`, which is replaced if it exists. Edges at which charts meet
 /// become its seams. Positions, faces and other attributes do not change, but tangents are removed. Zero-area faces

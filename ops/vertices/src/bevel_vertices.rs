@@ -17,16 +17,16 @@ use op::prelude::*;
 /// the cuts. The new face has as many corners as the vertex had edges. If both ends of an edge are selected, the
 /// fraction must be below 0.5. For example, a fraction of 0.25 turns a cube into a truncated cube.
 ///
-/// The selected vertices are removed, so the ids of later vertices change. New vertices get the highest ids, in order of
-/// the selected vertices and clockwise around each vertex. Faces keep their ids; new faces get the highest ids, in
+/// The selected vertices are removed, so the ids of later vertices change. New vertices get the highest ids, in order
+/// of the selected vertices and clockwise around each vertex. Faces keep their ids; new faces get the highest ids, in
 /// order of the vertices.
 ///
 /// Values at the cuts are interpolated between the ends of the edge, so textures do not change. A new face has the
 /// values (material, tags) of one of the faces at the vertex. Which of the faces is not specified, but the choice is
 /// the same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
 ///
-/// A vertex is refused if it is on the boundary, if it has fewer than three edges, or if one of its edges is too short after
-/// earlier cuts.
+/// A vertex is refused if it is on the boundary, if it has fewer than three edges, or if one of its edges is too short
+/// after earlier cuts.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct BevelVertices {
@@ -50,7 +50,8 @@ impl MeshOperation for BevelVertices {
         if done.max > 0 {
             // An edge is cut at most at both ends, and a beveled vertex has at least three edges.
             let cuts = Range::between(done.by(3).min, plan.edges.by(2).max);
-            // A new face has as many corners as its vertex had edges. An old face gains at most one corner for each corner.
+            // A new face has as many corners as its vertex had edges. An old face gains at most one corner for each
+            // corner.
             let gained = plan.degrees.by(2).max;
             plan.degrees = Range::between(3, gained.max(plan.edges.max));
             let new = Range::between(done.by(2).min, cuts.max.saturating_sub(done.min));

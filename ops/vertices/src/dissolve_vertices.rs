@@ -12,7 +12,7 @@ use op::prelude::*;
 
 /// Removes vertices and merges the faces around them.
 ///
-/// Vertices are removed in order of their numbers. Each removal is checked against the mesh as edited so far. All faces
+/// Vertices are removed in order of their ids. Each removal is checked against the mesh as edited so far. All faces
 /// around the vertex become one face, which has the id and the values of the face with the lowest id. If the
 /// vertex is on the boundary, its two boundary edges become one. If the vertex has only two edges, these edges become
 /// one edge, and the faces beside the edge lose a corner. When two edges become one, the edge with the lower id is

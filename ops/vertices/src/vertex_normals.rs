@@ -11,8 +11,8 @@
 //! ```
 //!
 //! n(f) is the unit normal of f. The area of f is the length of its area vector, which is half the sum of the cross
-//! products of consecutive corners (Newell's method). The area vector is also defined for polygons that are not flat. With the
-//! weight `Area`, N is the sum of the area vectors.
+//! products of consecutive corners (Newell's method). The area vector is also defined for polygons that are not flat.
+//! With the weight `Area`, N is the sum of the area vectors.
 //!
 //! The best weight depends on the surface that the mesh approximates. Max, "Weights for Computing Vertex Normals
 //! from Facet Normals", 1999, compares the weights. With `Angle`, the normals do not depend on how faces are
@@ -27,9 +27,9 @@ pub use gather::normals;
 
 /// Computes a unit normal for every vertex, from the faces around it.
 ///
-/// The normals are written to the vertex attribute `normal`, which is replaced if it exists. Corner normals are removed,
-/// because they would contradict the vertex normals. A vertex that has no faces, or whose face normals cancel each
-/// other out, gets the zero vector and is counted.
+/// The normals are written to the vertex attribute `normal`, which is replaced if it exists. Corner normals are
+/// removed, because they would contradict the vertex normals. A vertex that has no faces, or whose face normals cancel
+/// each other out, gets the zero vector and is counted.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct VertexNormals {
@@ -112,8 +112,8 @@ mod tests {
         sums.into_iter().map(DVec3::normalize_or_zero).collect()
     }
 
-    /// Returns a closed fan of triangles around vertex 0, which is at height `peak`. `rim` has the distance from the axis
-    /// and the height of each other vertex.
+    /// Returns a closed fan of triangles around vertex 0, which is at height `peak`. `rim` has the distance from the
+    /// axis and the height of each other vertex.
     fn umbrella(rim: &[(f64, f64)], peak: f64) -> Mesh {
         let n = rim.len();
         let mut points = vec![DVec3::new(0.0, 0.0, peak)];

@@ -271,8 +271,8 @@ fn assert_positions(case: &str, expected_values: &[([f64; 3], usize)]) {
 
 #[test]
 fn the_stored_results_of_small_meshes_equal_those_computed_by_hand() {
-    // With Loop subdivision, an old vertex p of valence 3 has the weight 7/16, and each neighbor has the weight 3/16. The
-    // sum of the neighbors is -p. For the new vertex on an edge, each end has the weight 3/8, and each of the two
+    // With Loop subdivision, an old vertex p of valence 3 has the weight 7/16, and each neighbor has the weight 3/16.
+    // The sum of the neighbors is -p. For the new vertex on an edge, each end has the weight 3/8, and each of the two
     // opposite vertices has the weight 1/8.
     let quarter = [0.0, 0.0, 0.25];
     assert_positions(

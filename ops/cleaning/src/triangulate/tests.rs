@@ -223,7 +223,8 @@ fn concave_faces_are_covered_once() {
         (0., 1.),
         (1., 1.),
     ];
-    // A square with a square hole. A slit connects the hole to the border, and two vertices coincide at each end of the slit.
+    // A square with a square hole. A slit connects the hole to the border, and two vertices coincide at each end of the
+    // slit.
     let keyhole = [
         (0., 0.),
         (4., 0.),

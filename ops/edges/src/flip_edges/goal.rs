@@ -10,12 +10,12 @@
 //! improvement if the energy of the two new triangles is lower than the energy of the two old ones. The sum over a mesh
 //! is the trace of its cotangent Laplacian (Pinkall and Polthier, "Computing Discrete Minimal Surfaces and Their
 //! Conjugates", 1993). For each vertex, take the Dirichlet energy of the function that is 1 at the vertex and 0 at all
-//! other vertices. The trace is the sum of these energies. In the plane, a flip does not change the Dirichlet energy of linear functions. For all
-//! other functions, a flip changes the Dirichlet energy by a quadratic form of rank 1. The sign of this form depends
-//! on whether the fourth corner is inside the circle through the other three corners (Rippa, "Minimal Roughness
-//! Property of the Delaunay Triangulation", 1990). So in the plane a flip reduces the energy exactly if the edge is not
-//! Delaunay, and flipping these edges ends with the Delaunay triangulation (Lawson, "Software for C1 Surface
-//! Interpolation", 1977). Four times the sum is the harmonic index of Musin, "Properties of the Delaunay
+//! other vertices. The trace is the sum of these energies. In the plane, a flip does not change the Dirichlet energy of
+//! linear functions. For all other functions, a flip changes the Dirichlet energy by a quadratic form of rank 1. The
+//! sign of this form depends on whether the fourth corner is inside the circle through the other three corners (Rippa,
+//! "Minimal Roughness Property of the Delaunay Triangulation", 1990). So in the plane a flip reduces the energy exactly
+//! if the edge is not Delaunay, and flipping these edges ends with the Delaunay triangulation (Lawson, "Software for C1
+//! Surface Interpolation", 1977). Four times the sum is the harmonic index of Musin, "Properties of the Delaunay
 //! Triangulation", 1997. The energy is also defined for surfaces in space.
 //!
 //! A flip that reduces the number of zero-area triangles is an improvement. If all four corners are collinear, both
@@ -170,7 +170,7 @@ impl Quad {
 /// Returns the sum of the cotangents of the angles of a triangle. The sum is infinite if the triangle has no area, and
 /// NaN if the triangle is too small or too large to compute. A flip with an energy of NaN is never an improvement.
 ///
-/// The corners are sorted by their numbers, so the result for the same three vertices is always exactly the same.
+/// The corners are sorted by their ids, so the result for the same three vertices is always exactly the same.
 fn energy(mesh: &Mesh, mut corners: [VertexId; 3]) -> f64 {
     corners.sort_unstable();
     let [p, q, r] = corners.map(|v| mesh.position(v));

@@ -1,10 +1,10 @@
 //! Flips edges as long as flips improve the mesh.
 //!
-//! A pass checks edges in order of their ids. The first pass checks all edges. Each later pass checks only edges
-//! near vertices whose edges changed, because the result of the check cannot be different at other edges. (A flip is refused if
-//! an edge already joins the two opposite corners. If the joining edge is flipped away, the edges of both corners
-//! change.) A pass without a flip is the last one. Refused edges are checked again in every pass, so the refusals of the
-//! last pass are complete.
+//! A pass checks edges in order of their ids. The first pass checks all edges. Each later pass checks only edges near
+//! vertices whose edges changed, because the result of the check cannot be different at other edges. (A flip is refused
+//! if an edge already joins the two opposite corners. If the joining edge is flipped away, the edges of both corners
+//! change.) A pass without a flip is the last one. Refused edges are checked again in every pass, so the refusals of
+//! the last pass are complete.
 
 use mesh::{EdgeId, EditError, FaceId, Mesh, VertexId};
 use op::{Context, OpError, Report};
@@ -120,7 +120,7 @@ impl ChangedNeighborhood {
     }
 
     /// Returns the edges that end at the collected vertices, the edges opposite to them in a triangle, and
-    /// `additional`, in order of their numbers. Removes the collected vertices.
+    /// `additional`, in order of their ids. Removes the collected vertices.
     fn take_edges(&mut self, mesh: &Mesh, additional: impl Iterator<Item = EdgeId>) -> Vec<EdgeId> {
         let mut edges = Vec::new();
         let mut collect = |e: EdgeId| {

@@ -41,8 +41,8 @@ impl Pairs {
         let total = rims.len() as u64;
         cx.advance("find coinciding edges", 0, total)?;
         let mut matches = vec![Matches::None; rims.len()];
-        // The rows of three cells around an edge begin at these positions. The positions only increase, because the edges
-        // are visited in the order of their cells.
+        // The rows of three cells around an edge begin at these positions. The positions only increase, because the
+        // edges are visited in the order of their cells.
         let mut begins = [0; 9];
         for (i, rim) in rims.iter().enumerate() {
             matches[rim.number] = matches_of(&rims, rim, &mut begins, distance);

@@ -50,8 +50,8 @@ pub(crate) fn appended(parts: &[&Object], numbers: &[Vec<i32>], report: &mut Rep
     all
 }
 
-/// Replaces the material indices of the faces with the indices of the merged materials. Faces without a material get -1.
-/// If only some parts have the attribute, all faces of the other parts also get -1.
+/// Replaces the material indices of the faces with the indices of the merged materials. Faces without a material get
+/// -1. If only some parts have the attribute, all faces of the other parts also get -1.
 fn renumber_materials(
     columns: &mut [Attributes],
     numbers: &[Vec<i32>],
@@ -97,8 +97,8 @@ fn leave_out_normals(columns: &mut [Attributes], parts: &[&Object], report: &mut
     }
 }
 
-/// Adds a note for each part that gets zero values for an attribute. Tags and materials need no note, because elements of a
-/// part without them are not tagged and have no material.
+/// Adds a note for each part that gets zero values for an attribute. Tags and materials need no note, because elements
+/// of a part without them are not tagged and have no material.
 fn note_zeros(columns: &[Attributes], parts: &[&Object], report: &mut Report) {
     for (domain, name) in names(columns, |c| !matches!(c.values, Values::Tag(_))) {
         for (i, object) in parts.iter().enumerate() {

@@ -1,8 +1,8 @@
 //! Joining skinned meshes.
 //!
-//! If all skinned parts have the same skin, the joined mesh keeps this skin. The other parts follow the first joint. Their
-//! points are mapped by the inverse of the map of this joint, so that they do not move. If the parts have different skins,
-//! they are joined in the pose of their joints, and the skins are lost.
+//! If all skinned parts have the same skin, the joined mesh keeps this skin. The other parts follow the first joint.
+//! Their points are mapped by the inverse of the map of this joint, so that they do not move. If the parts have
+//! different skins, they are joined in the pose of their joints, and the skins are lost.
 
 use std::sync::Arc;
 
@@ -80,7 +80,8 @@ fn remove_joints(mesh: &mut Mesh) {
     }
 }
 
-/// Plans the skin of the joined mesh. Returns the skin if all skinned parts have the same one, otherwise the loss of the skins.
+/// Plans the skin of the joined mesh. Returns the skin if all skinned parts have the same one, otherwise the loss of
+/// the skins.
 pub(super) fn planned(parts: &[PlannedNodes], joined: &str) -> (Option<u64>, Option<Loss>) {
     let mut skinned = parts.iter().filter(|part| part.skin.is_some());
     let Some(first) = skinned.next() else {

@@ -17,8 +17,8 @@ fn turn([a, b, c]: [Point; 3]) -> i64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// Returns a positive number if `p` is inside the circle through the corners of a counter-clockwise triangle. Points are
-/// lifted to a paraboloid (Guibas and Stolfi, "Primitives for the Manipulation of General Subdivisions and the
+/// Returns a positive number if `p` is inside the circle through the corners of a counter-clockwise triangle. Points
+/// are lifted to a paraboloid (Guibas and Stolfi, "Primitives for the Manipulation of General Subdivisions and the
 /// Computation of Voronoi Diagrams", 1985).
 fn in_circle(triangle: [Point; 3], p: Point) -> i64 {
     let lifted = triangle.map(|[x, y]| {

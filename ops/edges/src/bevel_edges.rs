@@ -39,7 +39,7 @@ pub struct BevelEdges {
     /// The width: the distance of the new edges from the beveled edge in each of its two faces, in scene units.
     #[serde(default)]
     pub width: Option<PositiveLength>,
-    /// The width as a fraction of the length of the shortest edge that shares an end with a selected edge. Replaces
+    /// The width as a fraction of the length of the shortest edge at the ends of the selected edges. Replaces
     /// `width`. From 0 to 1, exclusive.
     #[serde(default)]
     pub fraction: Option<Fraction>,

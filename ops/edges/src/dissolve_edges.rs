@@ -10,8 +10,8 @@ use op::prelude::*;
 
 /// Removes edges and merges the faces beside them.
 ///
-/// Edges are removed in order of their ids. Each removal is checked against the mesh as edited so far. After a
-/// removal, the mesh has 1 edge and 1 face less. Of the two faces beside the edge, the face with the lower id is
+/// Edges are removed in order of their ids. Each removal is checked against the mesh as edited so far. Each
+/// removal reduces the numbers of edges and faces by 1. Of the two faces beside the edge, the face with the lower id is
 /// kept, with its values. No vertex is removed or moved. To remove vertices that are left with two edges, use
 /// `DissolveVertices(vertices: Valence(2))` in a later step. The remaining elements keep their order and their values
 /// but get new ids.

@@ -147,7 +147,7 @@ fn expected(mesh: &Mesh, oracle: &Polygons, edit: Edit) -> (Result<Polygons, Edi
             if !mesh.has_face(f) {
                 return (Err(EditError::NoSuchFace(f)), euler);
             }
-            // Removes the face, and its edges that have no other face. The vertices stay.
+            // Removes the face, and its edges that have no other face. The vertices are kept.
             let sides = mesh.face_half_edges(f);
             let n_removed = sides.filter(|&h| mesh.face(h.twin()).is_none()).count();
             let n_removed = i64::try_from(n_removed).expect("a small number");
@@ -502,7 +502,7 @@ fn v_count(positions: &[DVec3]) -> u32 {
     u32::try_from(positions.len()).expect("a small mesh")
 }
 
-/// Returns the sides of a polygon: each corner with the next corner.
+/// Returns the sides of a polygon. A side is a corner and the next corner.
 fn sides(face: &[u32]) -> impl Iterator<Item = (u32, u32)> + Clone {
     let next = face.iter().cycle().skip(1);
     face.iter().copied().zip(next.copied())

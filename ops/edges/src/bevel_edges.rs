@@ -36,7 +36,7 @@ use op::prelude::*;
 pub struct BevelEdges {
     /// The edges to bevel.
     pub edges: EdgeSelection,
-    /// The width: the distance of the new edges from the beveled edge in each of its two faces, in scene units.
+    /// The distance between the beveled edge and the new edges in each of its two faces, in scene units.
     #[serde(default)]
     pub width: Option<PositiveLength>,
     /// The width as a fraction of the length of the shortest edge at the ends of the selected edges. Replaces

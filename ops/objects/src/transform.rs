@@ -1,4 +1,4 @@
-//! Transform: scales, rotates and moves objects by changing their points.
+//! Transform: scales, rotates and moves objects.
 //!
 //! ```text
 //!                                                         +---+

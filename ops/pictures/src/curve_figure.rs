@@ -167,7 +167,7 @@ impl CurveFigure {
         problems
     }
 
-    /// Whether each level has a panel of its own.
+    /// Whether each level has its own panel.
     fn has_levels(&self) -> bool {
         self.by_level && !self.t.is_empty()
     }

@@ -34,7 +34,7 @@ pub struct Polygons {
 }
 
 impl Polygons {
-    /// Returns the mesh and the report of the changes that made it manifold, or the first problem.
+    /// Returns the mesh and the report of the changes that made the mesh manifold, or the first problem.
     fn build(&self) -> Result<(Mesh, BuildReport), Problem> {
         let points: Vec<DVec3> = self.points.iter().map(|&p| p.into()).collect();
         for (f, face) in self.faces.iter().enumerate() {
@@ -69,7 +69,7 @@ impl Polygons {
         Err(Problem::error(message).at(["faces", &at_face, &i.to_string()]))
     }
 
-    /// Returns the source, the mesh, and the report of the changes that made it manifold.
+    /// Returns the source, the mesh, and the report of the changes that made the mesh manifold.
     fn source(&self) -> (Source<'_>, Mesh, BuildReport) {
         match self.build() {
             Ok((mesh, changes)) => {

@@ -87,8 +87,8 @@ pub enum SmoothBy {
     /// Filters the normals of the faces, so that similar normals become equal, then moves the vertices to fit the
     /// normals.
     Denoise {
-        /// Normals that differ by more than this angle hardly affect each other, so that sharper edges stay. From 0 to
-        /// 180 degrees. Defaults to 30.
+        /// Normals that differ by more than this angle hardly affect each other, so edges sharper than this angle are
+        /// kept. From 0 to 180 degrees. Defaults to 30.
         #[serde(default = "thirty")]
         angle: AngleBetween,
     },

@@ -1,4 +1,4 @@
-//! Goals of flips: they decide whether a flip is an improvement.
+//! Goals of flips. A goal decides whether a flip is an improvement.
 //!
 //! **Delaunay.** The energy of a triangle is the sum of the cotangents of its angles,
 //!
@@ -34,8 +34,8 @@ use mesh::{DVec3, EdgeId, Mesh, VertexId};
 /// area is rounding error.
 const NO_AREA: f64 = 1e-14;
 
-/// The range of squared lengths for which products of four lengths neither underflow nor overflow: lengths from 1e-60
-/// to 1e60 scene units.
+/// The range of squared lengths for which products of four lengths neither underflow nor overflow. The lengths are from
+/// 1e-60 to 1e60 scene units.
 const SIZES: Range<f64> = 1e-120..1e120;
 
 /// Energies that differ by less than this fraction count as equal, so that four corners on a circle, such as those of a

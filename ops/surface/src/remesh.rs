@@ -47,7 +47,7 @@ pub struct Remesh {
     /// Target lengths that follow the curvature, instead of `length`.
     #[serde(default)]
     pub curvature: Option<RemeshCurvature>,
-    /// Edges whose lines are kept, for example `Sharp(above: 30)`. If omitted, only the lines that are always kept.
+    /// Edges that are treated as lines, for example `Sharp(above: 30)`. If omitted, only the lines that are always kept.
     #[serde(default)]
     pub features: Option<EdgeSelection>,
     /// The largest allowed Hausdorff distance between the old and the new surface, in scene units. Edges

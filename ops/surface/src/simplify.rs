@@ -48,7 +48,7 @@ pub struct Simplify {
     /// The true distance is therefore usually much smaller. If omitted, there is no limit.
     #[serde(default)]
     pub error: Option<PositiveLength>,
-    /// Edges whose lines are kept, for example `Sharp(above: 30)`. If omitted, only the lines that are always kept.
+    /// Edges that are treated as lines, for example `Sharp(above: 30)`. If omitted, only the lines that are always kept.
     #[serde(default)]
     pub features: Option<EdgeSelection>,
     /// Vertices that keep their exact positions, for example `Boundary`. If omitted, no vertices.

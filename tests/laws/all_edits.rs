@@ -48,7 +48,7 @@ proptest! {
             for (i, &code) in codes.iter().enumerate() {
                 let code = if mesh.n_faces() > MAX_FACES {
                     // These kinds of edits delete faces, compact the mesh, or remove edges.
-                    EditCode { kind: [2, 7, 8, 9, 12, 25, 26][usize::from(code.kind % 7)], ..code }
+                    EditCode { kind: [2, 7, 8, 9, 12, 25, 26, 27][usize::from(code.kind % 8)], ..code }
                 } else {
                     code
                 };

@@ -1,9 +1,13 @@
-//! Encodes any local edit of a mesh as numbers, for the random tests and the fuzzer.
+//! Encodes any edit of a mesh as numbers, for the random tests and the fuzzer: local edits, and algorithms that change the
+//! whole surface.
+
+use geometry::{deform, remesh, simplify, smooth, uv};
+use op::NoProgress;
 
 use mesh::{DVec3, Domain, EdgeId, EditError, FaceId, HalfEdgeId, Mesh, Seams, VertexId};
 
 /// The number of kinds of edits.
-const KINDS: u8 = 27;
+const KINDS: u8 = 33;
 
 /// An encoded edit: its kind, and numbers that determine its elements and parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,9 +108,117 @@ pub(crate) fn edit(mesh: &mut Mesh, code: EditCode) -> Result<(), EditError> {
             mesh.delete_isolated_vertices();
             Ok(())
         }
-        _ => {
+        26 => {
             mesh.compact();
             Ok(())
+        }
+        _ => {
+            mesh.compact();
+            change_surface(mesh, code);
+            Ok(())
+        }
+    }
+}
+
+/// Changes a dense mesh as a whole. Algorithms for triangles change nothing if there is another face.
+fn change_surface(mesh: &mut Mesh, code: EditCode) {
+    let EditCode { kind, a, b, place } = code;
+    let vertices: Vec<VertexId> = mesh.vertices().collect();
+    match kind {
+        27 => {
+            let options = simplify::Options {
+                faces: mesh.n_faces() * usize::from(a % 4) / 4,
+                error: (place > 0).then(|| f64::from(place)),
+                refuse_intersections: place == 0,
+                ..simplify::Options::default()
+            };
+            if let Ok(simplified) = simplify::simplify(mesh, &options, &NoProgress) {
+                assert!(simplified.mesh.n_faces() <= mesh.n_faces());
+                mesh.replace(simplified.mesh);
+            }
+        }
+        28 => {
+            let options = remesh::Options {
+                length: remesh::Length::Uniform(0.5 + f64::from(b % 4)),
+                passes: 1 + u32::from(a % 3),
+                max_faces: 400,
+                ..remesh::Options::default()
+            };
+            if let Ok(remeshed) = remesh::remesh(mesh, &options, &NoProgress) {
+                mesh.replace(remeshed.mesh);
+            }
+        }
+        29 => {
+            let method = match place {
+                0 => smooth::Method::Implicit { time: 0.1 },
+                1 => smooth::Method::Denoise {
+                    angle: 30.0,
+                    vertex_passes: 2,
+                },
+                _ => smooth::Method::Laplacian {
+                    weights: smooth::Weights::Cotangent,
+                    factor: 0.5,
+                },
+            };
+            let is_free = vec![true; vertices.len()];
+            let smoothing = smooth::Smoothing {
+                method,
+                passes: 1 + u32::from(a % 3),
+                is_free: &is_free,
+                boundary: smooth::Boundary::Free,
+                keep_volume: b % 2 == 1,
+            };
+            let mut smoothed = mesh.clone();
+            if smooth::smooth(&mut smoothed, &smoothing, &NoProgress).is_ok() {
+                mesh.replace(smoothed);
+            }
+        }
+        30 => {
+            let lattice = deform::Lattice {
+                min: DVec3::splat(-2.0),
+                max: DVec3::splat(2.0),
+                size: [2, 2, 2],
+                offsets: (0..8)
+                    .map(|i| DVec3::splat(f64::from((a >> i) & 1)))
+                    .collect(),
+            };
+            for v in vertices {
+                let p = mesh.position(v);
+                mesh.set_position(v, lattice.point(p));
+            }
+        }
+        31 => {
+            let mut mirrored = mesh.clone();
+            let normal = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::ONE][usize::from(a % 4)];
+            let point = DVec3::splat(f64::from(place) / 2.0);
+            if geometry::symmetrize(&mut mirrored, point, normal.normalize()).is_ok() {
+                mesh.replace(mirrored);
+            }
+        }
+        _ => {
+            let options = uv::UnwrapOptions {
+                seams: &some(mesh, Domain::Edge, a, b, EdgeId::new)
+                    .into_iter()
+                    .filter(|&e| mesh.has_edge(e))
+                    .collect::<Vec<_>>(),
+                max_angle: 60.0,
+                max_stretch: 4.0,
+                page: uv::Page {
+                    size: 256,
+                    padding: 0,
+                },
+            };
+            if let Ok(unwrapped) = uv::unwrap(mesh, &options, &NoProgress) {
+                assert!(unwrapped.uvs.iter().all(|uv| uv.is_finite()));
+                let mut with_uvs = mesh.clone();
+                with_uvs.set(mesh::UV, unwrapped.uvs);
+                mesh.replace(with_uvs);
+            }
+            // Measures are finite or missing, but never panic.
+            let is_source: Vec<bool> = (0..vertices.len()).map(|v| v == usize::from(b)).collect();
+            geometry::geodesic_distances(mesh, &is_source, &NoProgress).ok();
+            geometry::thickness(mesh, &NoProgress).ok();
+            geometry::principal_curvatures(mesh);
         }
     }
 }

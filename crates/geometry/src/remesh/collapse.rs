@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::surface_index::triangle::nearest_on_triangle;
 
 use super::original::{Place, Track};
-use super::work::{LONG, SHORT, Work, cross, is_turned, quality};
+use super::work::{LONG, SHORT, Work, cross, is_bent, is_turned, quality};
 use super::{Refused, WHAT};
 
 /// The lowest quality that a triangle may have after a collapse, unless its quality was lower before.
@@ -142,6 +142,8 @@ impl Work<'_> {
         let size = self.sizes[ends[0].index()].min(self.sizes[ends[1].index()]);
         let mut longest = 0.0;
         let mut new: Vec<(FaceId, [DVec3; 3])> = Vec::new();
+        let mut first = None;
+        let mut bent = self.limit.is_some();
         for end in ends {
             for g in self.mesh.vertex_half_edges(end) {
                 let x = self.mesh.target(g);
@@ -160,7 +162,10 @@ impl Work<'_> {
                 };
                 let before = self.triangle(g);
                 let after = [point, before[1], before[2]];
-                if is_turned(cross(before), cross(after)) {
+                let crosses = [cross(before), cross(after)];
+                let first = *first.get_or_insert(crosses[0]);
+                bent |= crosses.into_iter().any(|cross| is_bent(first, cross));
+                if is_turned(crosses[0], crosses[1]) {
                     return Err(Refused::Turned);
                 }
                 let quality_after = quality(after);
@@ -177,7 +182,7 @@ impl Work<'_> {
                 .map(|(_, t)| nearest_on_triangle(p, t).distance(p));
             distances.all(|distance| distance > TIP * size)
         };
-        if gone.into_iter().any(is_cut_off) || self.is_far(&new, &gone) {
+        if gone.into_iter().any(is_cut_off) || (bent && self.is_far(&new, &gone)) {
             return Err(Refused::Far);
         }
         Ok(longest)

@@ -3,7 +3,7 @@
 use mesh::{EdgeId, HalfEdgeId, VertexId};
 use progress::{Cancelled, Progress};
 
-use super::work::{Work, cross, is_turned, quality};
+use super::work::{Work, cross, is_bent, is_turned, quality};
 use super::{Refused, WHAT};
 
 impl Work<'_> {
@@ -73,16 +73,16 @@ impl Work<'_> {
         if worst_after < 0.5 && worst_after < worst_before {
             return false;
         }
-        if self.limit.is_some()
+        let (old, crosses) = (old.map(cross), new.map(cross));
+        let turns = |&before: &_| crosses.iter().any(|&after| is_turned(before, after));
+        if old.iter().any(turns) || crosses.contains(&mesh::DVec3::ZERO) {
+            return false;
+        }
+        if (self.limit.is_some() || is_bent(old[0], old[1]))
             && let Some(f) = self.mesh.face(h)
             && self.is_far(&new.map(|triangle| (f, triangle)), &[0.5 * (p + q)])
         {
             self.counts.refuse(Refused::Far);
-            return false;
-        }
-        let (old, new) = (old.map(cross), new.map(cross));
-        let turns = |&before: &_| new.iter().any(|&after| is_turned(before, after));
-        if old.iter().any(turns) || new.contains(&mesh::DVec3::ZERO) {
             return false;
         }
         if self.mesh.flip_edge(e).is_err() {

@@ -17,17 +17,21 @@ use crate::surface_index::triangle::nearest_on_triangle;
 /// points between the samples.
 const SHARE: f64 = 0.7;
 
+/// Without a limit, the largest distance of samples of a new triangle from the original surface, as a fraction of the
+/// target length. It keeps edges from crossing ridges that are not features.
+const SOFT: f64 = 0.1;
+
 /// The tolerance of the measured distance, as a fraction of the limit.
 const TOLERANCE: f64 = 0.01;
 
 impl Work<'_> {
-    /// Whether a step that replaces triangles could exceed the limit. `new` are the new triangles, each with a face of
-    /// the same chart, and `gone` are points of the old triangles.
+    /// Whether a step that replaces triangles could exceed the limit, or move far from the original surface relative to
+    /// the target length. `new` are the new triangles, each with a face of the same chart, and `gone` are points of the
+    /// old triangles.
     pub(super) fn is_far(&self, new: &[(FaceId, [DVec3; 3])], gone: &[DVec3]) -> bool {
-        let Some(limit) = self.limit else {
-            return false;
-        };
-        let limit = SHARE * limit;
+        let sizes = new.iter().flat_map(|&(f, _)| self.mesh.face_vertices(f));
+        let size = sizes.fold(f64::INFINITY, |size, v| size.min(self.sizes[v.index()]));
+        let limit = (SHARE * self.limit.unwrap_or(f64::INFINITY)).min(SOFT * size);
         let is_far_from_new = |p: &DVec3| {
             let mut distances = new
                 .iter()

@@ -134,7 +134,7 @@ pub enum Refused {
     Thin,
     /// The topology of the surface would change.
     Topology,
-    /// The surface would move too far: by more than 15 % of the target length, or further than the error allows.
+    /// The surface would move too far: by more than a share of the target length, or further than the error allows.
     Far,
 }
 

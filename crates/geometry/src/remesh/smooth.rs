@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::WHAT;
 use super::original::Place;
-use super::work::{Work, cross, is_turned};
+use super::work::{Work, cross, is_bent, is_turned};
 
 /// A vertex that would move by less than this fraction of its target length is not moved.
 const STILL: f64 = 1e-2;
@@ -32,6 +32,7 @@ impl Work<'_> {
             .map(|v| self.step(VertexId::new(v)))
             .collect();
         // Undoing the movement of a vertex can turn another triangle. Each round undoes at least one movement.
+        let mut is_changed = vec![true; n];
         loop {
             progress.report(WHAT, self.counts.passes, self.counts.max_passes)?;
             let position = |v: VertexId| {
@@ -48,11 +49,27 @@ impl Work<'_> {
                     let h = self.mesh.face_half_edge(f);
                     let next = self.mesh.next(h);
                     let corners = [h, next, self.mesh.next(next)].map(|h| self.mesh.origin(h));
+                    if !corners.iter().any(|v| is_changed[v.index()]) {
+                        return false;
+                    }
                     let before = corners.map(|v| self.mesh.position(v));
                     let after = corners.map(position);
+                    let own = cross(after);
+                    let beside = |h: mesh::HalfEdgeId| {
+                        let h = h.twin();
+                        let next = self.mesh.next(h);
+                        let corners = [h, next, self.mesh.next(next)];
+                        cross(corners.map(|h| position(self.mesh.origin(h))))
+                    };
+                    let is_bent = || {
+                        let sides = [h, next, self.mesh.next(next)].into_iter();
+                        let mut inner = sides.filter(|h| self.mesh.face(h.twin()).is_some());
+                        inner.any(|h| is_bent(own, beside(h)))
+                    };
                     before != after
-                        && (is_turned(cross(before), cross(after))
-                            || self.is_far(&[(f, after)], &[]))
+                        && (is_turned(cross(before), own)
+                            || ((self.limit.is_some() || is_bent())
+                                && self.is_far(&[(f, after)], &[])))
                 })
                 .collect();
             if !turned.contains(&true) {
@@ -71,8 +88,10 @@ impl Work<'_> {
             if taken_back.is_empty() {
                 break;
             }
+            is_changed.fill(false);
             for v in taken_back {
                 steps[v] = None;
+                is_changed[v] = true;
             }
         }
         let mut largest = 0.0_f64;

@@ -151,6 +151,15 @@ pub(super) fn is_turned(before: DVec3, after: DVec3) -> bool {
     before != DVec3::ZERO && !is_kept
 }
 
+/// The cosine of the angle between two triangles above which the surface is bent: 20°. With 37°, the largest distance on a
+/// rocker arm is 0.31 % of the diagonal instead of 0.21 %.
+const BENT: f64 = 0.94;
+
+/// Whether the angle between two triangles is large. The arguments are their [`cross`] products.
+pub(super) fn is_bent(a: DVec3, b: DVec3) -> bool {
+    a.dot(b) < BENT * (a.length_squared() * b.length_squared()).sqrt()
+}
+
 /// Returns the quality of a triangle, from 0 (degenerate) to 1 (equilateral).
 pub(super) fn quality([a, b, c]: [DVec3; 3]) -> f64 {
     let sides = (b - a).length_squared() + (c - b).length_squared() + (a - c).length_squared();

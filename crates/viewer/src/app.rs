@@ -250,10 +250,10 @@ impl Parts {
         if let Some(update) = self.editor.poll() {
             match update.file {
                 Some(FileChange::Reloaded) => {
-                    self.inform("The file was changed by another program, and was read again.")
+                    self.inform("The file was changed by another program, and was read again.");
                 }
                 Some(FileChange::Removed) => {
-                    self.inform("The file of the recipe was removed. Save to write it again.")
+                    self.inform("The file of the recipe was removed. Save to write it again.");
                 }
                 Some(FileChange::Unreadable(message)) => self.warn(message),
                 Some(FileChange::Conflict) | None => {}
@@ -466,7 +466,7 @@ impl Parts {
 
     fn pick_edge_loop(&mut self, mesh: &Mesh, object: &str, half_edge: Option<HalfEdgeId>) {
         let Some(h) = half_edge else { return };
-        let [v, w] = [mesh.origin(h), mesh.target(h)].map(|v| v.index());
+        let [v, w] = [mesh.origin(h), mesh.target(h)].map(mesh::VertexId::index);
         self.pick_text(
             object,
             mesh,
@@ -686,7 +686,7 @@ impl Parts {
             Selected::Faces(list) => list_of("Faces", list.iter().map(|f| f.index())),
             Selected::Edges(list) => {
                 let between = list.iter().map(|&e| {
-                    let [v, w] = mesh.edge_vertices(e).map(|v| v.index());
+                    let [v, w] = mesh.edge_vertices(e).map(mesh::VertexId::index);
                     format!("Between({v}, {w})")
                 });
                 format!("Or([{}])", between.collect::<Vec<_>>().join(", "))

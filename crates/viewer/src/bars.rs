@@ -12,6 +12,7 @@ use crate::app::{Parts, Pending};
 use crate::camera::{Side, UpAxis};
 use crate::gpu::{Wireframe, title};
 use crate::theme::Colors;
+use crate::view_pane::ViewPane;
 
 /// The bar at the top.
 pub(crate) fn top(ui: &mut Ui, parts: &mut Parts) {
@@ -144,11 +145,8 @@ pub(crate) fn status(ui: &mut Ui, parts: &mut Parts) {
         ui.horizontal(|ui| {
             let run = parts.editor.run();
             let (color, text) = if let Some(progress) = parts.editor.progress() {
-                let part = if progress.total > 0 {
-                    format!(" {} %", 100 * progress.done / progress.total)
-                } else {
-                    String::new()
-                };
+                let part = (100 * progress.done).checked_div(progress.total);
+                let part = part.map_or_else(String::new, |part| format!(" {part} %"));
                 (
                     colors.accent,
                     format!("Running {}{part}  (Esc cancels)", progress.step),
@@ -244,7 +242,7 @@ pub(crate) fn grouped(n: usize) -> String {
     let digits = n.to_string();
     let mut text = String::new();
     for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i) % 3 == 0 {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
             text.push(' ');
         }
         text.push(digit);
@@ -303,6 +301,16 @@ fn controls(ui: &mut Ui, parts: &mut Parts) {
         }
     }
     ui.separator();
+    shading_combo(ui, view);
+    wireframe_combo(ui, view);
+    let scene = parts.editor.view().scene;
+    color_combo(ui, view, &scene);
+    overlay_menu(ui, view);
+    view_menu(ui, view);
+    view_keys(ui, view);
+}
+
+fn shading_combo(ui: &mut Ui, view: &mut ViewPane) {
     let shadings = [
         (Shading::Smooth, "Smooth"),
         (Shading::Flat, "Flat"),
@@ -326,6 +334,9 @@ fn controls(ui: &mut Ui, parts: &mut Parts) {
         .response
         .accessible_name("Shading")
         .on_hover_text("Shading (Q switches smooth and flat)");
+}
+
+fn wireframe_combo(ui: &mut Ui, view: &mut ViewPane) {
     let wires = [
         (Wireframe::Shaded, "Edges on"),
         (Wireframe::None, "Edges off"),
@@ -348,8 +359,9 @@ fn controls(ui: &mut Ui, parts: &mut Parts) {
         .response
         .accessible_name("Edges")
         .on_hover_text("Edges (W)");
-    let scene = parts.editor.view().scene;
-    color_combo(ui, view, &scene);
+}
+
+fn overlay_menu(ui: &mut Ui, view: &mut ViewPane) {
     ui.menu_button("Overlays", |ui| {
         let look = &mut view.look;
         for (value, name) in [
@@ -364,6 +376,9 @@ fn controls(ui: &mut Ui, parts: &mut Parts) {
             ui.checkbox(value, name);
         }
     });
+}
+
+fn view_menu(ui: &mut Ui, view: &mut ViewPane) {
     ui.menu_button("View", |ui| {
         for (i, side) in Side::ALL.into_iter().enumerate() {
             if ui
@@ -386,6 +401,10 @@ fn controls(ui: &mut Ui, parts: &mut Parts) {
             view.reset();
         }
     });
+}
+
+/// Changes the view by the keys 0 to 7.
+fn view_keys(ui: &Ui, view: &mut ViewPane) {
     let is_typing = ui.ctx().text_edit_focused();
     let digits = [
         egui::Key::Num1,
@@ -412,7 +431,7 @@ fn controls(ui: &mut Ui, parts: &mut Parts) {
 }
 
 /// The choice of the quantity that is shown as colors.
-fn color_combo(ui: &mut Ui, view: &mut crate::view_pane::ViewPane, scene: &scene::Scene) {
+fn color_combo(ui: &mut Ui, view: &mut ViewPane, scene: &scene::Scene) {
     let current = view.look.color_by.as_ref().map(|by| by.of.clone());
     let name = current
         .as_ref()

@@ -229,7 +229,7 @@ impl Camera {
     }
 
     /// Returns the matrix from scene coordinates to clip space, where x and y run from -1 to 1 and z from 0 to 1.
-    pub fn to_clip(&self, size: DVec2, center: DVec3, radius: f64) -> DMat4 {
+    pub fn clip_matrix(&self, size: DVec2, center: DVec3, radius: f64) -> DMat4 {
         let (rotation, projection) = self.matrices(size, center, radius);
         let away = DMat4::from_translation(DVec3::new(0.0, 0.0, -self.distance));
         projection * away * rotation * DMat4::from_translation(-self.target)
@@ -273,9 +273,9 @@ fn sin_cos(degrees: f64) -> (f64, f64) {
     let quarter = degrees / 90.0;
     if quarter.fract() == 0.0 {
         return match quarter.rem_euclid(4.0) {
-            q if q == 0.0 => (0.0, 1.0),
-            q if q == 1.0 => (1.0, 0.0),
-            q if q == 2.0 => (0.0, -1.0),
+            0.0 => (0.0, 1.0),
+            1.0 => (1.0, 0.0),
+            2.0 => (0.0, -1.0),
             _ => (-1.0, 0.0),
         };
     }
@@ -330,7 +330,7 @@ mod tests {
     fn the_matrix_to_clip_space_agrees_with_the_projection() {
         for camera in cameras() {
             let p = camera.target + DVec3::new(0.3, -0.5, 0.8);
-            let clip = camera.to_clip(SIZE, camera.target, 2.0) * p.extend(1.0);
+            let clip = camera.clip_matrix(SIZE, camera.target, 2.0) * p.extend(1.0);
             let flat = clip.truncate() / clip.w;
             let at = DVec2::new(flat.x + 1.0, 1.0 - flat.y) * 0.5 * SIZE;
             assert!(at.distance(camera.project(p, SIZE).unwrap()) < 1e-6);

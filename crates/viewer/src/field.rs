@@ -168,13 +168,14 @@ fn widget(ui: &mut Ui, field: &Field) -> Option<Change> {
             )
         }
         (FieldKind::Integer(limits), FieldValue::Integer(mut n)) => {
-            let response = match range(limits).filter(|(min, max)| max - min <= MAX_SLIDER) {
-                Some((min, max)) => ui.add(Slider::new(&mut n, integer(min)..=integer(max))),
-                None => {
-                    let low = limits.min.map_or(i64::MIN, integer);
-                    let high = limits.max.map_or(i64::MAX, integer);
-                    ui.add(DragValue::new(&mut n).speed(0.1).range(low..=high))
-                }
+            let response = if let Some((min, max)) =
+                range(limits).filter(|(min, max)| max - min <= MAX_SLIDER)
+            {
+                ui.add(Slider::new(&mut n, integer(min)..=integer(max)))
+            } else {
+                let low = limits.min.map_or(i64::MIN, integer);
+                let high = limits.max.map_or(i64::MAX, integer);
+                ui.add(DragValue::new(&mut n).speed(0.1).range(low..=high))
             };
             dragged(
                 &response.accessible_name(name),

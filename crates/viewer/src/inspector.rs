@@ -219,7 +219,7 @@ fn draft(ui: &mut Ui, parts: &mut Parts) {
     let colors = Colors::current(ui);
     let mut closes = false;
     heading(ui, &format!("New step: {}", draft.panel.operation), |ui| {
-        closes = ui.small_button("Cancel").clicked()
+        closes = ui.small_button("Cancel").clicked();
     });
     weak(ui, &draft.panel.summary.clone());
     let selection = parts.editor.selection();
@@ -236,7 +236,7 @@ fn draft(ui: &mut Ui, parts: &mut Parts) {
         );
         match change {
             Some(Change::Set(value) | Change::Drag(value)) => {
-                draft.panel.set(&of.name, Some(&value))
+                draft.panel.set(&of.name, Some(&value));
             }
             Some(Change::Reset) => draft.panel.set(&of.name, None),
             None => {}

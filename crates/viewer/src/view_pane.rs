@@ -314,7 +314,7 @@ impl ViewPane {
         let extent = self.gpu.as_ref().and_then(|gpu| gpu.painter.extent());
         let (center, radius) = extent.unwrap_or((self.camera.target, self.camera.distance));
         Projection::new(
-            self.camera.to_clip(self.size, center, radius * 1.01),
+            self.camera.clip_matrix(self.size, center, radius * 1.01),
             self.size,
         )
     }
@@ -362,7 +362,7 @@ impl ViewPane {
                     Some(_) => {}
                     None => {
                         gpu.texture =
-                            Some((renderer.register_native_texture(device, view, filter), size))
+                            Some((renderer.register_native_texture(device, view, filter), size));
                     }
                 }
             }

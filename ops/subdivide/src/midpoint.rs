@@ -27,8 +27,8 @@ use crate::step::{Step, Until};
 /// `into: Triangles` requires a mesh of triangles. A level turns V vertices, E edges and F triangles into V + E
 /// vertices, 2 E + 3 F edges and 4 F triangles. `into: Quads` accepts all polygons and creates a quad at each corner: V
 /// vertices, E edges and F faces with C corners in total become V + E + F vertices, 2 E + C edges and C quads. Old
-/// vertices keep their ids and positions, the vertex on edge e has the id V + e, and edge e becomes edges 2e and 2e +
-/// 1. Triangle f becomes faces 4f to 4f + 3. The ids of quads follow the order of the faces, and the vertex at the
+/// vertices keep their ids and positions, the vertex on edge e has the id V + e, and edge e becomes edges 2e and
+/// 2e + 1. Triangle f becomes faces 4f to 4f + 3. The ids of quads follow the order of the faces, and the vertex at the
 /// center of face f has the id V + E + f.
 ///
 /// Vertex attributes are interpolated. Corner values are interpolated within one old face. Parts of an edge or a face

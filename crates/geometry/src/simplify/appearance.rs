@@ -92,7 +92,7 @@ impl Appearance {
         let mut order = Vec::new();
         for domain in [Domain::Vertex, Domain::Corner] {
             let columns = mesh.attributes().of(domain).iter();
-            order.extend(columns.map(|column| (domain, column.name.to_string())));
+            order.extend(columns.map(|column| (domain, column.name.clone())));
         }
         let (mut taken, mut n) = (Vec::new(), 0);
         for (domain, name) in &order {
@@ -294,7 +294,9 @@ impl Appearance {
             if taken.column.rule == Rule::Normal {
                 let length = values.iter().map(|x| x * x).sum::<f64>().sqrt() / taken.weight;
                 if length > 0.0 {
-                    values.iter_mut().for_each(|x| *x /= length);
+                    for x in values.iter_mut() {
+                        *x /= length;
+                    }
                 }
             }
         }
@@ -503,7 +505,7 @@ mod tests {
         mesh.set(UV, uv);
         let lines = lines(&mesh, &[]);
         let mut without = mesh.clone();
-        let appearance = Appearance::take(&mut without, &lines, |mesh, v| mesh.position(v));
+        let appearance = Appearance::take(&mut without, &lines, Mesh::position);
         assert_eq!(without.attributes().of(Domain::Corner), []);
         (mesh, appearance.unwrap())
     }

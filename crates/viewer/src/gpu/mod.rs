@@ -44,6 +44,10 @@ pub enum Wireframe {
 
 /// The appearance of a scene.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "the switches are independent"
+)]
 pub struct Look {
     /// The lighting.
     pub shading: Shading,
@@ -349,6 +353,17 @@ impl Painter {
             self.target = Some(Target::new(&self.device, size));
         }
         self.upload_overlay(overlay, scale);
+        self.write_globals(camera, look, size, scale);
+        let group = self.object_group(camera);
+        let mut encoder = self
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        self.draw_objects(&mut encoder, &group, look);
+        self.queue.submit([encoder.finish()]);
+    }
+
+    /// Creates the grid, and writes the values that all objects share.
+    fn write_globals(&mut self, camera: &Camera, look: &Look, size: [u32; 2], scale: f32) {
         let (center, radius) = self.extent().unwrap_or((camera.target, camera.distance));
         let pixels = DVec2::new(f64::from(size[0]), f64::from(size[1]));
         let bounds = self.bounds.filter(|_| look.grid);
@@ -359,7 +374,7 @@ impl Painter {
         // The grid is larger than the scene.
         let (rotation, projection) =
             camera.matrices(pixels, center, radius * if look.grid { 3.2 } else { 1.2 });
-        let background = look.background().map(|c| c.linear());
+        let background = look.background().map(Color::linear);
         let globals = Globals {
             projection: projection.as_mat4().to_cols_array_2d(),
             rotation: rotation.as_mat4().to_cols_array_2d(),
@@ -392,9 +407,17 @@ impl Painter {
         };
         self.queue
             .write_buffer(&self.globals, 0, bytemuck::bytes_of(&globals));
-        let all = || self.objects.iter().chain([&self.grid, &self.overlay]);
+    }
+
+    /// Returns the objects in the order in which they are drawn.
+    fn uploaded(&self) -> impl Iterator<Item = &Uploaded> {
+        self.objects.iter().chain([&self.grid, &self.overlay])
+    }
+
+    /// Returns the values of each object and of each of its chunks, for dynamic offsets.
+    fn object_group(&self, camera: &Camera) -> wgpu::BindGroup {
         let mut uniforms: Vec<u8> = Vec::new();
-        for uploaded in all() {
+        for uploaded in self.uploaded() {
             let [x, y, z] = narrow(uploaded.center - camera.target);
             let looks = uploaded.chunks.iter().map(|c| c.look);
             for look in looks.chain([SurfaceLook::default()]) {
@@ -414,7 +437,7 @@ impl Painter {
                 contents: &uniforms,
                 usage: wgpu::BufferUsages::UNIFORM,
             });
-        let group = self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        self.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("objects"),
             layout: &self.pipelines.object_layout,
             entries: &[wgpu::BindGroupEntry {
@@ -425,12 +448,17 @@ impl Painter {
                     size: wgpu::BufferSize::new(size_of::<ObjectUniform>() as u64),
                 }),
             }],
-        });
-        let mut encoder = self
-            .device
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        })
+    }
+
+    fn draw_objects(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        group: &wgpu::BindGroup,
+        look: &Look,
+    ) {
         if let Some(target) = &self.target {
-            let mut pass = target.begin(&mut encoder);
+            let mut pass = target.begin(encoder);
             pass.set_bind_group(0, &self.globals_group, &[]);
             pass.set_pipeline(&self.pipelines.background);
             pass.draw(0..3, 0..1);
@@ -442,10 +470,10 @@ impl Painter {
             };
             let mut offset = 0;
             let mut places = Vec::new();
-            for uploaded in all() {
+            for uploaded in self.uploaded() {
                 pass.set_pipeline(surface);
                 for chunk in &uploaded.chunks {
-                    pass.set_bind_group(1, &group, &[offset]);
+                    pass.set_bind_group(1, group, &[offset]);
                     pass.set_bind_group(2, &chunk.group, &[]);
                     pass.draw(0..chunk.n_corners, 0..1);
                     offset += 256;
@@ -455,7 +483,7 @@ impl Painter {
             }
             // Surfaces are complete, so that lines are compared with all of them.
             for (uploaded, offset) in places {
-                pass.set_bind_group(1, &group, &[offset]);
+                pass.set_bind_group(1, group, &[offset]);
                 if let Some((buffer, n)) = &uploaded.patches {
                     pass.set_pipeline(&self.pipelines.patch);
                     pass.set_vertex_buffer(0, buffer.slice(..));
@@ -472,7 +500,6 @@ impl Painter {
                 }
             }
         }
-        self.queue.submit([encoder.finish()]);
     }
 
     /// Returns the texture of the last picture, with colors that are encoded as sRGB. `None` before the first picture.

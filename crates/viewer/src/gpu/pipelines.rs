@@ -34,6 +34,7 @@ struct Kind<'a> {
 }
 
 impl Pipelines {
+    #[expect(clippy::too_many_lines, reason = "a list of pipelines")]
     pub(super) fn new(device: &wgpu::Device) -> Self {
         let module = device.create_shader_module(wgpu::include_wgsl!("shader.wgsl"));
         let both = wgpu::ShaderStages::VERTEX_FRAGMENT;

@@ -295,7 +295,6 @@ fn views_from_opposite_sides_and_both_upward_axes_differ() {
 /// Prints the times of conversion and drawing for growing meshes: `cargo test -p meshwright-viewer times -- --ignored`.
 #[test]
 #[ignore = "a measurement"]
-#[expect(clippy::print_stderr, reason = "the result of a measurement")]
 fn times_of_growing_meshes() {
     let Some(state) = device() else { return };
     for rings in [50, 160, 500, 1000] {

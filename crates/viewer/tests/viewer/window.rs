@@ -49,7 +49,7 @@ impl Window {
 
     /// Waits until the run has ended and the window is still.
     fn settle(&mut self) {
-        let end = Instant::now() + Duration::from_secs(60);
+        let end = Instant::now() + Duration::from_mins(1);
         loop {
             self.harness.run_steps(2);
             if !self.harness.state().editor().is_running() {
@@ -130,7 +130,7 @@ impl Window {
             .edges()
             .find(|&e| mesh.edge_faces(e).into_iter().all(visible))
             .unwrap();
-        mesh.edge_vertices(e).map(|v| v.index())
+        mesh.edge_vertices(e).map(mesh::VertexId::index)
     }
 
     fn picture(&mut self) -> Image {

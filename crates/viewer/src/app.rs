@@ -96,7 +96,13 @@ impl App {
     pub fn new(ctx: &egui::Context, gpu: Option<&egui_wgpu::RenderState>, start: &Start) -> Self {
         theme::apply(ctx);
         let registry = Arc::new(ops_all::registry());
-        let editor = Editor::new(registry, Arc::new(engine::Disk), Settings::default());
+        // Before this editor has a journal of its own.
+        let files = files::Files::new(start.state_folder.clone());
+        let settings = Settings {
+            journals: files::journals(start.state_folder.as_deref()),
+            ..Settings::default()
+        };
+        let editor = Editor::new(registry, Arc::new(engine::Disk), settings);
         let wake = ctx.clone();
         editor.on_wake(Arc::new(move || wake.request_repaint()));
         let mut parts = Parts {
@@ -110,7 +116,7 @@ impl App {
             shows_help: false,
             shows_information: false,
             notice: None,
-            files: files::Files::new(start.state_folder.clone()),
+            files,
             pending: None,
             places: Vec::new(),
             description: String::new(),
@@ -167,14 +173,6 @@ impl eframe::App for App {
         });
         self.parts.windows(&ctx);
         self.parts.closing(&ctx);
-    }
-
-    fn save(&mut self, _: &mut dyn eframe::Storage) {
-        self.parts.files.store_recovery(&self.parts.editor);
-    }
-
-    fn on_exit(&mut self) {
-        self.parts.files.drop_recovery();
     }
 }
 
@@ -265,7 +263,6 @@ impl Parts {
             // Progress has no event of its own.
             ctx.request_repaint_after(Duration::from_millis(100));
         }
-        self.files.store_recovery_if_changed(&self.editor);
     }
 
     /// Returns the places of failures in the scene at the cursor.

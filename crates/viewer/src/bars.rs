@@ -501,19 +501,21 @@ fn banners(ui: &mut Ui, parts: &mut Parts, colors: &Colors) {
             });
         });
     }
-    if let Some(recovery) = parts.files.recovery().cloned() {
+    if let Some(recovery) = parts.files.recovery() {
+        let name = recovery.path.file_name().unwrap_or_default().display();
+        let message = format!("The last session ended before {name} was saved.");
         frame(colors.accent).show(ui, |ui| {
             ui.horizontal_wrapped(|ui| {
-                ui.label(format!(
-                    "The last session ended before {} was saved.",
-                    recovery.name()
-                ));
-                if ui.button("Recover").clicked() {
-                    parts.editor.set_document(recovery.document());
-                    parts.files.forget_recovery();
+                ui.label(message);
+                if ui.button("Recover").clicked()
+                    && let Some(recovery) = parts.files.take_recovery()
+                {
+                    parts.editor.recover(&recovery);
                 }
-                if ui.button("Discard").clicked() {
-                    parts.files.forget_recovery();
+                if ui.button("Discard").clicked()
+                    && let Some(recovery) = parts.files.take_recovery()
+                {
+                    recovery.discard(&engine::Disk);
                 }
             });
         });

@@ -1,9 +1,10 @@
-//! Dialogs for files, recent files, and the recovery of texts after a crash.
+//! Dialogs for files, recent files, and the offer to recover texts after a crash.
 
 use std::path::{Path, PathBuf};
 
-use editor::{Document, Editor, Keys};
+use editor::{Keys, Recovery};
 use eframe::egui::{self, Context, Id};
+use mesh_io::Format;
 
 use crate::app::{Parts, Pending};
 
@@ -14,59 +15,23 @@ const MAX_RECENT: usize = 10;
 pub(crate) struct Files {
     folder: Option<PathBuf>,
     recent: Vec<PathBuf>,
-    recovery: Option<Recovery>,
-    /// The version of the text that was stored.
-    stored: u64,
-    /// Whether the text of a session that did not end is still on disk.
-    keeps_recovery: bool,
-}
-
-/// The text of a session that ended without saving.
-#[derive(Clone, Debug)]
-pub(crate) struct Recovery {
-    path: PathBuf,
-    text: String,
-}
-
-impl Recovery {
-    pub(crate) fn name(&self) -> String {
-        self.path
-            .file_name()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned()
-    }
-
-    /// Returns the document with the unsaved text.
-    pub(crate) fn document(&self) -> Document {
-        let saved = Document::open(&engine::Disk, &self.path);
-        match saved {
-            Ok(mut document) => {
-                document.replace(self.text.as_str(), "recover", false);
-                document
-            }
-            Err(_) => Document::new(&*self.path, self.text.as_str()),
-        }
-    }
+    /// The unsaved texts of sessions that crashed.
+    recoveries: Vec<Recovery>,
 }
 
 impl Files {
     pub(crate) fn new(folder: Option<PathBuf>) -> Self {
-        let read = |name: &str| std::fs::read_to_string(folder.as_ref()?.join(name)).ok();
-        let recent = read("recent").unwrap_or_default();
-        let recovery = read("recovery").and_then(|text| {
-            let (path, text) = text.split_once('\n')?;
-            Some(Recovery {
-                path: PathBuf::from(path),
-                text: text.to_owned(),
-            })
-        });
+        let recent = folder
+            .as_ref()
+            .and_then(|folder| std::fs::read_to_string(folder.join("recent")).ok());
+        let recent = recent.unwrap_or_default();
+        let journals = journals(folder.as_deref());
         Self {
             recent: recent.lines().map(PathBuf::from).take(MAX_RECENT).collect(),
-            keeps_recovery: recovery.is_some(),
-            recovery,
+            recoveries: journals.map_or_else(Vec::new, |journals| {
+                editor::recoverable(&engine::Disk, &journals)
+            }),
             folder,
-            stored: 1,
         }
     }
 
@@ -74,15 +39,14 @@ impl Files {
         &self.recent
     }
 
+    /// Returns the unsaved text that is offered next.
     pub(crate) fn recovery(&self) -> Option<&Recovery> {
-        self.recovery.as_ref()
+        self.recoveries.first()
     }
 
-    /// Ends the offer of the recovery.
-    pub(crate) fn forget_recovery(&mut self) {
-        self.recovery = None;
-        self.keeps_recovery = false;
-        self.drop_recovery();
+    /// Ends the offer of the unsaved text that is offered.
+    pub(crate) fn take_recovery(&mut self) -> Option<Recovery> {
+        (!self.recoveries.is_empty()).then(|| self.recoveries.remove(0))
     }
 
     /// Adds a file to the recent files.
@@ -106,44 +70,6 @@ impl Files {
         Some(Keys::read(&text).map_err(|error| format!("{}: {error}", path.display())))
     }
 
-    /// Stores the text for a recovery if it changed since the last time.
-    pub(crate) fn store_recovery_if_changed(&mut self, editor: &Editor) {
-        if self.recovery.is_none() && self.stored != editor.document().version() {
-            self.store_recovery(editor);
-        }
-    }
-
-    /// Stores the text for a recovery, or removes the stored text if everything is saved.
-    pub(crate) fn store_recovery(&mut self, editor: &Editor) {
-        let document = editor.document();
-        self.stored = document.version();
-        if self.recovery.is_some() {
-            return;
-        }
-        if document.is_dirty() && document.undo_label().is_some() {
-            let path =
-                std::path::absolute(document.path()).unwrap_or_else(|_| document.path().to_owned());
-            self.write(
-                "recovery",
-                &format!("{}\n{}", path.display(), document.text()),
-            );
-        } else {
-            self.drop_recovery();
-        }
-    }
-
-    /// Removes the stored text. The text of an earlier session is kept until the user has decided.
-    pub(crate) fn drop_recovery(&self) {
-        if let Some(folder) = self
-            .folder
-            .as_ref()
-            .filter(|_| !self.keeps_recovery || self.recovery.is_none())
-        {
-            // Without a stored text, there is nothing to remove.
-            let _ = std::fs::remove_file(folder.join("recovery"));
-        }
-    }
-
     /// Writes a file of the state folder. The state is a convenience: an error is not worth a message.
     fn write(&self, name: &str, text: &str) {
         if let Some(folder) = &self.folder {
@@ -154,16 +80,21 @@ impl Files {
     }
 }
 
+/// Returns the folder of journals in the state folder.
+pub(crate) fn journals(state_folder: Option<&Path>) -> Option<PathBuf> {
+    state_folder.map(|folder| folder.join("journals"))
+}
+
 /// Asks for a file to open.
 pub(crate) fn ask_open() -> Option<PathBuf> {
+    let formats = Format::all().filter(|format| format.can_read());
+    let extensions: Vec<&str> = ["ron", "gz"]
+        .into_iter()
+        .chain(formats.map(Format::extension))
+        .collect();
     rfd::FileDialog::new()
         .set_title("Open a model or a recipe")
-        .add_filter(
-            "Models and recipes",
-            &[
-                "ron", "obj", "gltf", "glb", "ply", "stl", "off", "3mf", "bez", "bzc",
-            ],
-        )
+        .add_filter("Models and recipes", &extensions)
         .add_filter("All files", &["*"])
         .pick_file()
 }
@@ -201,7 +132,6 @@ fn finish(parts: &mut Parts, result: Result<(), String>, path: &Path) {
     match result {
         Ok(()) => {
             parts.files.remember(path);
-            parts.files.store_recovery(&parts.editor);
             parts.inform(format!("Saved {}", path.display()));
         }
         Err(message) => parts.warn(message),

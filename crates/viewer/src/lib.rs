@@ -98,7 +98,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
     }
 }
 
-/// Returns the folder for recent files and recovery.
+/// Returns the folder for recent files and journals.
 fn state_folder() -> Option<PathBuf> {
     use etcetera::BaseStrategy;
     let strategy = etcetera::choose_base_strategy().ok()?;

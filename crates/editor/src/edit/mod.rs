@@ -1,25 +1,26 @@
 //! The editor: a document, its engine thread, the step cursor and the picked elements.
 
 mod command;
+mod files;
+mod picks;
 mod record;
 mod steps;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
 use engine::Source;
-use mesh_io::Format;
 use op::Registry;
 use scene::Scene;
 use store::Store;
 use web_time::Instant;
 
 use crate::document::{Document, FileChange};
-use crate::journal::{Journal, Recovery};
+use crate::journal::Journal;
 use crate::pick::Indexes;
 use crate::run::{Event, Progress, Request, RunState, Runner, Status, Wake};
-use crate::select::{Picked, Proposal, propose};
+use crate::select::{Picked, Proposal};
 use crate::text::Outline;
 
 pub use command::{Command, CommandError, SelectionText};
@@ -118,10 +119,7 @@ pub struct View {
 impl Editor {
     /// Creates an editor with a new recipe.
     pub fn new(registry: Arc<Registry>, store: Arc<dyn Store>, settings: Settings) -> Self {
-        let document = Document::new(
-            "recipe.ron",
-            new_text("Cube(name: \"cube\", size: 2, triangles: true)"),
-        );
+        let document = files::new_document();
         let mut editor = Self {
             runner: Runner::new(registry.clone(), store.clone()),
             registry,
@@ -146,79 +144,6 @@ impl Editor {
         };
         editor.show(None);
         editor
-    }
-
-    /// Opens a recipe, or a model in a new recipe that loads it. The document before is dropped.
-    ///
-    /// # Errors
-    ///
-    /// [`OpenError`] if the file cannot be read or is neither a recipe nor a model. The document stays.
-    pub fn open(&mut self, path: &Path) -> Result<(), OpenError> {
-        let is_recipe = path
-            .extension()
-            .is_some_and(|ending| ending.eq_ignore_ascii_case("ron"));
-        let document = if is_recipe {
-            Document::open(&*self.store, path).map_err(OpenError::Unreadable)?
-        } else {
-            self.document_of_model(path)?
-        };
-        self.set_document(document);
-        Ok(())
-    }
-
-    /// Returns a document with a recipe that loads a model.
-    fn document_of_model(&self, path: &Path) -> Result<Document, OpenError> {
-        let is_model = Format::from_path(path).is_some_and(Format::can_read);
-        let file = path.file_name().and_then(|name| name.to_str());
-        let (true, Some(file)) = (is_model, file) else {
-            return Err(OpenError::Kind(
-                path.to_owned(),
-                Format::readable_extensions(),
-            ));
-        };
-        if !self.store.is_file(path) {
-            let message = format!("cannot read {}: the file does not exist", path.display());
-            return Err(OpenError::Unreadable(message));
-        }
-        let load = format!("Load(path: {})", ron_tree::string_literal(file));
-        let name = store::stem(path).to_owned();
-        let recipe = path.with_file_name(name).with_extension("ron");
-        Ok(Document::new(recipe, new_text(&load)))
-    }
-
-    /// Starts a new recipe. The document before is dropped.
-    pub fn new_recipe(&mut self) {
-        self.set_document(Document::new(
-            "recipe.ron",
-            new_text("Cube(name: \"cube\", size: 2, triangles: true)"),
-        ));
-    }
-
-    /// Replaces the document, and runs it. The cursor is at the end.
-    pub fn set_document(&mut self, document: Document) {
-        self.document = document;
-        self.outline = Outline::of(self.document.text());
-        self.cursor = self.outline.steps.len();
-        self.document.set_cursor(self.cursor);
-        self.picked = None;
-        self.shown = Arc::default();
-        self.run = RunState::default();
-        self.show(None);
-    }
-
-    /// Opens an unsaved text that [`recoverable`](crate::recoverable) has found. The document before is dropped. The text
-    /// counts as unsaved, and its old journal is removed.
-    pub fn recover(&mut self, recovery: &Recovery) {
-        self.set_document(recovery.document(&*self.store));
-        self.keep_journal();
-        recovery.discard(&*self.store);
-    }
-
-    /// Writes the journal, if one is kept.
-    fn keep_journal(&mut self) {
-        if let Some(journal) = &mut self.journal {
-            journal.keep(&self.document, &*self.store);
-        }
     }
 
     /// Returns the document.
@@ -283,42 +208,6 @@ impl Editor {
             _ => self.cursor.min(before.steps.len()).min(n),
         };
         self.show(None);
-    }
-
-    /// Saves the recipe to its file.
-    ///
-    /// # Errors
-    ///
-    /// The errors of [`Document::save`].
-    pub fn save(&mut self) -> Result<(), String> {
-        self.document.save(&*self.store)?;
-        self.keep_journal();
-        self.watch();
-        Ok(())
-    }
-
-    /// Saves the recipe to a file, which becomes the file of the document. Paths in the recipe are relative to its new
-    /// folder.
-    ///
-    /// # Errors
-    ///
-    /// The errors of [`Document::save_as`].
-    pub fn save_as(&mut self, path: &Path) -> Result<(), String> {
-        self.document.save_as(&*self.store, path)?;
-        self.show(None);
-        Ok(())
-    }
-
-    /// Ends a conflict with another program that changed the file: the text stays, and the next save replaces the file.
-    pub fn keep_mine(&mut self) {
-        self.document.keep_mine();
-    }
-
-    /// Ends a conflict with another program that changed the file: its text becomes the text of the document. An undo brings
-    /// back the own text.
-    pub fn take_theirs(&mut self) {
-        self.document.take_theirs();
-        self.text_changed(None);
     }
 
     /// Returns the state of the newest run.
@@ -469,51 +358,6 @@ impl Editor {
         }
     }
 
-    /// Returns the picked elements.
-    pub fn picked(&self) -> Option<&Picked> {
-        self.picked.as_ref()
-    }
-
-    /// Sets the picked elements of the scene that the view shows.
-    pub fn set_picked(&mut self, picked: Option<Picked>) {
-        self.picked = picked.filter(|picked| !picked.is_empty());
-        (self.proposals, self.proposal) = (None, 0);
-    }
-
-    /// Returns the selections that mean the picked elements, the best first. The list is computed once for each pick.
-    pub fn proposals(&mut self) -> &[Proposal] {
-        if self.proposals.is_none() {
-            let found = self
-                .picked
-                .as_ref()
-                .map(|picked| propose(&self.shown, picked, ""));
-            self.proposals = Some(found.unwrap_or_default());
-        }
-        self.proposals.as_deref().unwrap_or_default()
-    }
-
-    /// Returns the selection that commands use for the picked elements.
-    pub fn proposal(&mut self) -> Option<&Proposal> {
-        let at = self.proposal;
-        self.proposals().get(at)
-    }
-
-    /// Chooses the next selection that means the picked elements, or the first after the last.
-    pub fn next_proposal(&mut self) {
-        let n = self.proposals().len().max(1);
-        self.proposal = (self.proposal + 1) % n;
-    }
-
-    /// Drops picked elements that the scene at the cursor does not have.
-    fn keep_picked(&mut self) {
-        let mesh = |picked: &Picked| self.shown.object(&picked.object)?.as_mesh().cloned();
-        let kept = self
-            .picked
-            .as_ref()
-            .and_then(|picked| Some(picked.existing(&*mesh(picked)?)));
-        self.set_picked(kept);
-    }
-
     /// Replaces the text and runs it. Returns whether it is different.
     fn change(&mut self, text: &str, label: &str, merges: bool) -> bool {
         let changed = self.document.replace(text, label, merges);
@@ -586,9 +430,4 @@ impl Drop for Editor {
             journal.clear(&*self.store);
         }
     }
-}
-
-/// Returns the text of a new recipe with one step.
-fn new_text(step: &str) -> String {
-    format!("(\n    recipe: 1,\n    steps: [\n        {step},\n    ],\n)\n")
 }

@@ -1,0 +1,132 @@
+//! The files of an editor: recipes and models that are opened, recipes that are saved, and unsaved texts.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use mesh_io::Format;
+
+use crate::document::Document;
+use crate::journal::Recovery;
+use crate::run::RunState;
+use crate::text::Outline;
+
+use super::{Editor, OpenError};
+
+impl Editor {
+    /// Opens a recipe, or a model in a new recipe that loads it. The document before is dropped.
+    ///
+    /// # Errors
+    ///
+    /// [`OpenError`] if the file cannot be read or is neither a recipe nor a model. The document stays.
+    pub fn open(&mut self, path: &Path) -> Result<(), OpenError> {
+        let is_recipe = path
+            .extension()
+            .is_some_and(|ending| ending.eq_ignore_ascii_case("ron"));
+        let document = if is_recipe {
+            Document::open(&*self.store, path).map_err(OpenError::Unreadable)?
+        } else {
+            self.document_of_model(path)?
+        };
+        self.set_document(document);
+        Ok(())
+    }
+
+    /// Returns a document with a recipe that loads a model.
+    fn document_of_model(&self, path: &Path) -> Result<Document, OpenError> {
+        let is_model = Format::from_path(path).is_some_and(Format::can_read);
+        let file = path.file_name().and_then(|name| name.to_str());
+        let (true, Some(file)) = (is_model, file) else {
+            return Err(OpenError::Kind(
+                path.to_owned(),
+                Format::readable_extensions(),
+            ));
+        };
+        if !self.store.is_file(path) {
+            let message = format!("cannot read {}: the file does not exist", path.display());
+            return Err(OpenError::Unreadable(message));
+        }
+        let load = format!("Load(path: {})", ron_tree::string_literal(file));
+        let name = store::stem(path).to_owned();
+        let recipe = path.with_file_name(name).with_extension("ron");
+        Ok(Document::new(recipe, new_text(&load)))
+    }
+
+    /// Starts a new recipe. The document before is dropped.
+    pub fn new_recipe(&mut self) {
+        self.set_document(new_document());
+    }
+
+    /// Replaces the document, and runs it. The cursor is at the end.
+    pub fn set_document(&mut self, document: Document) {
+        self.document = document;
+        self.outline = Outline::of(self.document.text());
+        self.cursor = self.outline.steps.len();
+        self.document.set_cursor(self.cursor);
+        self.picked = None;
+        self.shown = Arc::default();
+        self.run = RunState::default();
+        self.show(None);
+    }
+
+    /// Opens an unsaved text that [`recoverable`](crate::recoverable) has found. The document before is dropped. The text
+    /// counts as unsaved, and its old journal is removed.
+    pub fn recover(&mut self, recovery: &Recovery) {
+        self.set_document(recovery.document(&*self.store));
+        self.keep_journal();
+        recovery.discard(&*self.store);
+    }
+
+    /// Writes the journal, if one is kept.
+    pub(super) fn keep_journal(&mut self) {
+        if let Some(journal) = &mut self.journal {
+            journal.keep(&self.document, &*self.store);
+        }
+    }
+
+    /// Saves the recipe to its file.
+    ///
+    /// # Errors
+    ///
+    /// The errors of [`Document::save`].
+    pub fn save(&mut self) -> Result<(), String> {
+        self.document.save(&*self.store)?;
+        self.keep_journal();
+        self.watch();
+        Ok(())
+    }
+
+    /// Saves the recipe to a file, which becomes the file of the document. Paths in the recipe are relative to its new
+    /// folder.
+    ///
+    /// # Errors
+    ///
+    /// The errors of [`Document::save_as`].
+    pub fn save_as(&mut self, path: &Path) -> Result<(), String> {
+        self.document.save_as(&*self.store, path)?;
+        self.show(None);
+        Ok(())
+    }
+
+    /// Ends a conflict with another program that changed the file: the text stays, and the next save replaces the file.
+    pub fn keep_mine(&mut self) {
+        self.document.keep_mine();
+    }
+
+    /// Ends a conflict with another program that changed the file: its text becomes the text of the document. An undo brings
+    /// back the own text.
+    pub fn take_theirs(&mut self) {
+        self.document.take_theirs();
+        self.text_changed(None);
+    }
+}
+
+/// Returns a new recipe with a cube.
+pub(super) fn new_document() -> Document {
+    let cube = "Cube(name: \"cube\", size: 2, triangles: true)";
+    Document::new("recipe.ron", new_text(cube))
+}
+
+/// Returns the text of a new recipe with one step.
+fn new_text(step: &str) -> String {
+    format!("(\n    recipe: 1,\n    steps: [\n        {step},\n    ],\n)\n")
+}

@@ -1,0 +1,52 @@
+//! The picked elements of an editor, and the selections that mean them.
+
+use crate::select::{Picked, Proposal, propose};
+
+use super::Editor;
+
+impl Editor {
+    /// Returns the picked elements.
+    pub fn picked(&self) -> Option<&Picked> {
+        self.picked.as_ref()
+    }
+
+    /// Sets the picked elements of the scene that the view shows.
+    pub fn set_picked(&mut self, picked: Option<Picked>) {
+        self.picked = picked.filter(|picked| !picked.is_empty());
+        (self.proposals, self.proposal) = (None, 0);
+    }
+
+    /// Returns the selections that mean the picked elements, the best first. The list is computed once for each pick.
+    pub fn proposals(&mut self) -> &[Proposal] {
+        if self.proposals.is_none() {
+            let found = self
+                .picked
+                .as_ref()
+                .map(|picked| propose(&self.shown, picked, ""));
+            self.proposals = Some(found.unwrap_or_default());
+        }
+        self.proposals.as_deref().unwrap_or_default()
+    }
+
+    /// Returns the selection that commands use for the picked elements.
+    pub fn proposal(&mut self) -> Option<&Proposal> {
+        let at = self.proposal;
+        self.proposals().get(at)
+    }
+
+    /// Chooses the next selection that means the picked elements, or the first after the last.
+    pub fn next_proposal(&mut self) {
+        let n = self.proposals().len().max(1);
+        self.proposal = (self.proposal + 1) % n;
+    }
+
+    /// Drops picked elements that the scene at the cursor does not have.
+    pub(super) fn keep_picked(&mut self) {
+        let mesh = |picked: &Picked| self.shown.object(&picked.object)?.as_mesh().cloned();
+        let kept = self
+            .picked
+            .as_ref()
+            .and_then(|picked| Some(picked.existing(&*mesh(picked)?)));
+        self.set_picked(kept);
+    }
+}

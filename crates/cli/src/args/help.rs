@@ -40,6 +40,7 @@ const GROUPS: [(&str, &[(&str, &str)]); 4] = [
         "Write and maintain recipes",
         &[
             ("new", "new part"),
+            ("edit", "edit part.ron"),
             ("ops", "ops BevelEdges"),
             ("expectations", "expectations Area"),
             ("schema", "schema"),

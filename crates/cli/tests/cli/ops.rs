@@ -45,8 +45,8 @@ fn selections_are_described_separately() {
         "EdgeSelection: ",
         "EdgeLoop(..)",
         // A description of several lines is printed completely.
-        "A loop goes\n",
-        "A loop that starts at a boundary edge follows the boundary.",
+        "straight across each interior vertex with four edges. A loop\n",
+        "that starts at a boundary edge follows the boundary.",
         "VertexSelection: ",
     ]);
     let operation = folder.run("ops SplitEdges").stdout;

@@ -39,8 +39,8 @@ const GROUPS: [(&str, &[(&str, &str)]); 4] = [
     (
         "Write and maintain recipes",
         &[
-            ("new", "new part"),
             ("edit", "edit part.ron"),
+            ("new", "new part"),
             ("ops", "ops BevelEdges"),
             ("expectations", "expectations Area"),
             ("schema", "schema"),

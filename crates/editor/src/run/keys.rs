@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use engine::Loaded;
-use store::Store;
+use store::{Entry, Store};
 
 /// The key of a step, which stands for the step and all steps before it.
 pub(super) type Key = [u8; 32];
@@ -97,13 +97,12 @@ pub(crate) fn line(path: &Path, stamp: Stamp) -> String {
     format!("{} {stamp:?}\n", path.display())
 }
 
-/// A value that changes when a file changes; `None` for a file that does not exist.
-pub(crate) type Stamp = Option<(u64, Option<std::time::SystemTime>)>;
+/// The description of a file, which changes when the file changes; `None` for a file that does not exist.
+pub(crate) type Stamp = Option<Entry>;
 
-/// Returns a value that changes when the file changes.
+/// Returns the description of a file.
 pub(crate) fn stamp(path: &Path, store: &dyn Store) -> Stamp {
-    let entry = store.entry(path)?;
-    Some((entry.len, entry.modified))
+    store.entry(path)
 }
 
 fn hash(parts: &[&[u8]]) -> Key {

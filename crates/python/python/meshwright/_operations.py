@@ -44,13 +44,14 @@ class SceneOperations:
         Reads the objects of a file into the scene.
 
         Formats: ``.obj``, ``.gltf``, ``.glb``, ``.ply``, ``.stl``, ``.off``, ``.dae``, ``.bez`` (Bezier patches),
-        ``.bzc`` (a Bezier curve) and ``.mws`` (a complete scene). A file compressed by gzip has ``.gz`` after its
+        ``.bzc`` (a Bezier curve) and ``.mws`` (a complete scene). A file compressed with gzip has ``.gz`` after its
         extension, as in ``.obj.gz``; ``.glb`` and ``.mws`` files cannot be compressed this way. An OBJ file becomes one
-        object, and its objects (``o``) and groups (``g``) become face tags. A glTF file gives an object for each mesh,
-        named after its node if it has only one node, and keeps the nodes, cameras, lights, skins, morph targets and
-        animations. A COLLADA file gives an object for each node with a mesh. Content that the scene cannot hold is
-        counted and listed. Images of materials are read from files next to the model. A corner that repeats the corner
-        before it is removed, and a face that still visits a vertex twice is left out.
+        object, and its objects (``o``) and groups (``g``) become face tags. A glTF file gives an object for each mesh.
+        The object is named after the node if only one node references the mesh. The nodes, cameras, lights, skins,
+        morph targets and animations of the file are kept. A COLLADA file gives an object for each node with a mesh.
+        Content that the scene cannot hold is counted and listed. Images of materials are read from files next to the
+        model. A corner that repeats the previous corner is removed, and a face that still contains a vertex twice is
+        left out.
 
         In a recipe: ``Load(path: "teapot.bez")``
 
@@ -62,10 +63,10 @@ class SceneOperations:
         :param orientation: What to do if neighboring faces have opposite orientations. Defaults to Orient.
         :param duplicates: What to do with faces that have the same vertices as an earlier face, in either direction.
             Defaults to Keep.
-        :param degenerate: What to do with faces without area. Defaults to Keep.
+        :param degenerate: What to do with zero-area faces. Defaults to Keep.
         :param isolated: What to do with vertices without a face. Defaults to Keep.
         :param placements: What to do with the nodes of a glTF file. If the nodes are kept, steps change a mesh in its
-            own space, once for all nodes that show the mesh. Defaults to Keep.
+            own space, once for all nodes that reference the mesh. Defaults to Keep.
         :param strict: If true, the step fails if anything in the file would be left out. Defaults to False.
         """
         return self._apply('Load', {'path': path, 'name': name, 'non_manifold': non_manifold, 'orientation': orientation, 'duplicates': duplicates, 'degenerate': degenerate, 'isolated': isolated, 'placements': placements, 'strict': strict}, None, id)
@@ -86,28 +87,29 @@ class SceneOperations:
 
         Writes objects to a file in the output folder.
 
-        The extension chooses the format: ``.obj``, ``.gltf``, ``.glb``, ``.ply``, ``.stl`` or ``.off`` for meshes,
+        The extension determines the format: ``.obj``, ``.gltf``, ``.glb``, ``.ply``, ``.stl`` or ``.off`` for meshes,
         ``.bez`` for Bezier patches, ``.bzc`` for a curve, and ``.mws`` for a complete scene without any loss. ``.csv``
         is a table of the positions and attributes of vertices, faces or corners, and ``.npz`` has the arrays of a mesh
-        for ``NumPy``; these cannot be read. A name such as ``a.obj.gz`` compresses the file by gzip. Content that the
-        format cannot store is listed. The file is only created when the whole recipe has succeeded.
+        for ``NumPy``. These two formats cannot be read. If the name ends with ``.gz``, as in ``a.obj.gz``, the file is
+        compressed with gzip. Content that the format cannot store is reported. The file is only created when the whole
+        recipe has succeeded.
 
         In a recipe: ``Save(path: "a.obj")``
 
         :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
             without extension, of the file in the recipe parameter ``name``.
-        :param images: What to do with the images of materials. If omitted, ``.glb`` files embed the images, and for
-            ``.gltf`` and ``.obj`` files, images that are next to their original model are copied next to the written
-            file. OBJ cannot embed images, so embedded images are written to files too.
+        :param images: What to do with the images of materials. By default, images are embedded in ``.glb`` files. For
+            ``.gltf`` and ``.obj``, images in the folder of the source model are copied to the folder of the output
+            file. OBJ cannot embed images, so embedded images are also written to files.
         :param compress: How to compress the geometry of ``.glb`` and ``.gltf`` files without loss. If omitted, the
             geometry is not compressed.
-        :param quantize: The numbers of bits with which the geometry of ``.glb`` and ``.gltf`` files is stored. If
-            omitted, numbers are floats of 32 bits. ``quantize: ()`` uses the default of each attribute. The report
-            lists the largest errors.
+        :param quantize: The number of bits for each attribute of the geometry in ``.glb`` and ``.gltf`` files. If
+            omitted, numbers are stored as 32-bit floats. ``quantize: ()`` uses the default of each attribute. The
+            report lists the largest errors.
         :param weight_sets: For ``.gltf`` and ``.glb``, the number of sets of four joints that are written for each
             vertex of a skinned mesh. If omitted, the number of sets in the file that the mesh comes from, or 1 if it
             does not come from such a file.
-        :param rows: For ``.csv``, the elements that have a row each. If omitted, vertices.
+        :param rows: For ``.csv``, the elements that the rows list. If omitted, vertices.
         """
         return self._apply('Save', {'path': path, 'images': images, 'compress': compress, 'quantize': quantize, 'weight_sets': weight_sets, 'rows': rows}, on, id)
 
@@ -125,17 +127,17 @@ class SceneOperations:
 
         Point i becomes vertex i, and polygon i becomes face i. If connected faces have different orientations, the
         faces in the minority are reversed, provided that all orientations then agree. If the faces do not form a
-        manifold, they are split: an edge keeps two faces with consistent orientations, a vertex keeps one fan of faces,
-        and the other faces get copies of the vertices, which are numbered last. Both the report and the check of the
-        recipe list the reversed and split elements.
+        manifold, they are split. An edge keeps two faces with consistent orientations, and a vertex keeps one fan of
+        faces. The other faces get copies of the vertices, which get the highest ids. Both the report and the check of
+        the recipe list the reversed and split elements.
 
         In a recipe: ``Polygons(name: "new", points: [(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces: [[0, 1, 2]])``
 
-        :param name: The name of the new object. Defaults to the name of the operation in lower case, with a number if
-            this name is taken.
-        :param points: The points: ``(x, y, z)``, in scene units. Points that no face uses become isolated vertices.
-        :param faces: The faces. Each is a list of the numbers of its points, counted from 0, counter-clockwise seen
-            from outside. A face has at least three points, without duplicates.
+        :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
+            number if this name is taken.
+        :param points: The points ``(x, y, z)``, in scene units. Points that no face uses become isolated vertices.
+        :param faces: The faces. Each face is a list of the indices of its points, counted from 0, in counter-clockwise
+            order seen from outside. A face has at least three points, without duplicates.
         """
         return self._apply('Polygons', {'name': name, 'points': points, 'faces': faces}, None, id)
 
@@ -153,13 +155,13 @@ class SceneOperations:
         Creates a cube.
 
         The cube has 8 vertices and 6 squares: bottom (0, 2, 3, 1), top (4, 5, 7, 6), front (0, 1, 5, 4), right (1, 3,
-        7, 5), back (3, 2, 6, 7), left (2, 0, 4, 6). The number of a vertex is (x > center) + 2 (y > center) + 4 (z >
+        7, 5), back (3, 2, 6, 7), left (2, 0, 4, 6). The id of a vertex is (x > center) + 2 (y > center) + 4 (z >
         center), where a true comparison counts as 1.
 
         In a recipe: ``Cube(name: "new", size: 3, center: (1, 2, 3))``
 
-        :param name: The name of the new object. Defaults to the name of the operation in lower case, with a number if
-            this name is taken.
+        :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
+            number if this name is taken.
         :param size: The length of the edges, in scene units. More than 0. Defaults to 2.0.
         :param center: The center of the cube, in scene units.
         :param triangles: Whether to cut each square (a, b, c, d) along its diagonal from a to c into the triangles (a,
@@ -185,8 +187,8 @@ class SceneOperations:
 
         In a recipe: ``Tetrahedron(name: "new")``
 
-        :param name: The name of the new object. Defaults to the name of the operation in lower case, with a number if
-            this name is taken.
+        :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
+            number if this name is taken.
         :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to 1.0.
         :param center: The center of the tetrahedron, in scene units.
         """
@@ -208,8 +210,8 @@ class SceneOperations:
 
         In a recipe: ``Octahedron(name: "new")``
 
-        :param name: The name of the new object. Defaults to the name of the operation in lower case, with a number if
-            this name is taken.
+        :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
+            number if this name is taken.
         :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to 1.0.
         :param center: The center of the octahedron, in scene units.
         """
@@ -231,8 +233,8 @@ class SceneOperations:
 
         In a recipe: ``Icosahedron(name: "new")``
 
-        :param name: The name of the new object. Defaults to the name of the operation in lower case, with a number if
-            this name is taken.
+        :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
+            number if this name is taken.
         :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to 1.0.
         :param center: The center of the icosahedron, in scene units.
         """
@@ -252,12 +254,12 @@ class SceneOperations:
 
         Creates a flat sheet of squares whose normals point to +z.
 
-        Vertices and faces are numbered in rows, from -x to +x and from -y to +y.
+        The ids of vertices and faces follow the rows, from -x to +x and from -y to +y.
 
         In a recipe: ``Grid(name: "new", columns: 3, rows: 2)``
 
-        :param name: The name of the new object. Defaults to the name of the operation in lower case, with a number if
-            this name is taken.
+        :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
+            number if this name is taken.
         :param columns: The number of squares along x. At least 1. Defaults to 10.
         :param rows: The number of squares along y. At least 1. Defaults to 10.
         :param size: The side length of a square, in scene units. More than 0. Defaults to 1.0.
@@ -281,12 +283,12 @@ class SceneOperations:
         Creates a torus of quadrilaterals around the z axis.
 
         Vertex ``i * across + j`` is vertex j of ring i across the tube. Ring 0 is in the direction +x, and its vertex 0
-        is the farthest from the axis.
+        is farthest from the axis.
 
         In a recipe: ``Torus(name: "new", around: 7, across: 5, major: 2, minor: 0.5)``
 
-        :param name: The name of the new object. Defaults to the name of the operation in lower case, with a number if
-            this name is taken.
+        :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
+            number if this name is taken.
         :param around: The number of faces around the z axis. At least 3. Defaults to 32.
         :param across: The number of faces around the tube. At least 3. Defaults to 16.
         :param major: The distance from the z axis to the center of the tube, in scene units. More than 0. Defaults to
@@ -318,8 +320,8 @@ class SceneOperations:
 
         In a recipe: ``Cylinder(name: "new", around: 6, radius: 1, height: 2, caps: true)``
 
-        :param name: The name of the new object. Defaults to the name of the operation in lower case, with a number if
-            this name is taken.
+        :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
+            number if this name is taken.
         :param around: The number of sides. At least 3. Defaults to 32.
         :param radius: The distance from the axis to the vertical edges, in scene units. More than 0. Defaults to 1.0.
         :param height: The height along z, in scene units. More than 0. Defaults to 2.0.
@@ -347,8 +349,8 @@ class SceneOperations:
 
         In a recipe: ``UvSphere(name: "new", around: 8, rings: 4, radius: 2)``
 
-        :param name: The name of the new object. Defaults to the name of the operation in lower case, with a number if
-            this name is taken.
+        :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
+            number if this name is taken.
         :param around: The number of meridians. At least 3. Defaults to 32.
         :param rings: The number of bands of faces from pole to pole. At least 2. Defaults to 16.
         :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to 1.0.
@@ -371,11 +373,11 @@ class SceneOperations:
         Turns Bezier patches into a mesh.
 
         Acts on all objects that consist of patches, or on the objects in ``on``. Each object becomes one mesh of the
-        same name. Every patch is divided into ``segments`` x ``segments`` cells. Elements are numbered patch after
-        patch. Patches share no vertices, but if they have the same control points on a common side, the positions of
-        their vertices there are equal bit for bit, so that ``Weld(distance: 0)`` joins them. A side whose points
-        coincide, as at the pole of a teapot's lid, becomes one vertex. Patches without area give no faces and are
-        counted. The mesh has UVs and normals only if they are requested.
+        same name. Every patch is divided into ``segments`` x ``segments`` cells. The ids of elements follow the order
+        of the patches. Patches share no vertices, but if they have the same control points on a common side, the
+        positions of their vertices there are identical bit for bit, so that ``Weld(distance: 0)`` joins them. A side
+        whose points coincide, as at the pole of a teapot's lid, becomes one vertex. Zero-area patches give no faces and
+        are counted. The mesh has UVs and normals only if they are requested.
 
         In a recipe: ``Tessellate(segments: 3)``
 
@@ -394,9 +396,9 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Replace curves by polylines through their points.
+        """Replace curves with polylines through their points.
 
-        Replaces curves by polylines through their points.
+        Replaces curves with polylines through their points.
 
         Each curve becomes one polyline with ``segments`` + 1 points in the plane z = 0, at the parameters 0, 1 /
         segments, ... 1. The first and the last point are exactly the end control points.
@@ -414,12 +416,13 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Replace curves by the levels of de Casteljau's algorithm.
+        """Replace curves with the levels of de Casteljau's algorithm.
 
-        Replaces curves by the levels of de Casteljau's algorithm.
+        Replaces curves with the levels of de Casteljau's algorithm.
 
         A curve with n control points becomes n polylines in the plane z = 0. The first polyline is the control polygon
-        with n points. Each following polyline has one point less. The last polyline is the point of the curve at ``t``.
+        with n points. Each of the following polylines has one point less. The last polyline is the point of the curve
+        at ``t``.
 
         In a recipe: ``CurveLevels(t: 0)``
 
@@ -440,8 +443,8 @@ class SceneOperations:
         Moves one control point of curves.
 
         The other control points do not move. The point of the curve at a parameter t moves in the same direction as the
-        control point. The point of the curve moves as far as the control point, multiplied by the value at t of the
-        Bernstein polynomial of the control point.
+        control point. Its distance is the distance of the control point times the value at t of the Bernstein
+        polynomial of the control point.
 
         In a recipe: ``MoveControlPoint(index: 1, to: (2, -3.5))``
 
@@ -462,8 +465,8 @@ class SceneOperations:
 
         Copies an object, with its attributes and materials, under a new name.
 
-        The copy is added after all other objects. The elements of the copy have the same numbers as in the original. If
-        nodes place the object, a node that places the copy is added beside each node that places the object.
+        The copy is added after all other objects. The elements of the copy have the same ids as in the original. If
+        nodes place the object, a node that places the copy is added next to each of them.
 
         In a recipe: ``Copy(from: "mesh", to: "new")``
 
@@ -482,7 +485,7 @@ class SceneOperations:
 
         Deletes objects.
 
-        The remaining objects keep their order. The nodes that place a deleted object are also removed, unless they have
+        The remaining objects keep their order. A node that places a deleted object is also removed, unless it has
         children, a camera or a light.
 
         In a recipe: ``Delete(objects: ["mesh"])``
@@ -523,15 +526,15 @@ class SceneOperations:
 
         Joins meshes into one object.
 
-        Each mesh becomes a part of the result. Vertices, edges and faces are numbered part by part, in the order of the
-        list. The parts are not connected, even where they touch. The result replaces the first mesh of the list in the
-        scene; the other meshes are removed. Nodes that place a part are applied to its points, once for each node, and
-        the result has no node.
+        Each mesh becomes a part of the result. The ids of vertices, edges and faces follow the parts, in the order of
+        the list. The parts are not connected, even where they touch. The result replaces the first mesh of the list in
+        the scene; the other meshes are removed. If nodes place a part, the result contains a copy of the part for each
+        node, with the transform of the node applied to its points. The result has no node.
 
         If a part lacks an attribute that another part has, the elements of this part get the value zero, or -1 (no
-        material) for material numbers. Normals are dropped and reported as lost unless all parts have them. If an
+        material) for material indices. Normals are dropped and reported as lost unless all parts have them. If an
         attribute of a part has a different type than in earlier parts, the attribute of this part is dropped and
-        reported as lost. Equal materials become one.
+        reported as lost. Equal materials become one material.
 
         In a recipe: ``Join(objects: ["mesh", "other"], name: "joined")``
 
@@ -558,7 +561,7 @@ class SceneOperations:
         other parts are added after all other objects. Elements keep their order and their values, and every part has
         all materials. Vertices without a face are dropped and counted. A mesh without faces is refused.
 
-        If nodes place the object, the nodes place the first part after the step, and each of them gets children that
+        If nodes place the object, they place the first part after the step. Each of these nodes gets children that
         place the other parts.
 
         If parts of one component are separated, the edges and vertices between them are copied to both parts. If the
@@ -589,17 +592,17 @@ class SceneOperations:
 
         Scales, rotates and moves objects.
 
-        Points are first scaled, then rotated, then moved. The points of meshes, patches, curves and polylines are
-        changed, unless nodes of a glTF file place the object. An object that nodes place is moved by changing the
-        placements of its nodes, and everything below these nodes moves along. A skinned mesh is moved with its joints.
-        A node whose placement is animated gets a parent, which is moved instead. Without ``on:``, root nodes with
-        cameras and lights also move, unless ``about`` is ``Center``. A curve must stay in the plane z = 0.
+        Points are first scaled, then rotated, then moved. The step changes the points of meshes, patches, curves and
+        polylines. If nodes of a glTF file place an object, the step changes the placements of these nodes instead, and
+        everything below the nodes also moves. A skinned mesh moves with its joints. A node whose placement is animated
+        gets a parent, which is moved instead. Without ``on:``, root nodes with cameras and lights also move, unless
+        ``about`` is ``Center``. A curve must stay in the plane z = 0.
 
         Ids do not change. Normals and the deltas of morph targets are transformed; other attributes do not change. A
         mirror (one or three negative factors in ``scale``) also reverses the faces, so that they are counter-clockwise
-        seen from outside: the first corner of a face stays first, and the other corners follow in reverse order. In
+        seen from outside. The first corner of a face stays first, and the other corners follow in reverse order. In
         mirrored patches, u and v are exchanged, so that the outside stays the outside. A mirror drops attributes with
-        the rule ``Drop``, which are lost whenever the connectivity changes.
+        the rule ``Drop``, as does any step that changes the connectivity.
 
         In a recipe: ``Transform()``
 
@@ -624,24 +627,24 @@ class SceneOperations:
     ) -> Self:
         """Place copies of an object on a surface.
 
-        Places copies of an object on a surface, spread evenly at random.
+        Places copies of an object on a surface, at random and evenly spread.
 
         Exactly ``count`` points are chosen so that they keep their distance from each other (Yuksel, "Sample
-        Elimination for Generating Poisson Disk Sample Sets", 2015). At each point, a node shows the object, so that the
-        memory and the file do not grow with the copies: the origin of the object is moved to the point. To make one
-        mesh of all copies, use ``Join`` afterwards. An object that no node has placed before is then shown only at the
-        points.
+        Elimination for Generating Poisson Disk Sample Sets", 2015). Each copy is a node that references the object (an
+        instance), so copies need almost no memory or file space. The node moves the origin of the object to the point.
+        To make one mesh of all copies, use ``Join`` afterwards. If no node placed the object before, it then appears
+        only at the points.
 
-        Without ``object``, a mesh of the points is made, with the normals of the surface and without faces.
+        Without ``object``, the result is a mesh of the points without faces. Its normals are those of the surface.
 
         In a recipe: ``Scatter(surface: "mesh", count: 20, seed: 7)``
 
         :param object: The name of the object that is placed. If omitted, only the points are made.
-        :param surface: The name of the object with the surface: a mesh that is shown once.
+        :param surface: The name of the object with the surface, which must be a mesh with a single instance.
         :param count: The number of points.
-        :param seed: The number from which the random choices follow. Defaults to 0.
-        :param align: The axis of the object that is turned to the normal of the surface. If omitted, the copies are not
-            turned.
+        :param seed: The seed. A different seed gives different points. Defaults to 0.
+        :param align: The axis of the object that is aligned with the normal of the surface. If omitted, the copies are
+            not rotated.
         :param name: The name of the mesh of points, without ``object``. Defaults to ``points``.
         """
         return self._apply('Scatter', {'object': object, 'surface': surface, 'count': count, 'seed': seed, 'align': align, 'name': name}, None, id)
@@ -659,15 +662,15 @@ class SceneOperations:
 
         Vertices at most ``distance`` apart are linked, and vertices that are connected by a chain of links merge into
         one, even if the ends of the chain are farther apart than ``distance``. The merged vertex has the position and
-        the values of the vertex with the lowest number. The other vertices are removed, and later vertices are
-        renumbered. Edges between the same two vertices become one edge with the values of the first. Corner values stay
-        with their corners, so UV seams are kept.
+        the values of the vertex with the lowest id. The other vertices are removed, so the ids of later vertices
+        change. Edges between the same two vertices become one edge with the values of the first edge. Corner values
+        stay with their corners, so UV seams are kept.
 
         If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
-        corners left or would visit a vertex twice. If joined faces have opposite orientations, the smaller group is
+        corners left or would contain a vertex twice. If joined faces have opposite orientations, the smaller group is
         reversed, provided that all orientations then agree. Reversed faces are counted, and the normals of vertices and
         corners are dropped. Where the result would still not be manifold, vertices and edges are copied, and the copies
-        are counted: for example, a third face at an edge gets a copy of the edge. If no vertices merge, the mesh does
+        are counted. For example, a third face at an edge gets a copy of the edge. If no vertices merge, the mesh does
         not change.
 
         In a recipe: ``Weld(distance: 0)``
@@ -688,14 +691,14 @@ class SceneOperations:
 
         Reverses the orientation of faces, so that their other side is the outside.
 
-        Adjacent faces must have the same orientation, so only whole connected components can be reversed: if a selected
+        Adjacent faces must have the same orientation, so only whole connected components can be reversed. If a selected
         face shares an edge with a face that is not selected, the step is refused. No vertex moves, and all elements
-        keep their numbers. The first corner of a face stays first, and the other corners follow in reverse order.
-        Normals are negated. Other attributes stay with their elements, and corner values with their vertex and face.
+        keep their ids. The first corner of a face stays first, and the other corners follow in reverse order. Normals
+        are negated. Other attributes stay with their elements, and corner values stay with their vertex and face.
 
         In a recipe: ``Reverse()``
 
-        :param faces: The faces to reverse: whole connected components. Defaults to All.
+        :param faces: The faces to reverse. They must form whole connected components. Defaults to All.
         """
         return self._apply('Reverse', {'faces': faces}, on, id)
 
@@ -712,18 +715,17 @@ class SceneOperations:
 
         A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length (the relative
         difference of their squared lengths is at most 1e-12), it is cut along the diagonal at its vertex with the
-        lowest number. A diagonal that gives a triangle without area, or a triangle that is turned over relative to the
-        normal of the face, is chosen only if the other diagonal is not better. A quadrilateral with a reflex corner is
+        lowest id. A diagonal that gives a zero-area triangle, or a triangle that is turned over relative to the normal
+        of the face, is chosen only if the other diagonal is not better. A quadrilateral with a reflex corner is
         therefore cut at that corner. If a diagonal would join two vertices that are already joined by an edge or
         another diagonal, the other diagonal is chosen where possible. The remaining duplicate diagonals are counted.
 
         A face with more corners is projected along its normal, cut by ear clipping, and improved by flipping diagonals
         until it is a constrained Delaunay triangulation. A face that cannot be triangulated in this way, because it has
-        no area or its sides cross, becomes a triangle fan around its vertex with the lowest number, and is counted.
+        zero area or its sides cross, becomes a triangle fan around its vertex with the lowest id, and is counted.
 
         The triangles replace their face in the order of the faces and have the values of the face. Vertices and edges
-        keep their numbers. The corners of the triangles have the values of the corners of the face at the same
-        vertices.
+        keep their ids. The corners of the triangles have the values of the corners of the face at the same vertices.
 
         In a recipe: ``Triangulate()``
 
@@ -744,19 +746,19 @@ class SceneOperations:
     ) -> Self:
         """Flip edges to the other diagonal of their two triangles.
 
-        Replaces the edge between two triangles by the other diagonal of the pair.
+        Replaces the edge between two triangles with the other diagonal of the two triangles.
 
-        Edges are flipped in order of their numbers. Each flip is checked against the mesh as edited so far. A flip is
+        Edges are flipped in order of their ids. Each flip is checked against the mesh as edited so far. A flip is
         refused if the edge is on the boundary, if a face beside it is not a triangle, or if the opposite corners of the
         two triangles are already joined by an edge or are the same vertex. At a seam, a flip is refused unless
-        ``seams`` is ``Drop``. All elements keep their numbers, and no vertex moves. Vertices, edges and faces keep
-        their values. Each triangle gets one new corner. The new corner takes the values that the other triangle has at
-        the same vertex; all other corners keep their values.
+        ``seams`` is ``Drop``. All elements keep their ids, and no vertex moves. Vertices, edges and faces keep their
+        values. Each triangle gets one new corner. The new corner takes the values that the other triangle has at the
+        same vertex; all other corners keep their values.
 
-        With ``until: Delaunay`` or ``until: Valence``, an edge is flipped only if that improves the mesh. Edges are
+        With ``until: Delaunay`` or ``until: Valence``, an edge is flipped only if the flip improves the mesh. Edges are
         checked again, pass after pass, until no edge is flipped. Flips with ``until: Delaunay`` or ``until: Valence``
-        neither fold the surface nor create triangles without area. If a flip that would improve the mesh is refused,
-        the step does not fail: the edge is left unchanged, and the report counts the refusal by reason. The report also
+        neither fold the surface nor create zero-area triangles. If a flip that would improve the mesh is refused, the
+        step does not fail. The edge is left unchanged, and the report counts the refusals by reason. The report also
         contains the number of passes, and whether the step stopped because ``passes`` was reached.
 
         On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from
@@ -764,8 +766,8 @@ class SceneOperations:
 
         In a recipe: ``FlipEdges(edges: All)``
 
-        :param edges: The edges to flip. The edges are selected before the first flip. An edge keeps its number when it
-            is flipped.
+        :param edges: The edges to flip. The edges are selected before the first flip. An edge keeps its id when it is
+            flipped.
         :param until: Which edges are flipped, and when to stop. Defaults to Once.
         :param passes: The largest number of passes over the edges. Ignored for ``Once``, which makes one pass. Defaults
             to 100.
@@ -783,20 +785,20 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Insert a vertex on edges and join it to the opposite corners.
+        """Insert a vertex on each edge and join it to the opposite corners.
 
         Inserts a vertex on each edge and joins it to the opposite corners of the triangles beside the edge.
 
         In a mesh of triangles, a split adds 1 vertex, 3 edges and 2 faces, or 1 vertex, 2 edges and 1 face on the
         boundary. A face with more than three corners only gains the new vertex as a corner. Edges are split in order of
-        their numbers; new edges are not split again. New vertices are numbered last, in the order of the splits. Values
+        their ids; new edges are not split again. New vertices get the highest ids, in the order of the splits. Values
         at the new vertex and its corners are interpolated between the ends, on each side of a seam separately.
 
         In a recipe: ``SplitEdges(edges: All)``
 
         :param edges: The edges to split.
         :param at: The position of the new vertex on the edge. From 0 to 1, exclusive. If ``edges`` is ``Between(v,
-            w)``, 0 is at v and 1 is at w. Otherwise 0 is at the end with the lower number. Defaults to 0.5.
+            w)``, 0 is at v and 1 is at w. Otherwise 0 is at the end with the lower id. Defaults to 0.5.
         :param on_refusal: What to do when a split is refused. Defaults to Error.
         """
         return self._apply('SplitEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, on, id)
@@ -812,12 +814,12 @@ class SceneOperations:
     ) -> Self:
         """Collapse edges to points.
 
-        Collapses edges: the two ends of each edge become one vertex.
+        Collapses edges, so that the two ends of each edge become one vertex.
 
         In a mesh of triangles, a collapse removes 1 vertex, 3 edges and 2 faces or, on the boundary, 1 vertex, 2 edges
         and 1 face. A face with more than three corners beside the edge only loses a corner. Of the two ends, the vertex
-        with the lower number is kept. Edges are collapsed in order of their numbers. An edge that an earlier collapse
-        removed counts as refused.
+        with the lower id is kept. Edges are collapsed in order of their ids. An edge that an earlier collapse removed
+        counts as refused.
 
         A collapse is refused if it would change the topology of the surface or make elements coincide:
 
@@ -829,14 +831,14 @@ class SceneOperations:
         triangles beside the edge share another edge.
 
         Values at the remaining vertex and its corners are interpolated between the ends, on each side of a seam
-        separately. When two edges become one, the remaining edge has the larger crease of the two, and the tags of
+        separately. When two edges become one, the remaining edge has the larger of the two creases, and the tags of
         both. Normals are dropped.
 
         In a recipe: ``CollapseEdges(edges: All, on_refusal: Skip)``
 
         :param edges: The edges to collapse.
         :param at: The position of the remaining vertex on the edge, from 0 to 1. If ``edges`` is ``Between(v, w)``, 0
-            is at v and 1 is at w. Otherwise 0 is at the end with the lower number. Defaults to 0.5.
+            is at v and 1 is at w. Otherwise 0 is at the end with the lower id. Defaults to 0.5.
         :param on_refusal: What to do when a collapse is refused. Defaults to Error.
         """
         return self._apply('CollapseEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, on, id)
@@ -854,11 +856,11 @@ class SceneOperations:
 
         Removes edges and merges the faces beside them.
 
-        Edges are removed in order of their numbers. Each removal is checked against the mesh as edited so far. After a
-        removal, the mesh has 1 edge and 1 face less. Of the two faces beside the edge, the one with the lower number is
+        Edges are removed in order of their ids. Each removal is checked against the mesh as edited so far. Each removal
+        reduces the numbers of edges and faces by 1. Of the two faces beside the edge, the face with the lower id is
         kept, with its values. No vertex is removed or moved. To remove vertices that are left with two edges, use
         ``DissolveVertices(vertices: Valence(2))`` in a later step. The remaining elements keep their order and their
-        values but are renumbered.
+        values but get new ids.
 
         An edge is refused if it is on the boundary, if the same face is on both of its sides, if one of its ends has
         only two edges, or if its two faces have common corners other than its ends. An edge that is a seam is refused
@@ -886,29 +888,29 @@ class SceneOperations:
 
         Replaces edges with faces of constant width.
 
-        A selected edge and both of its ends are removed. In both faces beside the edge, the new face reaches to the
-        same distance, the width. Each other edge at an end is cut where it has this distance, and between two selected
-        edges the vertex moves into the face. If three or more new vertices surround an old vertex, another new face
-        joins them. All edges are beveled together: a cube that is beveled at all edges keeps all of its symmetries.
+        A selected edge and both of its ends are removed, and a new face replaces the edge. In both faces beside the
+        edge, the new face ends at the distance ``width`` from the old edge. Each other edge at an end is cut at this
+        distance. Between two selected edges, the new vertex lies in the face. If three or more new vertices surround an
+        old vertex, another new face joins them. All edges are beveled together, so a cube that is beveled at all edges
+        keeps all of its symmetries.
 
-        The ends of the edges are removed, and later vertices are renumbered. New vertices are numbered last. Faces keep
-        their numbers; new faces are numbered last: those of edges in the order of the edges, then those of vertices.
-        Edges are renumbered.
+        The ends of the edges are removed, so the ids of later vertices change. New vertices get the highest ids. Faces
+        keep their ids. New faces get the highest ids: first the faces of edges, in order of the edges, then the faces
+        of vertices. Edges get new ids.
 
-        Values at new vertices are those at their places in the old faces, so textures do not change. A new face has the
+        A new vertex has the values of the old face at its position, so textures do not change. A new face has the
         values (material, tags) of one of the faces beside it. Which one is not specified, but it is the same in every
         run. New edges have zero values (no crease, no tags). Normals are dropped.
 
-        An edge is refused if it is on the boundary, if one of its ends has only one other edge, which is not selected,
-        or if the bevels at both ends of an edge would overlap.
+        An edge is refused if it is on the boundary, if one of its ends has only one other edge and this edge is not
+        selected, or if the bevels at both ends of an edge would overlap.
 
         In a recipe: ``BevelEdges(edges: Between(0, 2), width: 0.25)``
 
         :param edges: The edges to bevel.
-        :param width: The width: the distance of the new edges from the beveled edge in each of its two faces, in scene
-            units.
-        :param fraction: The width as a fraction of the length of the shortest edge at an end of a selected edge, in
-            place of ``width``. From 0 to 1, exclusive.
+        :param width: The distance between the beveled edge and the new edges in each of its two faces, in scene units.
+        :param fraction: The width as a fraction of the length of the shortest edge at the ends of the selected edges.
+            Replaces ``width``. From 0 to 1, exclusive.
         :param on_refusal: What to do when an edge is refused. Defaults to Error.
         """
         return self._apply('BevelEdges', {'edges': edges, 'width': width, 'fraction': fraction, 'on_refusal': on_refusal}, on, id)
@@ -929,7 +931,7 @@ class SceneOperations:
         Sets the edge attribute ``crease`` of the selected edges and the vertex attribute ``corner`` of the selected
         vertices to ``sharpness``. Other elements keep their values, or get 0 if the attribute did not exist. Loop and
         Catmull-Clark subdivision keep an edge or a vertex sharp for this number of levels and smooth it in later
-        levels. For example, an edge with sharpness 2.5 is sharp for two levels and half sharp in the third. With
+        levels. For example, an edge with sharpness 2.5 is sharp for two levels and half sharp in the third level. With
         sharpness 10, an edge is sharp at every level. Boundary edges are always sharp.
 
         At least one of ``edges`` and ``vertices`` must be given. The geometry does not change. The report counts the
@@ -953,16 +955,16 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Insert a vertex at the center of faces and join it to their corners.
+        """Insert a vertex at the center of each face and connect it to the corners.
 
-        Inserts a vertex at the center of faces and joins it to their corners.
+        Inserts a vertex at the center of each face and connects it to the corners of the face.
 
         A face with n corners becomes n triangles. Each poked face adds 1 vertex, n edges and n - 1 faces. The first
-        triangle keeps the number of the face; the other triangles and the new vertices and edges are numbered last, in
+        triangle keeps the id of the face; the other triangles and the new vertices and edges get the highest ids, in
         order of the faces. The new vertex is at the mean of the corners, moved along the normal of the face by
-        ``distance``. The vertex and corner values of the new vertex are also means, if the type of the attribute allows
-        means. The triangles have the values of their face, and the new edges have zero values (no crease, no tags). If
-        ``distance`` is not 0, normals are dropped.
+        ``distance``. The vertex and corner attributes of the new vertex are also means, if the type of the attribute
+        allows means. The triangles have the values of their face, and the new edges have zero values (no crease, no
+        tags). If ``distance`` is not 0, normals are dropped.
 
         A face is refused only if the position of the new vertex would not be finite, or if the mesh already has the
         largest supported number of elements.
@@ -971,7 +973,7 @@ class SceneOperations:
 
         :param faces: The faces to poke. Defaults to All.
         :param distance: The distance of the vertex from the center along the normal of the face, in scene units. A
-            negative distance moves the vertex inwards. A face without area has no normal: its vertex is at the center.
+            negative distance moves the vertex inwards. A zero-area face has no normal, so its vertex is at the center.
             Defaults to 0.0.
         :param on_refusal: What to do when a face is refused. Defaults to Error.
         """
@@ -985,22 +987,22 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Cut faces in two with edges between their corners.
+        """Cut each face in two with an edge between two of its corners.
 
-        Cuts faces in two with edges between their corners.
+        Cuts each face in two with an edge between two of its corners.
 
         Each pair (v, w) of vertices cuts the face that has both vertices as corners. The new edge joins the two
         vertices. Each cut adds 1 edge and 1 face. Cuts are made in the order of the list, so a face can be cut several
         times. The part of the face to the right of the line from v to w is the new face, and the other part keeps the
-        number. New edges and faces are numbered last. Corners keep their values, the new face has the values of the old
-        one, and the new edge has zero values (no crease, no tags).
+        id. New edges and faces get the highest ids. Corners keep their values, the new face has the values of the old
+        face, and the new edge has zero values (no crease, no tags).
 
         A cut is refused if the two vertices are the same, if they are already joined by an edge, if no face has both as
         corners, or if several faces have both as corners, because the cut would be ambiguous.
 
         In a recipe: ``SplitFaces(between: [])``
 
-        :param between: The cuts: a list of pairs of vertex numbers, for example ``[(0, 2), (5, 9)]``.
+        :param between: The cuts, as a list of pairs of vertex ids, for example ``[(0, 2), (5, 9)]``.
         :param on_refusal: What to do when a cut is refused. Defaults to Error.
         """
         return self._apply('SplitFaces', {'between': between, 'on_refusal': on_refusal}, on, id)
@@ -1020,13 +1022,12 @@ class SceneOperations:
 
         All faces are removed at once, so their order does not matter. Edges left without a face are removed. Vertices
         that lose their last edge are also removed, unless ``keep_vertices`` is true. Vertices that were isolated before
-        the step are kept. The remaining elements keep their order and their values but are renumbered. To delete edges
-        or vertices together with their faces, use ``FacesBeside(edges)`` or ``FacesAround(vertices)``.
+        the step are kept. The remaining elements keep their order and their values but get new ids. To delete edges or
+        vertices together with their faces, select the faces with ``FacesBeside(edges)`` or ``FacesAround(vertices)``.
 
         The removal is refused if the remaining faces around a vertex would form separate fans that meet only at that
-        vertex. With ``on_refusal: Skip``, faces are instead removed one by one, in order of their numbers, in repeated
-        passes until no more of the selected faces can be removed. The selected faces that remain are counted as
-        refused.
+        vertex. With ``on_refusal: Skip``, faces are instead removed one by one, in order of their ids, in repeated
+        passes until no more selected faces can be removed. The selected faces that remain are counted as refused.
 
         In a recipe: ``DeleteFaces(faces: All)``
 
@@ -1053,20 +1054,21 @@ class SceneOperations:
 
         Selected faces that share an edge form a region and move together, with one normal and one center. A region is
         first scaled, then rotated, both about the mean of its vertices, and then moved. Side faces with four corners
-        are added along the rim of the region: the edges with a face of the region on one side only. If all faces of an
-        open sheet are extruded, the result is a box that is open where the sheet was. If a region is closed, it has no
-        rim and no normal: its faces only move, and ``by`` must be an ``Offset``.
+        are added along the rim of the region, which consists of the edges with a face of the region on one side only.
+        If all faces of an open sheet are extruded, the result is a box that is open where the sheet was. A closed
+        region has no rim and no normal, so its faces only move, and ``by`` must be an ``Offset``.
 
-        The faces keep their numbers, so the same selection can be extruded again in later steps, for example to grow an
-        arm out of a body. Vertices and edges inside a region also keep their numbers. The vertices and edges of the old
-        rim do not move, and the moved faces get a new rim. New side faces are numbered last: by region, in order of the
-        lowest face number in each region, then in order of the faces, then counter-clockwise around each face from its
-        first corner. New vertices are in the same order: each is the copy of the first vertex of its side face.
+        The faces keep their ids, so the same selection can be extruded again in later steps, for example to grow an arm
+        out of a body. Vertices and edges inside a region also keep their ids. The vertices and edges of the old rim do
+        not move, and the moved faces get a new rim. New side faces get the highest ids: region by region, in order of
+        the lowest face id of each region, then in order of the faces, then counter-clockwise around each face from its
+        first corner. New vertices are in the same order. Each new vertex is a copy of the first vertex of its side
+        face.
 
         A side face has the values of the adjacent moved face (material, tags). The corners of a side face have the
-        values of the corners of the moved face, so textures have no seam there. But each side face shows only one line
-        of the texture, the line along its edge, stretched over the face. The new edges of the rim have the values of
-        the old ones (creases, tags), and the edges between the old and the new rim have zero values (no crease, no
+        values of the corners of the moved face, so textures have no seam there. Each side face, however, shows only one
+        line of the texture (the line along its edge), stretched over the face. The new edges of the rim have the values
+        of the old ones (creases, tags), and the edges between the old and the new rim have zero values (no crease, no
         tags). Normals are dropped.
 
         In a recipe: ``ExtrudeFaces(faces: Faces([0]), by: Distance(0.5))``
@@ -1089,14 +1091,14 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Shrink faces, each with a ring of faces around it.
+        """Shrink faces and surround each face with a ring of faces.
 
-        Shrinks faces and surrounds each with a ring of faces.
+        Shrinks faces and surrounds each face with a ring of faces.
 
-        Each face is inset separately, even if selected faces share edges. The inner face keeps the number of the face,
-        and existing vertices do not move. A face with n corners adds n vertices, 2 n edges and n faces with four
-        corners. New vertices and faces are numbered last: in order of the selected faces, and counter-clockwise around
-        each face from its first corner.
+        Each face is inset separately, even if selected faces share edges. The inner face keeps the id of the face, and
+        existing vertices do not move. A face with n corners adds n vertices, 2 n edges and n faces with four corners.
+        New vertices and faces get the highest ids: in order of the selected faces, and counter-clockwise around each
+        face from its first corner.
 
         Values at the new corners and vertices are interpolated between the outer corner and the mean of the face, so
         textures do not change. The ring has the values of the face (material, tags), and the inner edges have the
@@ -1107,8 +1109,8 @@ class SceneOperations:
         In a recipe: ``InsetFaces(faces: All, fraction: 0.25)``
 
         :param faces: The faces to inset.
-        :param fraction: How far the corners of the inner face are from the old corners towards the center of the face.
-            From 0 (the corner) to 1 (the center), exclusive.
+        :param fraction: The position of the corners of the inner face on the lines from the old corners to the center
+            of the face. From 0 (the corner) to 1 (the center), exclusive.
         :param on_refusal: What to do when a face is refused. Defaults to Error.
         """
         return self._apply('InsetFaces', {'faces': faces, 'fraction': fraction, 'on_refusal': on_refusal}, on, id)
@@ -1123,15 +1125,15 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Shrink and raise faces, each with a ring of faces around it.
+        """Shrink and raise faces, and surround each face with a ring of faces.
 
-        Shrinks and raises faces, and surrounds each with a ring of faces.
+        Shrinks and raises faces, and surrounds each face with a ring of faces.
 
         Works like ``InsetFaces``, and also moves the inner face along its normal. Each face is beveled separately, even
-        if selected faces share edges. The inner face keeps the number of the face, and existing vertices do not move. A
-        face with n corners adds n vertices, 2 n edges and n faces with four corners. New vertices and faces are
-        numbered last: in order of the selected faces, and counter-clockwise around each face from its first corner. A
-        face without area has no normal, and its inner face is not raised.
+        if selected faces share edges. The inner face keeps the id of the face, and existing vertices do not move. A
+        face with n corners adds n vertices, 2 n edges and n faces with four corners. New vertices and faces get the
+        highest ids: in order of the selected faces, and counter-clockwise around each face from its first corner. A
+        zero-area face has no normal, so its inner face is not raised.
 
         Values at the new corners and vertices are interpolated between the outer corner and the mean of the face. The
         ring has the values of the face (material, tags), and the inner edges have the values of the outer edges.
@@ -1142,8 +1144,8 @@ class SceneOperations:
         In a recipe: ``BevelFaces(faces: All, fraction: 0.25, distance: 0.5)``
 
         :param faces: The faces to bevel.
-        :param fraction: How far the corners of the inner face are from the old corners towards the center of the face.
-            From 0 (the corner) to 1 (the center), exclusive.
+        :param fraction: The position of the corners of the inner face on the lines from the old corners to the center
+            of the face. From 0 (the corner) to 1 (the center), exclusive.
         :param distance: The distance by which the inner face moves along its normal, in scene units. A negative
             distance moves the inner face inwards.
         :param on_refusal: What to do when a face is refused. Defaults to Error.
@@ -1163,15 +1165,15 @@ class SceneOperations:
 
         Removes vertices and merges the faces around them.
 
-        Vertices are removed in order of their numbers. Each removal is checked against the mesh as edited so far. All
-        faces around the vertex become one face, which has the number and the values of the face with the lowest number.
-        If the vertex is on the boundary, its two boundary edges become one. If the vertex has only two edges, these
-        edges become one edge, and the faces beside the edge lose a corner. When two edges become one, the edge with the
-        lower number is kept, with its values. The remaining elements keep their order and their values but are
-        renumbered. Normals are dropped.
+        Vertices are removed in order of their ids. Each removal is checked against the mesh as edited so far. All faces
+        around the vertex become one face, which has the id and the values of the face with the lowest id. If the vertex
+        is on the boundary, its two boundary edges become one. If the vertex has only two edges, these edges become one
+        edge, and the faces beside the edge lose a corner. When two edges become one, the edge with the lower id is
+        kept, with its values. The remaining elements keep their order and their values but get new ids. Normals are
+        dropped.
 
         A vertex is refused if it is isolated or has a single edge, if a neighbor would be left with a single edge
-        inside a face, if a face would visit a vertex twice or have fewer than three corners, or if an edge would join
+        inside a face, if a face would contain a vertex twice or have fewer than three corners, or if an edge would join
         two vertices that are already joined. At a seam, a vertex is refused unless ``seams`` is ``Drop``.
 
         In a recipe: ``DissolveVertices(vertices: Vertices([1]))``
@@ -1199,16 +1201,16 @@ class SceneOperations:
         joins the cuts. The new face has as many corners as the vertex had edges. If both ends of an edge are selected,
         the fraction must be below 0.5. For example, a fraction of 0.25 turns a cube into a truncated cube.
 
-        The selected vertices are removed, and later vertices are renumbered. New vertices are numbered last, in order
-        of the selected vertices and clockwise around each vertex. Faces keep their numbers; new faces are numbered
-        last, in order of the vertices.
+        The selected vertices are removed, so the ids of later vertices change. New vertices get the highest ids, in
+        order of the selected vertices and clockwise around each vertex. Faces keep their ids; new faces get the highest
+        ids, in order of the vertices.
 
         Values at the cuts are interpolated between the ends of the edge, so textures do not change. A new face has the
         values (material, tags) of one of the faces at the vertex. Which of the faces is not specified, but the choice
         is the same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
 
-        A vertex is refused if it is on the boundary, if it has fewer than three edges, or if earlier cuts leave too
-        little of one of its edges.
+        A vertex is refused if it is on the boundary, if it has fewer than three edges, or if one of its edges is too
+        short after earlier cuts.
 
         In a recipe: ``BevelVertices(vertices: All, fraction: 0.25)``
 
@@ -1231,8 +1233,8 @@ class SceneOperations:
         Computes a unit normal for every vertex, from the faces around it.
 
         The normals are written to the vertex attribute ``normal``, which is replaced if it exists. Corner normals are
-        removed, because they would contradict the vertex normals. A vertex without faces, or whose face normals cancel
-        each other out, gets the zero vector and is counted.
+        removed, because they would contradict the vertex normals. A vertex that has no faces, or whose face normals
+        cancel each other out, gets the zero vector and is counted.
 
         In a recipe: ``VertexNormals()``
 
@@ -1249,14 +1251,14 @@ class SceneOperations:
     ) -> Self:
         """Compute tangents of corners for normal maps.
 
-        Computes tangents for normal maps by the ``MikkTSpace`` algorithm, which many other tools also use.
+        Computes tangents for normal maps with the ``MikkTSpace`` algorithm, which many other tools also use.
 
         The mesh needs texture coordinates and normals, such as the normals that ``VertexNormals`` computes. The
-        tangents are written to the corner attribute ``tangent``, which is replaced if it exists: a unit vector
-        perpendicular to the normal and, as the fourth number, the sign of the bitangent. ``.glb`` and ``.gltf`` files
-        store the attribute as ``TANGENT``. Polygons are triangulated in the same way as for ``.glb`` and ``.gltf``
-        files. Steps that change the shape or the faces remove the tangents. Corners at which the texture coordinates
-        define no direction get an arbitrary tangent and are counted.
+        tangents are written to the corner attribute ``tangent``, which is replaced if it exists. A tangent is a unit
+        vector perpendicular to the normal, followed by the sign of the bitangent as the fourth number. ``.glb`` and
+        ``.gltf`` files store the attribute as ``TANGENT``. Polygons are triangulated in the same way as for ``.glb``
+        and ``.gltf`` files. Steps that change the shape or the faces remove the tangents. Corners at which the texture
+        coordinates define no direction get an arbitrary tangent and are counted.
 
         In a recipe: ``Tangents()``
 
@@ -1280,13 +1282,13 @@ class SceneOperations:
 
         A hole is a boundary loop: a loop of edges with a face on one side only. The outer rim of an open sheet is also
         a boundary loop; use ``around`` or ``max_edges`` to exclude it. No vertices are added, and existing elements
-        keep their numbers. A hole with n edges gets 1 face with n corners, or n - 2 triangles and n - 3 edges.
+        keep their ids. A hole with n edges gets 1 face with n corners, or n - 2 triangles and n - 3 edges.
 
         For holes with up to 500 edges, the triangles have the smallest total area. Larger holes are filled by cutting
-        off one corner after the other: always the corner whose two neighbors are closest to each other. If the hole is
-        far from convex, the triangles may overlap. Two vertices that are already joined by an edge are not joined
-        again: if a hole cannot be filled without this edge, it is refused (``DuplicateEdge``). A hole with two edges is
-        also refused (``WrongPlace``); ``Stitch`` closes it.
+        off one corner after the other, in each case the corner whose two neighbors are closest to each other. If the
+        hole is far from convex, the triangles may overlap. Two vertices that are already joined by an edge are not
+        joined again. If a hole cannot be filled without a second edge between them, it is refused (``DuplicateEdge``).
+        A hole with two edges is also refused (``WrongPlace``); ``Stitch`` closes it.
 
         New faces have the values of a face beside the hole. New corners have the values of the corner at the same
         vertex in the adjacent face. Normals are dropped if a hole was filled.
@@ -1312,8 +1314,8 @@ class SceneOperations:
 
         Joins two holes with a band of faces.
 
-        Each hole is given by one of its vertices. An edge joins the two given vertices, and the band goes around both
-        holes from there. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and n - m
+        Each hole is identified by one of its vertices. An edge joins the two vertices, and the band goes around both
+        holes from this edge. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and n - m
         evenly spread triangles. The step adds n edges and no vertices. The holes may be in one part of the mesh, which
         then gets a tunnel or a handle, or in two parts of one object. (``Join`` joins two objects into one.)
 
@@ -1322,12 +1324,12 @@ class SceneOperations:
 
         The step is refused if a vertex is not on the boundary (``NotBoundary``), if both vertices are on the same hole
         (``WrongPlace``), or if the band would join two vertices that are already joined by an edge (``DuplicateEdge``).
-        If the reason is ``DuplicateEdge``, other start vertices may work.
+        If the reason is ``DuplicateEdge``, the step may succeed with other vertices.
 
         In a recipe: ``BridgeLoops(first: 0, second: 5)``
 
-        :param first: The number of a vertex on the first hole.
-        :param second: The number of the vertex on the second hole that is joined to ``first``.
+        :param first: The id of a vertex on the first hole.
+        :param second: The id of the vertex on the second hole that is joined to ``first``.
         """
         return self._apply('BridgeLoops', {'first': first, 'second': second}, on, id)
 
@@ -1345,15 +1347,15 @@ class SceneOperations:
 
         Two boundary edges coincide if both pairs of corresponding ends are at most ``distance`` apart. Two edges that
         coincide only with each other form a pair. Choose a distance below the lengths of the edges. An edge that
-        coincides with several edges is refused (``NonManifold``), and none of the coinciding edges are joined. Unlike
+        coincides with several edges is refused (``NonManifold``), and none of the coincident edges are joined. Unlike
         ``Weld``, this operation never merges vertices inside the surface or vertices whose edges do not coincide.
 
-        Of each pair of vertices or edges, the one with the lower number keeps its position and its values. The other
-        vertex or edge is removed, and later elements are renumbered. Faces and corners do not change: different UVs
-        become a seam. Remaining holes with two edges are also closed.
+        Of each pair of vertices or edges, the one with the lower id keeps its position and its values. The other vertex
+        or edge is removed, so the ids of later elements change. Faces and corners do not change, so an edge whose sides
+        have different UVs becomes a seam. Remaining holes with two edges are also closed.
 
         A pair is refused if both edges belong to the same face (``SameFace``), if the ends of an edge would become one
-        vertex or a face would visit a vertex twice (``WrongPlace``), or if two edges would join the same vertices
+        vertex or a face would contain a vertex twice (``WrongPlace``), or if two edges would join the same vertices
         (``DuplicateEdge``).
 
         In a recipe: ``Stitch(distance: 0)``
@@ -1376,11 +1378,11 @@ class SceneOperations:
 
         Opens the mesh along edges.
 
-        The edges may form paths, loops and trees; a loop cuts out a piece. Each edge becomes two edges, one for each
+        The edges may form paths, loops and trees. A loop cuts out a piece. Each edge becomes two edges, one for each
         side. If the cuts separate the faces around a vertex into several parts, each part gets a separate copy of the
-        vertex. The part that has the face with the lowest number keeps the number of the vertex, and new vertices are
-        numbered last. Faces keep their numbers, and nothing moves. Copies have the values of the originals, and corners
-        keep their values. ``Stitch`` is the inverse.
+        vertex. The part with the lowest face id keeps the id of the vertex, and new vertices get the highest ids. Faces
+        keep their ids, and no vertex moves. Copies have the values of the originals, and corners keep their values.
+        ``Stitch`` is the inverse.
 
         All edges are cut at once. An edge is refused if it is on the boundary (``Boundary``), or if the cut would not
         open the mesh because both ends are inside the mesh and no other cut continues at either end
@@ -1430,7 +1432,7 @@ class SceneOperations:
         Tags the selected edges and removes the tag from all other edges. In later steps, ``Tagged("rim")`` selects the
         edges with the tag ``rim``.
 
-        The parts of a tagged edge are also tagged when it is split or subdivided. An existing tag of the same name is
+        When a tagged edge is split or subdivided, its parts are also tagged. An existing tag of the same name is
         replaced. If an attribute of another type has this name, the step fails. The geometry does not change. The
         report counts the edges that gained or lost the tag.
 
@@ -1454,7 +1456,7 @@ class SceneOperations:
         Tags the selected faces and removes the tag from all other faces. In later steps, ``Tagged("rim")`` selects the
         faces with the tag ``rim``.
 
-        The parts of a tagged face are also tagged when it is split or subdivided. An existing tag of the same name is
+        When a tagged face is split or subdivided, its parts are also tagged. An existing tag of the same name is
         replaced. If an attribute of another type has this name, the step fails. The geometry does not change. The
         report counts the faces that gained or lost the tag.
 
@@ -1490,7 +1492,7 @@ class SceneOperations:
         Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values
         are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a triangle copy the values
         of the old edge or triangle. Normals are dropped, because they would be wrong. Edges and vertices that
-        ``Crease`` made sharp stay sharp for a number of levels that is equal to their sharpness.
+        ``Crease`` made sharp stay sharp for as many levels as their sharpness states.
 
         In a recipe: ``LoopSubdivide(levels: 2)``
 
@@ -1504,8 +1506,8 @@ class SceneOperations:
         :param to_limit: Whether to move the vertices of the last level to the limit surface and to store its normals
             and tangents. Defaults to False.
         :param faces: The faces to refine. If omitted, all faces. Triangles next to the refined faces are cut in two or
-            four, so that no vertex lies inside an edge, and the surface outside of the refined faces does not move. For
-            the ids of new elements see ``subdivision::refine_faces``.
+            four, so that no vertex lies inside an edge, and the surface outside the refined faces does not move. For
+            the ids of new elements, see ``subdivision::refine_faces``.
         """
         return self._apply('LoopSubdivide', {'levels': levels, 'until': until, 'weights': weights, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, on, id)
 
@@ -1529,16 +1531,16 @@ class SceneOperations:
         A level creates a quad at each corner of each face. A level turns V vertices, E edges and F faces with C corners
         in total into V + E + F vertices, 2 E + C edges and C quads, so V - E + F does not change. Old vertices keep
         their ids, the vertex on edge e has the id V + e, the vertex at the center of face f has the id V + E + f, and
-        edge e becomes edges 2e and 2e + 1. Quads are numbered face by face, in order of the corners.
+        edge e becomes edges 2e and 2e + 1. The ids of quads follow the order of the faces and of their corners.
 
         Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values
         are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a face copy the values of
         the old edge or face. Normals are dropped, because they would be wrong. Edges and vertices that ``Crease`` made
-        sharp stay sharp for a number of levels that is equal to their sharpness.
+        sharp stay sharp for as many levels as their sharpness states.
 
         In a recipe: ``CatmullClark(levels: 2)``
 
-        :param levels: The number of levels. Each level replaces every corner of a face by a quad. Defaults to 1. With
+        :param levels: The number of levels. Each level replaces every corner of a face with a quad. Defaults to 1. With
             ``until``, the maximum number of levels, which defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
         :param boundary: How vertices on the boundary move. Defaults to EdgesOnly.
@@ -1547,8 +1549,8 @@ class SceneOperations:
         :param to_limit: Whether to move the vertices of the last level to the limit surface and to store its normals
             and tangents. Defaults to False.
         :param faces: The faces to refine. If omitted, all faces. Faces next to the refined faces get the new vertices
-            on common edges as corners, and the surface outside of the refined faces does not move. For the ids of new
-            elements see ``subdivision::refine_faces``.
+            on common edges as corners, and the surface outside the refined faces does not move. For the ids of new
+            elements, see ``subdivision::refine_faces``.
         """
         return self._apply('CatmullClark', {'levels': levels, 'until': until, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, on, id)
 
@@ -1570,8 +1572,8 @@ class SceneOperations:
         vertices, 2 E + 3 F edges and 4 F triangles. ``into: Quads`` accepts all polygons and creates a quad at each
         corner: V vertices, E edges and F faces with C corners in total become V + E + F vertices, 2 E + C edges and C
         quads. Old vertices keep their ids and positions, the vertex on edge e has the id V + e, and edge e becomes
-        edges 2e and 2e + 1. Triangle f becomes faces 4f to 4f + 3. Quads are numbered face by face, and the vertex at
-        the center of face f has the id V + E + f.
+        edges 2e and 2e + 1. Triangle f becomes faces 4f to 4f + 3. The ids of quads follow the order of the faces, and
+        the vertex at the center of face f has the id V + E + f.
 
         Vertex attributes are interpolated. Corner values are interpolated within one old face. Parts of an edge or a
         face copy the values of the old edge or face, including sharpness. Normals are dropped.
@@ -1584,7 +1586,7 @@ class SceneOperations:
         :param into: How faces are split. Defaults to Triangles.
         :param faces: The faces to refine. If omitted, all faces. With ``into: Triangles``, triangles next to the
             refined faces are cut in two or four. With ``into: Quads``, faces next to the refined faces get the new
-            vertices on common edges as corners. For the ids of new elements see ``subdivision::refine_faces``.
+            vertices on common edges as corners. For the ids of new elements, see ``subdivision::refine_faces``.
         """
         return self._apply('Midpoint', {'levels': levels, 'until': until, 'into': into, 'faces': faces}, on, id)
 
@@ -1596,7 +1598,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Split every triangle into four and smooth the surface, but keep the old vertices.
+        """Split every triangle into four and smooth the surface without moving the old vertices.
 
         Splits every triangle into four and smooths the surface without moving the old vertices, for a number of levels.
 
@@ -1631,14 +1633,14 @@ class SceneOperations:
         A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles. Every
         second level adds one more vertex and one more edge for each boundary edge. V - E + F does not change. Old
         vertices keep their ids, the vertex in face f has the id V + f, and face f becomes faces 3f to 3f + 2. All faces
-        must be triangles. Levels are counted from the start of the step: one step of two levels cuts the boundary
-        edges, but two steps of one level leave the boundary unchanged.
+        must be triangles. Levels are counted from the start of the step. One step of two levels therefore cuts the
+        boundary edges, but two steps of one level leave the boundary unchanged.
 
         Vertex attributes are smoothed with the weights of the positions. Corner values are interpolated linearly within
-        one old triangle. A triangle at a flipped edge lies in two old triangles. If the old edge was a seam, the
-        triangle has texture coordinates of both sides, which distorts textures. New triangles copy the values of their
-        old triangle. Parts of a boundary edge copy the values of the edge; other edges have zero values (no crease, no
-        tags). Normals are dropped, because they would be wrong.
+        one old triangle. A triangle next to a flipped edge covers parts of two old triangles. If the old edge was a
+        seam, the triangle has texture coordinates of both sides, which distorts textures. New triangles copy the values
+        of their old triangle. Parts of a boundary edge copy the values of the edge; other edges have zero values (no
+        crease, no tags). Normals are dropped, because they would be wrong.
 
         In a recipe: ``Sqrt3(levels: 1)``
 
@@ -1656,21 +1658,21 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Replace every edge and vertex by a face.
+        """Replace every edge and every vertex with a face.
 
-        Replaces every edge and vertex by a face and shrinks the old faces, for a number of levels.
+        Replaces every edge and every vertex with a face and shrinks the old faces, for a number of levels.
 
         A level turns a closed mesh with V vertices, E edges and F faces into a mesh with 2 E vertices, 4 E edges and V
         + E + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. V - E + F
         does not change. The face inside old face f has the id f, the face of edge e has the id F + e, and the faces of
-        vertices follow. Isolated vertices are kept, after all other vertices. Isolated vertices and inner vertices of
-        valence 2 do not become faces.
+        vertices follow. Isolated vertices are kept; their ids follow those of all other vertices. Isolated vertices and
+        inner vertices of valence 2 do not become faces.
 
         Vertex attributes are smoothed with the weights of the positions. Corner values are smoothed within one old
-        face. The new faces of edges and vertices have corner values of several old faces; at a seam, this distorts
-        textures. A face inside an old face copies the values of the old face; the face of an edge or a vertex copies
-        the values of an adjacent face. The two edges along an old edge copy its values; other edges have zero values
-        (no crease, no tags). Normals are dropped, because they would be wrong.
+        face. The new faces of edges and vertices have corner values of several old faces, which distorts textures at a
+        seam. A face inside an old face copies the values of the old face; the face of an edge or a vertex copies the
+        values of an adjacent face. The two edges along an old edge copy its values; other edges have zero values (no
+        crease, no tags). Normals are dropped, because they would be wrong.
 
         In a recipe: ``DooSabin(levels: 1)``
 
@@ -1695,10 +1697,10 @@ class SceneOperations:
         Cuts meshes along a plane.
 
         Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along it.
-        A concave face can be cut several times. A vertex closer to the plane than 1e-9 of the largest extent of the
-        mesh counts as on the plane and is not moved. When an edge is cut, the part at the end with the lower number
-        keeps the number of the edge. When a face is cut, the part with the first corner keeps the number of the face.
-        New elements are numbered last. Attributes are interpolated at the crossings, separately on each side of a seam.
+        A concave face can be cut several times. A vertex is on the plane if its distance from the plane is less than
+        1e-9 of the largest extent of the mesh; it is not moved. When an edge is cut, the part at the end with the lower
+        id keeps the id of the edge. When a face is cut, the part with the first corner keeps the id of the face. New
+        elements get the highest ids. Attributes are interpolated at the crossings, separately on each side of a seam.
 
         With ``keep: Front`` or ``keep: Back``, the other side of the plane is removed. A face in the plane belongs to
         the back if its normal points to the front, because the face then closes the solid behind the plane. Vertices
@@ -1725,18 +1727,18 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Replace one half of a mesh by the mirror image of the other.
+        """Replace one half of a mesh with the mirror image of the other half.
 
-        Replaces one half of a mesh by the mirror image of the other half.
+        Replaces one half of a mesh with the mirror image of the other half.
 
-        The mesh is cut along a plane as by ``Bisect``. The half on the side ``from`` is kept and mirrored, and the
-        halves are joined at the plane. Vertices on the plane are moved onto it exactly, so that the result is
-        symmetric. Faces in the plane are removed, because they would be walls inside the result. Where the surface only
-        touches the plane, the halves are not joined.
+        The mesh is cut along a plane, as with ``Bisect``. The half on the side ``from`` is kept and mirrored, and the
+        halves are joined at the plane. Vertices near the plane (see ``Bisect``) are moved exactly onto it, so that the
+        result is symmetric. Faces in the plane are removed, because they would be walls inside the result. Where the
+        surface only touches the plane, the halves are not joined.
 
-        The elements of the kept half come first, in their old order, then those of the mirror image. Attributes are
-        copied: both halves have the same texture coordinates, tags and weights of joints. Normals and tangents are
-        dropped.
+        The elements of the kept half come first, in their old order. The elements of the mirror image follow.
+        Attributes are copied, so both halves have the same texture coordinates, tags and weights of joints. Normals and
+        tangents are dropped.
 
         In a recipe: ``Symmetrize(normal: (1, 0, 0))``
 
@@ -1772,26 +1774,28 @@ class SceneOperations:
 
         - Topology: holes, handles and separate parts stay. - Lines: the boundary, seams of texture coordinates and
         normals, borders between face tags or materials, edges with a tag or a crease, and ``features``. A line can lose
-        vertices, but its ends, and the vertices where lines meet, keep their exact positions. - Attributes: they are
-        interpolated, but never across a line. Normals are also interpolated, so that a simplified mesh is shaded like
-        the original. - Vertex tags: vertices with different tags or sharpness are not merged.
+        vertices, but its ends, and the vertices where lines meet, keep their exact positions. - Attributes: texture
+        coordinates, normals, colors and other numbers are a part of the change that is kept small (Hoppe, 1999), and
+        new vertices get the values that fit best. Values are never mixed across a line, and no triangle is turned over
+        in the texture. Normals are kept, so that a simplified mesh is shaded like the original. - Vertex tags: vertices
+        with different tags or sharpness are not merged.
 
-        No triangle is turned over. Remaining elements are numbered anew, in the order of their old numbers. If the
-        number of faces cannot be reached, and no ``error`` is given, the step is refused as ``Unreached``, with the
-        reasons; with ``on_refusal: Skip``, the result is kept.
+        No triangle is turned over. Remaining elements get new ids, in the order of their old ids. If the number of
+        faces cannot be reached and ``error`` is not given, the step is refused as ``Unreached``, and the message states
+        the reasons. With ``on_refusal: Skip``, the result is kept.
 
         In a recipe: ``Simplify(ratio: 0.5)``
 
         :param faces: The number of faces to reach, for each mesh. The result can have one face fewer. A mesh that
             already has at most this number of faces does not change.
         :param ratio: The number of faces to reach, as a fraction of the number of faces of each mesh.
-        :param error: The largest allowed distance between the old and the new surface, in scene units: the Hausdorff
-            distance. The limit is guaranteed: the step adds up an upper bound of how far each collapse moves the
-            surface. The true distance is therefore usually much smaller. If omitted, there is no limit.
-        :param features: Edges that are kept as lines, for example ``Sharp(above: 30)``. If omitted, only the lines that
-            are always kept.
-        :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, none.
-        :param intersections: Whether faces may come to intersect other faces, which can happen where parts of the
+        :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. The
+            limit is guaranteed, because the step adds up an upper bound for the distance by which each collapse moves
+            the surface. The true distance is therefore usually much smaller. If omitted, there is no limit.
+        :param features: Edges that are treated as lines, for example ``Sharp(above: 30)``. If omitted, only the lines
+            that are always kept.
+        :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
+        :param intersections: Whether the step may create intersections of faces. They can occur where parts of the
             surface are close together. Defaults to Allow.
         :param on_refusal: What to do if the number of faces cannot be reached. Defaults to Error.
         """
@@ -1809,20 +1813,21 @@ class SceneOperations:
     ) -> Self:
         """Make simplified copies of an object, its levels of detail.
 
-        Makes simplified copies of an object: its levels of detail.
+        Makes simplified copies of an object, its levels of detail.
 
         The copies are named after the object, for example ``rock_lod1``, ``rock_lod2`` and so on. Each copy is made
-        from the previous one, as by ``Simplify``, and keeps attributes, materials and lines as ``Simplify`` does. If
-        nodes place the object, a node for each copy is added beside each node that places the object.
+        from the previous copy in the same way as with ``Simplify``, and keeps the same attributes, materials and lines.
+        If nodes place the object, a node for each copy is added next to each of them.
 
         In a recipe: ``Lods(from: "mesh", ratios: [0.5, 0.25])``
 
         :param from_: The name of the object.
         :param ratios: The number of faces of each copy, as a fraction of the number of faces of the object. Each
             fraction must be smaller than the previous one.
-        :param to: The names of the copies without their numbers. If omitted, the name of the object and ``_lod``.
-        :param features: Edges that are kept as lines, for example ``Sharp(above: 30)``. If omitted, only the lines that
-            ``Simplify`` always keeps.
+        :param to: The start of the names of the copies, before the number. If omitted, the name of the object and
+            ``_lod``.
+        :param features: Edges that are treated as lines, for example ``Sharp(above: 30)``. If omitted, only the lines
+            that ``Simplify`` always keeps.
         :param on_refusal: What to do if the number of faces of a copy cannot be reached. Defaults to Error.
         """
         return self._apply('Lods', {'from': from_, 'ratios': ratios, 'to': to, 'features': features, 'on_refusal': on_refusal}, None, id)
@@ -1840,44 +1845,44 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Replace triangles by nearly equilateral triangles of a given size.
+        """Replace all triangles with nearly equilateral triangles of a given size.
 
-        Replaces triangles by nearly equilateral triangles of a given size, on the same surface.
+        Replaces all triangles with nearly equilateral triangles of a given size, on the same surface.
 
         Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
         vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target
-        length. All vertices lie on the original surface. The target length is either ``length``, or it follows the
-        ``curvature``: short edges where the surface is curved, long edges where it is flat (Dunyach and others, 2013).
-        One of the two must be given. All faces must be triangles.
+        length. All vertices lie on the original surface. The target length is either ``length``, or it follows
+        ``curvature``: edges are short where the surface is curved, and long where it is flat (Dunyach and others,
+        2013). One of the two must be given. All faces must be triangles.
 
-        These are kept:
+        The following properties are kept:
 
         - Topology: holes, handles and separate parts stay. - Lines: the boundary, seams of texture coordinates and
         normals, borders between face tags or materials, edges with a tag or a crease, and ``features``. Vertices on a
         line slide along it. The ends of lines, the vertices where lines meet, and corners where a line turns by more
         than 40 degrees keep their exact positions. Other sharp edges are rounded. - Attributes: they come from the same
-        place of the original surface, and are never interpolated across a line. - Vertex tags: a new vertex has a tag
-        if all vertices around its place had it. Tagged vertices without tagged neighbors keep their exact positions,
-        and so do vertices with sharpness.
+        point of the original surface, and are never interpolated across a line. - Vertex tags: a new vertex has a tag
+        if all old vertices around its position had the tag. Tagged vertices without tagged neighbors and vertices with
+        sharpness keep their exact positions.
 
-        Each step that would turn a triangle over is refused. Elements are numbered anew. If the result could be further
-        from the original than ``error``, the step is refused as ``Unreached``; with ``on_refusal: Skip``, the mesh then
-        stays as it was.
+        Edits that would turn a triangle over are refused. All elements get new ids. If the distance between the result
+        and the original could exceed ``error``, the step is refused as ``Unreached``. With ``on_refusal: Skip``, the
+        mesh then does not change.
 
         In a recipe: ``Remesh(length: 0.5)``
 
         :param length: The target length of edges, in scene units.
         :param curvature: Target lengths that follow the curvature, instead of ``length``.
-        :param features: Edges that are kept as lines, for example ``Sharp(above: 30)``. If omitted, none in addition to
-            those above.
-        :param error: The largest allowed distance between the old and the new surface, in scene units: the Hausdorff
-            distance. Edges become shorter than the target length where this is necessary. The distance is measured at
-            the end, in both directions and for all points. If omitted, there is no limit.
-        :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, none.
+        :param features: Edges that are treated as lines, for example ``Sharp(above: 30)``. If omitted, only the lines
+            that are always kept.
+        :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. Edges
+            become shorter than the target length where this is necessary. The distance is measured at the end, in both
+            directions and for all points. If omitted, there is no limit.
+        :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
         :param passes: The largest number of passes, from 1 to 1000. The step ends earlier if a pass changes almost
             nothing. Defaults to 10.
-        :param on_refusal: What to do if the result could be further from the original than ``error``. Defaults to
-            Error.
+        :param on_refusal: What to do if the distance between the result and the original could exceed ``error``.
+            Defaults to Error.
         """
         return self._apply('Remesh', {'length': length, 'curvature': curvature, 'features': features, 'error': error, 'pin': pin, 'passes': passes, 'on_refusal': on_refusal}, on, id)
 
@@ -1897,15 +1902,15 @@ class SceneOperations:
 
         Moves vertices so that noise disappears.
 
-        Only vertices in ``vertices`` move, except those in ``pin``. Vertices without faces stay. All other vertices
-        keep their exact positions. Faces can have any number of corners, and degenerate faces are allowed. All elements
-        keep their numbers. Attributes are kept, so textures stretch with the surface, but normals are dropped.
+        Only vertices in ``vertices`` that are not in ``pin`` and have a face move. All other vertices keep their exact
+        positions. Faces can have any number of corners, and degenerate faces are allowed. All elements keep their ids.
+        Attributes are kept, so textures stretch with the surface, but normals are dropped.
 
         | ``by`` | use | size | | --- | --- | --- | | ``Laplacian`` | strong smoothing | shrinks | | ``Taubin`` |
         removing noise | nearly the same | | ``Implicit`` | strong smoothing of dense meshes in one pass | shrinks | |
         ``Denoise`` | scans of objects with flat sides and sharp edges | nearly the same |
 
-        If ``boundary`` is ``Fixed``, vertices on the boundary stay, so that adjacent objects fit as before.
+        If ``boundary`` is ``Fixed``, vertices on the boundary do not move, so that adjacent objects still fit together.
 
         In a recipe: ``Smooth(by: Taubin())``
 
@@ -1913,10 +1918,10 @@ class SceneOperations:
         :param passes: The number of passes. If omitted, 1 for ``Implicit`` and 10 for the other methods. For
             ``Denoise``, the number of passes over the normals. At most 10000.
         :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
-        :param pin: Vertices that stay. If omitted, none.
+        :param pin: Vertices that do not move. If omitted, no vertices.
         :param boundary: How vertices on the boundary move. Defaults to Fixed.
         :param keep_volume: Whether the moved vertices are finally shifted along their normals, all by the same
-            distance, until the mesh has the volume that it had. The mesh must be closed. Defaults to False.
+            distance, until the mesh has its original volume. The mesh must be closed. Defaults to False.
         """
         return self._apply('Smooth', {'by': by, 'passes': passes, 'vertices': vertices, 'pin': pin, 'boundary': boundary, 'keep_volume': keep_volume}, on, id)
 
@@ -1933,18 +1938,18 @@ class SceneOperations:
 
         Copies attributes from the nearest points of another object.
 
-        An attribute of vertices, corners or faces of the object ``from`` becomes one of the same kind: numbers and
-        vectors of vertices and corners are interpolated inside the face of the nearest point; whole numbers, tags, and
-        attributes that edits do not interpolate are copied from its nearest corner, and values of faces from its face.
-        An attribute that exists already, with the same type of values, is overwritten. Without ``on``, the step acts on
-        all meshes except ``from``.
+        An attribute of vertices, corners or faces of the object ``from`` becomes an attribute of the same kind. Numbers
+        and vectors of vertices and corners are interpolated inside the face of the nearest point. Whole numbers, tags,
+        and attributes that edits do not interpolate are copied from the nearest corner of this face. Values of faces
+        are copied from this face. An existing attribute with the same type of values is overwritten. Without ``on``,
+        the step acts on all meshes except ``from``.
 
-        All corners of a face take their values from one chart of the source: from faces that are connected without
-        crossing a seam of the attribute. It is the chart nearest to the center of the face, so no triangle is stretched
-        across a seam of texture coordinates.
+        All corners of a face take their values from one chart of the source, that is, from faces that are connected
+        without crossing a seam of the attribute. The chart is the one nearest to the center of the face, so no triangle
+        is stretched across a seam of texture coordinates.
 
-        Elements further than ``within`` from the source keep their values, or get zeros if the attribute is new, and
-        are counted. For corners, the whole face does.
+        Elements whose distance from the source exceeds ``within`` keep their values, or get zeros if the attribute is
+        new, and are counted. If this applies to a corner of a face, it applies to all corners of the face.
 
         In a recipe: ``Transfer(from: "scan", attributes: ["uv", "color"], within: 0.01)``
 
@@ -1967,14 +1972,14 @@ class SceneOperations:
 
         Moves vertices.
 
-        Faces, element numbers and attributes do not change, so textures stretch with the surface. Normals are dropped.
+        Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped.
 
-        With ``falloff: r``, vertices near the selected vertices move along. At the distance d from the nearest selected
+        With ``falloff: r``, vertices near the selected vertices also move. At the distance d from the nearest selected
         vertex, the movement is multiplied by the weight (1 - (d/r)²)². The weight is 1 at selected vertices and falls
-        smoothly to 0 at the distance r. Distances are straight, not along the surface.
+        smoothly to 0 at the distance r. Distances are measured along straight lines, not along the surface.
 
-        With ``by: Distance(..)``, each vertex moves along its own normal: the mean of the normals of its faces,
-        weighted by their areas. Vertices without a normal do not move and are counted.
+        With ``by: Distance(..)``, each vertex moves along its own normal, which is the mean of the normals of its
+        faces, weighted by their areas. Vertices without a normal do not move and are counted.
 
         In a recipe: ``MoveVertices(vertices: Vertices([0]), by: Offset((0, 0, 0.5)))``
 
@@ -2000,13 +2005,14 @@ class SceneOperations:
 
         Each vertex moves along its normal by ``distance`` times the value of ``by``. The normal of a vertex is the mean
         of the normals of its faces, weighted by their areas. Vertices without a normal do not move and are counted.
-        Faces, element numbers and attributes do not change. Normals are dropped.
+        Faces, element ids and attributes do not change. Normals are dropped.
 
-        The values are computed without functions that differ between machines, so the result is the same everywhere.
+        The values are computed without functions that differ between machines, so the result is identical on all
+        machines.
 
         In a recipe: ``Displace(by: Noise(scale: 0.5, seed: 7), distance: 0.1)``
 
-        :param by: The values.
+        :param by: The values by which ``distance`` is multiplied.
         :param distance: The distance for the value 1, in scene units. A negative distance moves inwards.
         :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
         """
@@ -2025,22 +2031,22 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Bend an axis into an arc of a circle.
+        """Bend a mesh, so that an axis becomes an arc of a circle.
 
-        Bends an axis, and everything around it, into an arc of a circle.
+        Bends a mesh, so that an axis becomes an arc of a circle.
 
         The plane at ``from`` does not move. Between ``from`` and ``to``, the axis becomes an arc that keeps its length
         and turns by ``angle`` in total. Vertices beyond ``to`` move rigidly. Vertices between the axis and the center
-        of the circle come closer together, and vertices on the other side of the axis move apart. The center is at the
-        distance (to - from) / angle from the axis, with the angle in radians. Parts of the mesh beyond the center turn
-        inside out. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
+        of the circle move closer together, and vertices on the other side of the axis move apart. The distance between
+        the center and the axis is (to - from) / angle, with the angle in radians. Parts of the mesh beyond the center
+        turn inside out. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
 
-        Faces, element numbers and attributes do not change, so textures stretch with the surface. Normals are dropped.
-        Only vertices move: refine the mesh first if its faces are large.
+        Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
+        vertices move, so refine the mesh first if its faces are large.
 
         In a recipe: ``Bend(axis: Z, angle: 90)``
 
-        :param axis: The axis that is bent.
+        :param axis: The axis that becomes an arc.
         :param angle: The angle between the ends of the axis, in degrees. A negative angle bends to the other side.
         :param towards: The axis towards which the upper end bends. If omitted, the axis after ``axis`` in the order x,
             y, z, x.
@@ -2070,11 +2076,11 @@ class SceneOperations:
         Rotates vertices around an axis, by an angle that grows along the axis.
 
         The angle grows linearly from 0 at ``from`` to ``angle`` at ``to``. Below ``from`` and above ``to``, vertices
-        rotate by the angle of the nearer end. A twist keeps volumes, and a twist by the opposite angle undoes the first
-        twist. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
+        rotate by the angle of the nearer end. A twist does not change volumes, and a twist by the opposite angle undoes
+        it. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
 
-        Faces, element numbers and attributes do not change, so textures stretch with the surface. Normals are dropped.
-        Only vertices move: refine the mesh first if its faces are large.
+        Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
+        vertices move, so refine the mesh first if its faces are large.
 
         In a recipe: ``Twist(axis: Z, angle: 90)``
 
@@ -2106,16 +2112,16 @@ class SceneOperations:
         Scales vertices towards or away from an axis, by a factor that changes along the axis.
 
         The factor changes linearly from 1 at ``from`` to ``factor`` at ``to``. Below ``from`` and above ``to``, the
-        factor of the nearer end applies. Heights do not change. Source: Barr, "Global and Local Deformations of Solid
-        Primitives", 1984.
+        factor of the nearer end applies. Coordinates along the axis do not change. Source: Barr, "Global and Local
+        Deformations of Solid Primitives", 1984.
 
-        Faces, element numbers and attributes do not change, so textures stretch with the surface. Normals are dropped.
-        Only vertices move: refine the mesh first if its faces are large.
+        Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
+        vertices move, so refine the mesh first if its faces are large.
 
         In a recipe: ``Taper(axis: Z, factor: 0.5)``
 
-        :param axis: The axis, which keeps its place.
-        :param factor: The factor at ``to``. More than 0: a factor below 1 makes the upper end narrower.
+        :param axis: The axis. Points on the axis do not move.
+        :param factor: The factor at ``to``. More than 0. A factor below 1 makes the upper end narrower.
         :param about: A point on the axis. The coordinate of the point along the axis does not matter.
         :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
             of the mesh.
@@ -2140,22 +2146,22 @@ class SceneOperations:
 
         Deforms vertices with a box of control points.
 
-        The box is divided by ``size`` control points along x, y and z. ``moves`` moves some of them, and the space in
-        the box follows smoothly: each point is a sum of the control points with Bernstein polynomials as weights
+        The box has a grid of ``size`` control points along x, y and z. ``moves`` moves some of them, and the space in
+        the box follows smoothly. Each point becomes a sum of the control points with Bernstein polynomials as weights
         (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all control points move by the
-        same offset, the box moves by it. A control point attracts the surface, but the surface usually does not reach
-        it, except at the corners of the box.
+        same offset, the whole box moves by this offset. A control point attracts the surface, but the surface usually
+        does not reach it, except at the corners of the box.
 
-        Vertices outside the box stay. Faces, numbers and attributes do not change, so textures stretch with the
-        surface. Normals are dropped. Only vertices move: refine the mesh first if its faces are large.
+        Vertices outside the box do not move. Faces, element ids and attributes do not change, so textures stretch with
+        the surface. Normals are dropped. Only vertices move, so refine the mesh first if its faces are large.
 
         In a recipe: ``Lattice(size: (3, 3, 3), moves: [((2, 2, 2), (0.5, 0.5, 0.5))])``
 
         :param size: The number of control points along x, y and z, from 2 to 16 each.
-        :param moves: The control points that move: their numbers along x, y and z, counted from 0, and the offset in
-            scene units. A control point that is listed several times moves by the sum.
-        :param min: The lowest corner of the box. If omitted, that of the bounding box of the mesh.
-        :param max: The highest corner of the box. If omitted, that of the bounding box of the mesh.
+        :param moves: The control points that move: their indices along x, y and z, counted from 0, and the offset in
+            scene units. A control point that is listed several times moves by the sum of its offsets.
+        :param min: The lowest corner of the box. If omitted, the lowest corner of the bounding box of the mesh.
+        :param max: The highest corner of the box. If omitted, the highest corner of the bounding box of the mesh.
         :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
         """
         return self._apply('Lattice', {'size': size, 'moves': moves, 'min': min, 'max': max, 'vertices': vertices}, on, id)
@@ -2175,19 +2181,19 @@ class SceneOperations:
 
         Moves vertices onto the surface of another object (shrinkwrap).
 
-        Only vertices in ``vertices`` move, except those in ``pin``; all others keep their exact positions. Without
-        ``on``, the step acts on all meshes except the object ``onto``, which does not change. Faces, numbers and
+        Only vertices in ``vertices`` that are not in ``pin`` move. All others keep their exact positions. Without
+        ``on``, the step acts on all meshes except the object ``onto``, which does not change. Faces, element ids and
         attributes do not change, so textures stretch with the surface. Normals are dropped.
 
-        Vertices that would move further than ``distance`` stay. With ``Normal`` and ``Direction``, so do vertices whose
-        line misses the surface. The report counts both.
+        Vertices that would move farther than ``distance`` do not move. With ``Normal`` and ``Direction``, vertices
+        whose line misses the surface do not move either. The report counts both kinds of vertices.
 
         In a recipe: ``Project(onto: "scan", distance: 0.1)``
 
         :param onto: The name of the object with the surface.
         :param along: Where each vertex goes. Defaults to Nearest.
         :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
-        :param pin: Vertices that stay. If omitted, none.
+        :param pin: Vertices that do not move. If omitted, no vertices.
         :param distance: The largest distance that a vertex moves, in scene units. If omitted, any distance.
         """
         return self._apply('Project', {'onto': onto, 'along': along, 'vertices': vertices, 'pin': pin, 'distance': distance}, on, id)
@@ -2206,20 +2212,21 @@ class SceneOperations:
         Stores a quantity, such as a curvature or a distance, as an attribute of vertices or faces.
 
         Later steps can select elements by the attribute with ``Where``, ``Displace`` vertices by it, show it in a
-        ``Picture``, and save it to files. It is not updated when the mesh changes. Positions and other attributes do
-        not change. Coordinates are those of the meshes, without nodes. The report states the lowest, the mean and the
-        highest value of each object.
+        ``Picture``, and save it to files. The attribute is not updated when the mesh changes. Positions and other
+        attributes do not change. Quantities are computed in the space of the mesh, without the transforms of nodes. The
+        report states the lowest, the mean and the highest value of each object.
 
-        An attribute of the same name is replaced if it has one number for each of the same elements; otherwise the step
-        fails.
+        An attribute of the same name is replaced if it has one number for each element of the same kind. Otherwise the
+        step fails.
 
         In a recipe: ``Measure(of: MeanCurvature)``
 
         :param of: The quantity.
         :param name: The name of the attribute. If omitted, the name of the quantity in lower case, such as
             ``mean_curvature``.
-        :param missing: The value of elements that have none, such as the curvature of a vertex without faces. They are
-            counted. If omitted, 0 for quantities that can be negative, and -1 for all others.
+        :param missing: The value for elements at which the quantity is not defined, such as the curvature of a vertex
+            without faces. These elements are counted. If omitted, 0 for quantities that can be negative, and -1 for all
+            others.
         """
         return self._apply('Measure', {'of': of, 'name': name, 'missing': missing}, on, id)
 
@@ -2243,14 +2250,14 @@ class SceneOperations:
         The surface is cut into charts, which are flattened and packed into a square page. Charts grow from flat regions
         up to ``max_angle``. They are flattened by least squares conformal maps (Levy and others, 2002) and the as-
         rigid-as-possible method (Liu and others, 2008), and are cut again where they would overlap themselves or exceed
-        ``max_stretch``. All charts of a mesh have one scale, and none is mirrored. A polygon stays in one chart. Each
-        mesh gets a page of its own.
+        ``max_stretch``. All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays in one
+        chart. Each mesh gets its own page.
 
         The coordinates are written to the corner attribute ``uv``, which is replaced if it exists. Edges at which
-        charts meet become its seams. Positions, faces and other attributes stay, except that tangents are removed.
-        Faces without area have no area in the texture and are counted. A polygon that is bent so far that it overlaps
-        itself is refused as ``WrongPlace``: triangulate it first. With ``on_refusal: Skip``, its triangles overlap in
-        the texture.
+        charts meet become its seams. Positions, faces and other attributes do not change, but tangents are removed.
+        Zero-area faces have no area in the texture and are counted. A polygon that is bent so far that it overlaps
+        itself is refused as ``WrongPlace``, so triangulate it first. With ``on_refusal: Skip``, its triangles overlap
+        in the texture.
 
         In a recipe: ``Unwrap(max_angle: 60)``
 
@@ -2258,12 +2265,12 @@ class SceneOperations:
             omitted, only edges that the algorithm chooses.
         :param max_angle: The largest angle between the normal of a face and the mean normal of its chart, in degrees.
             Smaller angles give more charts with less stretch. Defaults to 70.0.
-        :param max_stretch: The largest ratio between the scale of areas in a triangle and in its whole chart. Defaults
-            to 4.0.
+        :param max_stretch: The largest ratio between the area scale of a triangle and the area scale of its whole
+            chart. Defaults to 4.0.
         :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size;
             the size determines how large the padding is. Defaults to 1024.
-        :param padding: The number of empty texels around each chart. Charts are at least twice as far from each other.
-            Defaults to 2.
+        :param padding: The number of empty texels around each chart. The distance between two charts is at least twice
+            this number. Defaults to 2.
         :param uv: The name of the texture coordinates. Defaults to ``uv``.
         :param on_refusal: What to do if a polygon overlaps itself in the texture. Defaults to Error.
         """
@@ -2280,20 +2287,21 @@ class SceneOperations:
     ) -> Self:
         """Move and scale charts of texture coordinates into one page.
 
-        Moves, turns and scales charts of texture coordinates so that they do not overlap and have one scale.
+        Moves, rotates and scales charts of texture coordinates so that they do not overlap and have the same scale.
 
-        A chart is a set of faces that are connected without seams of the texture coordinates. Afterwards, areas in the
-        texture are proportional to areas on the surface, for whole charts. The shape of each chart stays, also if it is
-        stretched, mirrored or overlaps itself; charts that overlap themselves are counted. Charts without area become a
-        point and are counted. Each mesh gets a page of its own. Tangents are removed, because charts are turned.
+        A chart is a set of faces that are connected without seams of the texture coordinates. Afterwards, the area of
+        each chart in the texture is proportional to its area on the surface. The shape of each chart does not change,
+        even if it is stretched, mirrored or overlaps itself. Charts that overlap themselves are counted. Each zero-area
+        chart becomes a point and is counted. Each mesh gets its own page. Tangents are removed, because charts are
+        rotated.
 
         In a recipe: ``PackUvs(page: 2048, padding: 4)``
 
         :param uv: The name of the texture coordinates. Defaults to ``uv``.
         :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size;
             the size determines how large the padding is. Defaults to 1024.
-        :param padding: The number of empty texels around each chart. Charts are at least twice as far from each other.
-            Defaults to 2.
+        :param padding: The number of empty texels around each chart. The distance between two charts is at least twice
+            this number. Defaults to 2.
         """
         return self._apply('PackUvs', {'uv': uv, 'page': page, 'padding': padding}, on, id)
 
@@ -2319,8 +2327,8 @@ class SceneOperations:
 
         Draws the scene into an image file.
 
-        The extension of the file determines the format: ``.png`` for an image; with ``turntable``, ``.gif`` for an
-        animated GIF, and ``.apng`` or ``.png`` for an animated PNG. The file is written only if the whole recipe
+        The extension of the file determines the format: ``.png`` for an image or, with ``turntable``, ``.gif`` for an
+        animated GIF and ``.apng`` or ``.png`` for an animated PNG. The file is written only if the whole recipe
         succeeds. The scene does not change. Drawing needs no GPU and gives the same bytes on every machine.
 
         In a recipe: ``Picture(path: "a.png", size: (64, 48), highlight: Edges(Sharp(above: 30)), color_by: (of:
@@ -2330,7 +2338,7 @@ class SceneOperations:
             without extension, of the file in the recipe parameter ``name``.
         :param size: The width and the height of each view in pixels.
         :param camera: The camera.
-        :param views: Several cameras, in place of ``camera``. The views of the cameras are placed side by side.
+        :param views: Several cameras, which replace ``camera``. The views of the cameras are placed side by side.
         :param columns: The number of views in a row. If omitted, the number of views, but at most 4.
         :param style: The style: shading, lines, background.
         :param highlight: Elements to highlight in orange, as in ``Edges(Sharp(above: 30))`` or
@@ -2340,8 +2348,8 @@ class SceneOperations:
             960, 8 and 26 for 1920. If there are many highlighted vertices, they are drawn smaller. Hidden edges are
             faint, and hidden vertices are rings.
         :param marks: More elements to highlight, each in its color.
-        :param color_by: Numbers to show as colors of the surface.
-        :param turntable: Makes an animation in which the camera moves once around the scene.
+        :param color_by: The quantity to show as colors of the surface.
+        :param turntable: If given, the picture is an animation in which the camera moves once around the scene.
         :param images: The folder of images that are not next to their model, relative to the folder of the recipe. If
             omitted, the folder of the recipe. Missing images are not drawn, and are reported.
         """
@@ -2366,9 +2374,9 @@ class SceneOperations:
 
         Draws Bezier curves, and de Casteljau's construction of their points, into an image file.
 
-        The figure has a panel for each curve and each ``t``. With ``by_level``, it has instead one panel for each
-        curve, each ``t`` and each level. A panel shows the control polygon, every level of de Casteljau's algorithm in
-        a different color, the point, and the curve, with the same scale in both axes. The extension of the file
+        The figure has a panel for each curve and each ``t``. With ``by_level``, it instead has a panel for each curve,
+        each ``t`` and each level. A panel shows the control polygon, every level of de Casteljau's algorithm in a
+        different color, the point, and the curve, with the same scale in both axes. The extension of the file
         determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene
         does not change.
 
@@ -2378,8 +2386,8 @@ class SceneOperations:
             without extension, of the file in the recipe parameter ``name``.
         :param t: The parameters of the constructed points, from 0 (start) to 1 (end). If empty, only the curves and
             their control polygons are drawn.
-        :param by_level: Draws a panel for each level of the algorithm, in place of one panel with all levels. Defaults
-            to False.
+        :param by_level: Whether each level of the algorithm has its own panel. If false, one panel shows all levels.
+            Defaults to False.
         :param before: The name of a curve that shows an earlier state of the other curves. This curve is drawn faintly
             behind the other curves, with arrows to the control points that moved.
         :param width: The width of the figure in SVG pixels. The font size is 12 to 19 pixels. Defaults to 640.
@@ -2411,8 +2419,8 @@ class SceneOperations:
         away from the viewer are left out and reported. The extension of the file determines the format: ``.svg`` or
         ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
 
-        A name is a letter and the number of the element: ``v`` for vertices, ``h`` for half-edges, ``f`` for faces.
-        Half-edges ``2e`` and ``2e + 1`` belong to edge ``e``.
+        A name is a letter and the id of the element: ``v`` for vertices, ``h`` for half-edges, ``f`` for faces. Half-
+        edges ``2e`` and ``2e + 1`` belong to edge ``e``.
 
         In a recipe: ``HalfEdgeFigure(path: "figure.svg")``
 
@@ -2436,14 +2444,14 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Draw the charts of texture coordinates.
+        """Draw the UV layout (the UV charts of a mesh).
 
         Draws the charts of the texture coordinates of a mesh into an image file.
 
         The frame is the page of the texture, with u and v from 0 to 1 and v upwards. Thick lines are the borders of
-        charts, thin lines the other edges. Coordinates outside the page are drawn too, and make the figure higher or
-        its scale smaller. The extension of the file determines the format: ``.svg`` or ``.png``. The file is written
-        only if the whole recipe succeeds. The scene does not change.
+        charts, and thin lines are the other edges. Coordinates outside the page are also drawn. They make the figure
+        higher or its scale smaller. The extension of the file determines the format: ``.svg`` or ``.png``. The file is
+        written only if the whole recipe succeeds. The scene does not change.
 
         In a recipe: ``UvPicture(path: "uv.svg")``
 
@@ -2481,28 +2489,29 @@ class MeshOperations:
 
         Writes objects to a file in the output folder.
 
-        The extension chooses the format: ``.obj``, ``.gltf``, ``.glb``, ``.ply``, ``.stl`` or ``.off`` for meshes,
+        The extension determines the format: ``.obj``, ``.gltf``, ``.glb``, ``.ply``, ``.stl`` or ``.off`` for meshes,
         ``.bez`` for Bezier patches, ``.bzc`` for a curve, and ``.mws`` for a complete scene without any loss. ``.csv``
         is a table of the positions and attributes of vertices, faces or corners, and ``.npz`` has the arrays of a mesh
-        for ``NumPy``; these cannot be read. A name such as ``a.obj.gz`` compresses the file by gzip. Content that the
-        format cannot store is listed. The file is only created when the whole recipe has succeeded.
+        for ``NumPy``. These two formats cannot be read. If the name ends with ``.gz``, as in ``a.obj.gz``, the file is
+        compressed with gzip. Content that the format cannot store is reported. The file is only created when the whole
+        recipe has succeeded.
 
         In a recipe: ``Save(path: "a.obj")``
 
         :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
             without extension, of the file in the recipe parameter ``name``.
-        :param images: What to do with the images of materials. If omitted, ``.glb`` files embed the images, and for
-            ``.gltf`` and ``.obj`` files, images that are next to their original model are copied next to the written
-            file. OBJ cannot embed images, so embedded images are written to files too.
+        :param images: What to do with the images of materials. By default, images are embedded in ``.glb`` files. For
+            ``.gltf`` and ``.obj``, images in the folder of the source model are copied to the folder of the output
+            file. OBJ cannot embed images, so embedded images are also written to files.
         :param compress: How to compress the geometry of ``.glb`` and ``.gltf`` files without loss. If omitted, the
             geometry is not compressed.
-        :param quantize: The numbers of bits with which the geometry of ``.glb`` and ``.gltf`` files is stored. If
-            omitted, numbers are floats of 32 bits. ``quantize: ()`` uses the default of each attribute. The report
-            lists the largest errors.
+        :param quantize: The number of bits for each attribute of the geometry in ``.glb`` and ``.gltf`` files. If
+            omitted, numbers are stored as 32-bit floats. ``quantize: ()`` uses the default of each attribute. The
+            report lists the largest errors.
         :param weight_sets: For ``.gltf`` and ``.glb``, the number of sets of four joints that are written for each
             vertex of a skinned mesh. If omitted, the number of sets in the file that the mesh comes from, or 1 if it
             does not come from such a file.
-        :param rows: For ``.csv``, the elements that have a row each. If omitted, vertices.
+        :param rows: For ``.csv``, the elements that the rows list. If omitted, vertices.
         """
         return self._apply('Save', {'path': path, 'images': images, 'compress': compress, 'quantize': quantize, 'weight_sets': weight_sets, 'rows': rows}, None, id)
 
@@ -2520,11 +2529,11 @@ class MeshOperations:
         Turns Bezier patches into a mesh.
 
         Acts on all objects that consist of patches, or on the objects in ``on``. Each object becomes one mesh of the
-        same name. Every patch is divided into ``segments`` x ``segments`` cells. Elements are numbered patch after
-        patch. Patches share no vertices, but if they have the same control points on a common side, the positions of
-        their vertices there are equal bit for bit, so that ``Weld(distance: 0)`` joins them. A side whose points
-        coincide, as at the pole of a teapot's lid, becomes one vertex. Patches without area give no faces and are
-        counted. The mesh has UVs and normals only if they are requested.
+        same name. Every patch is divided into ``segments`` x ``segments`` cells. The ids of elements follow the order
+        of the patches. Patches share no vertices, but if they have the same control points on a common side, the
+        positions of their vertices there are identical bit for bit, so that ``Weld(distance: 0)`` joins them. A side
+        whose points coincide, as at the pole of a teapot's lid, becomes one vertex. Zero-area patches give no faces and
+        are counted. The mesh has UVs and normals only if they are requested.
 
         In a recipe: ``Tessellate(segments: 3)``
 
@@ -2542,9 +2551,9 @@ class MeshOperations:
         *,
         id: str | None = None,
     ) -> Self:
-        """Replace curves by polylines through their points.
+        """Replace curves with polylines through their points.
 
-        Replaces curves by polylines through their points.
+        Replaces curves with polylines through their points.
 
         Each curve becomes one polyline with ``segments`` + 1 points in the plane z = 0, at the parameters 0, 1 /
         segments, ... 1. The first and the last point are exactly the end control points.
@@ -2561,12 +2570,13 @@ class MeshOperations:
         *,
         id: str | None = None,
     ) -> Self:
-        """Replace curves by the levels of de Casteljau's algorithm.
+        """Replace curves with the levels of de Casteljau's algorithm.
 
-        Replaces curves by the levels of de Casteljau's algorithm.
+        Replaces curves with the levels of de Casteljau's algorithm.
 
         A curve with n control points becomes n polylines in the plane z = 0. The first polyline is the control polygon
-        with n points. Each following polyline has one point less. The last polyline is the point of the curve at ``t``.
+        with n points. Each of the following polylines has one point less. The last polyline is the point of the curve
+        at ``t``.
 
         In a recipe: ``CurveLevels(t: 0)``
 
@@ -2586,8 +2596,8 @@ class MeshOperations:
         Moves one control point of curves.
 
         The other control points do not move. The point of the curve at a parameter t moves in the same direction as the
-        control point. The point of the curve moves as far as the control point, multiplied by the value at t of the
-        Bernstein polynomial of the control point.
+        control point. Its distance is the distance of the control point times the value at t of the Bernstein
+        polynomial of the control point.
 
         In a recipe: ``MoveControlPoint(index: 1, to: (2, -3.5))``
 
@@ -2611,17 +2621,17 @@ class MeshOperations:
 
         Scales, rotates and moves objects.
 
-        Points are first scaled, then rotated, then moved. The points of meshes, patches, curves and polylines are
-        changed, unless nodes of a glTF file place the object. An object that nodes place is moved by changing the
-        placements of its nodes, and everything below these nodes moves along. A skinned mesh is moved with its joints.
-        A node whose placement is animated gets a parent, which is moved instead. Without ``on:``, root nodes with
-        cameras and lights also move, unless ``about`` is ``Center``. A curve must stay in the plane z = 0.
+        Points are first scaled, then rotated, then moved. The step changes the points of meshes, patches, curves and
+        polylines. If nodes of a glTF file place an object, the step changes the placements of these nodes instead, and
+        everything below the nodes also moves. A skinned mesh moves with its joints. A node whose placement is animated
+        gets a parent, which is moved instead. Without ``on:``, root nodes with cameras and lights also move, unless
+        ``about`` is ``Center``. A curve must stay in the plane z = 0.
 
         Ids do not change. Normals and the deltas of morph targets are transformed; other attributes do not change. A
         mirror (one or three negative factors in ``scale``) also reverses the faces, so that they are counter-clockwise
-        seen from outside: the first corner of a face stays first, and the other corners follow in reverse order. In
+        seen from outside. The first corner of a face stays first, and the other corners follow in reverse order. In
         mirrored patches, u and v are exchanged, so that the outside stays the outside. A mirror drops attributes with
-        the rule ``Drop``, which are lost whenever the connectivity changes.
+        the rule ``Drop``, as does any step that changes the connectivity.
 
         In a recipe: ``Transform()``
 
@@ -2645,15 +2655,15 @@ class MeshOperations:
 
         Vertices at most ``distance`` apart are linked, and vertices that are connected by a chain of links merge into
         one, even if the ends of the chain are farther apart than ``distance``. The merged vertex has the position and
-        the values of the vertex with the lowest number. The other vertices are removed, and later vertices are
-        renumbered. Edges between the same two vertices become one edge with the values of the first. Corner values stay
-        with their corners, so UV seams are kept.
+        the values of the vertex with the lowest id. The other vertices are removed, so the ids of later vertices
+        change. Edges between the same two vertices become one edge with the values of the first edge. Corner values
+        stay with their corners, so UV seams are kept.
 
         If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
-        corners left or would visit a vertex twice. If joined faces have opposite orientations, the smaller group is
+        corners left or would contain a vertex twice. If joined faces have opposite orientations, the smaller group is
         reversed, provided that all orientations then agree. Reversed faces are counted, and the normals of vertices and
         corners are dropped. Where the result would still not be manifold, vertices and edges are copied, and the copies
-        are counted: for example, a third face at an edge gets a copy of the edge. If no vertices merge, the mesh does
+        are counted. For example, a third face at an edge gets a copy of the edge. If no vertices merge, the mesh does
         not change.
 
         In a recipe: ``Weld(distance: 0)``
@@ -2673,14 +2683,14 @@ class MeshOperations:
 
         Reverses the orientation of faces, so that their other side is the outside.
 
-        Adjacent faces must have the same orientation, so only whole connected components can be reversed: if a selected
+        Adjacent faces must have the same orientation, so only whole connected components can be reversed. If a selected
         face shares an edge with a face that is not selected, the step is refused. No vertex moves, and all elements
-        keep their numbers. The first corner of a face stays first, and the other corners follow in reverse order.
-        Normals are negated. Other attributes stay with their elements, and corner values with their vertex and face.
+        keep their ids. The first corner of a face stays first, and the other corners follow in reverse order. Normals
+        are negated. Other attributes stay with their elements, and corner values stay with their vertex and face.
 
         In a recipe: ``Reverse()``
 
-        :param faces: The faces to reverse: whole connected components. Defaults to All.
+        :param faces: The faces to reverse. They must form whole connected components. Defaults to All.
         """
         return self._apply('Reverse', {'faces': faces}, None, id)
 
@@ -2696,18 +2706,17 @@ class MeshOperations:
 
         A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length (the relative
         difference of their squared lengths is at most 1e-12), it is cut along the diagonal at its vertex with the
-        lowest number. A diagonal that gives a triangle without area, or a triangle that is turned over relative to the
-        normal of the face, is chosen only if the other diagonal is not better. A quadrilateral with a reflex corner is
+        lowest id. A diagonal that gives a zero-area triangle, or a triangle that is turned over relative to the normal
+        of the face, is chosen only if the other diagonal is not better. A quadrilateral with a reflex corner is
         therefore cut at that corner. If a diagonal would join two vertices that are already joined by an edge or
         another diagonal, the other diagonal is chosen where possible. The remaining duplicate diagonals are counted.
 
         A face with more corners is projected along its normal, cut by ear clipping, and improved by flipping diagonals
         until it is a constrained Delaunay triangulation. A face that cannot be triangulated in this way, because it has
-        no area or its sides cross, becomes a triangle fan around its vertex with the lowest number, and is counted.
+        zero area or its sides cross, becomes a triangle fan around its vertex with the lowest id, and is counted.
 
         The triangles replace their face in the order of the faces and have the values of the face. Vertices and edges
-        keep their numbers. The corners of the triangles have the values of the corners of the face at the same
-        vertices.
+        keep their ids. The corners of the triangles have the values of the corners of the face at the same vertices.
 
         In a recipe: ``Triangulate()``
 
@@ -2727,19 +2736,19 @@ class MeshOperations:
     ) -> Self:
         """Flip edges to the other diagonal of their two triangles.
 
-        Replaces the edge between two triangles by the other diagonal of the pair.
+        Replaces the edge between two triangles with the other diagonal of the two triangles.
 
-        Edges are flipped in order of their numbers. Each flip is checked against the mesh as edited so far. A flip is
+        Edges are flipped in order of their ids. Each flip is checked against the mesh as edited so far. A flip is
         refused if the edge is on the boundary, if a face beside it is not a triangle, or if the opposite corners of the
         two triangles are already joined by an edge or are the same vertex. At a seam, a flip is refused unless
-        ``seams`` is ``Drop``. All elements keep their numbers, and no vertex moves. Vertices, edges and faces keep
-        their values. Each triangle gets one new corner. The new corner takes the values that the other triangle has at
-        the same vertex; all other corners keep their values.
+        ``seams`` is ``Drop``. All elements keep their ids, and no vertex moves. Vertices, edges and faces keep their
+        values. Each triangle gets one new corner. The new corner takes the values that the other triangle has at the
+        same vertex; all other corners keep their values.
 
-        With ``until: Delaunay`` or ``until: Valence``, an edge is flipped only if that improves the mesh. Edges are
+        With ``until: Delaunay`` or ``until: Valence``, an edge is flipped only if the flip improves the mesh. Edges are
         checked again, pass after pass, until no edge is flipped. Flips with ``until: Delaunay`` or ``until: Valence``
-        neither fold the surface nor create triangles without area. If a flip that would improve the mesh is refused,
-        the step does not fail: the edge is left unchanged, and the report counts the refusal by reason. The report also
+        neither fold the surface nor create zero-area triangles. If a flip that would improve the mesh is refused, the
+        step does not fail. The edge is left unchanged, and the report counts the refusals by reason. The report also
         contains the number of passes, and whether the step stopped because ``passes`` was reached.
 
         On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from
@@ -2747,8 +2756,8 @@ class MeshOperations:
 
         In a recipe: ``FlipEdges(edges: All)``
 
-        :param edges: The edges to flip. The edges are selected before the first flip. An edge keeps its number when it
-            is flipped.
+        :param edges: The edges to flip. The edges are selected before the first flip. An edge keeps its id when it is
+            flipped.
         :param until: Which edges are flipped, and when to stop. Defaults to Once.
         :param passes: The largest number of passes over the edges. Ignored for ``Once``, which makes one pass. Defaults
             to 100.
@@ -2765,20 +2774,20 @@ class MeshOperations:
         on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Insert a vertex on edges and join it to the opposite corners.
+        """Insert a vertex on each edge and join it to the opposite corners.
 
         Inserts a vertex on each edge and joins it to the opposite corners of the triangles beside the edge.
 
         In a mesh of triangles, a split adds 1 vertex, 3 edges and 2 faces, or 1 vertex, 2 edges and 1 face on the
         boundary. A face with more than three corners only gains the new vertex as a corner. Edges are split in order of
-        their numbers; new edges are not split again. New vertices are numbered last, in the order of the splits. Values
+        their ids; new edges are not split again. New vertices get the highest ids, in the order of the splits. Values
         at the new vertex and its corners are interpolated between the ends, on each side of a seam separately.
 
         In a recipe: ``SplitEdges(edges: All)``
 
         :param edges: The edges to split.
         :param at: The position of the new vertex on the edge. From 0 to 1, exclusive. If ``edges`` is ``Between(v,
-            w)``, 0 is at v and 1 is at w. Otherwise 0 is at the end with the lower number. Defaults to 0.5.
+            w)``, 0 is at v and 1 is at w. Otherwise 0 is at the end with the lower id. Defaults to 0.5.
         :param on_refusal: What to do when a split is refused. Defaults to Error.
         """
         return self._apply('SplitEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, None, id)
@@ -2793,12 +2802,12 @@ class MeshOperations:
     ) -> Self:
         """Collapse edges to points.
 
-        Collapses edges: the two ends of each edge become one vertex.
+        Collapses edges, so that the two ends of each edge become one vertex.
 
         In a mesh of triangles, a collapse removes 1 vertex, 3 edges and 2 faces or, on the boundary, 1 vertex, 2 edges
         and 1 face. A face with more than three corners beside the edge only loses a corner. Of the two ends, the vertex
-        with the lower number is kept. Edges are collapsed in order of their numbers. An edge that an earlier collapse
-        removed counts as refused.
+        with the lower id is kept. Edges are collapsed in order of their ids. An edge that an earlier collapse removed
+        counts as refused.
 
         A collapse is refused if it would change the topology of the surface or make elements coincide:
 
@@ -2810,14 +2819,14 @@ class MeshOperations:
         triangles beside the edge share another edge.
 
         Values at the remaining vertex and its corners are interpolated between the ends, on each side of a seam
-        separately. When two edges become one, the remaining edge has the larger crease of the two, and the tags of
+        separately. When two edges become one, the remaining edge has the larger of the two creases, and the tags of
         both. Normals are dropped.
 
         In a recipe: ``CollapseEdges(edges: All, on_refusal: Skip)``
 
         :param edges: The edges to collapse.
         :param at: The position of the remaining vertex on the edge, from 0 to 1. If ``edges`` is ``Between(v, w)``, 0
-            is at v and 1 is at w. Otherwise 0 is at the end with the lower number. Defaults to 0.5.
+            is at v and 1 is at w. Otherwise 0 is at the end with the lower id. Defaults to 0.5.
         :param on_refusal: What to do when a collapse is refused. Defaults to Error.
         """
         return self._apply('CollapseEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, None, id)
@@ -2834,11 +2843,11 @@ class MeshOperations:
 
         Removes edges and merges the faces beside them.
 
-        Edges are removed in order of their numbers. Each removal is checked against the mesh as edited so far. After a
-        removal, the mesh has 1 edge and 1 face less. Of the two faces beside the edge, the one with the lower number is
+        Edges are removed in order of their ids. Each removal is checked against the mesh as edited so far. Each removal
+        reduces the numbers of edges and faces by 1. Of the two faces beside the edge, the face with the lower id is
         kept, with its values. No vertex is removed or moved. To remove vertices that are left with two edges, use
         ``DissolveVertices(vertices: Valence(2))`` in a later step. The remaining elements keep their order and their
-        values but are renumbered.
+        values but get new ids.
 
         An edge is refused if it is on the boundary, if the same face is on both of its sides, if one of its ends has
         only two edges, or if its two faces have common corners other than its ends. An edge that is a seam is refused
@@ -2865,29 +2874,29 @@ class MeshOperations:
 
         Replaces edges with faces of constant width.
 
-        A selected edge and both of its ends are removed. In both faces beside the edge, the new face reaches to the
-        same distance, the width. Each other edge at an end is cut where it has this distance, and between two selected
-        edges the vertex moves into the face. If three or more new vertices surround an old vertex, another new face
-        joins them. All edges are beveled together: a cube that is beveled at all edges keeps all of its symmetries.
+        A selected edge and both of its ends are removed, and a new face replaces the edge. In both faces beside the
+        edge, the new face ends at the distance ``width`` from the old edge. Each other edge at an end is cut at this
+        distance. Between two selected edges, the new vertex lies in the face. If three or more new vertices surround an
+        old vertex, another new face joins them. All edges are beveled together, so a cube that is beveled at all edges
+        keeps all of its symmetries.
 
-        The ends of the edges are removed, and later vertices are renumbered. New vertices are numbered last. Faces keep
-        their numbers; new faces are numbered last: those of edges in the order of the edges, then those of vertices.
-        Edges are renumbered.
+        The ends of the edges are removed, so the ids of later vertices change. New vertices get the highest ids. Faces
+        keep their ids. New faces get the highest ids: first the faces of edges, in order of the edges, then the faces
+        of vertices. Edges get new ids.
 
-        Values at new vertices are those at their places in the old faces, so textures do not change. A new face has the
+        A new vertex has the values of the old face at its position, so textures do not change. A new face has the
         values (material, tags) of one of the faces beside it. Which one is not specified, but it is the same in every
         run. New edges have zero values (no crease, no tags). Normals are dropped.
 
-        An edge is refused if it is on the boundary, if one of its ends has only one other edge, which is not selected,
-        or if the bevels at both ends of an edge would overlap.
+        An edge is refused if it is on the boundary, if one of its ends has only one other edge and this edge is not
+        selected, or if the bevels at both ends of an edge would overlap.
 
         In a recipe: ``BevelEdges(edges: Between(0, 2), width: 0.25)``
 
         :param edges: The edges to bevel.
-        :param width: The width: the distance of the new edges from the beveled edge in each of its two faces, in scene
-            units.
-        :param fraction: The width as a fraction of the length of the shortest edge at an end of a selected edge, in
-            place of ``width``. From 0 to 1, exclusive.
+        :param width: The distance between the beveled edge and the new edges in each of its two faces, in scene units.
+        :param fraction: The width as a fraction of the length of the shortest edge at the ends of the selected edges.
+            Replaces ``width``. From 0 to 1, exclusive.
         :param on_refusal: What to do when an edge is refused. Defaults to Error.
         """
         return self._apply('BevelEdges', {'edges': edges, 'width': width, 'fraction': fraction, 'on_refusal': on_refusal}, None, id)
@@ -2907,7 +2916,7 @@ class MeshOperations:
         Sets the edge attribute ``crease`` of the selected edges and the vertex attribute ``corner`` of the selected
         vertices to ``sharpness``. Other elements keep their values, or get 0 if the attribute did not exist. Loop and
         Catmull-Clark subdivision keep an edge or a vertex sharp for this number of levels and smooth it in later
-        levels. For example, an edge with sharpness 2.5 is sharp for two levels and half sharp in the third. With
+        levels. For example, an edge with sharpness 2.5 is sharp for two levels and half sharp in the third level. With
         sharpness 10, an edge is sharp at every level. Boundary edges are always sharp.
 
         At least one of ``edges`` and ``vertices`` must be given. The geometry does not change. The report counts the
@@ -2930,16 +2939,16 @@ class MeshOperations:
         on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Insert a vertex at the center of faces and join it to their corners.
+        """Insert a vertex at the center of each face and connect it to the corners.
 
-        Inserts a vertex at the center of faces and joins it to their corners.
+        Inserts a vertex at the center of each face and connects it to the corners of the face.
 
         A face with n corners becomes n triangles. Each poked face adds 1 vertex, n edges and n - 1 faces. The first
-        triangle keeps the number of the face; the other triangles and the new vertices and edges are numbered last, in
+        triangle keeps the id of the face; the other triangles and the new vertices and edges get the highest ids, in
         order of the faces. The new vertex is at the mean of the corners, moved along the normal of the face by
-        ``distance``. The vertex and corner values of the new vertex are also means, if the type of the attribute allows
-        means. The triangles have the values of their face, and the new edges have zero values (no crease, no tags). If
-        ``distance`` is not 0, normals are dropped.
+        ``distance``. The vertex and corner attributes of the new vertex are also means, if the type of the attribute
+        allows means. The triangles have the values of their face, and the new edges have zero values (no crease, no
+        tags). If ``distance`` is not 0, normals are dropped.
 
         A face is refused only if the position of the new vertex would not be finite, or if the mesh already has the
         largest supported number of elements.
@@ -2948,7 +2957,7 @@ class MeshOperations:
 
         :param faces: The faces to poke. Defaults to All.
         :param distance: The distance of the vertex from the center along the normal of the face, in scene units. A
-            negative distance moves the vertex inwards. A face without area has no normal: its vertex is at the center.
+            negative distance moves the vertex inwards. A zero-area face has no normal, so its vertex is at the center.
             Defaults to 0.0.
         :param on_refusal: What to do when a face is refused. Defaults to Error.
         """
@@ -2961,22 +2970,22 @@ class MeshOperations:
         on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Cut faces in two with edges between their corners.
+        """Cut each face in two with an edge between two of its corners.
 
-        Cuts faces in two with edges between their corners.
+        Cuts each face in two with an edge between two of its corners.
 
         Each pair (v, w) of vertices cuts the face that has both vertices as corners. The new edge joins the two
         vertices. Each cut adds 1 edge and 1 face. Cuts are made in the order of the list, so a face can be cut several
         times. The part of the face to the right of the line from v to w is the new face, and the other part keeps the
-        number. New edges and faces are numbered last. Corners keep their values, the new face has the values of the old
-        one, and the new edge has zero values (no crease, no tags).
+        id. New edges and faces get the highest ids. Corners keep their values, the new face has the values of the old
+        face, and the new edge has zero values (no crease, no tags).
 
         A cut is refused if the two vertices are the same, if they are already joined by an edge, if no face has both as
         corners, or if several faces have both as corners, because the cut would be ambiguous.
 
         In a recipe: ``SplitFaces(between: [])``
 
-        :param between: The cuts: a list of pairs of vertex numbers, for example ``[(0, 2), (5, 9)]``.
+        :param between: The cuts, as a list of pairs of vertex ids, for example ``[(0, 2), (5, 9)]``.
         :param on_refusal: What to do when a cut is refused. Defaults to Error.
         """
         return self._apply('SplitFaces', {'between': between, 'on_refusal': on_refusal}, None, id)
@@ -2995,13 +3004,12 @@ class MeshOperations:
 
         All faces are removed at once, so their order does not matter. Edges left without a face are removed. Vertices
         that lose their last edge are also removed, unless ``keep_vertices`` is true. Vertices that were isolated before
-        the step are kept. The remaining elements keep their order and their values but are renumbered. To delete edges
-        or vertices together with their faces, use ``FacesBeside(edges)`` or ``FacesAround(vertices)``.
+        the step are kept. The remaining elements keep their order and their values but get new ids. To delete edges or
+        vertices together with their faces, select the faces with ``FacesBeside(edges)`` or ``FacesAround(vertices)``.
 
         The removal is refused if the remaining faces around a vertex would form separate fans that meet only at that
-        vertex. With ``on_refusal: Skip``, faces are instead removed one by one, in order of their numbers, in repeated
-        passes until no more of the selected faces can be removed. The selected faces that remain are counted as
-        refused.
+        vertex. With ``on_refusal: Skip``, faces are instead removed one by one, in order of their ids, in repeated
+        passes until no more selected faces can be removed. The selected faces that remain are counted as refused.
 
         In a recipe: ``DeleteFaces(faces: All)``
 
@@ -3027,20 +3035,21 @@ class MeshOperations:
 
         Selected faces that share an edge form a region and move together, with one normal and one center. A region is
         first scaled, then rotated, both about the mean of its vertices, and then moved. Side faces with four corners
-        are added along the rim of the region: the edges with a face of the region on one side only. If all faces of an
-        open sheet are extruded, the result is a box that is open where the sheet was. If a region is closed, it has no
-        rim and no normal: its faces only move, and ``by`` must be an ``Offset``.
+        are added along the rim of the region, which consists of the edges with a face of the region on one side only.
+        If all faces of an open sheet are extruded, the result is a box that is open where the sheet was. A closed
+        region has no rim and no normal, so its faces only move, and ``by`` must be an ``Offset``.
 
-        The faces keep their numbers, so the same selection can be extruded again in later steps, for example to grow an
-        arm out of a body. Vertices and edges inside a region also keep their numbers. The vertices and edges of the old
-        rim do not move, and the moved faces get a new rim. New side faces are numbered last: by region, in order of the
-        lowest face number in each region, then in order of the faces, then counter-clockwise around each face from its
-        first corner. New vertices are in the same order: each is the copy of the first vertex of its side face.
+        The faces keep their ids, so the same selection can be extruded again in later steps, for example to grow an arm
+        out of a body. Vertices and edges inside a region also keep their ids. The vertices and edges of the old rim do
+        not move, and the moved faces get a new rim. New side faces get the highest ids: region by region, in order of
+        the lowest face id of each region, then in order of the faces, then counter-clockwise around each face from its
+        first corner. New vertices are in the same order. Each new vertex is a copy of the first vertex of its side
+        face.
 
         A side face has the values of the adjacent moved face (material, tags). The corners of a side face have the
-        values of the corners of the moved face, so textures have no seam there. But each side face shows only one line
-        of the texture, the line along its edge, stretched over the face. The new edges of the rim have the values of
-        the old ones (creases, tags), and the edges between the old and the new rim have zero values (no crease, no
+        values of the corners of the moved face, so textures have no seam there. Each side face, however, shows only one
+        line of the texture (the line along its edge), stretched over the face. The new edges of the rim have the values
+        of the old ones (creases, tags), and the edges between the old and the new rim have zero values (no crease, no
         tags). Normals are dropped.
 
         In a recipe: ``ExtrudeFaces(faces: Faces([0]), by: Distance(0.5))``
@@ -3062,14 +3071,14 @@ class MeshOperations:
         on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Shrink faces, each with a ring of faces around it.
+        """Shrink faces and surround each face with a ring of faces.
 
-        Shrinks faces and surrounds each with a ring of faces.
+        Shrinks faces and surrounds each face with a ring of faces.
 
-        Each face is inset separately, even if selected faces share edges. The inner face keeps the number of the face,
-        and existing vertices do not move. A face with n corners adds n vertices, 2 n edges and n faces with four
-        corners. New vertices and faces are numbered last: in order of the selected faces, and counter-clockwise around
-        each face from its first corner.
+        Each face is inset separately, even if selected faces share edges. The inner face keeps the id of the face, and
+        existing vertices do not move. A face with n corners adds n vertices, 2 n edges and n faces with four corners.
+        New vertices and faces get the highest ids: in order of the selected faces, and counter-clockwise around each
+        face from its first corner.
 
         Values at the new corners and vertices are interpolated between the outer corner and the mean of the face, so
         textures do not change. The ring has the values of the face (material, tags), and the inner edges have the
@@ -3080,8 +3089,8 @@ class MeshOperations:
         In a recipe: ``InsetFaces(faces: All, fraction: 0.25)``
 
         :param faces: The faces to inset.
-        :param fraction: How far the corners of the inner face are from the old corners towards the center of the face.
-            From 0 (the corner) to 1 (the center), exclusive.
+        :param fraction: The position of the corners of the inner face on the lines from the old corners to the center
+            of the face. From 0 (the corner) to 1 (the center), exclusive.
         :param on_refusal: What to do when a face is refused. Defaults to Error.
         """
         return self._apply('InsetFaces', {'faces': faces, 'fraction': fraction, 'on_refusal': on_refusal}, None, id)
@@ -3095,15 +3104,15 @@ class MeshOperations:
         on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Shrink and raise faces, each with a ring of faces around it.
+        """Shrink and raise faces, and surround each face with a ring of faces.
 
-        Shrinks and raises faces, and surrounds each with a ring of faces.
+        Shrinks and raises faces, and surrounds each face with a ring of faces.
 
         Works like ``InsetFaces``, and also moves the inner face along its normal. Each face is beveled separately, even
-        if selected faces share edges. The inner face keeps the number of the face, and existing vertices do not move. A
-        face with n corners adds n vertices, 2 n edges and n faces with four corners. New vertices and faces are
-        numbered last: in order of the selected faces, and counter-clockwise around each face from its first corner. A
-        face without area has no normal, and its inner face is not raised.
+        if selected faces share edges. The inner face keeps the id of the face, and existing vertices do not move. A
+        face with n corners adds n vertices, 2 n edges and n faces with four corners. New vertices and faces get the
+        highest ids: in order of the selected faces, and counter-clockwise around each face from its first corner. A
+        zero-area face has no normal, so its inner face is not raised.
 
         Values at the new corners and vertices are interpolated between the outer corner and the mean of the face. The
         ring has the values of the face (material, tags), and the inner edges have the values of the outer edges.
@@ -3114,8 +3123,8 @@ class MeshOperations:
         In a recipe: ``BevelFaces(faces: All, fraction: 0.25, distance: 0.5)``
 
         :param faces: The faces to bevel.
-        :param fraction: How far the corners of the inner face are from the old corners towards the center of the face.
-            From 0 (the corner) to 1 (the center), exclusive.
+        :param fraction: The position of the corners of the inner face on the lines from the old corners to the center
+            of the face. From 0 (the corner) to 1 (the center), exclusive.
         :param distance: The distance by which the inner face moves along its normal, in scene units. A negative
             distance moves the inner face inwards.
         :param on_refusal: What to do when a face is refused. Defaults to Error.
@@ -3134,15 +3143,15 @@ class MeshOperations:
 
         Removes vertices and merges the faces around them.
 
-        Vertices are removed in order of their numbers. Each removal is checked against the mesh as edited so far. All
-        faces around the vertex become one face, which has the number and the values of the face with the lowest number.
-        If the vertex is on the boundary, its two boundary edges become one. If the vertex has only two edges, these
-        edges become one edge, and the faces beside the edge lose a corner. When two edges become one, the edge with the
-        lower number is kept, with its values. The remaining elements keep their order and their values but are
-        renumbered. Normals are dropped.
+        Vertices are removed in order of their ids. Each removal is checked against the mesh as edited so far. All faces
+        around the vertex become one face, which has the id and the values of the face with the lowest id. If the vertex
+        is on the boundary, its two boundary edges become one. If the vertex has only two edges, these edges become one
+        edge, and the faces beside the edge lose a corner. When two edges become one, the edge with the lower id is
+        kept, with its values. The remaining elements keep their order and their values but get new ids. Normals are
+        dropped.
 
         A vertex is refused if it is isolated or has a single edge, if a neighbor would be left with a single edge
-        inside a face, if a face would visit a vertex twice or have fewer than three corners, or if an edge would join
+        inside a face, if a face would contain a vertex twice or have fewer than three corners, or if an edge would join
         two vertices that are already joined. At a seam, a vertex is refused unless ``seams`` is ``Drop``.
 
         In a recipe: ``DissolveVertices(vertices: Vertices([1]))``
@@ -3169,16 +3178,16 @@ class MeshOperations:
         joins the cuts. The new face has as many corners as the vertex had edges. If both ends of an edge are selected,
         the fraction must be below 0.5. For example, a fraction of 0.25 turns a cube into a truncated cube.
 
-        The selected vertices are removed, and later vertices are renumbered. New vertices are numbered last, in order
-        of the selected vertices and clockwise around each vertex. Faces keep their numbers; new faces are numbered
-        last, in order of the vertices.
+        The selected vertices are removed, so the ids of later vertices change. New vertices get the highest ids, in
+        order of the selected vertices and clockwise around each vertex. Faces keep their ids; new faces get the highest
+        ids, in order of the vertices.
 
         Values at the cuts are interpolated between the ends of the edge, so textures do not change. A new face has the
         values (material, tags) of one of the faces at the vertex. Which of the faces is not specified, but the choice
         is the same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
 
-        A vertex is refused if it is on the boundary, if it has fewer than three edges, or if earlier cuts leave too
-        little of one of its edges.
+        A vertex is refused if it is on the boundary, if it has fewer than three edges, or if one of its edges is too
+        short after earlier cuts.
 
         In a recipe: ``BevelVertices(vertices: All, fraction: 0.25)``
 
@@ -3200,8 +3209,8 @@ class MeshOperations:
         Computes a unit normal for every vertex, from the faces around it.
 
         The normals are written to the vertex attribute ``normal``, which is replaced if it exists. Corner normals are
-        removed, because they would contradict the vertex normals. A vertex without faces, or whose face normals cancel
-        each other out, gets the zero vector and is counted.
+        removed, because they would contradict the vertex normals. A vertex that has no faces, or whose face normals
+        cancel each other out, gets the zero vector and is counted.
 
         In a recipe: ``VertexNormals()``
 
@@ -3217,14 +3226,14 @@ class MeshOperations:
     ) -> Self:
         """Compute tangents of corners for normal maps.
 
-        Computes tangents for normal maps by the ``MikkTSpace`` algorithm, which many other tools also use.
+        Computes tangents for normal maps with the ``MikkTSpace`` algorithm, which many other tools also use.
 
         The mesh needs texture coordinates and normals, such as the normals that ``VertexNormals`` computes. The
-        tangents are written to the corner attribute ``tangent``, which is replaced if it exists: a unit vector
-        perpendicular to the normal and, as the fourth number, the sign of the bitangent. ``.glb`` and ``.gltf`` files
-        store the attribute as ``TANGENT``. Polygons are triangulated in the same way as for ``.glb`` and ``.gltf``
-        files. Steps that change the shape or the faces remove the tangents. Corners at which the texture coordinates
-        define no direction get an arbitrary tangent and are counted.
+        tangents are written to the corner attribute ``tangent``, which is replaced if it exists. A tangent is a unit
+        vector perpendicular to the normal, followed by the sign of the bitangent as the fourth number. ``.glb`` and
+        ``.gltf`` files store the attribute as ``TANGENT``. Polygons are triangulated in the same way as for ``.glb``
+        and ``.gltf`` files. Steps that change the shape or the faces remove the tangents. Corners at which the texture
+        coordinates define no direction get an arbitrary tangent and are counted.
 
         In a recipe: ``Tangents()``
 
@@ -3247,13 +3256,13 @@ class MeshOperations:
 
         A hole is a boundary loop: a loop of edges with a face on one side only. The outer rim of an open sheet is also
         a boundary loop; use ``around`` or ``max_edges`` to exclude it. No vertices are added, and existing elements
-        keep their numbers. A hole with n edges gets 1 face with n corners, or n - 2 triangles and n - 3 edges.
+        keep their ids. A hole with n edges gets 1 face with n corners, or n - 2 triangles and n - 3 edges.
 
         For holes with up to 500 edges, the triangles have the smallest total area. Larger holes are filled by cutting
-        off one corner after the other: always the corner whose two neighbors are closest to each other. If the hole is
-        far from convex, the triangles may overlap. Two vertices that are already joined by an edge are not joined
-        again: if a hole cannot be filled without this edge, it is refused (``DuplicateEdge``). A hole with two edges is
-        also refused (``WrongPlace``); ``Stitch`` closes it.
+        off one corner after the other, in each case the corner whose two neighbors are closest to each other. If the
+        hole is far from convex, the triangles may overlap. Two vertices that are already joined by an edge are not
+        joined again. If a hole cannot be filled without a second edge between them, it is refused (``DuplicateEdge``).
+        A hole with two edges is also refused (``WrongPlace``); ``Stitch`` closes it.
 
         New faces have the values of a face beside the hole. New corners have the values of the corner at the same
         vertex in the adjacent face. Normals are dropped if a hole was filled.
@@ -3278,8 +3287,8 @@ class MeshOperations:
 
         Joins two holes with a band of faces.
 
-        Each hole is given by one of its vertices. An edge joins the two given vertices, and the band goes around both
-        holes from there. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and n - m
+        Each hole is identified by one of its vertices. An edge joins the two vertices, and the band goes around both
+        holes from this edge. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and n - m
         evenly spread triangles. The step adds n edges and no vertices. The holes may be in one part of the mesh, which
         then gets a tunnel or a handle, or in two parts of one object. (``Join`` joins two objects into one.)
 
@@ -3288,12 +3297,12 @@ class MeshOperations:
 
         The step is refused if a vertex is not on the boundary (``NotBoundary``), if both vertices are on the same hole
         (``WrongPlace``), or if the band would join two vertices that are already joined by an edge (``DuplicateEdge``).
-        If the reason is ``DuplicateEdge``, other start vertices may work.
+        If the reason is ``DuplicateEdge``, the step may succeed with other vertices.
 
         In a recipe: ``BridgeLoops(first: 0, second: 5)``
 
-        :param first: The number of a vertex on the first hole.
-        :param second: The number of the vertex on the second hole that is joined to ``first``.
+        :param first: The id of a vertex on the first hole.
+        :param second: The id of the vertex on the second hole that is joined to ``first``.
         """
         return self._apply('BridgeLoops', {'first': first, 'second': second}, None, id)
 
@@ -3310,15 +3319,15 @@ class MeshOperations:
 
         Two boundary edges coincide if both pairs of corresponding ends are at most ``distance`` apart. Two edges that
         coincide only with each other form a pair. Choose a distance below the lengths of the edges. An edge that
-        coincides with several edges is refused (``NonManifold``), and none of the coinciding edges are joined. Unlike
+        coincides with several edges is refused (``NonManifold``), and none of the coincident edges are joined. Unlike
         ``Weld``, this operation never merges vertices inside the surface or vertices whose edges do not coincide.
 
-        Of each pair of vertices or edges, the one with the lower number keeps its position and its values. The other
-        vertex or edge is removed, and later elements are renumbered. Faces and corners do not change: different UVs
-        become a seam. Remaining holes with two edges are also closed.
+        Of each pair of vertices or edges, the one with the lower id keeps its position and its values. The other vertex
+        or edge is removed, so the ids of later elements change. Faces and corners do not change, so an edge whose sides
+        have different UVs becomes a seam. Remaining holes with two edges are also closed.
 
         A pair is refused if both edges belong to the same face (``SameFace``), if the ends of an edge would become one
-        vertex or a face would visit a vertex twice (``WrongPlace``), or if two edges would join the same vertices
+        vertex or a face would contain a vertex twice (``WrongPlace``), or if two edges would join the same vertices
         (``DuplicateEdge``).
 
         In a recipe: ``Stitch(distance: 0)``
@@ -3340,11 +3349,11 @@ class MeshOperations:
 
         Opens the mesh along edges.
 
-        The edges may form paths, loops and trees; a loop cuts out a piece. Each edge becomes two edges, one for each
+        The edges may form paths, loops and trees. A loop cuts out a piece. Each edge becomes two edges, one for each
         side. If the cuts separate the faces around a vertex into several parts, each part gets a separate copy of the
-        vertex. The part that has the face with the lowest number keeps the number of the vertex, and new vertices are
-        numbered last. Faces keep their numbers, and nothing moves. Copies have the values of the originals, and corners
-        keep their values. ``Stitch`` is the inverse.
+        vertex. The part with the lowest face id keeps the id of the vertex, and new vertices get the highest ids. Faces
+        keep their ids, and no vertex moves. Copies have the values of the originals, and corners keep their values.
+        ``Stitch`` is the inverse.
 
         All edges are cut at once. An edge is refused if it is on the boundary (``Boundary``), or if the cut would not
         open the mesh because both ends are inside the mesh and no other cut continues at either end
@@ -3392,7 +3401,7 @@ class MeshOperations:
         Tags the selected edges and removes the tag from all other edges. In later steps, ``Tagged("rim")`` selects the
         edges with the tag ``rim``.
 
-        The parts of a tagged edge are also tagged when it is split or subdivided. An existing tag of the same name is
+        When a tagged edge is split or subdivided, its parts are also tagged. An existing tag of the same name is
         replaced. If an attribute of another type has this name, the step fails. The geometry does not change. The
         report counts the edges that gained or lost the tag.
 
@@ -3415,7 +3424,7 @@ class MeshOperations:
         Tags the selected faces and removes the tag from all other faces. In later steps, ``Tagged("rim")`` selects the
         faces with the tag ``rim``.
 
-        The parts of a tagged face are also tagged when it is split or subdivided. An existing tag of the same name is
+        When a tagged face is split or subdivided, its parts are also tagged. An existing tag of the same name is
         replaced. If an attribute of another type has this name, the step fails. The geometry does not change. The
         report counts the faces that gained or lost the tag.
 
@@ -3450,7 +3459,7 @@ class MeshOperations:
         Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values
         are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a triangle copy the values
         of the old edge or triangle. Normals are dropped, because they would be wrong. Edges and vertices that
-        ``Crease`` made sharp stay sharp for a number of levels that is equal to their sharpness.
+        ``Crease`` made sharp stay sharp for as many levels as their sharpness states.
 
         In a recipe: ``LoopSubdivide(levels: 2)``
 
@@ -3464,8 +3473,8 @@ class MeshOperations:
         :param to_limit: Whether to move the vertices of the last level to the limit surface and to store its normals
             and tangents. Defaults to False.
         :param faces: The faces to refine. If omitted, all faces. Triangles next to the refined faces are cut in two or
-            four, so that no vertex lies inside an edge, and the surface outside of the refined faces does not move. For
-            the ids of new elements see ``subdivision::refine_faces``.
+            four, so that no vertex lies inside an edge, and the surface outside the refined faces does not move. For
+            the ids of new elements, see ``subdivision::refine_faces``.
         """
         return self._apply('LoopSubdivide', {'levels': levels, 'until': until, 'weights': weights, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, None, id)
 
@@ -3488,16 +3497,16 @@ class MeshOperations:
         A level creates a quad at each corner of each face. A level turns V vertices, E edges and F faces with C corners
         in total into V + E + F vertices, 2 E + C edges and C quads, so V - E + F does not change. Old vertices keep
         their ids, the vertex on edge e has the id V + e, the vertex at the center of face f has the id V + E + f, and
-        edge e becomes edges 2e and 2e + 1. Quads are numbered face by face, in order of the corners.
+        edge e becomes edges 2e and 2e + 1. The ids of quads follow the order of the faces and of their corners.
 
         Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values
         are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a face copy the values of
         the old edge or face. Normals are dropped, because they would be wrong. Edges and vertices that ``Crease`` made
-        sharp stay sharp for a number of levels that is equal to their sharpness.
+        sharp stay sharp for as many levels as their sharpness states.
 
         In a recipe: ``CatmullClark(levels: 2)``
 
-        :param levels: The number of levels. Each level replaces every corner of a face by a quad. Defaults to 1. With
+        :param levels: The number of levels. Each level replaces every corner of a face with a quad. Defaults to 1. With
             ``until``, the maximum number of levels, which defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
         :param boundary: How vertices on the boundary move. Defaults to EdgesOnly.
@@ -3506,8 +3515,8 @@ class MeshOperations:
         :param to_limit: Whether to move the vertices of the last level to the limit surface and to store its normals
             and tangents. Defaults to False.
         :param faces: The faces to refine. If omitted, all faces. Faces next to the refined faces get the new vertices
-            on common edges as corners, and the surface outside of the refined faces does not move. For the ids of new
-            elements see ``subdivision::refine_faces``.
+            on common edges as corners, and the surface outside the refined faces does not move. For the ids of new
+            elements, see ``subdivision::refine_faces``.
         """
         return self._apply('CatmullClark', {'levels': levels, 'until': until, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, None, id)
 
@@ -3528,8 +3537,8 @@ class MeshOperations:
         vertices, 2 E + 3 F edges and 4 F triangles. ``into: Quads`` accepts all polygons and creates a quad at each
         corner: V vertices, E edges and F faces with C corners in total become V + E + F vertices, 2 E + C edges and C
         quads. Old vertices keep their ids and positions, the vertex on edge e has the id V + e, and edge e becomes
-        edges 2e and 2e + 1. Triangle f becomes faces 4f to 4f + 3. Quads are numbered face by face, and the vertex at
-        the center of face f has the id V + E + f.
+        edges 2e and 2e + 1. Triangle f becomes faces 4f to 4f + 3. The ids of quads follow the order of the faces, and
+        the vertex at the center of face f has the id V + E + f.
 
         Vertex attributes are interpolated. Corner values are interpolated within one old face. Parts of an edge or a
         face copy the values of the old edge or face, including sharpness. Normals are dropped.
@@ -3542,7 +3551,7 @@ class MeshOperations:
         :param into: How faces are split. Defaults to Triangles.
         :param faces: The faces to refine. If omitted, all faces. With ``into: Triangles``, triangles next to the
             refined faces are cut in two or four. With ``into: Quads``, faces next to the refined faces get the new
-            vertices on common edges as corners. For the ids of new elements see ``subdivision::refine_faces``.
+            vertices on common edges as corners. For the ids of new elements, see ``subdivision::refine_faces``.
         """
         return self._apply('Midpoint', {'levels': levels, 'until': until, 'into': into, 'faces': faces}, None, id)
 
@@ -3553,7 +3562,7 @@ class MeshOperations:
         until: Choice | Arg | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Split every triangle into four and smooth the surface, but keep the old vertices.
+        """Split every triangle into four and smooth the surface without moving the old vertices.
 
         Splits every triangle into four and smooths the surface without moving the old vertices, for a number of levels.
 
@@ -3587,14 +3596,14 @@ class MeshOperations:
         A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles. Every
         second level adds one more vertex and one more edge for each boundary edge. V - E + F does not change. Old
         vertices keep their ids, the vertex in face f has the id V + f, and face f becomes faces 3f to 3f + 2. All faces
-        must be triangles. Levels are counted from the start of the step: one step of two levels cuts the boundary
-        edges, but two steps of one level leave the boundary unchanged.
+        must be triangles. Levels are counted from the start of the step. One step of two levels therefore cuts the
+        boundary edges, but two steps of one level leave the boundary unchanged.
 
         Vertex attributes are smoothed with the weights of the positions. Corner values are interpolated linearly within
-        one old triangle. A triangle at a flipped edge lies in two old triangles. If the old edge was a seam, the
-        triangle has texture coordinates of both sides, which distorts textures. New triangles copy the values of their
-        old triangle. Parts of a boundary edge copy the values of the edge; other edges have zero values (no crease, no
-        tags). Normals are dropped, because they would be wrong.
+        one old triangle. A triangle next to a flipped edge covers parts of two old triangles. If the old edge was a
+        seam, the triangle has texture coordinates of both sides, which distorts textures. New triangles copy the values
+        of their old triangle. Parts of a boundary edge copy the values of the edge; other edges have zero values (no
+        crease, no tags). Normals are dropped, because they would be wrong.
 
         In a recipe: ``Sqrt3(levels: 1)``
 
@@ -3611,21 +3620,21 @@ class MeshOperations:
         until: Choice | Arg | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Replace every edge and vertex by a face.
+        """Replace every edge and every vertex with a face.
 
-        Replaces every edge and vertex by a face and shrinks the old faces, for a number of levels.
+        Replaces every edge and every vertex with a face and shrinks the old faces, for a number of levels.
 
         A level turns a closed mesh with V vertices, E edges and F faces into a mesh with 2 E vertices, 4 E edges and V
         + E + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. V - E + F
         does not change. The face inside old face f has the id f, the face of edge e has the id F + e, and the faces of
-        vertices follow. Isolated vertices are kept, after all other vertices. Isolated vertices and inner vertices of
-        valence 2 do not become faces.
+        vertices follow. Isolated vertices are kept; their ids follow those of all other vertices. Isolated vertices and
+        inner vertices of valence 2 do not become faces.
 
         Vertex attributes are smoothed with the weights of the positions. Corner values are smoothed within one old
-        face. The new faces of edges and vertices have corner values of several old faces; at a seam, this distorts
-        textures. A face inside an old face copies the values of the old face; the face of an edge or a vertex copies
-        the values of an adjacent face. The two edges along an old edge copy its values; other edges have zero values
-        (no crease, no tags). Normals are dropped, because they would be wrong.
+        face. The new faces of edges and vertices have corner values of several old faces, which distorts textures at a
+        seam. A face inside an old face copies the values of the old face; the face of an edge or a vertex copies the
+        values of an adjacent face. The two edges along an old edge copy its values; other edges have zero values (no
+        crease, no tags). Normals are dropped, because they would be wrong.
 
         In a recipe: ``DooSabin(levels: 1)``
 
@@ -3649,10 +3658,10 @@ class MeshOperations:
         Cuts meshes along a plane.
 
         Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along it.
-        A concave face can be cut several times. A vertex closer to the plane than 1e-9 of the largest extent of the
-        mesh counts as on the plane and is not moved. When an edge is cut, the part at the end with the lower number
-        keeps the number of the edge. When a face is cut, the part with the first corner keeps the number of the face.
-        New elements are numbered last. Attributes are interpolated at the crossings, separately on each side of a seam.
+        A concave face can be cut several times. A vertex is on the plane if its distance from the plane is less than
+        1e-9 of the largest extent of the mesh; it is not moved. When an edge is cut, the part at the end with the lower
+        id keeps the id of the edge. When a face is cut, the part with the first corner keeps the id of the face. New
+        elements get the highest ids. Attributes are interpolated at the crossings, separately on each side of a seam.
 
         With ``keep: Front`` or ``keep: Back``, the other side of the plane is removed. A face in the plane belongs to
         the back if its normal points to the front, because the face then closes the solid behind the plane. Vertices
@@ -3678,18 +3687,18 @@ class MeshOperations:
         from_: Literal['Front', 'Back'] | Arg | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Replace one half of a mesh by the mirror image of the other.
+        """Replace one half of a mesh with the mirror image of the other half.
 
-        Replaces one half of a mesh by the mirror image of the other half.
+        Replaces one half of a mesh with the mirror image of the other half.
 
-        The mesh is cut along a plane as by ``Bisect``. The half on the side ``from`` is kept and mirrored, and the
-        halves are joined at the plane. Vertices on the plane are moved onto it exactly, so that the result is
-        symmetric. Faces in the plane are removed, because they would be walls inside the result. Where the surface only
-        touches the plane, the halves are not joined.
+        The mesh is cut along a plane, as with ``Bisect``. The half on the side ``from`` is kept and mirrored, and the
+        halves are joined at the plane. Vertices near the plane (see ``Bisect``) are moved exactly onto it, so that the
+        result is symmetric. Faces in the plane are removed, because they would be walls inside the result. Where the
+        surface only touches the plane, the halves are not joined.
 
-        The elements of the kept half come first, in their old order, then those of the mirror image. Attributes are
-        copied: both halves have the same texture coordinates, tags and weights of joints. Normals and tangents are
-        dropped.
+        The elements of the kept half come first, in their old order. The elements of the mirror image follow.
+        Attributes are copied, so both halves have the same texture coordinates, tags and weights of joints. Normals and
+        tangents are dropped.
 
         In a recipe: ``Symmetrize(normal: (1, 0, 0))``
 
@@ -3724,26 +3733,28 @@ class MeshOperations:
 
         - Topology: holes, handles and separate parts stay. - Lines: the boundary, seams of texture coordinates and
         normals, borders between face tags or materials, edges with a tag or a crease, and ``features``. A line can lose
-        vertices, but its ends, and the vertices where lines meet, keep their exact positions. - Attributes: they are
-        interpolated, but never across a line. Normals are also interpolated, so that a simplified mesh is shaded like
-        the original. - Vertex tags: vertices with different tags or sharpness are not merged.
+        vertices, but its ends, and the vertices where lines meet, keep their exact positions. - Attributes: texture
+        coordinates, normals, colors and other numbers are a part of the change that is kept small (Hoppe, 1999), and
+        new vertices get the values that fit best. Values are never mixed across a line, and no triangle is turned over
+        in the texture. Normals are kept, so that a simplified mesh is shaded like the original. - Vertex tags: vertices
+        with different tags or sharpness are not merged.
 
-        No triangle is turned over. Remaining elements are numbered anew, in the order of their old numbers. If the
-        number of faces cannot be reached, and no ``error`` is given, the step is refused as ``Unreached``, with the
-        reasons; with ``on_refusal: Skip``, the result is kept.
+        No triangle is turned over. Remaining elements get new ids, in the order of their old ids. If the number of
+        faces cannot be reached and ``error`` is not given, the step is refused as ``Unreached``, and the message states
+        the reasons. With ``on_refusal: Skip``, the result is kept.
 
         In a recipe: ``Simplify(ratio: 0.5)``
 
         :param faces: The number of faces to reach, for each mesh. The result can have one face fewer. A mesh that
             already has at most this number of faces does not change.
         :param ratio: The number of faces to reach, as a fraction of the number of faces of each mesh.
-        :param error: The largest allowed distance between the old and the new surface, in scene units: the Hausdorff
-            distance. The limit is guaranteed: the step adds up an upper bound of how far each collapse moves the
-            surface. The true distance is therefore usually much smaller. If omitted, there is no limit.
-        :param features: Edges that are kept as lines, for example ``Sharp(above: 30)``. If omitted, only the lines that
-            are always kept.
-        :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, none.
-        :param intersections: Whether faces may come to intersect other faces, which can happen where parts of the
+        :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. The
+            limit is guaranteed, because the step adds up an upper bound for the distance by which each collapse moves
+            the surface. The true distance is therefore usually much smaller. If omitted, there is no limit.
+        :param features: Edges that are treated as lines, for example ``Sharp(above: 30)``. If omitted, only the lines
+            that are always kept.
+        :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
+        :param intersections: Whether the step may create intersections of faces. They can occur where parts of the
             surface are close together. Defaults to Allow.
         :param on_refusal: What to do if the number of faces cannot be reached. Defaults to Error.
         """
@@ -3761,44 +3772,44 @@ class MeshOperations:
         on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Replace triangles by nearly equilateral triangles of a given size.
+        """Replace all triangles with nearly equilateral triangles of a given size.
 
-        Replaces triangles by nearly equilateral triangles of a given size, on the same surface.
+        Replaces all triangles with nearly equilateral triangles of a given size, on the same surface.
 
         Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
         vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target
-        length. All vertices lie on the original surface. The target length is either ``length``, or it follows the
-        ``curvature``: short edges where the surface is curved, long edges where it is flat (Dunyach and others, 2013).
-        One of the two must be given. All faces must be triangles.
+        length. All vertices lie on the original surface. The target length is either ``length``, or it follows
+        ``curvature``: edges are short where the surface is curved, and long where it is flat (Dunyach and others,
+        2013). One of the two must be given. All faces must be triangles.
 
-        These are kept:
+        The following properties are kept:
 
         - Topology: holes, handles and separate parts stay. - Lines: the boundary, seams of texture coordinates and
         normals, borders between face tags or materials, edges with a tag or a crease, and ``features``. Vertices on a
         line slide along it. The ends of lines, the vertices where lines meet, and corners where a line turns by more
         than 40 degrees keep their exact positions. Other sharp edges are rounded. - Attributes: they come from the same
-        place of the original surface, and are never interpolated across a line. - Vertex tags: a new vertex has a tag
-        if all vertices around its place had it. Tagged vertices without tagged neighbors keep their exact positions,
-        and so do vertices with sharpness.
+        point of the original surface, and are never interpolated across a line. - Vertex tags: a new vertex has a tag
+        if all old vertices around its position had the tag. Tagged vertices without tagged neighbors and vertices with
+        sharpness keep their exact positions.
 
-        Each step that would turn a triangle over is refused. Elements are numbered anew. If the result could be further
-        from the original than ``error``, the step is refused as ``Unreached``; with ``on_refusal: Skip``, the mesh then
-        stays as it was.
+        Edits that would turn a triangle over are refused. All elements get new ids. If the distance between the result
+        and the original could exceed ``error``, the step is refused as ``Unreached``. With ``on_refusal: Skip``, the
+        mesh then does not change.
 
         In a recipe: ``Remesh(length: 0.5)``
 
         :param length: The target length of edges, in scene units.
         :param curvature: Target lengths that follow the curvature, instead of ``length``.
-        :param features: Edges that are kept as lines, for example ``Sharp(above: 30)``. If omitted, none in addition to
-            those above.
-        :param error: The largest allowed distance between the old and the new surface, in scene units: the Hausdorff
-            distance. Edges become shorter than the target length where this is necessary. The distance is measured at
-            the end, in both directions and for all points. If omitted, there is no limit.
-        :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, none.
+        :param features: Edges that are treated as lines, for example ``Sharp(above: 30)``. If omitted, only the lines
+            that are always kept.
+        :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. Edges
+            become shorter than the target length where this is necessary. The distance is measured at the end, in both
+            directions and for all points. If omitted, there is no limit.
+        :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
         :param passes: The largest number of passes, from 1 to 1000. The step ends earlier if a pass changes almost
             nothing. Defaults to 10.
-        :param on_refusal: What to do if the result could be further from the original than ``error``. Defaults to
-            Error.
+        :param on_refusal: What to do if the distance between the result and the original could exceed ``error``.
+            Defaults to Error.
         """
         return self._apply('Remesh', {'length': length, 'curvature': curvature, 'features': features, 'error': error, 'pin': pin, 'passes': passes, 'on_refusal': on_refusal}, None, id)
 
@@ -3817,15 +3828,15 @@ class MeshOperations:
 
         Moves vertices so that noise disappears.
 
-        Only vertices in ``vertices`` move, except those in ``pin``. Vertices without faces stay. All other vertices
-        keep their exact positions. Faces can have any number of corners, and degenerate faces are allowed. All elements
-        keep their numbers. Attributes are kept, so textures stretch with the surface, but normals are dropped.
+        Only vertices in ``vertices`` that are not in ``pin`` and have a face move. All other vertices keep their exact
+        positions. Faces can have any number of corners, and degenerate faces are allowed. All elements keep their ids.
+        Attributes are kept, so textures stretch with the surface, but normals are dropped.
 
         | ``by`` | use | size | | --- | --- | --- | | ``Laplacian`` | strong smoothing | shrinks | | ``Taubin`` |
         removing noise | nearly the same | | ``Implicit`` | strong smoothing of dense meshes in one pass | shrinks | |
         ``Denoise`` | scans of objects with flat sides and sharp edges | nearly the same |
 
-        If ``boundary`` is ``Fixed``, vertices on the boundary stay, so that adjacent objects fit as before.
+        If ``boundary`` is ``Fixed``, vertices on the boundary do not move, so that adjacent objects still fit together.
 
         In a recipe: ``Smooth(by: Taubin())``
 
@@ -3833,10 +3844,10 @@ class MeshOperations:
         :param passes: The number of passes. If omitted, 1 for ``Implicit`` and 10 for the other methods. For
             ``Denoise``, the number of passes over the normals. At most 10000.
         :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
-        :param pin: Vertices that stay. If omitted, none.
+        :param pin: Vertices that do not move. If omitted, no vertices.
         :param boundary: How vertices on the boundary move. Defaults to Fixed.
         :param keep_volume: Whether the moved vertices are finally shifted along their normals, all by the same
-            distance, until the mesh has the volume that it had. The mesh must be closed. Defaults to False.
+            distance, until the mesh has its original volume. The mesh must be closed. Defaults to False.
         """
         return self._apply('Smooth', {'by': by, 'passes': passes, 'vertices': vertices, 'pin': pin, 'boundary': boundary, 'keep_volume': keep_volume}, None, id)
 
@@ -3852,18 +3863,18 @@ class MeshOperations:
 
         Copies attributes from the nearest points of another object.
 
-        An attribute of vertices, corners or faces of the object ``from`` becomes one of the same kind: numbers and
-        vectors of vertices and corners are interpolated inside the face of the nearest point; whole numbers, tags, and
-        attributes that edits do not interpolate are copied from its nearest corner, and values of faces from its face.
-        An attribute that exists already, with the same type of values, is overwritten. Without ``on``, the step acts on
-        all meshes except ``from``.
+        An attribute of vertices, corners or faces of the object ``from`` becomes an attribute of the same kind. Numbers
+        and vectors of vertices and corners are interpolated inside the face of the nearest point. Whole numbers, tags,
+        and attributes that edits do not interpolate are copied from the nearest corner of this face. Values of faces
+        are copied from this face. An existing attribute with the same type of values is overwritten. Without ``on``,
+        the step acts on all meshes except ``from``.
 
-        All corners of a face take their values from one chart of the source: from faces that are connected without
-        crossing a seam of the attribute. It is the chart nearest to the center of the face, so no triangle is stretched
-        across a seam of texture coordinates.
+        All corners of a face take their values from one chart of the source, that is, from faces that are connected
+        without crossing a seam of the attribute. The chart is the one nearest to the center of the face, so no triangle
+        is stretched across a seam of texture coordinates.
 
-        Elements further than ``within`` from the source keep their values, or get zeros if the attribute is new, and
-        are counted. For corners, the whole face does.
+        Elements whose distance from the source exceeds ``within`` keep their values, or get zeros if the attribute is
+        new, and are counted. If this applies to a corner of a face, it applies to all corners of the face.
 
         In a recipe: ``Transfer(from: "scan", attributes: ["uv", "color"], within: 0.01)``
 
@@ -3885,14 +3896,14 @@ class MeshOperations:
 
         Moves vertices.
 
-        Faces, element numbers and attributes do not change, so textures stretch with the surface. Normals are dropped.
+        Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped.
 
-        With ``falloff: r``, vertices near the selected vertices move along. At the distance d from the nearest selected
+        With ``falloff: r``, vertices near the selected vertices also move. At the distance d from the nearest selected
         vertex, the movement is multiplied by the weight (1 - (d/r)²)². The weight is 1 at selected vertices and falls
-        smoothly to 0 at the distance r. Distances are straight, not along the surface.
+        smoothly to 0 at the distance r. Distances are measured along straight lines, not along the surface.
 
-        With ``by: Distance(..)``, each vertex moves along its own normal: the mean of the normals of its faces,
-        weighted by their areas. Vertices without a normal do not move and are counted.
+        With ``by: Distance(..)``, each vertex moves along its own normal, which is the mean of the normals of its
+        faces, weighted by their areas. Vertices without a normal do not move and are counted.
 
         In a recipe: ``MoveVertices(vertices: Vertices([0]), by: Offset((0, 0, 0.5)))``
 
@@ -3917,13 +3928,14 @@ class MeshOperations:
 
         Each vertex moves along its normal by ``distance`` times the value of ``by``. The normal of a vertex is the mean
         of the normals of its faces, weighted by their areas. Vertices without a normal do not move and are counted.
-        Faces, element numbers and attributes do not change. Normals are dropped.
+        Faces, element ids and attributes do not change. Normals are dropped.
 
-        The values are computed without functions that differ between machines, so the result is the same everywhere.
+        The values are computed without functions that differ between machines, so the result is identical on all
+        machines.
 
         In a recipe: ``Displace(by: Noise(scale: 0.5, seed: 7), distance: 0.1)``
 
-        :param by: The values.
+        :param by: The values by which ``distance`` is multiplied.
         :param distance: The distance for the value 1, in scene units. A negative distance moves inwards.
         :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
         """
@@ -3941,22 +3953,22 @@ class MeshOperations:
         vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Bend an axis into an arc of a circle.
+        """Bend a mesh, so that an axis becomes an arc of a circle.
 
-        Bends an axis, and everything around it, into an arc of a circle.
+        Bends a mesh, so that an axis becomes an arc of a circle.
 
         The plane at ``from`` does not move. Between ``from`` and ``to``, the axis becomes an arc that keeps its length
         and turns by ``angle`` in total. Vertices beyond ``to`` move rigidly. Vertices between the axis and the center
-        of the circle come closer together, and vertices on the other side of the axis move apart. The center is at the
-        distance (to - from) / angle from the axis, with the angle in radians. Parts of the mesh beyond the center turn
-        inside out. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
+        of the circle move closer together, and vertices on the other side of the axis move apart. The distance between
+        the center and the axis is (to - from) / angle, with the angle in radians. Parts of the mesh beyond the center
+        turn inside out. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
 
-        Faces, element numbers and attributes do not change, so textures stretch with the surface. Normals are dropped.
-        Only vertices move: refine the mesh first if its faces are large.
+        Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
+        vertices move, so refine the mesh first if its faces are large.
 
         In a recipe: ``Bend(axis: Z, angle: 90)``
 
-        :param axis: The axis that is bent.
+        :param axis: The axis that becomes an arc.
         :param angle: The angle between the ends of the axis, in degrees. A negative angle bends to the other side.
         :param towards: The axis towards which the upper end bends. If omitted, the axis after ``axis`` in the order x,
             y, z, x.
@@ -3985,11 +3997,11 @@ class MeshOperations:
         Rotates vertices around an axis, by an angle that grows along the axis.
 
         The angle grows linearly from 0 at ``from`` to ``angle`` at ``to``. Below ``from`` and above ``to``, vertices
-        rotate by the angle of the nearer end. A twist keeps volumes, and a twist by the opposite angle undoes the first
-        twist. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
+        rotate by the angle of the nearer end. A twist does not change volumes, and a twist by the opposite angle undoes
+        it. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
 
-        Faces, element numbers and attributes do not change, so textures stretch with the surface. Normals are dropped.
-        Only vertices move: refine the mesh first if its faces are large.
+        Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
+        vertices move, so refine the mesh first if its faces are large.
 
         In a recipe: ``Twist(axis: Z, angle: 90)``
 
@@ -4020,16 +4032,16 @@ class MeshOperations:
         Scales vertices towards or away from an axis, by a factor that changes along the axis.
 
         The factor changes linearly from 1 at ``from`` to ``factor`` at ``to``. Below ``from`` and above ``to``, the
-        factor of the nearer end applies. Heights do not change. Source: Barr, "Global and Local Deformations of Solid
-        Primitives", 1984.
+        factor of the nearer end applies. Coordinates along the axis do not change. Source: Barr, "Global and Local
+        Deformations of Solid Primitives", 1984.
 
-        Faces, element numbers and attributes do not change, so textures stretch with the surface. Normals are dropped.
-        Only vertices move: refine the mesh first if its faces are large.
+        Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
+        vertices move, so refine the mesh first if its faces are large.
 
         In a recipe: ``Taper(axis: Z, factor: 0.5)``
 
-        :param axis: The axis, which keeps its place.
-        :param factor: The factor at ``to``. More than 0: a factor below 1 makes the upper end narrower.
+        :param axis: The axis. Points on the axis do not move.
+        :param factor: The factor at ``to``. More than 0. A factor below 1 makes the upper end narrower.
         :param about: A point on the axis. The coordinate of the point along the axis does not matter.
         :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
             of the mesh.
@@ -4053,22 +4065,22 @@ class MeshOperations:
 
         Deforms vertices with a box of control points.
 
-        The box is divided by ``size`` control points along x, y and z. ``moves`` moves some of them, and the space in
-        the box follows smoothly: each point is a sum of the control points with Bernstein polynomials as weights
+        The box has a grid of ``size`` control points along x, y and z. ``moves`` moves some of them, and the space in
+        the box follows smoothly. Each point becomes a sum of the control points with Bernstein polynomials as weights
         (Sederberg, Parry, "Free-Form Deformation of Solid Geometric Models", 1986). If all control points move by the
-        same offset, the box moves by it. A control point attracts the surface, but the surface usually does not reach
-        it, except at the corners of the box.
+        same offset, the whole box moves by this offset. A control point attracts the surface, but the surface usually
+        does not reach it, except at the corners of the box.
 
-        Vertices outside the box stay. Faces, numbers and attributes do not change, so textures stretch with the
-        surface. Normals are dropped. Only vertices move: refine the mesh first if its faces are large.
+        Vertices outside the box do not move. Faces, element ids and attributes do not change, so textures stretch with
+        the surface. Normals are dropped. Only vertices move, so refine the mesh first if its faces are large.
 
         In a recipe: ``Lattice(size: (3, 3, 3), moves: [((2, 2, 2), (0.5, 0.5, 0.5))])``
 
         :param size: The number of control points along x, y and z, from 2 to 16 each.
-        :param moves: The control points that move: their numbers along x, y and z, counted from 0, and the offset in
-            scene units. A control point that is listed several times moves by the sum.
-        :param min: The lowest corner of the box. If omitted, that of the bounding box of the mesh.
-        :param max: The highest corner of the box. If omitted, that of the bounding box of the mesh.
+        :param moves: The control points that move: their indices along x, y and z, counted from 0, and the offset in
+            scene units. A control point that is listed several times moves by the sum of its offsets.
+        :param min: The lowest corner of the box. If omitted, the lowest corner of the bounding box of the mesh.
+        :param max: The highest corner of the box. If omitted, the highest corner of the bounding box of the mesh.
         :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
         """
         return self._apply('Lattice', {'size': size, 'moves': moves, 'min': min, 'max': max, 'vertices': vertices}, None, id)
@@ -4087,19 +4099,19 @@ class MeshOperations:
 
         Moves vertices onto the surface of another object (shrinkwrap).
 
-        Only vertices in ``vertices`` move, except those in ``pin``; all others keep their exact positions. Without
-        ``on``, the step acts on all meshes except the object ``onto``, which does not change. Faces, numbers and
+        Only vertices in ``vertices`` that are not in ``pin`` move. All others keep their exact positions. Without
+        ``on``, the step acts on all meshes except the object ``onto``, which does not change. Faces, element ids and
         attributes do not change, so textures stretch with the surface. Normals are dropped.
 
-        Vertices that would move further than ``distance`` stay. With ``Normal`` and ``Direction``, so do vertices whose
-        line misses the surface. The report counts both.
+        Vertices that would move farther than ``distance`` do not move. With ``Normal`` and ``Direction``, vertices
+        whose line misses the surface do not move either. The report counts both kinds of vertices.
 
         In a recipe: ``Project(onto: "scan", distance: 0.1)``
 
         :param onto: The name of the object with the surface.
         :param along: Where each vertex goes. Defaults to Nearest.
         :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
-        :param pin: Vertices that stay. If omitted, none.
+        :param pin: Vertices that do not move. If omitted, no vertices.
         :param distance: The largest distance that a vertex moves, in scene units. If omitted, any distance.
         """
         return self._apply('Project', {'onto': onto, 'along': along, 'vertices': vertices, 'pin': pin, 'distance': distance}, None, id)
@@ -4117,20 +4129,21 @@ class MeshOperations:
         Stores a quantity, such as a curvature or a distance, as an attribute of vertices or faces.
 
         Later steps can select elements by the attribute with ``Where``, ``Displace`` vertices by it, show it in a
-        ``Picture``, and save it to files. It is not updated when the mesh changes. Positions and other attributes do
-        not change. Coordinates are those of the meshes, without nodes. The report states the lowest, the mean and the
-        highest value of each object.
+        ``Picture``, and save it to files. The attribute is not updated when the mesh changes. Positions and other
+        attributes do not change. Quantities are computed in the space of the mesh, without the transforms of nodes. The
+        report states the lowest, the mean and the highest value of each object.
 
-        An attribute of the same name is replaced if it has one number for each of the same elements; otherwise the step
-        fails.
+        An attribute of the same name is replaced if it has one number for each element of the same kind. Otherwise the
+        step fails.
 
         In a recipe: ``Measure(of: MeanCurvature)``
 
         :param of: The quantity.
         :param name: The name of the attribute. If omitted, the name of the quantity in lower case, such as
             ``mean_curvature``.
-        :param missing: The value of elements that have none, such as the curvature of a vertex without faces. They are
-            counted. If omitted, 0 for quantities that can be negative, and -1 for all others.
+        :param missing: The value for elements at which the quantity is not defined, such as the curvature of a vertex
+            without faces. These elements are counted. If omitted, 0 for quantities that can be negative, and -1 for all
+            others.
         """
         return self._apply('Measure', {'of': of, 'name': name, 'missing': missing}, None, id)
 
@@ -4153,14 +4166,14 @@ class MeshOperations:
         The surface is cut into charts, which are flattened and packed into a square page. Charts grow from flat regions
         up to ``max_angle``. They are flattened by least squares conformal maps (Levy and others, 2002) and the as-
         rigid-as-possible method (Liu and others, 2008), and are cut again where they would overlap themselves or exceed
-        ``max_stretch``. All charts of a mesh have one scale, and none is mirrored. A polygon stays in one chart. Each
-        mesh gets a page of its own.
+        ``max_stretch``. All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays in one
+        chart. Each mesh gets its own page.
 
         The coordinates are written to the corner attribute ``uv``, which is replaced if it exists. Edges at which
-        charts meet become its seams. Positions, faces and other attributes stay, except that tangents are removed.
-        Faces without area have no area in the texture and are counted. A polygon that is bent so far that it overlaps
-        itself is refused as ``WrongPlace``: triangulate it first. With ``on_refusal: Skip``, its triangles overlap in
-        the texture.
+        charts meet become its seams. Positions, faces and other attributes do not change, but tangents are removed.
+        Zero-area faces have no area in the texture and are counted. A polygon that is bent so far that it overlaps
+        itself is refused as ``WrongPlace``, so triangulate it first. With ``on_refusal: Skip``, its triangles overlap
+        in the texture.
 
         In a recipe: ``Unwrap(max_angle: 60)``
 
@@ -4168,12 +4181,12 @@ class MeshOperations:
             omitted, only edges that the algorithm chooses.
         :param max_angle: The largest angle between the normal of a face and the mean normal of its chart, in degrees.
             Smaller angles give more charts with less stretch. Defaults to 70.0.
-        :param max_stretch: The largest ratio between the scale of areas in a triangle and in its whole chart. Defaults
-            to 4.0.
+        :param max_stretch: The largest ratio between the area scale of a triangle and the area scale of its whole
+            chart. Defaults to 4.0.
         :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size;
             the size determines how large the padding is. Defaults to 1024.
-        :param padding: The number of empty texels around each chart. Charts are at least twice as far from each other.
-            Defaults to 2.
+        :param padding: The number of empty texels around each chart. The distance between two charts is at least twice
+            this number. Defaults to 2.
         :param uv: The name of the texture coordinates. Defaults to ``uv``.
         :param on_refusal: What to do if a polygon overlaps itself in the texture. Defaults to Error.
         """
@@ -4189,20 +4202,21 @@ class MeshOperations:
     ) -> Self:
         """Move and scale charts of texture coordinates into one page.
 
-        Moves, turns and scales charts of texture coordinates so that they do not overlap and have one scale.
+        Moves, rotates and scales charts of texture coordinates so that they do not overlap and have the same scale.
 
-        A chart is a set of faces that are connected without seams of the texture coordinates. Afterwards, areas in the
-        texture are proportional to areas on the surface, for whole charts. The shape of each chart stays, also if it is
-        stretched, mirrored or overlaps itself; charts that overlap themselves are counted. Charts without area become a
-        point and are counted. Each mesh gets a page of its own. Tangents are removed, because charts are turned.
+        A chart is a set of faces that are connected without seams of the texture coordinates. Afterwards, the area of
+        each chart in the texture is proportional to its area on the surface. The shape of each chart does not change,
+        even if it is stretched, mirrored or overlaps itself. Charts that overlap themselves are counted. Each zero-area
+        chart becomes a point and is counted. Each mesh gets its own page. Tangents are removed, because charts are
+        rotated.
 
         In a recipe: ``PackUvs(page: 2048, padding: 4)``
 
         :param uv: The name of the texture coordinates. Defaults to ``uv``.
         :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size;
             the size determines how large the padding is. Defaults to 1024.
-        :param padding: The number of empty texels around each chart. Charts are at least twice as far from each other.
-            Defaults to 2.
+        :param padding: The number of empty texels around each chart. The distance between two charts is at least twice
+            this number. Defaults to 2.
         """
         return self._apply('PackUvs', {'uv': uv, 'page': page, 'padding': padding}, None, id)
 
@@ -4227,8 +4241,8 @@ class MeshOperations:
 
         Draws the scene into an image file.
 
-        The extension of the file determines the format: ``.png`` for an image; with ``turntable``, ``.gif`` for an
-        animated GIF, and ``.apng`` or ``.png`` for an animated PNG. The file is written only if the whole recipe
+        The extension of the file determines the format: ``.png`` for an image or, with ``turntable``, ``.gif`` for an
+        animated GIF and ``.apng`` or ``.png`` for an animated PNG. The file is written only if the whole recipe
         succeeds. The scene does not change. Drawing needs no GPU and gives the same bytes on every machine.
 
         In a recipe: ``Picture(path: "a.png", size: (64, 48), highlight: Edges(Sharp(above: 30)), color_by: (of:
@@ -4238,7 +4252,7 @@ class MeshOperations:
             without extension, of the file in the recipe parameter ``name``.
         :param size: The width and the height of each view in pixels.
         :param camera: The camera.
-        :param views: Several cameras, in place of ``camera``. The views of the cameras are placed side by side.
+        :param views: Several cameras, which replace ``camera``. The views of the cameras are placed side by side.
         :param columns: The number of views in a row. If omitted, the number of views, but at most 4.
         :param style: The style: shading, lines, background.
         :param highlight: Elements to highlight in orange, as in ``Edges(Sharp(above: 30))`` or
@@ -4248,8 +4262,8 @@ class MeshOperations:
             960, 8 and 26 for 1920. If there are many highlighted vertices, they are drawn smaller. Hidden edges are
             faint, and hidden vertices are rings.
         :param marks: More elements to highlight, each in its color.
-        :param color_by: Numbers to show as colors of the surface.
-        :param turntable: Makes an animation in which the camera moves once around the scene.
+        :param color_by: The quantity to show as colors of the surface.
+        :param turntable: If given, the picture is an animation in which the camera moves once around the scene.
         :param images: The folder of images that are not next to their model, relative to the folder of the recipe. If
             omitted, the folder of the recipe. Missing images are not drawn, and are reported.
         """
@@ -4273,9 +4287,9 @@ class MeshOperations:
 
         Draws Bezier curves, and de Casteljau's construction of their points, into an image file.
 
-        The figure has a panel for each curve and each ``t``. With ``by_level``, it has instead one panel for each
-        curve, each ``t`` and each level. A panel shows the control polygon, every level of de Casteljau's algorithm in
-        a different color, the point, and the curve, with the same scale in both axes. The extension of the file
+        The figure has a panel for each curve and each ``t``. With ``by_level``, it instead has a panel for each curve,
+        each ``t`` and each level. A panel shows the control polygon, every level of de Casteljau's algorithm in a
+        different color, the point, and the curve, with the same scale in both axes. The extension of the file
         determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene
         does not change.
 
@@ -4285,8 +4299,8 @@ class MeshOperations:
             without extension, of the file in the recipe parameter ``name``.
         :param t: The parameters of the constructed points, from 0 (start) to 1 (end). If empty, only the curves and
             their control polygons are drawn.
-        :param by_level: Draws a panel for each level of the algorithm, in place of one panel with all levels. Defaults
-            to False.
+        :param by_level: Whether each level of the algorithm has its own panel. If false, one panel shows all levels.
+            Defaults to False.
         :param before: The name of a curve that shows an earlier state of the other curves. This curve is drawn faintly
             behind the other curves, with arrows to the control points that moved.
         :param width: The width of the figure in SVG pixels. The font size is 12 to 19 pixels. Defaults to 640.
@@ -4317,8 +4331,8 @@ class MeshOperations:
         away from the viewer are left out and reported. The extension of the file determines the format: ``.svg`` or
         ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
 
-        A name is a letter and the number of the element: ``v`` for vertices, ``h`` for half-edges, ``f`` for faces.
-        Half-edges ``2e`` and ``2e + 1`` belong to edge ``e``.
+        A name is a letter and the id of the element: ``v`` for vertices, ``h`` for half-edges, ``f`` for faces. Half-
+        edges ``2e`` and ``2e + 1`` belong to edge ``e``.
 
         In a recipe: ``HalfEdgeFigure(path: "figure.svg")``
 
@@ -4341,14 +4355,14 @@ class MeshOperations:
         scale: int | Arg | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Draw the charts of texture coordinates.
+        """Draw the UV layout (the UV charts of a mesh).
 
         Draws the charts of the texture coordinates of a mesh into an image file.
 
         The frame is the page of the texture, with u and v from 0 to 1 and v upwards. Thick lines are the borders of
-        charts, thin lines the other edges. Coordinates outside the page are drawn too, and make the figure higher or
-        its scale smaller. The extension of the file determines the format: ``.svg`` or ``.png``. The file is written
-        only if the whole recipe succeeds. The scene does not change.
+        charts, and thin lines are the other edges. Coordinates outside the page are also drawn. They make the figure
+        higher or its scale smaller. The extension of the file determines the format: ``.svg`` or ``.png``. The file is
+        written only if the whole recipe succeeds. The scene does not change.
 
         In a recipe: ``UvPicture(path: "uv.svg")``
 

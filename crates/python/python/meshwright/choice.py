@@ -41,8 +41,8 @@ def Denoise(*, angle: float | Arg | Ron | None = None) -> Choice:
     """Filters the normals of the faces, so that similar normals become equal, then moves the vertices to fit the
     normals.
 
-    :param angle: Normals that differ by more than this angle hardly affect each other, so that sharper edges stay. From
-        0 to 180 degrees. Defaults to 30.
+    :param angle: Normals that differ by more than this angle hardly affect each other, so edges sharper than this angle
+        are kept. From 0 to 180 degrees. Defaults to 30.
     """
     return Choice('Denoise', angle=angle)
 
@@ -109,11 +109,11 @@ def Fit(
 
 
 def Geodesic(*, from_: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron) -> Choice:
-    """The distance along the surface from each vertex to the nearest of some vertices, in scene units, by the heat
+    """The distance along the surface from each vertex to the nearest selected vertex, in scene units, by the heat
     method (Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013; Sharp, Crane, 2020).
 
-    On fine meshes of smooth surfaces, the mean error is below 1 %. Vertices that no path of edges joins with them have
-    no distance.
+    On fine meshes of smooth surfaces, the mean error is below 1 %. A vertex that no path of edges joins to a selected
+    vertex has no distance.
 
     :param from_: The vertices to start from.
     """
@@ -124,7 +124,7 @@ def Geodesic(*, from_: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | R
 def Implicit(*, time: float | Arg | Ron) -> Choice:
     """Moves the surface by mean curvature flow for the given time, in one stable step.
 
-    Details smaller than the square root of the time disappear, no matter how dense the mesh is.
+    Details smaller than the square root of the time disappear, regardless of the density of the mesh.
 
     :param time: The time, in squares of the scene unit.
     """
@@ -140,14 +140,15 @@ def Laplacian(
     """Moves each vertex towards the mean of its neighbors.
 
     :param weights: The weights of the neighbors. Defaults to Uniform.
-    :param factor: The part of the way to the mean. From 0 to 1. Defaults to 0.5.
+    :param factor: The distance of the movement, as a fraction of the distance to the mean. From 0 to 1. Defaults to
+        0.5.
     """
     return Choice('Laplacian', weights=weights, factor=factor)
 
 
 
 def LimitDistance(*, below: float | Arg | Ron) -> Choice:
-    """Stops as soon as every vertex is nearer than ``below`` to its limit position.
+    """Stops as soon as the distance of every vertex to its limit position is less than ``below``.
 
     Only for Loop and Catmull-Clark.
 
@@ -189,8 +190,8 @@ def Noise(*, scale: float | Arg | Ron, seed: int | Arg | Ron | None = None) -> C
 
 
 def Occlusion(*, rays: int | Arg | Ron | None = None, seed: int | Arg | Ron | None = None) -> Choice:
-    """The ambient occlusion of each vertex, from 0 (open) to 1 (enclosed): the part of the rays from the vertex that
-    meet the mesh.
+    """The ambient occlusion of each vertex, from 0 (open) to 1 (enclosed), which is the fraction of the rays from the
+    vertex that meet the mesh.
 
     There are more rays near the normal, in proportion to the cosine of the angle.
 
@@ -204,7 +205,7 @@ def Occlusion(*, rays: int | Arg | Ron | None = None, seed: int | Arg | Ron | No
 def Offset(value: Sequence[float] | NDArray[Any] | Arg | Ron, /) -> Choice:
     """The offset along x, y and z, in scene units.
 
-    By this much along x, y and z, in scene units.
+    By this offset along x, y and z, in scene units.
     """
     return Choice('Offset', value)
 
@@ -238,14 +239,14 @@ def PrincipalCurvature(value: Literal['Largest', 'Smallest'] | Arg | Ron, /) -> 
     """A principal curvature at each vertex, in 1 / scene unit: an eigenvalue of the curvature tensor of Cohen-Steiner
     and Morvan, 2003.
 
-    On a cylinder of radius r, they are 0 and 1 / r.
+    On a cylinder of radius r, the two principal curvatures are 0 and 1 / r.
     """
     return Choice('PrincipalCurvature', value)
 
 
 
 def Random(*, seed: int | Arg | Ron | None = None) -> Choice:
-    """A random number from -1 to 1 for each vertex, which depends on the number of the vertex.
+    """A random number from -1 to 1 for each vertex, which depends on the id of the vertex.
 
     :param seed: The seed. A different seed gives different numbers. Defaults to 0.
     """
@@ -265,13 +266,13 @@ def Taubin(
     factor: float | Arg | Ron | None = None,
     pass_band: float | Arg | Ron | None = None,
 ) -> Choice:
-    """Moves each vertex towards the mean of its neighbors, then a little further back.
+    """Moves each vertex towards the mean of its neighbors, then back by slightly more.
 
     Removes noise, and keeps larger shapes and the volume nearly unchanged. One pass consists of both steps.
 
     :param weights: The weights of the neighbors. Defaults to Uniform.
-    :param factor: The part of the way to the mean in the first step. From 0 to 1, exclusive; above about 0.65, the step
-        back amplifies noise. Defaults to 0.33.
+    :param factor: The distance of the first step, as a fraction of the distance to the mean. From 0 to 1, exclusive.
+        Above about 0.65, the step back amplifies noise. Defaults to 0.33.
     :param pass_band: The frequency below which shapes are kept. A lower value smooths more. From 0 to 1, exclusive.
         Defaults to 0.05.
     """
@@ -280,14 +281,18 @@ def Taubin(
 
 
 def To(value: Sequence[float] | NDArray[Any] | Arg | Ron, /) -> Choice:
-    """All by the same offset, which moves the mean of the selected vertices to this point."""
+    """By the offset that moves the mean of the selected vertices to this point.
+
+    It is the same for all vertices.
+    """
     return Choice('To', value)
 
 
 
 def Winding(*, of: str | Arg | Ron) -> Choice:
-    """How often another mesh of the scene winds around each vertex: 1 inside, 0 outside, and numbers between them near
-    gaps of the other mesh (Jacobson, Kavan, Sorkine-Hornung, 2013; Barill, Dickson, Schmidt, Levin, Jacobson, 2018).
+    """The winding number of another mesh of the scene around each vertex: 1 inside, 0 outside, and numbers between 0
+    and 1 near gaps of the other mesh (Jacobson, Kavan, Sorkine-Hornung, 2013; Barill, Dickson, Schmidt, Levin,
+    Jacobson, 2018).
 
     The error is usually below 0.001. Unless ````on```` names objects, all meshes but the other mesh are measured.
 

@@ -45,8 +45,8 @@ def Attribute(
     Every mesh must have the attribute. Fails if no element has a value.
 
     :param name: The name of the attribute.
-    :param of: Which elements. If omitted, all elements of the first of vertices, faces, corners and edges that have an
-        attribute of this name.
+    :param of: Which elements. If omitted, all elements of one kind: the first of vertices, faces, corners and edges
+        that has an attribute of this name.
     :param component: The component of a vector, from 0. Required for vectors.
     :param min: Every value is at least this number.
     :param max: Every value is at most this number.
@@ -149,7 +149,7 @@ def DihedralAngle(
     """The dihedral angle, in degrees, of every selected edge between two faces: the angle between the face normals, 0
     if the faces are coplanar.
 
-    Edges beside a face without area are skipped. Fails if no selected edge has an angle.
+    Edges beside a zero-area face are skipped. Fails if no selected edge has an angle.
 
     :param of: Which edges. Defaults to All.
     :param min: The smallest angle is at least this value.
@@ -302,7 +302,7 @@ def MeanMinAngle(
     min: float | Arg | Ron | None = None,
     max: float | Arg | Ron | None = None,
 ) -> Choice:
-    """The mean over the selected faces of the smallest corner angle of each, in degrees; 60 for equilateral triangles.
+    """The mean of the smallest corner angles of the selected faces, in degrees; 60 for equilateral triangles.
 
     Fails if the selection is empty.
 
@@ -454,7 +454,7 @@ def SymmetricUnder(
     tolerance: float | Arg | Ron | None = None,
     connectivity: bool | Arg | Ron | None = None,
 ) -> Choice:
-    """The number of motions of a symmetry group about the origin that map the mesh onto itself.
+    """How many motions of a symmetry group about the origin map the mesh onto itself.
 
     If ````eq````, ````min```` and ````max```` are omitted, all motions of the group must map the mesh onto itself.
 
@@ -467,6 +467,25 @@ def SymmetricUnder(
     :param connectivity: Whether every face must also be mapped onto a face. Defaults to True.
     """
     return Choice('SymmetricUnder', group=group, eq=eq, min=min, max=max, tolerance=tolerance, connectivity=connectivity)
+
+
+
+def Thickness(
+    *,
+    of: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+    min: float | Arg | Ron | None = None,
+    max: float | Arg | Ron | None = None,
+) -> Choice:
+    """The thickness of the solid at each selected vertex, in scene units, as ``Measure(of: Thickness, ..)`` measures
+    it.
+
+    Infinite where the surface is a sheet. Fails if the selection is empty.
+
+    :param of: Which vertices. Defaults to All.
+    :param min: At least this value.
+    :param max: At most this value.
+    """
+    return Choice('Thickness', of=of, min=min, max=max)
 
 
 
@@ -491,11 +510,11 @@ def UvOverlap(
 
 
 def UvStretch(*, max: float | Arg | Ron, uv: str | Arg | Ron | None = None) -> Choice:
-    """How much texture coordinates stretch angles.
+    """The stretch of texture coordinates.
 
-    A small circle on the surface becomes an ellipse in the texture. The ratio of its axes is 1 if angles stay. The
-    value is the ratio that 95 % of the area of the surface does not exceed, for the mesh with the largest value. Fails
-    if no mesh has the texture coordinates.
+    A small circle on the surface becomes an ellipse in the texture. The stretch is the ratio of the axes of the
+    ellipse: 1 if angles are preserved. The value of a mesh is the stretch that 95 % of the surface area does not
+    exceed. The largest value of all meshes counts. Fails if no mesh has the texture coordinates.
 
     :param max: At most this value.
     :param uv: The name of the texture coordinates. Defaults to ``uv``.

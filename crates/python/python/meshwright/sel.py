@@ -31,7 +31,7 @@ def And(
 
 
 def Between(a: int | Arg, b: int | Arg, /) -> Choice:
-    """The edge between two vertices, given by their numbers.
+    """The edge between two vertices, given by their ids.
 
     Refused if no edge joins them.
     """
@@ -85,8 +85,8 @@ def Degree(value: int | Arg | Ron, /) -> Choice:
 def EdgeLoop(value: Literal['All', 'Boundary'] | Choice | Arg | Ron, /) -> Choice:
     """These edges and the edge loops through them.
 
-    A loop goes straight across vertices inside the mesh that have four edges. A loop that starts at a boundary edge
-    follows the boundary.
+    A loop goes straight across each interior vertex with four edges. A loop that starts at a boundary edge follows the
+    boundary.
     """
     return Choice('EdgeLoop', value)
 
@@ -166,7 +166,7 @@ def Faces(
     value: Sequence[int] | NDArray[Any] | Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron,
     /,
 ) -> Choice:
-    """The faces with these numbers.
+    """The faces with these ids.
 
     Refused if a face does not exist. A selection of faces.
     """
@@ -243,13 +243,13 @@ def Inside(value: Choice | Arg | Ron, /) -> Choice:
 
 
 def InsideOf(value: str | Arg | Ron, /) -> Choice:
-    """The vertices whose vertices are all inside the mesh of another object, by its name.
+    """The vertices whose vertices are all inside the mesh of another object, given by its name.
 
-    A point is inside if the winding number of the mesh around it is above 1/2 in magnitude; small gaps do no harm. The
-    edges whose vertices are all inside the mesh of another object, by its name. A point is inside if the winding number
-    of the mesh around it is above 1/2 in magnitude; small gaps do no harm. The faces whose vertices are all inside the
-    mesh of another object, by its name. A point is inside if the winding number of the mesh around it is above 1/2 in
-    magnitude; small gaps do no harm.
+    A point is inside if the winding number of the mesh around the point is above 1/2 in magnitude. The mesh can have
+    small gaps. The edges whose vertices are all inside the mesh of another object, given by its name. A point is inside
+    if the winding number of the mesh around the point is above 1/2 in magnitude. The mesh can have small gaps. The
+    faces whose vertices are all inside the mesh of another object, given by its name. A point is inside if the winding
+    number of the mesh around the point is above 1/2 in magnitude. The mesh can have small gaps.
     """
     return Choice('InsideOf', value)
 
@@ -259,7 +259,7 @@ Isolated = Choice('Isolated')
 
 
 def Longer(*, than: float | Arg | Ron) -> Choice:
-    """Edges longer than the length ``than``.
+    """Edges whose length is greater than ``than``.
 
     :param than: The length, in scene units.
     """
@@ -274,7 +274,7 @@ def Longest(
 ) -> Choice:
     """The longest edges.
 
-    If edges are equally long, those with the lower numbers are selected.
+    If edges are equally long, those with the lower ids are selected.
 
     :param count: The number of edges. If fewer are available, all are selected. Defaults to 1.
     :param of: The selection to choose from. Defaults to All.
@@ -300,9 +300,9 @@ def Nearest(
 ) -> Choice:
     """The vertices nearest to a point.
 
-    If vertices are equally near, those with the lower numbers are selected. The edges whose midpoints are nearest to a
-    point. If edges are equally near, those with the lower numbers are selected. The faces whose centers (the means of
-    their vertices) are nearest to a point. If faces are equally near, those with the lower numbers are selected.
+    If vertices are equally near, those with the lower ids are selected. The edges whose midpoints are nearest to a
+    point. If edges are equally near, those with the lower ids are selected. The faces whose centers (the means of their
+    vertices) are nearest to a point. If faces are equally near, those with the lower ids are selected.
 
     :param to: The point.
     :param count: The number of vertices. If fewer are available, all are selected. Defaults to 1.
@@ -342,8 +342,8 @@ def Path(*, from_: int | Arg | Ron, to: int | Arg | Ron) -> Choice:
 
     Refused if no path exists.
 
-    :param from_: The number of the first vertex.
-    :param to: The number of the last vertex.
+    :param from_: The id of the first vertex.
+    :param to: The id of the last vertex.
     """
     return Choice('Path', from_=from_, to=to)
 
@@ -367,8 +367,8 @@ def Random(
 
 
 SelfIntersecting = Choice('SelfIntersecting')
-"""Faces that intersect another face of the object. Neighbors intersect only if they have more points in common than
-their common vertices and edges. Vertices at the same position count as one."""
+"""Faces that intersect another face of the object. Adjacent faces intersect only if they share points other than their
+common vertices and edges. Vertices at the same position count as one."""
 
 
 def Sharp(*, above: float | Arg | Ron) -> Choice:
@@ -382,7 +382,7 @@ def Sharp(*, above: float | Arg | Ron) -> Choice:
 
 
 def Shorter(*, than: float | Arg | Ron) -> Choice:
-    """Edges shorter than the length ``than``.
+    """Edges whose length is less than ``than``.
 
     :param than: The length, in scene units.
     """
@@ -433,7 +433,7 @@ def Vertices(
     value: Sequence[int] | NDArray[Any] | Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron,
     /,
 ) -> Choice:
-    """The vertices with these numbers.
+    """The vertices with these ids.
 
     Refused if a vertex does not exist. A selection of vertices.
     """

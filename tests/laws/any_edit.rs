@@ -35,11 +35,12 @@ impl EditCode {
 
     /// Whether the documentation of the edit says that it can connect two vertices by a second edge.
     pub(crate) const fn can_duplicate_edges(self) -> bool {
-        self.kind == SPLIT
+        matches!(self.kind, SPLIT | SYMMETRIZE)
     }
 }
 
 const SPLIT: u8 = 1;
+const SYMMETRIZE: u8 = 31;
 
 /// Applies the edit. Ids can be beyond the last element, and elements can be dead.
 ///
@@ -187,7 +188,7 @@ fn change_surface(mesh: &mut Mesh, code: EditCode) {
                 mesh.set_position(v, lattice.point(p));
             }
         }
-        31 => {
+        SYMMETRIZE => {
             let mut mirrored = mesh.clone();
             let normal = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::ONE][usize::from(a % 4)];
             let point = DVec3::splat(f64::from(place) / 2.0);

@@ -9,7 +9,8 @@ use rayon::prelude::*;
 pub(crate) enum Kind {
     /// The vertex is on no line, and may move anywhere.
     Inside,
-    /// The vertex is on one line, and may merge with its neighbors on the line.
+    /// The vertex is on one line. In simplification, it moves only when it merges with a neighbor on the line; in
+    /// remeshing, it moves along the line.
     Line,
     /// The vertex does not move: it is pinned, or lies at the end of a line, where lines meet, or where the
     /// values on a line change.

@@ -144,7 +144,8 @@ impl Cutter {
         Cut::Polygon { triangles, is_fan }
     }
 
-    /// Triangulates the points by ear clipping. Returns `None` if the result is not a triangulation.
+    /// Triangulates the points by ear clipping, and improves the triangles by flips. Returns `None` if the result is
+    /// not a triangulation.
     fn ears(&mut self) -> Option<Vec<Triangle>> {
         let n = self.points.len();
         let normal = doubled_area(&self.points).try_normalize()?;

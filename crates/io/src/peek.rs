@@ -171,7 +171,7 @@ impl PeekMesh {
         peek
     }
 
-    /// Adds the faces of `other`.
+    /// Adds the counts of faces and corners of `other`, and extends the range of degrees.
     pub(crate) fn add(&mut self, other: &Self) {
         if other.faces == 0 {
             return;

@@ -168,7 +168,7 @@ mod tests {
 
     #[test]
     fn irrelevant_objects_and_faces_are_removed() {
-        // The step fails only if a face has a corner in the middle of the sheet.
+        // The step fails only if a face has a corner near the middle of the grid.
         let corner = mesh::DVec3::ZERO;
         let matters = |scene: &Scene| {
             let near = |o: &Object| {

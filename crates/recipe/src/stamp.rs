@@ -4,9 +4,9 @@
 //! meshwright 0.1.0, recipe 1f0c..e2, {"file":"teapot.ron","set":{"levels":"2"},"inputs":{"a.bez":"9a.."}}
 //! ```
 //!
-//! The digest of the recipe comes first, so that it is kept in formats that store only a short text. The stamp
-//! contains no absolute paths. An input is given by its path relative to the recipe's folder, or only by its file
-//! name if its path is absolute.
+//! The digest of the recipe comes before the details of the run, so that formats that store only a short text keep it.
+//! The stamp contains no absolute paths. An input is given by its path relative to the recipe's folder, or only by its
+//! file name if its path is absolute.
 
 use std::fmt;
 use std::path::Path;

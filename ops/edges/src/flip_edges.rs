@@ -1,4 +1,4 @@
-//! Flip edges: replaces the edge between two triangles with the other diagonal of the two triangles.
+//! Flip edges: replaces the edge between two triangles with the other diagonal of their quadrilateral.
 //!
 //! ```text
 //!        c                   c
@@ -19,7 +19,7 @@ use op::prelude::*;
 
 use goal::Goal;
 
-/// Replaces the edge between two triangles with the other diagonal of the two triangles.
+/// Replaces the edge between two triangles with the other diagonal of the quadrilateral that they form.
 ///
 /// Edges are flipped in order of their ids. Each flip is checked against the mesh as edited so far. A flip is
 /// refused if the edge is on the boundary, if a face beside it is not a triangle, or if the opposite corners of the two
@@ -29,10 +29,10 @@ use goal::Goal;
 /// other corners keep their values.
 ///
 /// With `until: Delaunay` or `until: Valence`, an edge is flipped only if the flip improves the mesh. Edges are checked
-/// again, pass after pass, until no edge is flipped. Flips with `until: Delaunay` or `until: Valence` neither fold the
-/// surface nor create zero-area triangles. If a flip that would improve the mesh is refused, the step does not fail.
-/// The edge is left unchanged, and the report counts the refusals by reason. The report also contains the number of
-/// passes, and whether the step stopped because `passes` was reached.
+/// again, pass after pass, until a pass flips no edge or `passes` is reached. Flips with `until: Delaunay` or `until:
+/// Valence` neither fold the surface nor create zero-area triangles. If a flip that would improve the mesh is refused,
+/// the step does not fail. The edge is left unchanged, and the report counts the refusals by reason. The report also
+/// contains the number of passes, and whether the step stopped because `passes` was reached.
 ///
 /// On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from `edges`,
 /// for example with `Flat(below: 30)` or `Not(Tagged("keep"))`.

@@ -22,8 +22,8 @@ use crate::MeasureOf;
 /// change. Quantities are computed in the space of the mesh, without the transforms of nodes. The report states the
 /// lowest, the mean and the highest value of each object.
 ///
-/// An attribute of the same name is replaced if it has one number for each element of the same kind. Otherwise the step
-/// fails.
+/// An attribute of the same name is replaced if it belongs to the same elements (vertices or faces) and has one
+/// floating-point number for each. Otherwise the step fails.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Measure {

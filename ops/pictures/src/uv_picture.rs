@@ -10,10 +10,10 @@ use crate::figure_file;
 
 /// Draws the charts of the texture coordinates of a mesh into an image file.
 ///
-/// The frame is the page of the texture, with u and v from 0 to 1 and v upwards. Thick lines are the borders of charts,
-/// and thin lines are the other edges. Coordinates outside the page are also drawn. They make the figure higher or its
-/// scale smaller. The extension of the file determines the format: `.svg` or `.png`. The file is written only if the
-/// whole recipe succeeds. The scene does not change.
+/// A gray frame shows the page of the texture, where u and v are from 0 to 1; v points upwards. Thick lines are the
+/// borders of charts, and thin lines are the other edges. Coordinates outside the page are also drawn. They make the
+/// figure higher or its scale smaller. The extension of the file determines the format: `.svg` or `.png`. The file is
+/// written only if the whole recipe succeeds. The scene does not change.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct UvPicture {

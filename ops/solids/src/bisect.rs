@@ -40,7 +40,7 @@ pub struct Bisect {
     pub tag: Option<TagName>,
 }
 
-/// The side of the plane to keep.
+/// The parts of the mesh to keep.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Keep {

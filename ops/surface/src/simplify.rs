@@ -32,7 +32,7 @@ use op::prelude::*;
 ///
 /// No triangle is turned over. Remaining elements get new ids, in the order of their old ids. If the number of faces
 /// cannot be reached and `error` is not given, the step is refused as `Unreached`, and the message states the reasons.
-/// With `on_refusal: Skip`, the result is kept.
+/// With `on_refusal: Skip`, the step keeps the mesh with the fewest faces that it reached.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Simplify {

@@ -39,7 +39,7 @@ impl Watching {
         Self { child, lines }
     }
 
-    /// Waits for a line with this text. Returns all lines up to and including this line.
+    /// Waits for a line with this text. Returns the lines since the last call, up to and including this line.
     #[track_caller]
     fn wait_for(&self, text: &str) -> Vec<String> {
         let mut lines = Vec::new();

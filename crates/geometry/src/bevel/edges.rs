@@ -234,8 +234,8 @@ impl<'m> Bevel<'m> {
         let sine = 2.0 * half_sine * half_cosine;
         let weight = |length: f64| {
             let weight = self.width / (sine * length);
-            // If both edges are on one line, no weights give the point, so the point gets the values of the
-            // vertex.
+            // The weight of an edge is too large if both edges are almost on one line, or if the edge is too short. If
+            // both weights are 0, the point gets the values of the vertex.
             if weight.abs() < 1.0 { weight } else { 0.0 }
         };
         Some(Point {

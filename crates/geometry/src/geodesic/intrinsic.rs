@@ -111,8 +111,8 @@ impl Intrinsic {
         }
     }
 
-    /// Flips edges until all edges are Delaunay: the two angles opposite each edge add up to at most π. Only rounding
-    /// errors can make the number of flips reach its limit.
+    /// Flips edges until all edges are Delaunay: the two angles opposite each edge add up to at most π. Stops when the
+    /// number of flips reaches its limit; some edges are then not Delaunay.
     pub(super) fn flip_to_delaunay(&mut self, progress: &dyn Progress) -> Result<(), Cancelled> {
         let n = self.corners.len();
         let sides = (0..n).flat_map(|t| (0..3).map(move |k| 3 * t + k));

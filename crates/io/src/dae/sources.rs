@@ -52,7 +52,10 @@ pub(super) fn vectors(
         .ok_or_else(|| error_at(source, "expected an accessor in technique_common"))?;
     let components = components(accessor, names)?;
     if components.len() < least {
-        let message = format!("expected {least} components, found {}", components.len());
+        let message = format!(
+            "expected at least {least} components, found {}",
+            components.len()
+        );
         return Err(error_at(accessor, message));
     }
     let count = natural(accessor, "count")?

@@ -105,7 +105,9 @@ pub(super) fn joints(
     let used: Vec<usize> = (0..used.len()).filter(|&joint| used[joint]).collect();
     let bytes = (used.len() as u64).saturating_mul(n as u64 * 8);
     if !reader.budget.has(2 * bytes) {
-        let what = format!("joints left out: their weights need {bytes} bytes");
+        let what = format!(
+            "joints left out: their weights need {bytes} bytes, too much for a file of this size"
+        );
         *repairs.left_out.entry(what).or_default() += used.len();
         return Ok(Vec::new());
     }
@@ -172,7 +174,9 @@ pub(super) fn morphs(
     let targets = primitive.targets.as_deref().unwrap_or_default();
     let bytes = (deformers.targets as u64).saturating_mul(n as u64 * 24);
     if !reader.budget.has(2 * bytes) {
-        let what = format!("morph targets left out: their deltas need {bytes} bytes");
+        let what = format!(
+            "morph targets left out: their deltas need {bytes} bytes, too much for a file of this size"
+        );
         *repairs.left_out.entry(what).or_default() += deformers.targets;
         return Ok(Vec::new());
     }

@@ -90,7 +90,7 @@ fn canonical(json: &Value) -> Value {
     roots.into()
 }
 
-/// Sorts the members of objects, which have no order.
+/// Sorts the members of JSON objects, whose order has no meaning.
 fn sorted(value: Value) -> Value {
     match value {
         Value::Object(members) => {

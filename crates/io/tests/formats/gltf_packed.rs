@@ -65,7 +65,8 @@ fn torus() -> Mesh {
     mesh
 }
 
-/// Returns a scene with two objects below a node with a scale. Two nodes reference one of the objects.
+/// Returns a scene with three objects: nodes below a node with a scale place two of them, one of these twice, and no
+/// node places the third.
 fn placed() -> Scene {
     let mut scene = scene([
         Object::mesh("torus", torus()),

@@ -17,11 +17,12 @@ pub(super) fn staging<'a>(settings: &Settings<'a>) -> Result<Option<TemporaryFol
     let inside = settings.keep_outputs.then_some(folder.as_path());
     match TemporaryFolder::new(&*settings.files.store, inside) {
         Ok(stage) => Ok(Some(stage)),
-        Err(error) => Err(format!(
+        Err(error) if settings.keep_outputs => Err(format!(
             "cannot write to the output folder {}: {}",
             folder.display(),
             error.error
         )),
+        Err(error) => Err(error.to_string()),
     }
 }
 

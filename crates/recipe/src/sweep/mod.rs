@@ -15,8 +15,9 @@
 //!
 //! [`read_sweep`] reads the text, and [`Sweep::grid`] checks its values against the parameters that the recipe
 //! declares. Both functions report all errors at once. The cells are all combinations of the values in the lists of
-//! `over`, in the order of the text; the value from the last list changes fastest. The lists of `zip` are combined
-//! value by value, and change faster than the lists of `over`.
+//! `over`, in the order of the text; the value from the last list changes fastest. The lists of `zip` have the same
+//! length. Their values are taken together, like the values of one further list after those of `over`, so they change
+//! fastest.
 
 mod metric;
 mod values;

@@ -96,7 +96,7 @@ fn of_corner(mesh: &Mesh, h: HalfEdgeId, areas: &[[f32; 3]], is_sharp: &[bool]) 
             None => break,
         }
     }
-    // Walks clockwise around the vertex, across the next edge of each face.
+    // Walks clockwise around the vertex, across the edge of each face that starts at the vertex.
     g = h;
     while !is_sharp[g.edge().index()] {
         let Some(f) = mesh.face(g.twin()) else {

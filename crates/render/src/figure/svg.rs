@@ -1,7 +1,8 @@
 //! Writes SVG documents: shapes, text and groups, in pixels from the top left corner.
 //!
-//! Documents use only features that look the same in all programs and give the same pixels on every processor.
-//! Documents have no gradients, arcs, filters or style sheets. Coordinates have three decimals.
+//! Apart from text, whose fonts are not in the document, documents use only features that look the same in all programs
+//! and give the same pixels on every processor. Documents have no gradients, arcs, filters or style sheets. Coordinates
+//! have three decimals.
 
 use glam::DVec2;
 

@@ -61,7 +61,7 @@ pub(crate) fn difference(mesh: &Mesh, expected: &Polygons) -> Option<String> {
     };
     let place: BTreeMap<VertexId, usize> = vertices.iter().copied().zip(matched).collect();
 
-    // Maps the corners of each face to its corner values.
+    // For each face: its vertices, as numbered in `expected`, and the texture coordinates of its corners.
     let uv = mesh.get(UV);
     let mut faces: BTreeMap<Vec<usize>, Vec<Option<DVec2>>> = BTreeMap::new();
     for f in mesh.faces() {

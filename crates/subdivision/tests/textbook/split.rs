@@ -1,4 +1,5 @@
-//! Loop, Catmull-Clark and midpoint subdivision: faces are cut at the midpoints of their edges.
+//! Loop, Catmull-Clark and midpoint subdivision: each edge gets a new vertex, and each face is cut at the new vertices
+//! of its edges.
 
 use std::collections::BTreeMap;
 

@@ -1,8 +1,8 @@
 //! Joining skinned meshes.
 //!
-//! If all skinned parts have the same skin, the joined mesh keeps this skin. The other parts follow the first joint.
-//! Their points are mapped by the inverse of the map of this joint, so that they do not move. If the parts have
-//! different skins, they are joined in the pose of their joints, and the skins are lost.
+//! If all skinned parts have the same skin, and one node references each of them, the joined mesh keeps this skin. The
+//! other parts follow the first joint. Their points are mapped by the inverse of the map of this joint, so that they do
+//! not move. Otherwise the parts are joined in the pose of their joints, and the skins are lost.
 
 use std::sync::Arc;
 

@@ -100,7 +100,7 @@ fn naive(mesh: &Mesh, before: &Topology, e: EdgeId) -> Option<Vec<(usize, Vec<us
     }
     let n = mesh.domain_len(Domain::Vertex);
     let after = Topology::of(n, &remaining)?;
-    // In the list of polygons, the removed vertex stays as an isolated vertex.
+    // `n` still counts the removed vertex, which no polygon uses, so there is one more isolated vertex.
     let expected = Topology {
         euler: before.euler + 1,
         edges: before.edges - 1 - n_vanished,

@@ -2,19 +2,23 @@
 //! most 2.3 times as long.
 //!
 //! These tests measure times, because the work cannot be counted: the number of progress reports does not depend on the
-//! size of the mesh, and a quadratic search allocates no memory. The tests run only on request, on a machine that does
-//! nothing else, and take about five minutes:
+//! size of the mesh, and a quadratic search allocates no memory. The tests run only on request, and take about ten
+//! minutes:
 //!
 //! ```text
-//! cargo test --release -p meshwright-tests --test laws growth -- --ignored --nocapture
+//! MALLOC_ARENA_MAX=1 MALLOC_MMAP_MAX_=0 MALLOC_TRIM_THRESHOLD_=100000000000 \
+//!     cargo test --release -p meshwright-tests --test laws growth -- --ignored --nocapture --test-threads 1
 //! ```
 //!
-//! Each time is the median of several runs on one thread. The mesh is doubled twice between compared times. If a growth
-//! is too large, it is measured again, and then on a mesh that is four times as large, because the time also jumps at
-//! the size at which the data no longer fit in a cache.
+//! The variables tell the allocator of Linux to keep memory. Otherwise the time jumps at the size at which the system
+//! provides new memory for each run.
+//!
+//! Each time is the median of several runs on one thread, in processor time, so that other programs matter little. The
+//! mesh is doubled twice between compared times. If a growth is too large, it is measured again, and then on a mesh that
+//! is four times as large, because the time also jumps at the size at which the data no longer fit in a cache.
 
 use std::collections::BTreeMap;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use engine::{Engine, Options, Run, Silent, Source};
 use geometry::shapes;
@@ -22,6 +26,7 @@ use glam::DVec3;
 use mesh::{Mesh, VertexId};
 use op::NoProgress;
 use rayon::ThreadPoolBuilder;
+use rustix::time::{ClockId, clock_gettime};
 use scene::{Geometry, Object, Scene};
 
 use crate::assert_none;
@@ -154,9 +159,9 @@ enum Growth {
 fn growth(scene: impl Fn(usize) -> Scene, work: impl Fn(Scene) -> bool) -> Growth {
     let time = |scene: &Scene| {
         let scene = scene.clone();
-        let start = Instant::now();
+        let start = processor_time();
         let succeeded = work(scene);
-        (start.elapsed(), succeeded)
+        (processor_time() - start, succeeded)
     };
     let median = |scene: &Scene, n: usize| {
         let mut times: Vec<Duration> = (0..n).map(|_| time(scene).0).collect();
@@ -202,6 +207,13 @@ fn growth(scene: impl Fn(usize) -> Scene, work: impl Fn(Scene) -> bool) -> Growt
     Growth::By(first.min(growth(&large, &scene(16 * n))))
 }
 
+/// Returns the processor time of this thread.
+fn processor_time() -> Duration {
+    let time = clock_gettime(ClockId::ThreadCPUTime);
+    let seconds = time.tv_sec.unsigned_abs();
+    Duration::from_secs(seconds) + Duration::from_nanos(time.tv_nsec.unsigned_abs())
+}
+
 /// Runs `measure` on one thread.
 fn on_one_thread(measure: impl FnOnce() -> Vec<String> + Send) -> Vec<String> {
     let pool = ThreadPoolBuilder::new().num_threads(1).build();
@@ -209,7 +221,7 @@ fn on_one_thread(measure: impl FnOnce() -> Vec<String> + Send) -> Vec<String> {
 }
 
 #[test]
-#[ignore = "measures times, which needs a machine that does nothing else"]
+#[ignore = "measures times for about ten minutes"]
 fn operations_take_at_most_two_point_three_times_as_long_on_twice_the_mesh() {
     let failures = on_one_thread(|| {
         let registry = ops_all::registry();
@@ -252,7 +264,7 @@ fn operations_take_at_most_two_point_three_times_as_long_on_twice_the_mesh() {
 }
 
 #[test]
-#[ignore = "measures times, which needs a machine that does nothing else"]
+#[ignore = "measures times for about ten minutes"]
 fn expectations_take_at_most_two_point_three_times_as_long_on_twice_the_mesh() {
     let failures = on_one_thread(|| {
         let registry = ops_all::registry();

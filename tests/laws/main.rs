@@ -10,6 +10,7 @@ mod every_op;
 mod extremes;
 mod files;
 mod fixtures;
+#[cfg(unix)]
 mod growth;
 mod layout;
 mod opensubdiv;

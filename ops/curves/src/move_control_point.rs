@@ -3,7 +3,7 @@
 //! ```text
 //!                            p1'
 //!      p1 --- p2            /   \
-//!     /  .---. \    --->   / .-.  p2        the whole curve moves, most of all near p1
+//!     /  .---. \    --->   / .-.  p2        all points but the ends move, most of all near p1
 //!    / /      \ \         / /   \  \
 //!   p0          p3       p0        p3
 //! ```
@@ -15,9 +15,8 @@ use scene::Geometry;
 
 /// Moves one control point of curves.
 ///
-/// The other control points do not move. The point of the curve at a parameter t moves in the same direction as the
-/// control point. Its distance is the distance of the control point times the value at t of the
-/// Bernstein polynomial of the control point.
+/// The other control points do not move. The point of the curve at a parameter t moves by the offset of the control
+/// point, multiplied by the value at t of the Bernstein polynomial of the control point.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MoveControlPoint {

@@ -13,11 +13,11 @@ use op::{Loss, Operation, PlannedNodes, ReadingChange, ReadingElements};
 /// Formats: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl`, `.off`, `.dae`, `.bez` (Bezier patches), `.bzc` (a Bezier curve)
 /// and `.mws` (a complete scene). A file compressed with gzip has `.gz` after its extension, as in `.obj.gz`; `.glb`
 /// and `.mws` files cannot be compressed this way. An OBJ file becomes one object, and its objects (`o`) and groups
-/// (`g`) become face tags. A glTF file gives an object for each mesh. The object is named after the node if only one
-/// node references the mesh. The nodes, cameras, lights, skins, morph targets and animations of the file are kept. A
-/// COLLADA file gives an object for each node with a mesh. Content that the scene cannot hold is counted and listed.
-/// Images of materials are read from files next to the model. A corner that repeats the previous corner is removed, and
-/// a face that still contains a vertex twice is left out.
+/// (`g`) become face tags. A glTF file gives an object for each mesh that a node references. The object is named after
+/// the node if only one node references the mesh. Unless `placements` is `Bake`, the nodes, cameras, lights, skins,
+/// morph targets and animations of the file are kept. A COLLADA file gives an object for each node with a mesh. Content
+/// that the scene cannot hold is counted and listed. Images of materials are read from files next to the model. A
+/// corner that repeats the previous corner is removed, and a face that still contains a vertex twice is left out.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
@@ -42,8 +42,8 @@ pub struct Load {
     /// What to do with vertices without a face.
     #[serde(default)]
     pub isolated: CleanupPolicy,
-    /// What to do with the nodes of a glTF file. If the nodes are kept, steps change a mesh in its own space, once for
-    /// all nodes that reference the mesh.
+    /// What to do with the nodes of a glTF or `.mws` file. If the nodes are kept, steps change a mesh in its own space,
+    /// once for all nodes that reference the mesh.
     #[serde(default)]
     pub placements: Placements,
     /// If true, the step fails if anything in the file would be left out.

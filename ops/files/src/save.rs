@@ -11,8 +11,9 @@ use op::{Loss, Operation, target_scene};
 /// The extension determines the format: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl` or `.off` for meshes, `.bez` for Bezier
 /// patches, `.bzc` for a curve, and `.mws` for a complete scene without any loss. `.csv` is a table of the positions
 /// and attributes of vertices, faces or corners, and `.npz` has the arrays of a mesh for `NumPy`. These two formats
-/// cannot be read. If the name ends with `.gz`, as in `a.obj.gz`, the file is compressed with gzip. Content that the
-/// format cannot store is reported. The file is only created when the whole recipe has succeeded.
+/// cannot be read. If the name ends with `.gz`, as in `a.obj.gz`, the file is compressed with gzip, which is not
+/// possible for `.glb`, `.mws` and `.npz`. Content that the format cannot store is reported. The file is only created
+/// when the whole recipe has succeeded.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Save {
@@ -29,7 +30,8 @@ pub struct Save {
     #[serde(default)]
     pub compress: Option<Compression>,
     /// The number of bits for each attribute of the geometry in `.glb` and `.gltf` files. If omitted, numbers are
-    /// stored as 32-bit floats. `quantize: ()` uses the default of each attribute. The report lists the largest errors.
+    /// stored as 32-bit floats. `quantize: ()` uses the default of each attribute. The report states the largest errors
+    /// of positions, of normals and tangents, and of texture coordinates.
     #[serde(default)]
     pub quantize: Option<Quantization>,
     /// For `.gltf` and `.glb`, the number of sets of four joints that are written for each vertex of a skinned mesh. If

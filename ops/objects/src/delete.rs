@@ -9,8 +9,8 @@ use op::{Operation, named_object};
 
 /// Deletes objects.
 ///
-/// The remaining objects keep their order. A node that places a deleted object is also removed, unless it has
-/// children, a camera or a light.
+/// The remaining objects keep their order. A node that places a deleted object is also removed, unless it has children,
+/// a camera or a light, or is a joint of a skin.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Delete {

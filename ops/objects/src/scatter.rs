@@ -16,8 +16,9 @@ use scene::{Geometry, Node, Object, Placement, transformed};
 ///
 /// Exactly `count` points are chosen so that they keep their distance from each other (Yuksel, "Sample Elimination for
 /// Generating Poisson Disk Sample Sets", 2015). Each copy is a node that references the object (an instance), so copies
-/// need almost no memory or file space. The node moves the origin of the object to the point. To make one mesh of all
-/// copies, use `Join` afterwards. If no node placed the object before, it then appears only at the points.
+/// need almost no memory, and almost no space in `.gltf`, `.glb` and `.mws` files. The node moves the origin of the
+/// object to the point. To make one mesh of all copies, use `Join` afterwards. If no node placed the object before, it
+/// then appears only at the points.
 ///
 /// Without `object`, the result is a mesh of the points without faces. Its normals are those of the surface.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
@@ -36,7 +37,7 @@ pub struct Scatter {
     /// The axis of the object that is aligned with the normal of the surface. If omitted, the copies are not rotated.
     #[serde(default)]
     pub align: Option<Axis>,
-    /// The name of the mesh of points, without `object`. Defaults to `points`.
+    /// Without `object`, the name of the mesh of points. Defaults to `points`.
     #[serde(default = "points")]
     pub name: String,
 }

@@ -49,7 +49,8 @@ pub enum SeparateBy {
     /// One part for each material that a face has, in order of the materials. Faces without a material are the last
     /// part.
     Material,
-    /// The first part has the faces with the tag of this name, and the second part all other faces.
+    /// The first part has the faces with the tag of this name, and the second part all other faces. A part without
+    /// faces is left out.
     Tag(String),
 }
 

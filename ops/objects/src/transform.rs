@@ -29,16 +29,17 @@ use crate::transform::map::Map;
 /// Scales, rotates and moves objects.
 ///
 /// Points are first scaled, then rotated, then moved. The step changes the points of meshes, patches, curves and
-/// polylines. If nodes of a glTF file place an object, the step changes the placements of these nodes instead, and
-/// everything below the nodes also moves. A skinned mesh moves with its joints. A node whose placement is animated gets
-/// a parent, which is moved instead. Without `on:`, root nodes with cameras and lights also move, unless `about` is
-/// `Center`. A curve must stay in the plane z = 0.
+/// polylines. If nodes place an object and `space` is `Scene`, the step changes the placements of these nodes instead,
+/// and everything below the nodes also moves. A skinned mesh then moves with its joints. A node whose placement is
+/// animated gets a parent, which is moved instead. Without `on:`, all other root nodes also move, for example those of
+/// cameras and lights, unless `about` is `Center`. A curve must stay in the plane z = 0.
 ///
-/// Ids do not change. Normals and the deltas of morph targets are transformed; other attributes do not change. A mirror
-/// (one or three negative factors in `scale`) also reverses the faces, so that they are counter-clockwise seen from
-/// outside. The first corner of a face stays first, and the other corners follow in reverse order. In mirrored patches,
-/// u and v are exchanged, so that the outside stays the outside. A mirror drops attributes with the rule `Drop`, as
-/// does any step that changes the connectivity.
+/// Ids do not change. If the points of a mesh change, its normals, tangents and deltas of morph targets are also
+/// transformed; other attributes do not change. If the points are mirrored (one or three negative factors in `scale`),
+/// the faces are also reversed, so that they stay counter-clockwise seen from outside. The first corner of a face stays
+/// first, and the other corners follow in reverse order. In mirrored patches, u and v are exchanged, so that the
+/// outside stays the outside. Mirroring the points drops attributes with the rule `Drop`, such as tangents of corners,
+/// as does any step that changes the connectivity.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Transform {
@@ -82,8 +83,8 @@ pub enum About {
     /// The origin.
     #[default]
     Origin,
-    /// The center of the bounding box of each object with all its instances. The box contains the vertices, control
-    /// points or points of polylines.
+    /// The center of the bounding box of each object. The box contains the vertices, control points or points of
+    /// polylines and, with `space: Scene`, those of all instances of the object.
     Center,
     /// A point with the coordinates x, y, z.
     Point(f64, f64, f64),

@@ -80,8 +80,8 @@ fn remove_joints(mesh: &mut Mesh) {
     }
 }
 
-/// Plans the skin of the joined mesh. Returns the skin if all skinned parts have the same one, otherwise the loss of
-/// the skins.
+/// Plans the skin of the joined mesh. If all skinned parts have the same skin and one instance each, returns this skin.
+/// If they do not, returns the loss of the skins.
 pub(super) fn planned(parts: &[PlannedNodes], joined: &str) -> (Option<u64>, Option<Loss>) {
     let mut skinned = parts.iter().filter(|part| part.skin.is_some());
     let Some(first) = skinned.next() else {

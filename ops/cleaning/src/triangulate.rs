@@ -32,7 +32,8 @@ use rayon::prelude::*;
 ///
 /// A face with more corners is projected along its normal, cut by ear clipping, and improved by flipping diagonals
 /// until it is a constrained Delaunay triangulation. A face that cannot be triangulated in this way, because it has
-/// zero area or its sides cross, becomes a triangle fan around its vertex with the lowest id, and is counted.
+/// zero area, its sides cross, or it has more than ten million corners, becomes a triangle fan around its vertex with
+/// the lowest id, and is counted.
 ///
 /// The triangles replace their face in the order of the faces and have the values of the face. Vertices and edges keep
 /// their ids. The corners of the triangles have the values of the corners of the face at the same vertices.

@@ -16,10 +16,11 @@ use op::prelude::*;
 /// Replaces edges with faces of constant width.
 ///
 /// A selected edge and both of its ends are removed, and a new face replaces the edge. In both faces beside the edge,
-/// the new face ends at the distance `width` from the old edge. Each other edge at an end is cut at this distance.
-/// Between two selected edges, the new vertex lies in the face. If three or more new vertices surround an old vertex,
-/// another new face joins them. All edges are beveled together, so a cube that is beveled at all edges keeps all of its
-/// symmetries.
+/// the new face ends at the distance `width` from the old edge. Each other edge at an end is cut where it reaches this
+/// distance, but at most four times `width` from the end. An edge that is not next to a selected edge is cut at `width`
+/// from the end. Between two selected edges, the new vertex lies in the face. If three or more new vertices surround an
+/// old vertex, another new face joins them. All edges are beveled together, so a cube that is beveled at all edges
+/// keeps all of its symmetries.
 ///
 /// The ends of the edges are removed, so the ids of later vertices change. New vertices get the highest ids. Faces
 /// keep their ids. New faces get the highest ids: first the faces of edges, in order of the edges, then the faces of
@@ -30,17 +31,19 @@ use op::prelude::*;
 /// every run. New edges have zero values (no crease, no tags). Normals are dropped.
 ///
 /// An edge is refused if it is on the boundary, if one of its ends has only one other edge and this edge is not
-/// selected, or if the bevels at both ends of an edge would overlap.
+/// selected, or if the bevels at both ends of an edge would overlap. If the result would not be manifold, all edges are
+/// refused.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct BevelEdges {
     /// The edges to bevel.
     pub edges: EdgeSelection,
-    /// The distance between the beveled edge and the new edges in each of its two faces, in scene units.
+    /// The distance between the beveled edge and the new edges in each of its two faces, in scene units. Either `width`
+    /// or `fraction` must be given.
     #[serde(default)]
     pub width: Option<PositiveLength>,
-    /// The width as a fraction of the length of the shortest edge at the ends of the selected edges. Replaces
-    /// `width`. From 0 to 1, exclusive.
+    /// The width as a fraction of the length of the shortest edge at the ends of the selected edges. From 0 to 1,
+    /// exclusive.
     #[serde(default)]
     pub fraction: Option<Fraction>,
     /// What to do when an edge is refused.

@@ -24,8 +24,9 @@ use op::prelude::*;
 ///   with three sides or at a hole with three edges.
 /// - `DuplicateEdge`: a second edge joins the ends.
 /// - `RepeatedVertex`: both ends are also corners of a face that is not beside the edge.
-/// - `Vanishes`: the mesh around the edge is a tetrahedron or a single triangle.
-/// - `SameFace`: the same face is on both sides of the edge.
+/// - `Vanishes`: no face would remain around the edge, as for a single triangle, or only two faces back to back, as for
+///   a tetrahedron.
+/// - `SameFace`: the same face is on both sides of the edge, or would be on both sides of another edge.
 /// - `SameOpposite`: the two triangles beside the edge share another edge.
 ///
 /// Values at the remaining vertex and its corners are interpolated between the ends, on each side of a seam separately.

@@ -63,7 +63,8 @@ pub enum Until {
     #[default]
     Once,
     /// Flip edges until no flip reduces the sum of the cotangents of all angles of all triangles. The result has fewer
-    /// very small and very large angles. On a flat mesh, the result is the Delaunay triangulation.
+    /// very small and very large angles. If all edges of a flat mesh are selected and no seam prevents a flip, the
+    /// result is the Delaunay triangulation within the boundary.
     Delaunay,
     /// Flip edges until no flip brings the valences of the vertices closer to 6, or to 4 on the boundary. Each flip
     /// reduces the sum of the squared differences.

@@ -13,14 +13,13 @@ use op::prelude::*;
 /// Inserts a vertex at the center of each face and connects it to the corners of the face.
 ///
 /// A face with n corners becomes n triangles. Each poked face adds 1 vertex, n edges and n - 1 faces. The first
-/// triangle keeps the id of the face; the other triangles and the new vertices and edges get the highest ids, in
-/// order of the faces. The new vertex is at the mean of the corners, moved along the normal of the face by `distance`.
-/// The vertex and corner attributes of the new vertex are also means, if the type of the attribute allows means. The
-/// triangles have the values of their face, and the new edges have zero values (no crease, no tags). If `distance` is
-/// not 0, normals are dropped.
+/// triangle keeps the id of the face; the other triangles and the new vertices and edges get the highest ids, in order
+/// of the faces. The new vertex is at the mean of the corners, moved along the normal of the face by `distance`. Vertex
+/// and corner attributes that edits interpolate are also means at the new vertex. The triangles have the values of
+/// their face, and the new edges have zero values (no crease, no tags). If `distance` is not 0, normals are dropped.
 ///
-/// A face is refused only if the position of the new vertex would not be finite, or if the mesh already has the largest
-/// supported number of elements.
+/// A face is refused only if it contains a vertex twice, if the position of the new vertex would not be finite, or if
+/// the mesh already has the largest supported number of elements.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct PokeFaces {

@@ -13,10 +13,10 @@ use op::prelude::*;
 
 /// Opens the mesh along edges.
 ///
-/// The edges may form paths, loops and trees. A loop cuts out a piece. Each edge becomes two edges, one for each side.
-/// If the cuts separate the faces around a vertex into several parts, each part gets a separate copy of the vertex. The
-/// part with the lowest face id keeps the id of the vertex, and new vertices get the highest ids.
-/// Faces keep their ids, and no vertex moves. Copies have the values of the originals, and corners keep their values.
+/// The edges may form paths, loops and trees. A loop can cut out a piece. Each edge becomes two edges, one for each
+/// side. If the cuts separate the faces around a vertex into several parts, each part gets a separate copy of the
+/// vertex. The part with the lowest face id keeps the id of the vertex, and new vertices get the highest ids. Faces
+/// keep their ids, and no vertex moves. Copies have the values of the originals, and corners keep their values.
 /// `Stitch` is the inverse.
 ///
 /// All edges are cut at once. An edge is refused if it is on the boundary (`Boundary`), or if the cut would not open

@@ -18,10 +18,10 @@ use op::prelude::*;
 /// ids. A hole with n edges gets 1 face with n corners, or n - 2 triangles and n - 3 edges.
 ///
 /// For holes with up to 500 edges, the triangles have the smallest total area. Larger holes are filled by cutting off
-/// one corner after the other, in each case the corner whose two neighbors are closest to each other. If the hole is
-/// far from convex, the triangles may overlap. Two vertices that are already joined by an edge are not joined again. If
-/// a hole cannot be filled without a second edge between them, it is refused (`DuplicateEdge`). A hole with two edges
-/// is also refused (`WrongPlace`); `Stitch` closes it.
+/// one corner after the other, in each case the corner whose two neighbors are closest to each other; straight and
+/// reflex corners come last. If the hole is far from convex, the triangles may overlap. Two vertices that are already
+/// joined by an edge are not joined again. If no triangles without such a second edge are found, the hole is refused
+/// (`DuplicateEdge`). A hole with two edges is also refused (`WrongPlace`); `Stitch` closes it.
 ///
 /// New faces have the values of a face beside the hole. New corners have the values of the corner at the same vertex in
 /// the adjacent face. Normals are dropped if a hole was filled.
@@ -46,7 +46,7 @@ pub struct FillHoles {
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Cover {
-    /// Triangles with the smallest total area.
+    /// Triangles. In holes with up to 500 edges, they have the smallest total area.
     #[default]
     Triangles,
     /// One face with all vertices of the hole as corners.

@@ -31,8 +31,8 @@ use crate::transform::map::Map;
 /// Points are first scaled, then rotated, then moved. The step changes the points of meshes, patches, curves and
 /// polylines. If nodes place an object and `space` is `Scene`, the step changes the placements of these nodes instead,
 /// and everything below the nodes also moves. A skinned mesh then moves with its joints. A node whose placement is
-/// animated gets a parent, which is moved instead. Without `on:`, all other root nodes also move, for example those of
-/// cameras and lights, unless `about` is `Center`. A curve must stay in the plane z = 0.
+/// animated gets a parent, which is moved instead. With `space: Scene` and without `on:`, all other root nodes also
+/// move, for example those of cameras and lights, unless `about` is `Center`. A curve must stay in the plane z = 0.
 ///
 /// Ids do not change. If the points of a mesh change, its normals, tangents and deltas of morph targets are also
 /// transformed; other attributes do not change. If the points are mirrored (one or three negative factors in `scale`),

@@ -6,9 +6,9 @@ use op::prelude::*;
 /// Tags the selected vertices and removes the tag from all other vertices. In later steps, `Tagged("rim")` selects the
 /// vertices with the tag `rim`.
 ///
-/// New vertices of later edits are not tagged. An existing tag of the same name is replaced. If an attribute of another
-/// type has this name, the step fails. The geometry does not change. The report counts the vertices that gained or lost
-/// the tag.
+/// In later steps, a copy of a tagged vertex is also tagged, as in `ExtrudeFaces`, but a new vertex on an edge is not,
+/// as in `SplitEdges`. An existing tag of the same name is replaced. If an attribute of another type has this name, the
+/// step fails. The geometry does not change. The report counts the vertices that gained or lost the tag.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct TagVertices {

@@ -28,8 +28,8 @@ pub use gather::normals;
 /// Computes a unit normal for every vertex, from the faces around it.
 ///
 /// The normals are written to the vertex attribute `normal`, which is replaced if it exists. Corner normals are
-/// removed, because they would contradict the vertex normals. A vertex that has no faces, or whose face normals cancel
-/// each other out, gets the zero vector and is counted.
+/// removed, because they would contradict the vertex normals. A vertex that has no faces or only zero-area faces, or
+/// whose face normals cancel each other out, gets the zero vector and is counted.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct VertexNormals {
@@ -74,7 +74,7 @@ impl MeshOperation for VertexNormals {
             report
         } else {
             report.note(format!(
-                "vertices without a normal: {without}; they have no faces, or the normals of their faces cancel out"
+                "vertices without a normal: {without}; they have no faces with an area, or the normals of their faces cancel out"
             ))
         })
     }

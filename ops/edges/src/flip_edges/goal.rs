@@ -1,4 +1,4 @@
-//! Goals of flips. A goal decides whether a flip is an improvement.
+//! Goals of flips. A goal decides whether a flip is an improvement. A flip that would fold the surface is never one.
 //!
 //! **Delaunay.** The energy of a triangle is the sum of the cotangents of its angles,
 //!

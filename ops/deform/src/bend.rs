@@ -16,14 +16,14 @@ use crate::moved::{Stretch, moved, next};
 
 /// Bends a mesh, so that an axis becomes an arc of a circle.
 ///
-/// The plane at `from` does not move. Between `from` and `to`, the axis becomes an arc that keeps its length and turns
-/// by `angle` in total. Vertices beyond `to` move rigidly. Vertices between the axis and the center of the circle move
-/// closer together, and vertices on the other side of the axis move apart. The distance between the center and the axis
-/// is (to - from) / angle, with the angle in radians. Parts of the mesh beyond the center turn inside out. Source:
+/// Vertices at or below `from` do not move. Between `from` and `to`, the axis becomes an arc that keeps its length and
+/// turns by `angle` in total. Vertices above `to` move rigidly. Vertices between the axis and the center of the circle
+/// move closer together, and vertices on the other side of the axis move apart. The distance between the center and the
+/// axis is (to - from) / angle, with the angle in radians. Parts of the mesh beyond the center turn inside out. Source:
 /// Barr, "Global and Local Deformations of Solid Primitives", 1984.
 ///
-/// Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
-/// vertices move, so refine the mesh first if its faces are large.
+/// Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch with
+/// the surface. Only vertices move, so refine the mesh first if its faces are large.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bend {

@@ -17,8 +17,8 @@ use crate::moved::moved;
 /// Moves vertices along their normals, by amounts that vary over the surface.
 ///
 /// Each vertex moves along its normal by `distance` times the value of `by`. The normal of a vertex is the mean of the
-/// normals of its faces, weighted by their areas. Vertices without a normal do not move and are counted. Faces, element
-/// ids and attributes do not change. Normals are dropped.
+/// normals of its faces, weighted by their areas. Vertices without a normal do not move and are counted. Normals and
+/// tangents are dropped. Faces, element ids and other attributes do not change.
 ///
 /// The values are computed without functions that differ between machines, so the result is identical on all machines.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]

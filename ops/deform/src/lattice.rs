@@ -22,8 +22,9 @@ use crate::moved::moved;
 /// whole box moves by this offset. A control point attracts the surface, but the surface usually does not reach it,
 /// except at the corners of the box.
 ///
-/// Vertices outside the box do not move. Faces, element ids and attributes do not change, so textures stretch with the
-/// surface. Normals are dropped. Only vertices move, so refine the mesh first if its faces are large.
+/// Vertices outside the box do not move. Normals and tangents are dropped. Faces, element ids and other attributes do
+/// not change, so textures stretch with the surface. Only vertices move, so refine the mesh first if its faces are
+/// large.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Lattice {
@@ -44,7 +45,7 @@ pub struct Lattice {
 }
 
 impl Lattice {
-    /// Returns the messages of moves of control points that do not exist, with their indices.
+    /// Returns the message about the first move of a control point that does not exist.
     fn bad_moves(&self) -> Option<String> {
         let [x, y, z] = self.size.map(Count::get);
         let outside = |point: &[u32; 3]| point.iter().zip([x, y, z]).any(|(&i, n)| i >= n);

@@ -15,7 +15,8 @@ use crate::moved::moved;
 
 /// Moves vertices.
 ///
-/// Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped.
+/// Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch with
+/// the surface.
 ///
 /// With `falloff: r`, vertices near the selected vertices also move. At the distance d from the nearest selected
 /// vertex, the movement is multiplied by the weight (1 - (d/r)²)². The weight is 1 at selected vertices and falls
@@ -44,7 +45,7 @@ pub enum MoveBy {
     Offset(Vector),
     /// By this distance along the normal of each vertex, in scene units. A negative distance moves inwards.
     Distance(Distance),
-    /// By the offset that moves the mean of the selected vertices to this point. It is the same for all vertices.
+    /// By the same offset for all selected vertices, which moves their mean to this point.
     To(Vector),
 }
 

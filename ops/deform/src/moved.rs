@@ -99,7 +99,7 @@ impl Stretch {
         let about: DVec3 = self.about.into();
         let towards = unit(towards);
         Ok(Frame {
-            // Heights along the axis are coordinates of the scene.
+            // Heights along the axis are coordinates of points, on which `about` has no effect.
             origin: about - axis * axis.dot(about),
             axes: [towards, axis.cross(towards), axis],
             from,

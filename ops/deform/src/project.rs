@@ -17,8 +17,8 @@ use crate::moved::moved;
 /// Moves vertices onto the surface of another object (shrinkwrap).
 ///
 /// Only vertices in `vertices` that are not in `pin` move. All others keep their exact positions. Without `on`, the
-/// step acts on all meshes except the object `onto`, which does not change. Faces, element ids and attributes do not
-/// change, so textures stretch with the surface. Normals are dropped.
+/// step acts on all meshes except the object `onto`, which does not change. Normals and tangents are dropped. Faces,
+/// element ids and other attributes do not change, so textures stretch with the surface.
 ///
 /// Vertices that would move farther than `distance` do not move. With `Normal` and `Direction`, vertices whose line
 /// misses the surface do not move either. The report counts both kinds of vertices.

@@ -20,8 +20,8 @@ use crate::moved::{Stretch, moved, next};
 /// nearer end applies. Coordinates along the axis do not change. Source: Barr, "Global and Local Deformations of Solid
 /// Primitives", 1984.
 ///
-/// Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
-/// vertices move, so refine the mesh first if its faces are large.
+/// Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch with
+/// the surface. Only vertices move, so refine the mesh first if its faces are large.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Taper {

@@ -17,11 +17,11 @@ use crate::moved::{Stretch, moved, next};
 /// Rotates vertices around an axis, by an angle that grows along the axis.
 ///
 /// The angle grows linearly from 0 at `from` to `angle` at `to`. Below `from` and above `to`, vertices rotate by the
-/// angle of the nearer end. A twist does not change volumes, and a twist by the opposite angle undoes it. Source:
-/// Barr, "Global and Local Deformations of Solid Primitives", 1984.
+/// angle of the nearer end. The volume changes only because edges stay straight, so hardly on a fine mesh. A twist by
+/// the opposite angle undoes a twist. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
 ///
-/// Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
-/// vertices move, so refine the mesh first if its faces are large.
+/// Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch with
+/// the surface. Only vertices move, so refine the mesh first if its faces are large.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Twist {

@@ -29,7 +29,8 @@ use crate::MeasureOf;
 pub struct Measure {
     /// The quantity.
     pub of: MeasureOf,
-    /// The name of the attribute. If omitted, the name of the quantity in lower case, such as `mean_curvature`.
+    /// The name of the attribute. If omitted, the name of the quantity in lower case, such as `mean_curvature`, or
+    /// `largest_curvature` or `smallest_curvature` for a principal curvature.
     #[serde(default)]
     pub name: Option<AttributeName>,
     /// The value for elements at which the quantity is not defined, such as the curvature of a vertex without faces.

@@ -12,8 +12,8 @@
 //!     into: Triangles             into: Quads
 //! ```
 //!
-//! The connectivity is the same as in Loop and Catmull-Clark subdivision. Flat faces keep their plane, so the
-//! shape of the surface does not change. The surface only gets more faces, which a later step can deform.
+//! The connectivity is the same as in Loop and Catmull-Clark subdivision. The parts of a flat face stay in its plane,
+//! so a surface of flat faces keeps its shape. It only gets more faces, which a later step can deform.
 //!
 //! The crate `subdivision` implements all schemes.
 

@@ -29,8 +29,8 @@ pub struct Lods {
     /// The start of the names of the copies, before the number. If omitted, the name of the object and `_lod`.
     #[serde(default)]
     pub to: Option<String>,
-    /// Edges that are treated as lines, for example `Sharp(above: 30)`. If omitted, only the lines that `Simplify` always
-    /// keeps.
+    /// Edges that are treated as lines, for example `Sharp(above: 30)`. If omitted, only the lines that `Simplify`
+    /// always keeps.
     #[serde(default)]
     pub features: Option<EdgeSelection>,
     /// What to do if the number of faces of a copy cannot be reached.

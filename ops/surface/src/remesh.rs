@@ -21,8 +21,8 @@ use crate::simplify::triangles_problem;
 /// Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
 /// vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target length.
 /// All vertices lie on the original surface. The target length is either `length`, or it follows `curvature`: edges are
-/// short where the surface is curved, and long where it is flat (Dunyach and others, 2013). One of the two must be
-/// given. All faces must be triangles.
+/// short where the surface is curved, and long where it is flat (Dunyach and others, 2013). Exactly one of the two must
+/// be given. All faces must be triangles.
 ///
 /// The following properties are kept:
 ///
@@ -47,7 +47,8 @@ pub struct Remesh {
     /// Target lengths that follow the curvature, instead of `length`.
     #[serde(default)]
     pub curvature: Option<RemeshCurvature>,
-    /// Edges that are treated as lines, for example `Sharp(above: 30)`. If omitted, only the lines that are always kept.
+    /// Edges that are treated as lines, for example `Sharp(above: 30)`. If omitted, only the lines that are always
+    /// kept.
     #[serde(default)]
     pub features: Option<EdgeSelection>,
     /// The largest allowed Hausdorff distance between the old and the new surface, in scene units. Edges

@@ -16,8 +16,9 @@ use op::prelude::*;
 ///
 /// Edges are collapsed, starting with the edges whose collapse changes the surface least. The change is the mean
 /// squared distance of the new vertex to the planes of the original triangles that it replaces (Garland, Heckbert,
-/// 1997). The step ends when `faces` or `ratio` is reached, or when every remaining collapse could exceed `error`. At
-/// least one of `faces`, `ratio` and `error` must be given. All faces must be triangles.
+/// 1997). The step ends when `faces` or `ratio` is reached, or when every remaining collapse is refused or could exceed
+/// `error`. At least one of `faces`, `ratio` and `error` must be given, but not both `faces` and `ratio`. All faces
+/// must be triangles.
 ///
 /// The following properties are kept:
 ///
@@ -25,10 +26,10 @@ use op::prelude::*;
 /// - Lines: the boundary, seams of texture coordinates and normals, borders between face tags or materials, edges with
 ///   a tag or a crease, and `features`. A line can lose vertices, but its ends, and the vertices where lines meet, keep
 ///   their exact positions.
-/// - Attributes: texture coordinates, normals, colors and other numbers are a part of the change that is kept small (Hoppe,
-///   1999), and new vertices get the values that fit best. Values are never mixed across a line, and no triangle is turned
-///   over in the texture. Normals are kept, so that a simplified mesh is shaded like the original.
-/// - Vertex tags: vertices with different tags or sharpness are not merged.
+/// - Attributes: texture coordinates, normals, colors and other numbers are a part of the change that is kept small
+///   (Hoppe, 1999), and new vertices get the values that fit best. Values are never mixed across a line, and no
+///   triangle is turned over in the texture. Normals are kept, so that a simplified mesh is shaded like the original.
+/// - Vertex tags: vertices with different tags, whole numbers or sharpness are not merged.
 ///
 /// No triangle is turned over. Remaining elements get new ids, in the order of their old ids. If the number of faces
 /// cannot be reached and `error` is not given, the step is refused as `Unreached`, and the message states the reasons.
@@ -45,10 +46,11 @@ pub struct Simplify {
     pub ratio: Option<Fraction>,
     /// The largest allowed Hausdorff distance between the old and the new surface, in scene units. The limit is
     /// guaranteed, because the step adds up an upper bound for the distance by which each collapse moves the surface.
-    /// The true distance is therefore usually much smaller. If omitted, there is no limit.
+    /// The true distance is usually between a third of the limit and the limit. If omitted, there is no limit.
     #[serde(default)]
     pub error: Option<PositiveLength>,
-    /// Edges that are treated as lines, for example `Sharp(above: 30)`. If omitted, only the lines that are always kept.
+    /// Edges that are treated as lines, for example `Sharp(above: 30)`. If omitted, only the lines that are always
+    /// kept.
     #[serde(default)]
     pub features: Option<EdgeSelection>,
     /// Vertices that keep their exact positions, for example `Boundary`. If omitted, no vertices.

@@ -112,8 +112,8 @@ pub enum SmoothBoundary {
     /// The vertices do not move.
     #[default]
     Fixed,
-    /// The boundary is smoothed as curves, so only neighbors along the boundary affect a vertex. With `Denoise`,
-    /// vertices on the boundary move like all other vertices.
+    /// The boundary is smoothed as curves, so a vertex on the boundary depends only on its neighbors along the
+    /// boundary. With `Denoise`, vertices on the boundary move like all other vertices.
     Free,
 }
 

@@ -15,18 +15,18 @@ use op::prelude::*;
 
 /// Copies attributes from the nearest points of another object.
 ///
-/// An attribute of vertices, corners or faces of the object `from` becomes an attribute of the same kind. Numbers and
-/// vectors of vertices and corners are interpolated inside the face of the nearest point. Whole numbers, tags, and
-/// attributes that edits do not interpolate are copied from the nearest corner of this face. Values of faces are copied
-/// from this face. An existing attribute with the same type of values is overwritten. Without `on`, the step acts on
-/// all meshes except `from`.
+/// An attribute of vertices, corners or faces of the object `from` becomes an attribute of the same kind of elements.
+/// Numbers and vectors of vertices and corners are interpolated inside the face of the nearest point. Whole numbers,
+/// tags, and attributes that edits do not interpolate are copied from the nearest corner of this face. Values of faces
+/// are copied from this face. An existing attribute with the same type of values is overwritten; with a different type,
+/// the step fails. Without `on`, the step acts on all meshes except `from`.
 ///
 /// All corners of a face take their values from one chart of the source, that is, from faces that are connected without
 /// crossing a seam of the attribute. The chart is the one nearest to the center of the face, so no triangle is
 /// stretched across a seam of texture coordinates.
 ///
 /// Elements whose distance from the source exceeds `within` keep their values, or get zeros if the attribute is new,
-/// and are counted. If this applies to a corner of a face, it applies to all corners of the face.
+/// and are counted. If a corner or the center of a face is that far away, this applies to all corners of the face.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Transfer {
@@ -164,7 +164,7 @@ impl Transfer {
                     && old.values.type_name() != column.values.type_name()
                 {
                     let message = format!(
-                        "the {domain} attribute \"{name}\" of \"{}\" has values of the type \"{}\", and the existing attribute \"{}\"",
+                        "the {domain} attribute \"{name}\" of \"{}\" has values of the type \"{}\", but the existing attribute has the type \"{}\"",
                         self.from,
                         column.values.type_name(),
                         old.values.type_name()

@@ -24,8 +24,8 @@ use crate::attribute::{coverage, error, padding, padding_problem, page, page_of,
 /// Each mesh gets its own page.
 ///
 /// The coordinates are written to the corner attribute `uv`, which is replaced if it exists. Edges at which charts meet
-/// become its seams. Positions, faces and other attributes do not change, but tangents are removed. Zero-area faces
-/// have no area in the texture and are counted. A polygon that is bent so far that it overlaps itself is refused as
+/// become seams. Positions, faces and other attributes do not change, but tangents are removed. Zero-area faces have no
+/// area in the texture and are counted. A polygon that is bent so far that it overlaps itself is refused as
 /// `WrongPlace`, so triangulate it first. With `on_refusal: Skip`, its triangles overlap in the texture.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]

@@ -22,7 +22,7 @@ pub enum Refusal {
     NotTriangle,
     /// Both triangles of an edge have the same opposite vertex.
     SameOpposite,
-    /// One face lies on both sides of an edge.
+    /// One face lies, or would lie, on both sides of an edge.
     SameFace,
     /// Two vertices would be joined by a second edge.
     DuplicateEdge,
@@ -32,10 +32,10 @@ pub enum Refusal {
     FewCorners,
     /// A face would have the same vertex at two corners.
     RepeatedVertex,
-    /// No face would remain around an edge.
+    /// No face, or only two faces back to back, would remain around an edge.
     Vanishes,
-    /// The ends of an edge have a common neighbor that is not a corner of the two faces beside the edge, so the
-    /// ends cannot be merged.
+    /// The ends of an edge have a common neighbor that is not a corner of a triangle beside the edge, so the ends
+    /// cannot be merged.
     Link,
     /// An edge inside the surface joins two boundary vertices, so its ends cannot be merged.
     JoinsBoundaries,
@@ -45,16 +45,16 @@ pub enum Refusal {
     OutsideEdge,
     /// A coordinate or length is not finite or outside its range.
     BadNumber,
-    /// The faces around a vertex would be separated into two fans.
+    /// The faces around a vertex would be separated into several fans.
     Pinch,
     /// The faces are only a part of their connected component.
     PartOfComponent,
-    /// The elements do not have the relation that the edit needs: a path has a gap, two corners belong to
-    /// different faces, an element is given twice, or no element is given.
+    /// The elements do not have the relation that the edit needs. For example, two vertices are not corners of a common
+    /// face, or an element is given twice.
     WrongPlace,
-    /// A vertex, edge, face, tag or material that the step refers to does not exist, or no longer exists.
+    /// An element, tag, attribute, material or path that the step needs does not exist, or no longer exists.
     Missing,
-    /// A selection did not match the expected number of elements.
+    /// The number of selected elements, or of parts, is not the expected one.
     Expectation,
     /// The result would not be manifold.
     NonManifold,

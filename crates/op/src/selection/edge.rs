@@ -13,6 +13,7 @@ selection! {
     EdgeSelection(
         "edges",
         inside: "Edges whose vertices all lie in a region or on its surface.",
+        inside_of: "The edges whose vertices are all inside",
         shares: "a vertex",
         nearest: "The edges whose midpoints are nearest to a point. If edges are equally near, those with the \
                   lower ids are selected."

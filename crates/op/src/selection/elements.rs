@@ -89,8 +89,7 @@ impl Elements {
     ///
     /// # Errors
     ///
-    /// As [`Select::resolve`]: a given element, tag or material does not exist, or `Expect` found a different number
-    /// of elements.
+    /// As [`Select::resolve`].
     pub fn resolve(&self, mesh: &Mesh, cx: &Context) -> Result<Selected, OpError> {
         Ok(match self {
             Self::Vertices(s) => Selected::Vertices(s.resolve(mesh, cx)?),

@@ -11,6 +11,7 @@ selection! {
     FaceSelection(
         "faces",
         inside: "Faces whose vertices all lie in a region or on its surface.",
+        inside_of: "The faces whose vertices are all inside",
         shares: "a vertex",
         nearest: "The faces whose centers (the means of their vertices) are nearest to a point. If faces are \
                   equally near, those with the lower ids are selected."

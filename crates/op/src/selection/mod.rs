@@ -8,7 +8,13 @@
 macro_rules! selection {
     (
         $(#[$meta:meta])*
-        $name:ident($elements:literal, inside: $inside:literal, shares: $part:literal, nearest: $nearest:literal) {
+        $name:ident(
+            $elements:literal,
+            inside: $inside:literal,
+            inside_of: $inside_of:literal,
+            shares: $part:literal,
+            nearest: $nearest:literal
+        ) {
             $($own:tt)*
         }
     ) => {
@@ -25,12 +31,12 @@ macro_rules! selection {
             #[doc = $inside]
             Inside(super::Region),
             #[doc = concat!(
-                "The ", $elements, " whose vertices are all inside the mesh of another object, given by its name. A \
-                 point is inside if the winding number of the mesh around the point is above 1/2 in magnitude. The \
-                 mesh can have small gaps."
+                $inside_of, " the mesh of another object, given by its name. A point is inside if the winding number \
+                 of the mesh around the point is above 1/2 in magnitude. The mesh can have small gaps."
             )]
             InsideOf(String),
-            #[doc = concat!("The ", $elements, " with the tag of this name. Refused if no tag has this name.")]
+            #[doc = concat!("The ", $elements, " with the tag of this name. Refused if no tag of ", $elements,
+                " has this name.")]
             Tagged(String),
             #[doc = concat!("The ", $elements, " whose attribute has a value in a range. Refused if no attribute of ",
                 $elements, " has this name.")]
@@ -189,7 +195,7 @@ pub trait Select: Sized + Sync {
     ///
     /// # Errors
     ///
-    /// [`Refusal::Missing`] if a given element, tag or material does not exist, or no path exists.
+    /// [`Refusal::Missing`] if a given element, tag, attribute or material does not exist, or no path exists.
     /// [`Refusal::Expectation`] if `Expect` found a different number of elements.
     fn resolve(&self, mesh: &Mesh, cx: &Context) -> Result<Vec<Self::Id>, OpError> {
         let mask = self.mask(mesh, cx)?;

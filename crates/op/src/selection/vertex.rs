@@ -12,6 +12,7 @@ selection! {
     VertexSelection(
         "vertices",
         inside: "Vertices in a region or on its surface.",
+        inside_of: "The vertices inside",
         shares: "an edge",
         nearest: "The vertices nearest to a point. If vertices are equally near, those with the lower \
                   ids are selected."

@@ -32,8 +32,9 @@ use crate::simplify::triangles_problem;
 ///   meet, and corners where a line turns by more than 40 degrees keep their exact positions. Other sharp edges are
 ///   rounded.
 /// - Attributes: they come from the same point of the original surface, and are never interpolated across a line.
-/// - Vertex tags: a new vertex has a tag if all old vertices around its position had the tag. Tagged vertices without
-///   tagged neighbors and vertices with sharpness keep their exact positions.
+/// - Vertex tags: a new vertex has a tag if all old vertices around its position had the tag. A tagged vertex keeps its
+///   exact position unless all corners of one of its triangles, or both of its neighbors on a line, also have the tag.
+///   Vertices with sharpness also keep their exact positions.
 ///
 /// Edits that would turn a triangle over are refused. All elements get new ids. If the distance between the result and
 /// the original could exceed `error`, the step is refused as `Unreached`. With `on_refusal: Skip`, the mesh then does

@@ -69,8 +69,9 @@ pub enum SmoothBy {
         /// The weights of the neighbors.
         #[serde(default)]
         weights: SmoothWeights,
-        /// The distance of the first step, as a fraction of the distance to the mean. From 0 to 1, exclusive. Above
-        /// about 0.65, the step back amplifies noise. Defaults to 0.33.
+        /// The distance of the first step, as a fraction of the distance to the mean. From 0 to 1, exclusive. Factors
+        /// that would amplify noise are refused: with the default `pass_band`, those of more than about 0.7. Defaults
+        /// to 0.33.
         #[serde(default = "taubin_factor")]
         factor: Fraction,
         /// The frequency below which shapes are kept. A lower value smooths more. From 0 to 1, exclusive. Defaults to

@@ -120,7 +120,7 @@ fn refused(mesh: &Mesh, e: EdgeId, refusal: BevelRefusal, width: f64) -> OpError
             (Refusal::OutsideEdge, why)
         }
         BevelRefusal::NonManifold => {
-            let why = "cannot be beveled without joining other faces".to_owned();
+            let why = "cannot be beveled, because the result would not be manifold".to_owned();
             (Refusal::Pinch, why)
         }
     };

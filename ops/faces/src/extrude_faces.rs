@@ -83,7 +83,7 @@ impl ExtrudeFaces {
             ExtrudeBy::Distance(d) => match region.normal(mesh) {
                 Some(n) => Ok(d.get() * n),
                 None => Err(OpError::Parameter(format!(
-                    "by: the region of face {} has no normal to move along: it is closed or has no area; \
+                    "by: the region of face {} has no normal to move along, because the areas of its faces cancel out or are zero; \
                      use `Offset`",
                     region.faces[0].index()
                 ))),

@@ -12,12 +12,13 @@ use op::{Loss, Operation, PlannedNodes, ReadingChange, ReadingElements};
 ///
 /// Formats: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl`, `.off`, `.dae`, `.bez` (Bezier patches), `.bzc` (a Bezier curve)
 /// and `.mws` (a complete scene). A file compressed with gzip has `.gz` after its extension, as in `.obj.gz`; `.glb`
-/// and `.mws` files cannot be compressed this way. An OBJ file becomes one object, and its objects (`o`) and groups
-/// (`g`) become face tags. A glTF file gives an object for each mesh that a node references. The object is named after
-/// the node if only one node references the mesh. Unless `placements` is `Bake`, the nodes, cameras, lights, skins,
-/// morph targets and animations of the file are kept. A COLLADA file gives an object for each node with a mesh. Content
-/// that the scene cannot hold is counted and listed. Images of materials are read from files next to the model. A
-/// corner that repeats the previous corner is removed, and a face that still contains a vertex twice is left out.
+/// and `.mws` files cannot be compressed this way. An OBJ file becomes one object, and its objects (`o a`) and groups
+/// (`g a`) become the face tags `o:a` and `a`. A glTF file gives an object for each mesh that a node references. The
+/// object is named after the node if only one node references the mesh. Unless `placements` is `Bake`, the nodes,
+/// cameras, lights, skins, morph targets and animations of the file are kept. A COLLADA file gives an object for each
+/// node with a mesh. Content that the scene cannot hold is counted and listed. Images of materials are read from files
+/// next to the model. A corner that repeats the previous corner is removed, and a face that still contains a vertex
+/// twice is left out.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Load {

@@ -54,7 +54,7 @@ pub struct Picture {
     #[serde(default)]
     pub highlight: Option<Elements>,
     /// The width of highlighted edges and the diameter of highlighted vertices, in pixels. The defaults depend on the
-    /// height of the picture: 2.8 and 7.5 for 240 pixels, 3.4 and 10 for 480, 4 and 13 for 960, 8 and 26 for 1920. If
+    /// shorter side of a view: 2.8 and 7.5 for 240 pixels, 3.4 and 10 for 480, 4 and 13 for 960, 8 and 26 for 1920. If
     /// there are many highlighted vertices, they are drawn smaller. Hidden edges are faint, and hidden vertices are
     /// rings.
     #[serde(default)]

@@ -129,7 +129,7 @@ pub(crate) fn exists(folder: &Folder, blob: &BlobRef) -> bool {
     fs::symlink_metadata(path).is_ok_and(|meta| meta.is_file() && meta.len() == blob.len)
 }
 
-/// Writes a blob to a file. If writing fails, the incomplete file is removed.
+/// Writes a blob to a file. If writing fails or the blob is damaged, the file is removed.
 pub(crate) fn restore_file(folder: &Folder, blob: &BlobRef, to: &Path) -> Result<(), Unusable> {
     let path = folder.path(Kind::Blob, &blob.hash);
     let mut file = open_blob(&path, blob)?;

@@ -47,7 +47,7 @@ fn modified(meta: &Metadata) -> SystemTime {
     meta.modified().unwrap_or(SystemTime::UNIX_EPOCH)
 }
 
-/// Lists a folder. A missing folder is empty.
+/// Lists a folder. A missing folder, or a file in place of the folder, counts as an empty folder.
 fn list(folder: &Path) -> io::Result<Vec<DirEntry>> {
     match fs::read_dir(folder) {
         Ok(found) => found.collect(),
@@ -82,7 +82,7 @@ pub(crate) fn clear(folder: &Folder) -> io::Result<CacheSize> {
     }
     remove(&sizes(folder))?;
     remove(&folder.key_file())?;
-    // Only empty folders are removed, so files that the cache did not create stay.
+    // Only empty folders are removed, because a folder can contain files that the cache did not create.
     for kind in Kind::ALL {
         let kind = folder.root().join(kind.name());
         for part in list(&kind)? {
@@ -101,7 +101,8 @@ fn remove(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Returns the path of the file `sizes`. Each run appends the number of bytes that it stored, as 8 bytes.
+/// Returns the path of the file `sizes`. Each run appends the number of bytes that it stored, as 8 bytes. A run that
+/// lists all files instead replaces the content of `sizes` by their total.
 fn sizes(folder: &Folder) -> PathBuf {
     folder.root().join("sizes")
 }

@@ -12,8 +12,7 @@ use std::time::{Duration, SystemTime};
 /// A BLAKE3 digest.
 pub(crate) type Hash = [u8; 32];
 
-/// The size of a piece, in bytes. Files larger than a piece are read, written and hashed piece by piece on several
-/// threads.
+/// The size of a piece, in bytes. Files larger than a piece are read and hashed piece by piece on several threads.
 const PIECE: usize = 4 << 20;
 /// A file that was marked as used less than this time ago is not marked again.
 const TOUCH_INTERVAL: Duration = Duration::from_secs(3600);

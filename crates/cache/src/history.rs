@@ -68,8 +68,8 @@ impl History {
         }
     }
 
-    /// Returns why the key of a step differs from its key in the last run. `rerun` is the number and the label of
-    /// the earlier step of this run that made later steps run again, if any.
+    /// Returns why the cache has no record for the key of a step. `rerun` is the number and the label of the earlier
+    /// step of this run that made later steps run again, if any.
     pub(crate) fn why(&self, now: &Ingredients, rerun: Option<(usize, String)>) -> RerunReason {
         let index = self.this_run.len();
         let is_same_step = |past: &&PastStep| {

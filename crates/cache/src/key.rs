@@ -7,8 +7,8 @@ use crate::folder::Hash;
 use crate::inputs::FileState;
 use recipe::RecipeStep;
 
-/// The version of the storage format. Every digest depends on this version, so a program with another version never
-/// finds files of this version.
+/// The version of the storage format. The names of records and histories depend on this version, so a program with
+/// another version of the format never finds them.
 const FORMAT: &str = "meshwright step cache 1";
 
 /// Everything that determines the result of a step before it runs.

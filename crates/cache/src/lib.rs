@@ -12,27 +12,29 @@
 //! **Keys.** The key of a step is the digest of everything that determines its result before it runs: the program, the
 //! operation with its version and parameters, the objects in `on`, the label that seeds random choices, the expected
 //! refusal, the memory budget, and the state before the step. The state after a step is the digest of its key and of
-//! the contents of the files that it read. The files that a step reads are known only after the step has run. Before a
+//! the files that it read or looked for. The files that a step reads are known only after the step has run. Before a
 //! cached result is used, the contents of these files are compared again. Modification times are not used to compare
 //! files.
 //!
-//! **Integrity.** Only regular files are read, not links, and at most as many bytes as were stored. Every blob must
-//! match the digest in its name. Every record must match its digest, which depends on the secret key of the cache. Only
-//! the user can read that key, so an edited record is rejected even if its digest was computed again. The arrays of a
-//! scene are validated. A damaged file is removed and treated as missing. Files are written under a temporary name and
-//! then renamed, so that neither concurrent nor killed processes leave incomplete files; no locks are needed. If the
-//! folder cannot be written, the problem is reported once, and the run continues without storing anything.
+//! **Integrity.** Only regular files are read, not links, and only up to a maximum length. Every blob must match the
+//! digest in its name. Every record must match its digest, which depends on the secret key of the cache. Only the user
+//! can read that key, so an edited record is rejected even if its digest was computed again. The arrays of a scene are
+//! validated. A damaged file is removed and treated as missing. Files are written under a temporary name and then
+//! renamed, so that neither concurrent nor killed processes leave incomplete files; no locks are needed. If the folder
+//! cannot be written, the problem is reported once, and the run continues without storing anything.
 //!
-//! **What is stored.** Records are always stored. Scenes and files of fewer than [`ALWAYS_STORED`] bytes are also
-//! always stored. A larger scene is stored if the computation since the last stored scene took longer than storing the
-//! scene takes (at [`BYTES_PER_SECOND`]). A first run that stores its results therefore takes at most about twice
-//! as long. Recomputing a scene in a later run takes no longer than storing the scene would have taken. The same
-//! rule applies to large output files, but the time for loading the scene is added to the computing time. Equal
-//! arrays are stored once. A step that changes one attribute therefore adds only that attribute.
+//! **What is stored.** The record of each completed step is stored, unless the state of an input file is unknown.
+//! Scenes in which a mesh has removed elements are not stored, because they cannot be restored exactly. Other scenes,
+//! and output files, of fewer than [`ALWAYS_STORED`] bytes are always stored. A larger scene is stored if the
+//! computation since the last stored scene took at least as long as storing the scene takes (at [`BYTES_PER_SECOND`]).
+//! A first run that stores its results therefore takes at most about twice as long. Recomputing a scene in a later run
+//! takes no longer than storing the scene would have taken. Larger output files are stored if running the step and
+//! loading its scene takes at least as long as storing the files. Equal long arrays are stored once. A step that
+//! changes one attribute of a large mesh therefore adds only that attribute.
 //!
 //! **Size.** At the end of a run that has stored something, the numbers of bytes that all runs have added are summed.
-//! If the sum exceeds the limit, all files are listed, and the least recently used files are removed until the
-//! remaining files take at most nine tenths of the limit.
+//! If the sum exceeds the limit, all files are listed. If these files exceed the limit too, the least recently used
+//! ones are removed until the remaining files take at most nine tenths of the limit.
 
 mod blob;
 mod evict;
@@ -51,7 +53,7 @@ use folder::Folder;
 use recipe::{CachedRun, StepCache};
 use session::Session;
 
-/// Scenes and files with fewer bytes than this are always stored.
+/// Scenes and output files with fewer bytes than this are stored even if they are faster to compute than to store.
 pub const ALWAYS_STORED: u64 = 1 << 20;
 /// The estimated rate, in bytes per second, at which results are hashed and written.
 pub const BYTES_PER_SECOND: f64 = 1e9;
@@ -82,7 +84,7 @@ pub struct Caching<'a> {
 /// The size of a cache.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CacheSize {
-    /// The size of all files in bytes.
+    /// The total size of the stored steps, blobs and recipes, in bytes.
     pub bytes: u64,
     /// The number of stored steps.
     pub steps: u64,
@@ -122,7 +124,7 @@ impl Cache {
         self.folder.problem()
     }
 
-    /// Returns the size of all files. A missing folder counts as empty.
+    /// Returns the size of the cache. A missing folder counts as empty.
     ///
     /// # Errors
     ///

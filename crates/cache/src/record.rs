@@ -17,7 +17,7 @@ use crate::key::Key;
 const MAGIC: &[u8] = b"meshwright cache\n";
 /// The maximum size of a file with records or with a history, in bytes.
 const MAX_BYTES: u64 = 1 << 26;
-/// The maximum number of records for one key. Records for the same key differ in the contents of the input files.
+/// The maximum number of records for one key. Records for the same key differ in their input files or their outputs.
 const MAX_RECORDS: usize = 4;
 
 /// The record of a step.

@@ -202,7 +202,7 @@ fn assert_same(a: &Outcome, b: &Outcome) {
     }
 }
 
-/// Returns a recipe of ten steps. Step i lifts the sheet by `change(i)`.
+/// Returns a recipe of ten steps. Step 1 makes a sheet, and each later step i lifts it by `change(i)`.
 fn ten(change: impl Fn(usize) -> f64) -> String {
     let lift = |i| format!("(id: \"lift{i}\", run: Lift(by: {:?}))", change(i));
     let lifts: Vec<String> = (2..=10).map(lift).collect();
@@ -351,7 +351,7 @@ fn a_step_that_does_not_report_what_it_reads_runs_every_time() {
     );
     place.write("n.txt", "4");
     assert_eq!(place.numbers(&text), [1, 2, 3]);
-    // The old and the new content of `n.txt` give the same scene, and later steps depend only on the scene.
+    // The contents `3` and ` 3` give the same scene, and later steps depend only on the scene.
     place.write("n.txt", " 3");
     assert_eq!(place.numbers(&text), [1]);
 }

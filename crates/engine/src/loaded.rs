@@ -19,7 +19,7 @@ pub struct Loaded {
     pub budget: u64,
     /// The forecast of the scene after each step.
     pub forecast: Forecast,
-    /// Whether every step and expectation could be read.
+    /// Whether reading found no errors. Checking can still have found errors.
     pub is_read: bool,
     /// All errors and warnings from reading and checking, in the order of the text.
     pub diagnostics: Vec<Diagnostic>,
@@ -70,7 +70,8 @@ impl Loaded {
         recipe::run_from(&self.recipe, first, scene, settings, listener)
     }
 
-    /// Runs the steps before the step with this index and returns the scene. `None` if one of these steps fails.
+    /// Runs the steps before the step with this index and returns the scene. `None` if one of these steps fails or the
+    /// run is canceled.
     pub fn scene_before(&mut self, step: usize, listener: &dyn Listener) -> Option<Scene> {
         let later = self.recipe.steps.split_off(step);
         let expectations = std::mem::take(&mut self.recipe.expectations);

@@ -24,13 +24,14 @@ pub struct UnknownStep {
     pub path: String,
     /// The given id.
     pub id: String,
-    /// A suggestion of the most similar ids.
+    /// The most similar ids, or the known ids if none is similar.
     pub help: String,
 }
 
 impl Loaded {
     /// Removes the steps after the stop, and all expectations. Returns the label of the step that [`Stop::before`]
-    /// names. The label seeds the random choices of that step. If [`Stop::before`] is `None`, returns an empty string.
+    /// names, or of the first step of the named call. The label seeds the random choices of that step. If
+    /// [`Stop::before`] is `None`, returns an empty string.
     ///
     /// # Errors
     ///

@@ -85,7 +85,7 @@ impl Value {
         self.locate(seed.deserialize(self))
     }
 
-    /// Returns the part in parentheses after the name of a struct, or the value itself if it has no name.
+    /// Returns the part in parentheses of `name(..)`. Returns any other value unchanged.
     fn without_name(&self, name: &str) -> &Self {
         match &self.kind {
             ValueKind::Call(call) if &*call.name.text == name => &call.body,

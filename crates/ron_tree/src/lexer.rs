@@ -58,7 +58,7 @@ pub enum TokenKind {
     UnclosedString,
     /// A block comment without `*/`. The token extends to the end of the text.
     UnclosedComment,
-    /// Characters that are not valid in RON.
+    /// Characters that start no other token.
     Unknown,
 }
 

@@ -1,7 +1,7 @@
 //! Reads the values of literals: numbers, strings, characters, names.
 //!
-//! The rules are the same as in `ron`, except that numbers cannot have a type suffix (`1u32`) and byte strings are not
-//! supported.
+//! The rules are the same as in `ron`, except that numbers cannot have a type suffix (`1u32`), a line feed in single
+//! quotes must be written as `'\n'`, and byte strings are not supported.
 
 use std::str::FromStr;
 
@@ -55,7 +55,7 @@ impl Number {
         }
     }
 
-    /// Whether the number is written without a decimal point and without an exponent.
+    /// Whether the number is an [`Int`](Self::Int).
     pub fn is_int(&self) -> bool {
         matches!(self, Self::Int(_))
     }
@@ -148,7 +148,7 @@ pub(super) fn unescape_char(literal: &str) -> Result<char, BadLiteral> {
     unescape(literal)
 }
 
-/// Reads a literal with escapes as `ron` does. The error has the span of the invalid escape.
+/// Reads a literal with escapes as `ron` does. The error of an invalid escape has the span of that escape.
 fn unescape<T: DeserializeOwned>(literal: &str) -> Result<T, BadLiteral> {
     ron::from_str(literal).map_err(|error| {
         if error.code == ron::Error::ExpectedChar {

@@ -1,8 +1,8 @@
 //! Parses a source text into a tree of values. A source text with errors also becomes a tree.
 //!
-//! Each error gives one diagnostic, and parsing continues after it. To recover from a bracket error, the parser assumes
-//! that only one bracket is missing or mistyped, that line breaks and indentation are right, and that each item of a
-//! list starts on its own line. The module [`recovery`](super::recovery) implements the recovery.
+//! A mistake usually gives one diagnostic, and parsing continues after it. To recover from a bracket error, the parser
+//! assumes that only one bracket is missing or mistyped, that line breaks and indentation are right, and that each item
+//! of a list starts on its own line. The module [`recovery`](super::recovery) implements the recovery.
 
 use super::lexer::{Bracket, Lexer, Token, TokenKind};
 use super::literal::{self, BadLiteral, Number};
@@ -19,7 +19,7 @@ pub const MAX_DEPTH: usize = 128;
 /// The maximum number of values in a source text. Each value takes about a hundred bytes of memory.
 pub const MAX_VALUES: usize = 4 << 20;
 
-/// The maximum number of errors that are reported.
+/// The maximum number of errors that are reported. If there are more, one more diagnostic says so, and parsing stops.
 const MAX_DIAGNOSTICS: usize = 100;
 
 /// A parsed text.
@@ -70,7 +70,7 @@ pub(super) struct Lexeme {
     pub(super) line: usize,
     /// Whether the token is the first of its line.
     pub(super) starts_line: bool,
-    /// Whether invalid characters before the token were reported and skipped.
+    /// Whether invalid characters or an unclosed comment before the token were reported and skipped.
     after_invalid: bool,
 }
 

@@ -40,7 +40,8 @@ pub trait Store: Debug + Send + Sync {
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if the file does not exist, is not a regular file, or does not fit in memory.
+    /// [`StoreError`] if the file is not a regular file or cannot be read, for example because it does not exist or
+    /// does not fit in memory.
     fn read_up_to(&self, path: &Path, limit: u64) -> Result<Vec<u8>, StoreError>;
 
     /// Reads at most `limit` bytes from the beginning of a file, which can also be a pipe or a device.

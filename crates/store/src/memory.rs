@@ -16,13 +16,13 @@ pub struct Memory(Mutex<Content>);
 #[derive(Debug, Default)]
 struct Content {
     entries: BTreeMap<PathBuf, (Entry, Arc<[u8]>)>,
-    /// The number of files and folders written so far.
+    /// A counter that increases with each file or folder that is written.
     n_written: u64,
 }
 
 impl Memory {
     fn content(&self) -> MutexGuard<'_, Content> {
-        // Each change is a single insertion or removal, so the map is consistent even after a panic.
+        // Every entry is valid by itself, so the map can be used even after a panic.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

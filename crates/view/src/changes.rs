@@ -8,7 +8,7 @@ use mesh::{FaceId, Mesh};
 use crate::error_locations::bits;
 
 /// Returns one flag for each face of `mesh`. The flag is set if `other` has no face with the same corner positions in
-/// the same order. If `other` is `None`, no flag is set.
+/// the same cyclic order. If `other` is `None`, no flag is set.
 pub fn changed_faces(mesh: &Mesh, other: Option<&Mesh>) -> Vec<bool> {
     let mut changed = vec![false; mesh.domain_len(mesh::Domain::Face)];
     if let Some(other) = other {

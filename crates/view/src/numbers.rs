@@ -80,7 +80,7 @@ pub(crate) struct ColorScale {
     map: ColorMap,
     /// The numbers that the first and the last color represent.
     pub(crate) range: [f64; 2],
-    /// The distinct numbers of the scene; only for [`ColorMap::Classes`].
+    /// The distinct numbers of the scene, rounded down; only for [`ColorMap::Classes`].
     classes: Vec<f64>,
     /// Whether pictures have a legend.
     legend: bool,

@@ -21,7 +21,7 @@ use render::{Image, PictureError, checked_size};
 pub struct Cell<'a> {
     /// The image.
     pub image: &'a Image,
-    /// The lines of text below the image. The list can be empty.
+    /// The text below the image, which can be empty or have several lines.
     pub caption: &'a str,
 }
 

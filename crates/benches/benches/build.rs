@@ -8,7 +8,7 @@
 //! - `build`: from offsets and corners.
 //! - `from_polygons`: from one list of corners for each triangle, which is first copied into offsets and
 //!   corners.
-//! - `shuffled`: the same triangles and vertices in random order, the worst order that a file can have.
+//! - `shuffled`: the same triangles and vertices in random order, so that neighbors are far apart in memory.
 //! - `half reversed`: every second triangle has the opposite orientation. The library builds the mesh, searches for the
 //!   triangles to reverse, reverses them, and builds the mesh again.
 

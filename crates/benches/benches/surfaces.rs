@@ -1,4 +1,5 @@
-//! Measures algorithms on surfaces: simplification, remeshing, smoothing, nearest points, geodesic distances and unwrapping.
+//! Measures algorithms on surfaces: simplification, remeshing, smoothing, nearest points, geodesic distances and
+//! unwrapping.
 
 use std::time::Duration;
 
@@ -11,7 +12,7 @@ use geometry::{geodesic_distances, remesh, shapes, simplify, smooth, uv};
 use mesh::{DVec3, Mesh, UV};
 use progress::NoProgress;
 
-/// A torus of 40,000 triangles with smooth bumps.
+/// A torus of 20,000 triangles with smooth bumps.
 fn bumpy() -> Mesh {
     let mut mesh = shapes::fans(&shapes::torus(200, 50, 2.0, 1.0));
     for p in mesh.positions_mut() {
@@ -41,7 +42,7 @@ fn group<'c>(c: &'c mut Criterion, name: &str, mesh: &Mesh) -> BenchmarkGroup<'c
 
 fn surfaces(c: &mut Criterion) {
     let mesh = bumpy();
-    let mut group = group(c, "surface of 40,000 triangles", &mesh);
+    let mut group = group(c, "surface of 20,000 triangles", &mesh);
     let tenth = simplify::Options {
         faces: mesh.n_faces() / 10,
         ..simplify::Options::default()
@@ -99,13 +100,13 @@ fn surfaces(c: &mut Criterion) {
     let index = SurfaceIndex::new(&mesh).expect("the torus has faces");
     let points: Vec<DVec3> = mesh.positions().iter().map(|p| 1.01 * p).collect();
     let run = || index.nearest_to_points(&points, &NoProgress);
-    group.bench_function("nearest points of 20,000 points", |b| b.iter(run));
+    group.bench_function("nearest points of 10,000 points", |b| b.iter(run));
     group.finish();
 }
 
 fn textures(c: &mut Criterion) {
     let mesh = shapes::fans(&shapes::torus(50, 20, 2.0, 1.0));
-    let mut group = group(c, "surface of 4,000 triangles", &mesh);
+    let mut group = group(c, "surface of 2,000 triangles", &mesh);
     let options = uv::UnwrapOptions {
         seams: &[],
         max_angle: 70.0,

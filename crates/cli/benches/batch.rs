@@ -1,8 +1,8 @@
 //! Measures how well a batch of 200 small files uses the processors, and how much of the time is spent in runs.
 //!
 //! The input files are wavy grids of 1,600 quadrilaterals (about 100 kB of OBJ). The recipe triangulates each grid,
-//! subdivides it once and writes it as GLB. The batch runs five times with one thread, and five times with all threads
-//! of the machine. Prints medians:
+//! subdivides it once, computes normals and writes it as GLB. The batch runs five times with one thread, and five times
+//! with all threads of the machine. Prints medians:
 //!
 //! - the wall time of the whole program,
 //! - busy: user and system time, divided by wall time times threads,

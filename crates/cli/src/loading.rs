@@ -61,7 +61,8 @@ pub(crate) fn load_text(
 pub(crate) struct RecipeFile {
     /// The path of the recipe.
     pub(crate) path: PathBuf,
-    /// The path relative to the searched folder, without extension: the name of the recipe's output folder.
+    /// The name of the recipe's output folder: the path relative to the searched folder, or the name of a given file,
+    /// without extension.
     pub(crate) own_folder: PathBuf,
     /// Whether the recipe itself was given, and not a folder that contains it.
     pub(crate) is_named: bool,

@@ -40,7 +40,7 @@ impl PictureErrorsArgs {
 /// Maximum number of pictures of a run.
 const MAX_PICTURES: usize = 20;
 
-/// The maximum size of files that are compared as pictures, in bytes. No picture of a recipe is larger.
+/// The maximum size of an expected image that is drawn beside the actual one, in bytes.
 const MAX_FILE_SIZE: u64 = 64 << 20;
 
 /// Draws the failures of a run, if requested, and keeps the list of pictures.
@@ -138,8 +138,8 @@ impl Pictures {
         }
     }
 
-    /// Draws the expected image, the actual image and their difference side by side. Returns `None` if the files are
-    /// not PNG images.
+    /// Draws the expected image, the actual image and their difference side by side. Returns `None` if a file is not a
+    /// PNG image, or the expected one is missing or too large.
     fn of_difference(&self, found: &ActualValue) -> anyhow::Result<Option<Image>> {
         let ActualValue::File {
             golden,

@@ -15,7 +15,7 @@ use store::{Disk, Memory, Store as _};
 
 use crate::args::WrongUsage;
 
-/// The largest number of bytes that are read from standard input, whose size is not known in advance.
+/// The largest number of bytes of a mesh file that are read from standard input, whose size is not known in advance.
 const MAX_INPUT: u64 = 1 << 32;
 
 /// Whether a path stands for standard input or standard output. A file with this name is `./-`.

@@ -68,8 +68,9 @@ impl<B, S, W> Jobs<B, S, W> {
     /// Runs the jobs. `ended` is called on the calling thread with all jobs that ended since the last call, in the
     /// order in which they ended. Every job is passed to `ended` exactly once.
     ///
-    /// Jobs start in the order of their indices. A job starts when its bytes and the bytes of the running jobs together
-    /// are within the budget. A single job that exceeds the budget runs alone. A panic ends only the job that panicked.
+    /// Jobs start in the order of their indices. A job starts when fewer than the maximum number of jobs run, and its
+    /// bytes and the bytes of the running jobs together are within the budget. A job that exceeds the budget counts as
+    /// the whole budget. A panic ends only the job that panicked.
     ///
     /// This method blocks, so it must not be called from a thread of a rayon pool.
     ///

@@ -254,7 +254,7 @@ fn vector(parts: [f64; 3]) -> Result<Value, ParamError> {
     Ok(value(ValueKind::Tuple(parts)))
 }
 
-/// Returns a number with a decimal point that is read back as the same number.
+/// Returns a number with a decimal point or an exponent that is read back as the same number.
 fn float(x: f64) -> Result<Value, ParamError> {
     if !x.is_finite() {
         return Err(ParamError::new("a number", &format!("`{x:?}`")));

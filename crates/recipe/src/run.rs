@@ -4,8 +4,9 @@
 //! temporary folder, and the files are moved to the output folder only after all steps have run and all expectations
 //! hold.
 //!
-//! With a [cache](StepCache), a step runs only if the cache does not have its result. A scene is loaded from the cache
-//! only if a step must run on it or an expectation must be checked against it.
+//! With a [cache](StepCache), a step runs only if the cache does not have its result, or if a scene is needed that the
+//! cache does not have. A scene is needed if a step must run on it, an expectation must be checked against it, or the
+//! listener or the cache wants it.
 
 mod cache;
 mod listener;

@@ -5,8 +5,8 @@
 //! ```
 //!
 //! The digest of the recipe comes before the details of the run, so that formats that store only a short text keep it.
-//! The stamp contains no absolute paths. An input is given by its path relative to the recipe's folder, or only by its
-//! file name if its path is absolute.
+//! An input is given by its path relative to the recipe's folder, or only by its file name if its path is absolute and
+//! leads out of this folder.
 
 use std::fmt;
 use std::path::Path;
@@ -35,7 +35,7 @@ pub struct Run {
     /// The preset that was chosen.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub preset: Option<String>,
-    /// The parameters that were set, and their values as text. Paths are relative to the recipe's folder.
+    /// The parameters that were set, and their values as text. Relative paths are relative to the recipe's folder.
     #[serde(default, skip_serializing_if = "Pairs::is_empty")]
     pub set: Pairs,
     /// The files that were read, and their digests.

@@ -141,7 +141,8 @@ impl Shot<'_> {
     /// # Errors
     ///
     /// [`PictureError::Budget`] if the budget is too small, which is checked before anything is drawn;
-    /// [`PictureError::Camera`] if a camera is invalid; [`PictureError::Cancelled`] if the listener cancels the work.
+    /// [`PictureError::Camera`] if a camera is invalid; [`PictureError::Cancelled`] if the listener cancels the work;
+    /// [`PictureError::Size`] if the views side by side are too large for one image.
     pub fn draw(
         &self,
         subjects: &[Subject],

@@ -9,7 +9,8 @@ use scene::Scene;
 
 use crate::error_locations::bits;
 
-/// The number of directions that are tried.
+/// The number of directions on the whole sphere. Only those with an allowed elevation, on the outer side of the
+/// surface, are tried.
 const DIRECTIONS: u32 = 200;
 
 /// The sine of 75 degrees, which is the maximum elevation of the camera. If the camera looks straight down, the upward

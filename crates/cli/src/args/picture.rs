@@ -85,8 +85,8 @@ pub(crate) struct PictureArgs {
     /// Mesh, patch or curve files, or recipes (*.ron); patterns such as 'models/*.obj' are allowed
     #[arg(required = true, value_name = "FILES")]
     pub(crate) files: Vec<String>,
-    /// Image to write: .png, or .gif or .apng for a turntable; defaults to the name of the input file, in the working
-    /// directory
+    /// Image to write: .png, or .gif or .apng for a turntable; defaults to the name of the input file, or `sheet` with
+    /// --sheet, in the working directory
     #[arg(long, short, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
     #[command(flatten)]

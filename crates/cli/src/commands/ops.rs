@@ -11,7 +11,7 @@ use super::reference::reference;
 use crate::args::OpsArgs;
 use crate::output::print;
 
-/// Maximum length of lines.
+/// Maximum length of the lines in a list of variants.
 const WIDTH: usize = 100;
 
 pub(crate) fn run(args: &OpsArgs, registry: &Registry) -> anyhow::Result<bool> {

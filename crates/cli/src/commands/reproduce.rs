@@ -77,8 +77,8 @@ fn recipe_of(
     }
 }
 
-/// Lists the recipes below the working directory. Skips hidden files and folders, and the folders `target` and
-/// `node_modules`.
+/// Lists the recipes in the working directory and up to eight levels of folders below it. Skips hidden files and
+/// folders, and the folders `target` and `node_modules`.
 fn recipes_here() -> Vec<PathBuf> {
     const MAX_DEPTH: usize = 9;
     let is_searched = |entry: &DirEntry| {

@@ -139,7 +139,7 @@ fn corners(mesh: &Mesh, f: FaceId) -> impl Iterator<Item = usize> {
     mesh.face_vertices(f).map(VertexId::index)
 }
 
-/// Returns all selected elements as JSON, regardless of `--first`.
+/// Returns the selected elements as JSON: all of them, regardless of `--first`, or only their numbers with `--count`.
 fn json(args: &SelectArgs, elements: &Elements, selected: &[(&Object, &Mesh, Selected)]) -> Json {
     let objects = selected.iter().map(|(object, mesh, chosen)| {
         let mut json = json!({

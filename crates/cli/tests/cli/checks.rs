@@ -59,7 +59,7 @@ fn numbers_of_elements_that_do_not_exist() {
         &folder,
         &format!("{two}, (run: PokeFaces(faces: Faces([6])), on: [\"t\"])"),
     );
-    // After a step whose effect is unknown, the planned counts are upper limits.
+    // Elements that an earlier step creates are counted.
     accepts(
         &folder,
         "Cube(), PokeFaces(), PokeFaces(faces: Faces([23]))",

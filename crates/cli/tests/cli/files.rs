@@ -149,8 +149,7 @@ fn policies_for_unclean_input_are_applied_and_listed() {
     );
 }
 
-/// Two triangles with a common edge and opposite orientations, three triangles at one edge, and two that touch at a
-/// vertex.
+/// Four triangles, some of whose neighbors have opposite orientations, and a triangle that touches them at one vertex.
 const UNCLEAN: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 5 5 5\nv 6 5 5\n\
                        f 1 2 3\nf 2 3 4\nf 1 2 5\nf 3 1 5\nf 1 6 7\n";
 
@@ -219,7 +218,7 @@ fn strict_conversions_lose_nothing_in_both_directions() {
     folder.run("convert a.obj a.ply --strict").with_code(0);
 }
 
-/// A glTF file with a triangle and a skin. The skin is lost when placements are applied.
+/// A glTF file with a triangle and a skin. The skin is lost with `placements: Bake`.
 const SKINNED: &str = r#"{ "asset": { "version": "2.0" }, "skins": [{ "joints": [0] }],
     "nodes": [{ "mesh": 0 }], "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 } }] }],
     "accessors": [{ "componentType": 5126, "count": 3, "type": "VEC3", "bufferView": 0 }],

@@ -71,8 +71,8 @@ impl Attributes {
         }
     }
 
-    /// Reports errors in the selections of a step: each `Tagged(..)` whose tag no element can have, each `Where(..)`
-    /// whose attribute no element can have, and each `Where(..)` without a bound.
+    /// Reports errors in the selections of a step: each `Tagged(..)` and each `Where(..)` whose tag or attribute one of
+    /// the meshes certainly lacks, and each `Where(..)` without a bound.
     pub(super) fn needs(&self, step: &RecipeStep, plan: &Plan, found: &mut Vec<Diagnostic>) {
         // If the recipe expects a refusal, the missing tag may be the reason for the refusal.
         if plan.incomplete || step.refused.is_some() {

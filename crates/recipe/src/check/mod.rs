@@ -35,7 +35,7 @@ pub struct StepForecast {
     pub faces: Range,
     /// The memory that all meshes take, in bytes.
     pub bytes: Range,
-    /// The data of input files that the step certainly loses.
+    /// The data that the step certainly loses, apart from attributes of meshes.
     pub losses: Vec<Loss>,
     /// The number of files in [`Forecast::inputs`] that this step and earlier steps read.
     pub n_inputs: usize,

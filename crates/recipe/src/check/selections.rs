@@ -1,5 +1,5 @@
-//! Checks the numbers and names in selections: elements and materials that a mesh certainly does not have, and objects that
-//! do not exist.
+//! Checks the numbers and names in selections: elements and materials that a mesh certainly does not have, and objects
+//! that do not exist.
 //!
 //! Selections are recognized by their syntax, because they can be nested in any parameter.
 
@@ -11,7 +11,7 @@ use super::diagnostic;
 use crate::recipe::RecipeStep;
 use crate::shape::did_you_mean;
 
-/// An element or a material that a selection names.
+/// An element, a material or an object that a selection names.
 enum Named<'v> {
     Vertex(u32),
     Face(u32),
@@ -19,8 +19,8 @@ enum Named<'v> {
     Object(&'v str),
 }
 
-/// Reports each element and each material in the selections of a step that one of its meshes certainly does not have, and
-/// each object that does not exist.
+/// Reports each element and each material in the selections of a step that one of its meshes certainly does not have,
+/// and each object that does not exist.
 pub(super) fn missing_elements(step: &RecipeStep, plan: &Plan, found: &mut Vec<Diagnostic>) {
     // If the recipe expects a refusal, the missing element may be the reason for the refusal.
     if plan.incomplete || step.refused.is_some() {
@@ -75,7 +75,7 @@ impl Named<'_> {
     }
 }
 
-/// Collects the elements and the materials that the selections in a value name, with their spans.
+/// Collects the elements, materials and objects that the selections in a value name, with their spans.
 fn collect<'v>(value: &'v Value, named: &mut Vec<(Named<'v>, Span)>) {
     if let ValueKind::Call(call) = &value.kind {
         match &*call.name.text {

@@ -27,7 +27,7 @@ impl Expectation {
         self.check_as_is(subject)
     }
 
-    /// Whether the result depends on the placement of objects.
+    /// Whether the expectation is checked against the instances of objects in scene space.
     pub(crate) fn measures_space(&self) -> bool {
         matches!(
             self,

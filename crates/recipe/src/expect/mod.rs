@@ -220,8 +220,8 @@ pub enum Expectation {
         /// At most this value.
         max: Option<f64>,
     },
-    /// The number of faces that intersect another face of the same object. Neighbors intersect only if they have more points
-    /// in common than their common vertices and edges.
+    /// The number of faces that intersect another face of the same object. Neighbors intersect only if they have more
+    /// points in common than their common vertices and edges.
     SelfIntersections {
         /// Exactly this number.
         eq: Option<u64>,

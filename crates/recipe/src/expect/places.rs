@@ -11,7 +11,8 @@ use super::{Expectation, symmetry};
 
 impl Expectation {
     /// Returns the locations in the scene that violate the expectation, at most [`ErrorLocation::MAX_ELEMENTS`].
-    /// The result is empty for expectations that are not about elements, and for `Not`.
+    /// The result is empty for expectations that are not about elements, for `Not`, and for comparisons of meshes in a
+    /// scene with nodes.
     pub fn places(&self, subject: Subject) -> Vec<ErrorLocation> {
         let mut places = Vec::new();
         let compares = matches!(

@@ -76,7 +76,6 @@ fn check(scene: &Scene, text: &str) -> Result<(), String> {
     check_on(scene, None, text)
 }
 
-/// Asserts that the expectation `holds` holds, and that `fails` fails with the message.
 #[test]
 fn measures_in_space_see_every_instance_and_counts_see_each_object_once() {
     let mut scene = Scene::new();
@@ -130,6 +129,7 @@ fn measures_in_space_see_every_instance_and_counts_see_each_object_once() {
     assert_eq!(check_on(&scene, Some(&["flat".to_owned()]), at), Ok(()));
 }
 
+/// Asserts that the expectation `holds` holds, and that `fails` fails with the message.
 #[track_caller]
 fn holds_and_fails(scene: &Scene, holds: &str, fails: &str, message: &str) {
     assert_eq!(check(scene, holds), Ok(()), "{holds}");

@@ -224,8 +224,8 @@ impl Reader<'_, '_> {
         drafts
     }
 
-    /// Returns the index of the text of a called recipe. If the text cannot be read, or the recipe calls itself,
-    /// reports an error and returns `None`.
+    /// Returns the index of the text of a called recipe. If the text cannot be read, the recipe calls itself, or calls
+    /// are nested too deeply, reports an error and returns `None`.
     fn open_called(&mut self, path: &Path, span: Span) -> Option<usize> {
         let mut chain = vec![self.scope];
         while let Some((caller, _)) = self.shared.scopes[*chain.last()?].called {
@@ -267,8 +267,8 @@ impl Reader<'_, '_> {
     }
 }
 
-/// Returns a suggestion of similar file names in the folder of a missing recipe. The result is empty if no file name
-/// is similar.
+/// Returns a suggestion of recipes in the folder of a missing recipe: those with similar file names, or all if no name
+/// is similar. The result is empty if the folder contains no recipes, or if the recipe exists but cannot be read.
 fn similar_files(store: &dyn Store, path: &Path) -> String {
     let folder = path.parent().filter(|_| !store.exists(path));
     let siblings = folder.and_then(|folder| store.list(folder).ok());

@@ -165,8 +165,11 @@ pub enum RerunReason {
     /// The result in the cache is damaged, for this reason.
     #[error("its result in the cache is damaged: {0}")]
     Damaged(String),
-    /// The result was not stored, because computing it took less time than storing it would have taken.
-    #[error("its result was not stored: it is faster to compute than to store")]
+    /// The result was not stored, because computing it took less time than storing it would have taken, or because a
+    /// mesh has removed elements.
+    #[error(
+        "its result was not stored: it is faster to compute than to store, or has removed elements"
+    )]
     NotKept,
     /// The input files of the step could not be determined: a path and the reason.
     #[error("its input files are unknown: {}: {}", .0.display(), .1)]

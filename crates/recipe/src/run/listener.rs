@@ -41,7 +41,7 @@ pub trait Listener: Progress {
 pub struct Failure<'a> {
     /// The error to report.
     pub diagnostic: &'a Diagnostic,
-    /// The current scene. For a failed step, this is the scene before the step.
+    /// The current scene. For a step whose operation failed, this is the scene before the step.
     pub scene: &'a Scene,
     /// The locations in the scene that the failure refers to, if any are known.
     pub places: &'a [ErrorLocation],

@@ -56,8 +56,9 @@ pub(crate) fn checked(value: &Value, schema: &Json) -> Checked {
 ///
 /// # Errors
 ///
-/// All errors of the value against the schema. The list is empty if a part of the value could not be read, because
-/// the parser has already reported the reason.
+/// All errors of the value against the schema or, if there are none, the error of deserialization. The list is empty if
+/// a part of the value could not be read and there are no other errors, because the parser has already reported the
+/// reason.
 pub(crate) fn typed<T: DeserializeOwned>(
     value: &Value,
     schema: &Json,
@@ -380,7 +381,8 @@ fn opening(value: &Value) -> Span {
     }
 }
 
-/// Returns a number with its noun, such as "1 value" or "2 values". The plural of the noun must end in s.
+/// Returns a number with its noun, such as "1 value" or "2 values". The plural of the noun must be the noun with an
+/// added s.
 pub fn counted(count: usize, thing: &str) -> String {
     format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
 }

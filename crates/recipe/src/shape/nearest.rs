@@ -58,7 +58,8 @@ fn min_distance(a: &str, b: &str) -> usize {
     }
 }
 
-/// Returns a help text for an unknown name: the most similar known names, or all known names if none is similar.
+/// Returns a help text for an unknown name: the most similar known names, or the first 40 known names if none is
+/// similar.
 ///
 /// ```
 /// let known = ["segments", "levels"];

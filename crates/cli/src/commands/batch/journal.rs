@@ -1,7 +1,7 @@
 //! The journal of a batch: records finished files, so that an interrupted batch can be resumed.
 //!
-//! Each line is one JSON object. A line is written in one piece and synced to disk before the next one. An incomplete
-//! last line is ignored and overwritten.
+//! Each line is one JSON object. Lines that are appended together are written in one piece and synced to disk before
+//! the next ones. An incomplete last line is ignored and overwritten.
 //!
 //! ```text
 //! {"meshwright": "0.1.0", "process": 4711}       a process started on the batch
@@ -67,7 +67,7 @@ impl Journal {
         let (file, bytes) =
             opened.with_context(|| format!("cannot open the journal {}", path.display()))?;
         let (mut known, mut processes) = (HashMap::new(), Vec::new());
-        // Lines written by a different version cannot be parsed, so the files of these lines are processed again.
+        // Lines of a different version that cannot be parsed are ignored, so their files are processed again.
         for line in bytes.split(|&b| b == b'\n') {
             if let Ok(entry) = serde_json::from_slice::<Entry>(line) {
                 known.insert(entry.row.input.clone(), entry);

@@ -17,7 +17,7 @@ use crate::many::{JobResult, error_message, first_error, run_all};
 /// The cells of a sweep, and how they are run.
 pub(super) struct Cells<'a> {
     pub(super) args: &'a SweepArgs,
-    /// The cache, so that steps with equal inputs run only once for all cells.
+    /// The cache, so that a cell can use the results of equal steps of earlier cells.
     pub(super) cache: Option<&'a Cache>,
     pub(super) engine: &'a Engine<'a>,
     /// The text of the recipe.
@@ -111,7 +111,7 @@ impl Cells<'_> {
         Ok(loaded)
     }
 
-    /// Runs a cell. The errors are the same as for [`outcome`](Self::outcome).
+    /// Runs a cell. The error is the first problem of the cell, or `None` if Ctrl-C cancels the run.
     pub(super) fn run(&self, task: &Task) -> JobResult<CellResult> {
         let loaded = task.0.as_ref().map_err(|error| Some(error.clone()))?;
         if loaded.has_errors() {

@@ -42,7 +42,8 @@ pub(super) struct Sheet<'a> {
     picture: Picture,
     files: Files,
     layout: Layout,
-    /// The bytes of the scenes that are kept until all cells have run.
+    /// The sum of the peak memory of the runs whose scenes are kept until all cells have run, in bytes. It is an upper
+    /// limit for the memory of these scenes.
     kept: AtomicU64,
 }
 

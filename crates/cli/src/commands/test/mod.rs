@@ -177,7 +177,7 @@ struct Test<'a> {
     found: &'a RecipeFile,
     /// The loaded recipe, or an error if it cannot be read.
     loaded: Result<Loaded, String>,
-    /// Whether other tested recipes call this recipe. The tests of these recipes then also test this recipe.
+    /// Whether another recipe that was found calls this recipe, so that this recipe is not run by itself.
     is_called: bool,
 }
 
@@ -225,7 +225,7 @@ impl<'a> Test<'a> {
             return TestResult::failed(&loaded.diagnostics, None);
         }
         let pictures = if args.update {
-            // Failures that the update fixes are not drawn.
+            // Nothing is drawn, because the update may fix the failures.
             Pictures::default()
         } else {
             let name = &self.found.own_folder;

@@ -9,7 +9,8 @@
 //!                  "refused":[{"reason":"Boundary", "count":2, "first":".."}],
 //!                  "losses":[{"object":"cow", "name":"uv", "message":".."}],
 //!                  "changes":[{"code":"faces-reversed", "count":2, "text":"..", "faces":[3, 7]}], "notes":[".."],
-//!                  "digest":"..", "milliseconds":1.5, "cached":false, "ran_because":"parameters changed: levels 1 -> 2"}
+//!                  "digest":"..", "milliseconds":1.5, "cached":false,
+//!                  "ran_because":"parameters changed: levels 1 -> 2"}
 //! {"event":"problem", "severity":"error", "file":"a.ron", "line":7, "column":9, "message":"..", "help":".."}
 //! {"event":"picture", "path":"a-error-1.png"}                             picture of a problem, with --picture-errors
 //! {"event":"wrote", "path":"out/a.obj"}

@@ -88,8 +88,8 @@ impl Camera {
 
     /// Returns the few points that determine the view in a picture of this size.
     ///
-    /// The [`View`] of several scenes can be computed from the extreme points of each scene. If the view does not
-    /// depend on the points, returns no points.
+    /// The [`View`] of several scenes can be computed from the extreme points of each scene. For [`Self::LookAt`],
+    /// returns no points.
     ///
     /// # Errors
     ///
@@ -202,7 +202,8 @@ impl Default for Projection {
     }
 }
 
-/// The default field of view, in degrees. A portrait lens of 80 mm on 35 mm film has nearly the same field of view.
+/// The default field of view, in degrees. A lens of 80 mm has nearly the same vertical field of view on upright 35 mm
+/// film.
 const DEFAULT_ANGLE: f64 = 25.0;
 /// The field of view, in degrees, that determines the scale of an orthographic `LookAt`.
 const ORTHOGRAPHIC_ANGLE: f64 = 30.0;

@@ -11,8 +11,8 @@ use serde::{Deserialize, Serialize};
 #[serde(try_from = "String", into = "String")]
 pub struct Color(pub [u8; 4]);
 
-/// The named colors. Most color-blind people can distinguish the saturated ones: Okabe and Ito, "Color Universal
-/// Design", 2008.
+/// The named colors. Most color-blind people can distinguish those from `orange` to `pink`: Okabe and Ito, "Color
+/// Universal Design", 2008.
 pub const NAMES: [(&str, [u8; 3]); 11] = [
     ("black", [0, 0, 0]),
     ("white", [255, 255, 255]),

@@ -48,7 +48,7 @@ impl Image {
     /// # Errors
     ///
     /// [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`]; [`PictureError::Decode`] if the file is
-    /// not a PNG or JPEG file, or is broken.
+    /// not a PNG or JPEG file, or cannot be decoded.
     pub fn decode(bytes: &[u8]) -> Result<Self, PictureError> {
         if bytes.starts_with(b"\xff\xd8") {
             Self::from_jpeg(bytes)

@@ -70,16 +70,15 @@ pub use raster::{Look, PlacedLabel, Rendered, bytes_needed, render};
 pub use style::{Background, Ids, Lines, Shading, Style};
 pub use texture::{Alpha, Texture};
 
-/// Renders a picture of a scene. Returns the picture, and a message for each image of a material that is missing or
-/// unusable.
+/// Renders a picture of a scene. Returns the picture, and a message for each texture that cannot be drawn.
 ///
-/// `size` is the width and height in pixels. Rendering uses at most `budget` bytes of memory in addition to the scene.
-/// `images` returns the bytes of an image file for its path in a material.
+/// `size` is the width and height in pixels. Rendering uses at most about `budget` bytes of memory in addition to the
+/// scene and its drawing. `images` returns the bytes of an image file for its path in a material.
 ///
 /// # Errors
 ///
-/// [`PictureError::Budget`] if the budget is too small, which is checked before anything large is allocated; and the
-/// errors of [`build()`], [`View::new`] and [`render`].
+/// [`PictureError::Budget`] if the budget is too small, which is checked after the scene is converted and before the
+/// pixels are allocated; and the errors of [`build()`], [`View::new`] and [`render`].
 pub fn picture(
     scene: &scene::Scene,
     camera: &Camera,

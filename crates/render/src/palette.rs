@@ -6,9 +6,9 @@ use crate::Image;
 
 /// A palette of at most 256 colors for several images.
 ///
-/// If the images have at most 256 colors, the palette has exactly these colors. Otherwise, the colors are quantized
-/// (Dekker, "Kohonen neural networks for optimal colour quantization", 1994), and only the most frequent color is
-/// exact.
+/// If the images have at most 256 colors, where all transparent pixels count as one color, the palette has exactly
+/// these colors. Otherwise, the colors are quantized (Dekker, "Kohonen neural networks for optimal colour
+/// quantization", 1994), and only the color that is most frequent in a sample of the pixels is always exact.
 #[derive(Clone, Debug)]
 pub struct Palette {
     colors: Vec<[u8; 3]>,

@@ -1,7 +1,7 @@
 //! Textures with mipmaps.
 //!
-//! Where colors are averaged, transparent pixels have less weight, so that the color of invisible pixels does not bleed
-//! into visible ones.
+//! Where colors are averaged, transparent pixels have less weight, so that the color of invisible pixels hardly bleeds
+//! into visible ones. If alpha is ignored, all pixels have the same weight.
 
 use glam::DVec2;
 use scene::{Filter, Sampler, TextureTransform, Wrap};
@@ -13,7 +13,7 @@ use crate::color::{byte, mix, narrow, to_linear, to_srgb, whole};
 #[derive(Clone, Debug)]
 pub struct Texture {
     /// The levels of the mipmap. The first level is the image. Each further level has half the width and half the
-    /// height of the previous level.
+    /// height of the previous level, rounded up.
     levels: Vec<Level>,
     sampler: Sampler,
     transform: TextureTransform,
@@ -130,8 +130,9 @@ impl Texture {
     /// Returns the coverage of the surface, from 0 to 1, at texture coordinates with v upwards. `steps` are the
     /// differences of the texture coordinates between this sample and the next samples, to the right and downwards.
     ///
-    /// With [`Alpha::Cut`], the alpha of each pixel is compared with the cutoff first, and the results are averaged.
-    /// Therefore fine structures such as leaves keep their density when they are seen from far away.
+    /// With [`Alpha::Cut`], the interpolated alpha of the first level is compared with the cutoff. In the other levels,
+    /// the alpha of each pixel of the image was compared first, and the results are averaged. Therefore fine structures
+    /// such as leaves keep their density when they are seen from far away.
     pub(crate) fn coverage(&self, uv: DVec2, steps: [DVec2; 2]) -> f32 {
         let footprint = self.footprint(uv, steps);
         let [coverage] = footprint.interpolate(|level| {
@@ -213,9 +214,9 @@ fn unit(byte: u8) -> f32 {
 }
 
 impl Level {
-    /// Returns a level with half the width and half the height of this level. Each new pixel is the weighted mean of
-    /// four pixels of this level. `weight` converts the alpha of a pixel to its weight. Returns `None` if this level is
-    /// a single pixel.
+    /// Returns a level with half the width and half the height of this level, rounded up. Each new pixel is the
+    /// weighted mean of four pixels of this level. `weight` converts the alpha of a pixel to its weight. Returns `None`
+    /// if this level is a single pixel.
     fn half(&self, weight: impl Fn(u8) -> f32) -> Option<Self> {
         if self.width * self.height == 1 {
             return None;

@@ -22,7 +22,8 @@ pub(crate) struct DrawArgs {
     /// Use a camera without perspective
     #[arg(long)]
     pub(crate) orthographic: bool,
-    /// Point the z axis upwards; defaults to the y axis, unless the model stands on the plane z = 0
+    /// Point the z axis upwards; defaults to the y axis, unless the model stands on the plane z = 0 and not on the
+    /// plane y = 0
     #[arg(long)]
     pub(crate) z_up: bool,
     /// Shading: Flat, Smooth, Phong, Matcap or Plain

@@ -92,7 +92,7 @@ impl Metric {
     ///
     /// # Errors
     ///
-    /// A message in one line, if an object, a file or a face is missing.
+    /// A message in one line, if the metric cannot be measured, for example because an object or a file is missing.
     pub fn measure(
         &self,
         outcome: &Outcome,

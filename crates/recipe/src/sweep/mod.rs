@@ -68,7 +68,7 @@ struct Entry {
 /// The cells of a sweep.
 #[derive(Clone, Debug, Default)]
 pub struct Grid {
-    /// The parameters that change, in the order of the text.
+    /// The parameters that change: those of `over`, then those of `zip`, each in the order of the text.
     pub parameters: Vec<String>,
     /// The axes: one for each parameter of `over`, and one for all parameters of `zip`. The last axis changes fastest.
     pub axes: Vec<Axis>,

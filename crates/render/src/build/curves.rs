@@ -94,8 +94,8 @@ impl Builder<'_, '_> {
         self.control_polygon(&control);
     }
 
-    /// Adds polylines. If the style has points, also adds dots at the points of the polylines. The levels of de
-    /// Casteljau's construction have the same colors as in figures of the construction.
+    /// Adds polylines. If the style has points, also adds dots at the points of the polylines. If the style sets no
+    /// color, the levels of de Casteljau's construction have the same colors as in figures of the construction.
     pub(super) fn polylines(&mut self, lines: &[Vec<DVec3>], color: Color) {
         let default = self.line_color(color);
         let are_levels = self.style.color.is_none() && are_levels(lines);

@@ -128,8 +128,8 @@ pub const PALETTE: [Color; 6] = [
 /// `images` returns the bytes of an image file for its path in a material. If `images` returns `None`, or the bytes are
 /// not a PNG or JPEG file, the surface is drawn without this texture, and a message gives the path and the reason.
 ///
-/// The drawing uses these properties of materials: base color and alpha with their texture, roughness, emission, and
-/// `unlit`.
+/// The drawing uses these properties of materials: base color and alpha with their texture, roughness, emission,
+/// `unlit`, and `double_sided`.
 ///
 /// # Errors
 ///

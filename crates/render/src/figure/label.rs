@@ -46,8 +46,8 @@ pub fn text_width(text: &Text) -> f64 {
     line(DVec2::ZERO, text).width.into()
 }
 
-/// The maximum number of characters of a string that are measured. The limit bounds the time for long strings. No image
-/// is wide enough for more characters.
+/// The maximum number of characters of a string that are measured. The limit bounds the time for long strings. Longer
+/// texts rarely fit into an image.
 const MAX_CHARACTERS: usize = 4096;
 
 /// Shortens a text so that it fits into `width` pixels.
@@ -83,7 +83,7 @@ pub fn shortened(text: &str, font: Font, size: f64, width: f64) -> String {
 }
 
 /// Wraps the parts of a text into lines of at most `width` pixels. The parts of a line are joined by `separator`. A
-/// part that is too wide is [shortened].
+/// part that is too wide is [shortened]. Parts after the first 4096 are left out.
 pub fn wrapped(parts: &[&str], separator: &str, font: Font, size: f64, width: f64) -> Vec<String> {
     let fits = |text: &str| text_width(&Text::new(font, text, size, [0, 0, 0, 255])) <= width;
     let mut lines: Vec<String> = Vec::new();

@@ -243,7 +243,7 @@ struct Tick {
     value: f64,
     /// The position on the axis, from 0 to 1.
     t: f64,
-    /// The number as text. All labels of an axis have the same number of decimals.
+    /// The number as text. All labels of an axis have the same number of decimals, unless they have exponents.
     label: String,
 }
 

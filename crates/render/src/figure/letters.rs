@@ -1,9 +1,9 @@
 //! Converts lines of text to outlines. Only the embedded fonts are used.
 //!
 //! If a font does not have a character, the first embedded font with this character is used, except in formulas. If no
-//! font has the character, the placeholder glyph of its font for missing characters is drawn. Letters are kerned, and
-//! accents are placed on their letters. Right-to-left text is not supported, because the fonts have no right-to-left
-//! letters.
+//! such font has the character, the glyph of its font for missing characters is drawn, which is blank in Inter. Letters
+//! are kerned, and accents are placed on their letters. Right-to-left text is not supported, because the fonts have no
+//! right-to-left letters.
 
 use std::sync::LazyLock;
 
@@ -190,7 +190,7 @@ impl Typeface {
     }
 
     /// Returns the glyph of a character in text of this font, and the embedded font that has this glyph. If no font has
-    /// the character, the glyph is 0.
+    /// the character, or the first font is a formula font without the character, the glyph is 0.
     fn find(font: Font, c: char) -> (&'static Self, GlyphId) {
         let (first, fallbacks) = match font {
             Font::Plain => (0, &FACES[..]),

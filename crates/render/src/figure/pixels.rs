@@ -41,8 +41,8 @@ pub fn pixel_size(svg: &Svg, scale: f64) -> Result<(u32, u32), PictureError> {
     Ok((width, height))
 }
 
-/// Returns the maximum number of bytes that [`pixels`] needs. Each pixel needs four bytes in the image, and four bytes
-/// in the layer into which the document is drawn first.
+/// Returns the maximum number of bytes that the pixels take in [`pixels`]. Each pixel needs four bytes in the image,
+/// and four bytes in the layer into which the document is drawn first.
 pub fn bytes_needed(width: u32, height: u32) -> u64 {
     u64::from(width) * u64::from(height) * 8
 }

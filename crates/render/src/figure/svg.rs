@@ -440,7 +440,8 @@ pub(crate) fn escaped(text: &str) -> String {
     text.replace('>', "&gt;")
 }
 
-/// Replaces a line end or a tab by a space, and a character that XML does not allow by U+FFFD.
+/// Replaces a line end or a tab by a space, and any other control character or a character that XML does not allow by
+/// U+FFFD.
 pub(super) fn printable(c: char) -> char {
     match c {
         '\t' | '\n' | '\r' => ' ',

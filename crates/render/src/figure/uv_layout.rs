@@ -22,7 +22,7 @@ use crate::ColorMap;
 pub enum UvFill {
     /// Nothing: charts are not filled.
     None,
-    /// One color for each chart. Neighboring charts usually have different colors.
+    /// One of eight colors for each chart. Neighboring charts usually have different colors.
     Charts,
     /// The stretch of angles: dark for none, bright for an aspect of [`MAX_ASPECT`] or more.
     Stretch,
@@ -35,16 +35,16 @@ const WHITE: Color = [255; 4];
 const FRAME: Color = [0x9c, 0xa3, 0xaf, 255];
 const EDGE: Color = [0x1f, 0x29, 0x37, 110];
 const BORDER: Color = [0x1f, 0x29, 0x37, 255];
-/// The distance between the frame and the border of the figure, in pixels.
+/// The smallest distance between the frame and the border of the figure, in pixels.
 const MARGIN: f64 = 8.0;
 /// The largest coordinate of a figure, in pixels.
 const FAR: f64 = 1e6;
 /// The number of colors of a stretch. Faces of the same color form one shape.
 const N_COLORS: usize = 16;
 
-/// Draws the charts of texture coordinates, `width` pixels wide. Coordinates outside the page are drawn too, so the figure
-/// can be higher than wide. If `edges` is false, only the borders of charts are drawn. Beside colors for the stretch
-/// there is a legend, if it takes at most a third of the width.
+/// Draws the charts of texture coordinates, `width` pixels wide. Coordinates outside the page are drawn too, so the
+/// figure can be higher than wide. If `edges` is false, only the borders of charts are drawn. Beside colors for the
+/// stretch there is a legend, if it takes at most a third of the width.
 pub fn uv_layout(
     mesh: &Mesh,
     uvs: &[DVec2],
@@ -69,7 +69,7 @@ pub fn uv_layout(
     let [legend_width, legend_height] =
         (legend.as_ref()).map_or([0.0; 2], |(size, _)| [size.x, size.y]);
     let scale = (width - legend_width - 2.0 * MARGIN).max(1.0) / (high.x - low.x);
-    // A figure is at most four times as high as wide.
+    // Without its margins, a figure is at most four times as high as wide.
     let scale = scale.min(4.0 * width / (high.y - low.y));
     let height = ((high.y - low.y) * scale + 2.0 * MARGIN).max(legend_height);
     let at = |p: DVec2| DVec2::new(p.x - low.x, high.y - p.y) * scale + MARGIN;

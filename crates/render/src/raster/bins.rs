@@ -1,4 +1,4 @@
-//! Sorts triangles and lines into the tiles of the picture that they touch.
+//! Sorts triangles and lines into the tiles of the picture that their bounding boxes touch.
 //!
 //! Triangles and lines (items) are divided into chunks. One task sorts a chunk into lists, one list for each tile, with
 //! a counting sort. A tile reads its lists chunk by chunk. The size of the lists is bounded, because items that touch
@@ -127,8 +127,8 @@ impl Bins {
         }
     }
 
-    /// Returns the items of a tile. Items that touch many tiles come first. Within both kinds, the items are in
-    /// ascending order.
+    /// Returns the items of a tile. Items that touch many tiles come first. Within both kinds, the items keep their
+    /// order.
     fn items_of(&self, tile: usize) -> impl Iterator<Item = u32> {
         let range = self.starts[tile] as usize..self.starts[tile + 1] as usize;
         self.large.iter().chain(&self.items[range]).copied()
@@ -207,8 +207,8 @@ impl Triangles {
         Ok(Self { points, chunks })
     }
 
-    /// Calls `each` with every triangle that touches a tile. The arguments are the index of the triangle, counted
-    /// through all parts, and the projected triangle.
+    /// Calls `each` with every triangle that touches a tile, and possibly with others. The arguments are the index of
+    /// the triangle, counted through all parts, and the projected triangle.
     pub(super) fn each_of_tile(
         &self,
         drawing: &Drawing,
@@ -231,7 +231,7 @@ impl Triangles {
     }
 }
 
-/// Returns the tiles that a triangle touches; `None` if it covers no sample of the picture.
+/// Returns the tiles that the bounding box of a triangle touches; `None` if the box contains no sample of the picture.
 fn tiles_of_triangle(projected: &ProjectedTriangle, frame: &Frame) -> Option<TileRect> {
     let range = |axis: usize, end: u32| {
         let [a, b, c] = projected.map(|corner| corner.at[axis]);
@@ -284,7 +284,8 @@ impl Lines {
         Ok(Self { projected, chunks })
     }
 
-    /// Returns the lines whose bounding boxes touch a tile, in ascending order, with their indices.
+    /// Returns the lines whose bounding boxes touch a tile, and possibly others, in ascending order, with their
+    /// indices.
     pub(super) fn of_tile(&self, tile: usize) -> impl Iterator<Item = (u32, &ProjectedLine)> {
         let mut lines: Vec<u32> = Vec::new();
         for (first, bins) in &self.chunks {

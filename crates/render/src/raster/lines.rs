@@ -40,14 +40,14 @@ pub(super) struct ProjectedLine {
     scaled: DVec2,
 }
 
-/// Projects all lines. The result is `None` for each line behind the camera.
+/// Projects all lines. The result is `None` for each line that is not drawn.
 pub(super) fn project(drawing: &Drawing, view: &View) -> Vec<Option<ProjectedLine>> {
     map_indices(drawing.lines.len(), |i| {
         project_line(&drawing.lines[i], view)
     })
 }
 
-/// Projects a line; `None` if it is behind the camera or has no width.
+/// Projects a line; `None` if it is behind the camera, has no width, or has an end that is not finite.
 fn project_line(line: &Line, view: &View) -> Option<ProjectedLine> {
     let [a, b] = line.ends.map(|p| view.camera_space(p));
     let [da, db] = [a, b].map(|v| view.clip_distance(0, 0.0, v));
@@ -159,7 +159,7 @@ pub(super) type Planes = Vec<Option<(u32, (u32, DVec3, DVec3))>>;
 
 impl ProjectedLine {
     /// Whether the point of the line at parameter `t` is in front of the triangle that is visible at a sample. One
-    /// argument is the depth of the triangle at the sample.
+    /// argument is the depth of the triangle at the sample. The faces beside the line never hide it.
     fn is_visible(
         &self,
         line: &Line,

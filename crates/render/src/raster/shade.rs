@@ -203,7 +203,7 @@ impl<'a> Shader<'a> {
     }
 
     /// Returns the point where the ray through a point of the picture meets a triangle. If the ray misses the triangle,
-    /// returns a point of the triangle near the ray.
+    /// returns a point of the triangle near the ray. If the triangle is seen edge-on, returns its middle.
     fn surface_point(&self, data: &TriangleData, at: DVec2) -> SurfacePoint {
         let (origin, direction) = self.view.ray(at);
         let weights = data.barycentric(origin, direction);

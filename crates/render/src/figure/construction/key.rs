@@ -48,7 +48,7 @@ pub(super) fn entries(panels: &[Panel], width: f64) -> Vec<Vec<Entry>> {
     lines.into_iter().map(|(line, _)| line).collect()
 }
 
-/// Returns the symbols that the panels contain, with the explanation of each symbol.
+/// Returns the symbols of the legend, with the explanation of each symbol.
 fn symbols(panels: &[Panel]) -> Vec<(Option<Paint>, Text)> {
     let plain = |text: &str| Text::new(Font::Plain, text, 13.0, TEXT);
     let line = |color, width| Some(Paint::stroke(color, width));

@@ -51,8 +51,8 @@ pub fn mean_curvatures(mesh: &Mesh) -> Vec<f64> {
 /// normal. The normal is the sum of the area vectors of the faces around the vertex. Each edge at the vertex adds half
 /// its signed dihedral angle times its length times u uᵀ to the tensor, where u is the unit vector along the edge. The
 /// sum is divided by the [vertex area](vertex_area): Cohen-Steiner, Morvan, "Restricted Delaunay Triangulations and
-/// Normal Cycle", 2003. Where the surface is nearly flat around the vertex, the mean of the principal curvatures is the
-/// mean curvature.
+/// Normal Cycle", 2003. Where the surface is nearly flat around the vertex, the mean of the principal curvatures is
+/// close to the mean curvature.
 pub fn principal_curvatures(mesh: &Mesh) -> Vec<[f64; 2]> {
     let none = [f64::NAN; 2];
     fill_vertices(mesh, none, |v| {

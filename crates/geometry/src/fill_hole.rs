@@ -31,12 +31,11 @@ const SHAPE_WEIGHT: f64 = 1e-6;
 ///    +-----+--h--+          +-----+-----+
 /// ```
 ///
-/// If the hole has at most 500 edges, the triangles have the smallest total area of all triangulations of the
-/// vertices around the hole. Source: Barequet and Sharir, "Filling gaps in the boundary of a polyhedron", 1995.
-/// The time is proportional to n³ for n edges. If several triangulations have the same area, as in a flat hole,
-/// the triangulation whose triangles are closest to equilateral is used. To find this triangulation, a shape
-/// term is added to the area of each triangle. The shape term is at most 1e-6 times the mean squared edge
-/// length of the hole.
+/// If the hole has at most 500 edges, the triangulation of the vertices around the hole with the smallest cost is used.
+/// The cost is the total area, plus a shape term for each triangle, which is at most 1e-6 times the mean squared edge
+/// length of the hole. So if several triangulations have the same area, as in a flat hole, the one whose triangles are
+/// closest to equilateral is used. Source: Barequet and Sharir, "Filling gaps in the boundary of a polyhedron", 1995.
+/// The time is proportional to n³ for n edges.
 ///
 /// In larger holes, the corner whose neighbors are nearest to each other is cut off repeatedly. This takes time
 /// proportional to n log n. Corners that are straight or reflex, as seen along the mean normal, are cut off
@@ -105,9 +104,9 @@ impl<'m> Hole<'m> {
         self.mesh.find_half_edge(v, w).is_some()
     }
 
-    /// Returns the cost of a triangle: its area plus a shape term that grows with the deviation from an
-    /// equilateral triangle. By Weitzenböck's inequality, 4 √3 times the area is at most the sum of the squared
-    /// sides.
+    /// Returns the cost of a triangle: its area plus a shape term that grows with the deviation from an equilateral
+    /// triangle. By Weitzenböck's inequality, 4 √3 times the area is at most the sum of the squared sides, so
+    /// `roundness` is at most 1.
     fn cost(&self, i: usize, m: usize, k: usize) -> f64 {
         let (a, b, c) = (self.points[i], self.points[m], self.points[k]);
         let (ab, bc, ca) = (b - a, c - b, a - c);
@@ -189,8 +188,8 @@ impl<'m> Hole<'m> {
         let mut is_cut = vec![false; n];
         while ears.len() < n - 3 {
             let Reverse((_, ear, p, q)) = queue.pop()?;
-            // An entry is out of date if a neighbor of its corner was cut off. An entry that is out of date is
-            // skipped, because the queue has a newer entry.
+            // An entry is out of date if its corner or a neighbor of the corner was cut off. Such an entry is skipped;
+            // the queue has a newer entry for each corner that remains.
             let is_outdated = is_cut[ear] || before[ear] != p || next[ear] != q;
             if is_outdated || self.is_joined(p, q) {
                 continue;

@@ -144,7 +144,8 @@ impl Laplacian {
     }
 }
 
-/// Returns the power of two just below the largest coordinate.
+/// Returns the exponent of the largest power of two that is not above the largest absolute coordinate; 0 if all
+/// coordinates are 0 or one is infinite.
 pub(crate) fn exponent(points: &[DVec3]) -> i32 {
     let largest = points.par_iter().map(|p| p.abs().max_element());
     match largest.reduce(|| 0.0, f64::max) {

@@ -17,8 +17,8 @@ pub(crate) enum Kind {
     Fixed,
 }
 
-/// Returns, for each edge, whether it is a part of a line: a boundary, a seam, a border between face tags or
-/// materials, an edge with a tag or a crease, or one of the `features`. The mesh must be dense.
+/// Returns, for each edge, whether it is a part of a line: a boundary, a seam, a border between face tags, materials or
+/// other whole numbers of faces, an edge with a tag or a crease, or one of the `features`. The mesh must be dense.
 pub(crate) fn lines(mesh: &Mesh, features: &[EdgeId]) -> Vec<bool> {
     let faces: Vec<&Column> = labels(mesh, Domain::Face).collect();
     let tags: Vec<&[bool]> = labels(mesh, Domain::Edge)
@@ -84,7 +84,8 @@ pub(crate) fn labels(mesh: &Mesh, domain: Domain) -> impl Iterator<Item = &Colum
     mesh.attributes().of(domain).iter().filter(is_label)
 }
 
-/// Returns the power of two that scales `length` to a number from 1 to 2. Returns 1 if `length` is 0 or not finite.
+/// Returns the power of two, from 2^-1000 to 2^1000, that scales `length` to a number from 1 to 2 or as close to it as
+/// possible. Returns 1 if `length` is 0 or not finite.
 pub(crate) fn inverse_power_of_two(length: f64) -> f64 {
     if length > 0.0 && length.is_finite() {
         let (_, exponent) = libm::frexp(length);

@@ -130,7 +130,7 @@ pub fn icosahedron() -> Mesh {
 ///
 /// # Panics
 ///
-/// Panics if there are more squares than ids.
+/// Panics if the mesh would need more ids than there are.
 pub fn grid(columns: u32, rows: u32) -> Mesh {
     let corner = DVec3::new(f64::from(columns), f64::from(rows), 0.0) / 2.0;
     let positions = (0..=rows)
@@ -150,7 +150,8 @@ pub fn grid(columns: u32, rows: u32) -> Mesh {
 ///
 /// # Panics
 ///
-/// Panics if `around` or `across` is below 3, `major + minor` is not finite, or there are more faces than ids.
+/// Panics if `around` or `across` is below 3, `major + minor` is not finite, or the mesh would need more ids than there
+/// are.
 pub fn torus(around: u32, across: u32, major: f64, minor: f64) -> Mesh {
     assert!(
         around >= 3 && across >= 3,

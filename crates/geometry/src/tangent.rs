@@ -7,9 +7,8 @@
 //!        n----> u  t                w: 1, or -1 if the texture is mirrored
 //! ```
 //!
-//! Source: Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008. All tools that bake or render normal
-//! maps use this algorithm, because a normal map gives correct shading only with the tangents for which it was
-//! made.
+//! Source: Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008. Most tools that bake or render normal maps use
+//! this algorithm, because a normal map gives correct shading only with the tangents for which it was made.
 
 use bevy_mikktspace::{Geometry, Ops, TangentSpace, generate_tangents};
 use mesh::{CORNER_NORMAL, DVec2, DVec3, DVec4, HalfEdgeId, Mesh, VERTEX_NORMAL};
@@ -31,9 +30,9 @@ pub struct Tangents {
 /// and from its corner normals or, if there are none, its vertex normals. Returns `None` if the mesh has no
 /// normals.
 ///
-/// The computation uses 32-bit numbers. Polygons are triangulated in the same way as by the glTF writer.
-/// Corners share a tangent if they have the same position, normal and texture coordinates and their faces are
-/// connected.
+/// The computation uses 32-bit numbers. Polygons are triangulated in the same way as by the glTF writer. Corners share
+/// a tangent if they have the same position, normal and texture coordinates, and their faces are connected and both or
+/// neither mirrored in the texture.
 pub fn tangents(mesh: &Mesh, uvs: &[DVec2]) -> Option<Tangents> {
     let normals = match (mesh.get(CORNER_NORMAL), mesh.get(VERTEX_NORMAL)) {
         (Some(normals), _) => Normals::Corners(normals),

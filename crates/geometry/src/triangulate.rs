@@ -366,8 +366,8 @@ mod tests {
     fn invalid_triangulations_are_detected() {
         assert!(is_triangulation(5, &[[0, 1, 2], [0, 2, 3], [0, 3, 4]]));
         for wrong in [
-            // These lists have, in order, too few triangles, a duplicate triangle, crossing diagonals, and a
-            // corner twice in a triangle.
+            // These lists have, in order, too few triangles, a duplicate triangle, crossing diagonals, a corner twice
+            // in a triangle, and two triangles at one side of the polygon.
             vec![[0, 1, 2], [0, 2, 4]],
             vec![[0, 1, 2], [0, 2, 4], [0, 2, 4]],
             vec![[0, 1, 2], [1, 2, 3], [0, 3, 4]],

@@ -12,7 +12,7 @@ use crate::surface_index::SurfaceIndex;
 
 /// The distance from the surface at which rays start, relative to the diagonal of the bounding box.
 const OFFSET: f64 = 1e-7;
-/// The distance from the vertex at which rays start, relative to the shorter edge of the corner.
+/// Rays start at a distance from the vertex of at most twice this fraction of the shorter edge of the corner.
 const INWARD: f64 = 1e-3;
 /// The number of vertices that one task processes.
 const BLOCK: usize = 256;
@@ -214,7 +214,7 @@ mod tests {
 
     #[test]
     fn a_wall_hides_half_of_the_sky_and_seeds_hardly_matter() {
-        // The vertices of a floor touch a very high wall. By symmetry, the wall hides half of the hemisphere.
+        // A vertex of the floor almost touches a very high wall. By symmetry, the wall hides half of the hemisphere.
         let points = [
             [0.0, 0.0, 0.0],
             [1.0, -1.0, 0.0],

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! If a vertex is replaced by at least three new vertices, a new face joins them. The mesh is rebuilt from polygons,
-//! and all values are interpolated within the old faces.
+//! and the values of new vertices and corners are computed within the old faces.
 
 use mesh::build::{NonManifold, build};
 use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
@@ -36,7 +36,7 @@ pub enum BevelRefusal {
 pub struct Beveled {
     /// The mesh with bevels. It is dense.
     pub mesh: Mesh,
-    /// The edges that were not beveled, in ascending order.
+    /// The given edges that were not beveled, in ascending order.
     pub refused: Vec<(EdgeId, BevelRefusal)>,
 }
 
@@ -44,20 +44,21 @@ pub struct Beveled {
 ///
 /// `width` is the distance, in scene units, between a beveled edge and the new edges in both of its faces. Edges that
 /// meet at a vertex are beveled together, so the result does not depend on their order. The result has the symmetries
-/// that the mesh and the set of edges have in common. If several edges at a vertex remain, each of them is cut at the
-/// distance from the vertex that gives the width, or at the distance `width` if the edge is not next to a beveled edge.
-/// The distance is at most four times the width.
+/// that the mesh and the set of edges have in common. Each remaining edge at an end of a beveled edge is cut at the
+/// distance from this end that gives the width, or at the distance `width` if the edge is not next to a beveled edge.
+/// The distance is at most four times the width, so the bevel is narrower next to an edge at a small angle.
 ///
 /// The ends of beveled edges are removed. The other vertices come first, in their old order, followed by the new
 /// vertices. Faces keep their ids. The new faces of edges follow in the order of the edges, and then the new faces of
 /// vertices in the order of the vertices. All edges get new ids; edges that remain keep their values.
 ///
-/// New vertices and corners have the values that the old faces have at their positions. The new face of an edge has the
-/// values of the face of the edge's first half-edge. The new face of a vertex has the values of one of the faces around
-/// the vertex.
+/// New vertices and corners have the values that the old faces have at their positions; values that cannot be averaged
+/// are copied from one corner. The new face of an edge has the values of the face of the edge's first half-edge. The
+/// new face of a vertex has the values of one of the faces around the vertex.
 ///
 /// Edges that cannot be beveled are left out and returned. If the bevels at the two ends of an edge of a face would
-/// overlap, all beveled edges at these two ends are left out.
+/// overlap, all beveled edges at these two ends are left out. If the result would not be a manifold, no edge is
+/// beveled.
 ///
 /// # Panics
 ///
@@ -112,11 +113,11 @@ struct Corner {
     values: Blend<HalfEdgeId>,
 }
 
-/// A vertex that is cut off the start of a half-edge, or moved into the corner of its face.
+/// A new vertex near the start of a half-edge: on the half-edge, or inside the corner of its face.
 #[derive(Clone, Copy)]
 struct Point {
     position: DVec3,
-    /// The weights of the ends of the half-edge and of the edge before it in the face.
+    /// The weight of the target of the half-edge, and the weight of the origin of the half-edge before it in the face.
     along: f64,
     before: f64,
 }
@@ -208,7 +209,7 @@ impl<'m> Bevel<'m> {
     }
 
     /// Returns the vertex in the corner of the face of `h`, if both edges of the corner are beveled. The distance of
-    /// this vertex from both edges is the width.
+    /// this vertex from both edges is the width, or less if the angle of the corner is small.
     fn inset(&self, h: HalfEdgeId) -> Option<Point> {
         let g = self.left(h).filter(|&g| self.is_chosen(g))?;
         let [a, b] = [h, g].map(|h| self.direction(h));
@@ -342,7 +343,7 @@ impl<'m> Bevel<'m> {
         self.kept[v.index()].is_none()
     }
 
-    /// Returns the beveled edges that cannot be beveled.
+    /// Returns the chosen edges that cannot be beveled, with the reasons.
     fn blocked(&self) -> Vec<(EdgeId, BevelRefusal)> {
         let mut blocked = Vec::new();
         let mut block = |v: VertexId, refusal| {

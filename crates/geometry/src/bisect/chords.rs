@@ -32,7 +32,7 @@ impl Corner {
 /// Returns chords that cut the polygon so that no part has corners on both sides of the line. The polygon must have
 /// corners on both sides of the line. `normal` is the normal of the polygon.
 ///
-/// If the corners on the line do not give consistent inside intervals, each part to the left of the line is cut
+/// If the intervals between the corners on the line do not give such chords, each part to the left of the line is cut
 /// off separately.
 pub(super) fn chords_along_line(corners: &[Corner], normal: DVec3) -> Vec<[u32; 2]> {
     let n = corners.len();

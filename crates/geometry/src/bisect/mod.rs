@@ -14,8 +14,8 @@ pub use symmetrize::{SymmetrizeError, Symmetrized, symmetrize};
 
 /// A vertex counts as on the plane if its distance is at most this fraction of the largest extent of the mesh.
 const RELATIVE_TOLERANCE: f64 = 1e-9;
-/// A vertex also counts as on the plane if its distance is at most this fraction of the largest coordinate,
-/// because rounding errors of coordinates far from the origin have this size.
+/// A vertex also counts as on the plane if its distance is at most this fraction of the largest absolute coordinate of
+/// the mesh and the point of the plane, because rounding errors of coordinates far from the origin have this size.
 const ROUNDING_TOLERANCE: f64 = 1e-14;
 
 /// The result of [`bisect`].
@@ -39,12 +39,12 @@ pub struct Bisection {
 ///    +-------+-------+           +-------+-------+
 /// ```
 ///
-/// Every edge that crosses the plane gets a vertex at the crossing point. Every face that crosses the plane is
-/// cut along the plane; a concave face can be cut several times. The parts remain connected. A vertex counts as
-/// on the plane if its distance is at most 1e-9 times the largest extent of the mesh or 1e-14 times the largest
-/// coordinate. A vertex on the plane is not moved, and an edge that ends at such a vertex is not split. The side
-/// of a vertex is determined once, and is the same for all its edges and faces. A crossing point does not depend
-/// on the direction of its edge.
+/// Every edge that crosses the plane gets a vertex at the crossing point. Every face that crosses the plane is cut
+/// along the plane; a concave face can be cut several times. The parts remain connected. A vertex counts as on the
+/// plane if its distance is at most 1e-9 times the largest extent of the mesh or 1e-14 times the largest absolute
+/// coordinate of the mesh and `point`. A vertex on the plane is not moved, and an edge that ends at such a vertex is
+/// not split. The side of a vertex is determined once, and is the same for all its edges and faces. A crossing point
+/// does not depend on the direction of its edge.
 ///
 /// Ids change as follows. When an edge is split, the part at the origin of its first half keeps the id of the
 /// edge. The other parts and the crossing points are new, and numbered in the order of the edges. The new edges
@@ -60,8 +60,8 @@ pub struct Bisection {
 /// cut off separately. If two faces share both edges that the plane crosses, each face gets a separate edge
 /// between the same two crossing points.
 ///
-/// A face that lies in the plane counts as behind the plane if its normal points to the front, because the
-/// solid that the face bounds lies behind the plane. Otherwise the face counts as in front.
+/// A face that lies in the plane counts as in front of the plane if its normal points to the back, because the solid
+/// that the face bounds then lies in front of the plane. Otherwise the face counts as behind.
 ///
 /// # Errors
 ///

@@ -9,7 +9,8 @@ use crate::{merge_clusters, parts};
 /// The result of [`symmetrize`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Symmetrized {
-    /// The number of removed faces: those behind the plane and those in the plane.
+    /// The number of faces of the mesh before, minus the number of faces in front of the plane after the cut; 0 if
+    /// negative.
     pub removed: usize,
     /// The number of vertices on the plane at which the two halves are joined.
     pub joined: usize,

@@ -35,7 +35,7 @@ fn cut(before: &Mesh, point: DVec3, normal: DVec3) -> (Mesh, Bisection) {
     for e in mesh.edges() {
         let on_plane = mesh.edge_vertices(e).map(|v| height(v).abs() <= near);
         assert_eq!(on_plane == [true; 2], cut.edges.binary_search(&e).is_ok());
-        // A cut does not create very short edges.
+        // Only edges with an end on the plane can be very short.
         assert!(mesh.length(e.half_edges()[0]) > 0.1 * near || on_plane != [false; 2]);
     }
     (mesh, cut)
@@ -106,7 +106,7 @@ fn vertices_on_the_plane_do_not_move_and_edges_on_it_are_returned() {
         (found.edges.len(), found.front.len(), found.back.len()),
         (4, 4, 4)
     );
-    // The distance from the plane to the vertices is below the tolerance.
+    // The distance from the plane to the ends of these edges is below the tolerance.
     let (mesh, _) = cut(&shapes::octahedron(), DVec3::Z * 1e-9, DVec3::Z);
     assert_eq!(mesh, shapes::octahedron());
     let (mesh, _) = cut(&shapes::octahedron(), DVec3::Z * 1e-8, DVec3::Z);

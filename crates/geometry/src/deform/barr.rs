@@ -100,11 +100,12 @@ impl Taper {
 ///           |                   /              θ = angle d / (to - from), a point moves to
 ///           |         -->      |                   x' = x cos θ + (1 - cos θ) / k + (z - from - d) sin θ
 ///     from  |                  |   from            z' = from - x sin θ + sin θ / k + (z - from - d) cos θ
-///                                              where k = angle / (to - from) is the curvature.
+///                                              where k = angle / (to - from) is the curvature, with the
+///                                              angle in radians.
 /// ```
 ///
-/// Points in the plane at `from` do not move. Volumes change by the factor 1 - k x. The center of the circle is
-/// at x = 1 / k; beyond the center, the factor is negative and the result is inside out.
+/// Points at `from` or below do not move. Between `from` and `to`, volumes change by the factor 1 - k x. The center of
+/// the circle is at x = 1 / k; beyond the center, the factor is negative and the result is inside out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bend {
     /// The coordinates.

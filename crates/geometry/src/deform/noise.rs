@@ -1,5 +1,6 @@
-//! Numbers that look random but depend only on their arguments. Only additions and multiplications of integers and
-//! floating-point numbers are used, so that the numbers are identical bit for bit on every machine.
+//! Numbers that look random but depend only on their arguments. Only integer operations and the basic floating-point
+//! operations, which every machine rounds in the same way, are used, so that the numbers are identical bit for bit on
+//! every machine.
 
 use mesh::DVec3;
 

@@ -12,11 +12,11 @@
 //!  a-----b        a--m--b     the furthest corner of the piece. This gives a bound for all points.
 //! ```
 //!
-//! Only pieces whose bound is above the largest distance found so far are cut. Sources: Aspert, Santa-Cruz,
-//! Ebrahimi, "MESH: Measuring Errors between Surfaces using the Hausdorff Distance", 2002, for the measures;
-//! Tang, Lee, Kim, "Interactive Hausdorff Distance Computation for General Polygonal Models", 2009, for the
-//! bounds and the cutting. Pieces are cut in rounds, and the largest distance is updated after each round, so that
-//! the result is the same for any number of threads.
+//! Only pieces whose bound exceeds the largest distance found so far by more than the tolerance are cut. Sources:
+//! Aspert, Santa-Cruz, Ebrahimi, "MESH: Measuring Errors between Surfaces using the Hausdorff Distance", 2002, for the
+//! measures; Tang, Lee, Kim, "Interactive Hausdorff Distance Computation for General Polygonal Models", 2009, for the
+//! bounds and the cutting. Pieces are cut in rounds, and the largest distance is updated after each round, so that the
+//! result is the same for any number of threads.
 
 mod piece;
 
@@ -167,7 +167,7 @@ const BLOCK: usize = 1024;
 /// The result of one task.
 #[derive(Default)]
 struct Block {
-    /// The pieces whose bound is above the largest distance found.
+    /// The pieces whose bound exceeds the largest distance of a vertex by more than the tolerance.
     pieces: Vec<Piece>,
     /// An upper bound of the distances of all points that are not in one of the `pieces`.
     ceiling: f64,

@@ -189,8 +189,10 @@ impl Piece {
 }
 
 /// Cuts pieces until no piece can be further away than the furthest sample by more than `tolerance`, or until
-/// [`MAX_VISITS`] nodes were visited. Returns the furthest sample and an upper bound of the distances of all
-/// points of the surface. `ceiling` is an upper bound for the points that are not in one of the `pieces`.
+/// [`MAX_VISITS`] nodes were visited. Leaves out pieces that cutting cannot improve and, if a round has too many
+/// pieces, those with the smallest bounds; the returned bound holds for them too. Returns the furthest sample and an
+/// upper bound of the distances of all points of the surface. `ceiling` is an upper bound for the points that are not
+/// in one of the `pieces`.
 pub(super) fn refine(
     mut pieces: Vec<Piece>,
     mut farthest: Farthest,

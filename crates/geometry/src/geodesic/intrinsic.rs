@@ -17,11 +17,11 @@ use rayon::prelude::*;
 
 use crate::triangulate::Cutter;
 
-/// The side of a triangle that is not glued to another side.
+/// Marks a side that is not glued to another side.
 const NONE: u32 = u32::MAX;
-/// The slack of the triangle inequality after mollification, relative to the mean length.
+/// The least slack of the triangle inequality after mollification, relative to the mean length.
 const SLACK: f64 = 1e-5;
-/// The largest number of flips for each edge.
+/// The largest number of flips, divided by the number of sides of all triangles.
 const MAX_FLIPS: usize = 100;
 
 /// Triangles that are glued along their sides. Side k of a triangle joins its corners k and k + 1. The index of the
@@ -31,14 +31,14 @@ pub(super) struct Intrinsic {
     pub(super) corners: Vec<[u32; 3]>,
     /// The lengths of the sides.
     pub(super) lengths: Vec<[f64; 3]>,
-    /// For each side, the side that it is glued to.
+    /// For each side, the side that it is glued to; [`NONE`] if there is none.
     glued: Vec<[u32; 3]>,
 }
 
 impl Intrinsic {
     /// Creates the triangulation of a mesh whose vertices have the given positions. Polygons are cut into triangles. If
-    /// a triangle is degenerate, the same small length is added to all sides, so that all triangles have a positive
-    /// area.
+    /// a triangle is degenerate or almost degenerate, the same small length is added to all sides, so that all
+    /// triangles have a positive area.
     pub(super) fn new(mesh: &Mesh, points: &[DVec3]) -> Self {
         let mut corners = Vec::with_capacity(mesh.n_faces());
         // Sides with equal keys are glued: sides on the same edge of the mesh, or on the same diagonal of a face.

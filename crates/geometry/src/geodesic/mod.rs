@@ -30,9 +30,9 @@ const LEAST_HEAT: f64 = 1e-280;
 /// `is_source` tells which vertices are sources. The distance is infinite for vertices that no path of edges connects
 /// to a source, and for dead vertices.
 ///
-/// The distances are approximate: on fine meshes of smooth surfaces, the mean error is below 1 %. They are finite for
-/// any finite positions, even if triangles are degenerate. Polygons are cut into triangles. The result is identical bit
-/// for bit for any number of threads.
+/// The distances are approximate: on fine meshes of smooth surfaces, the mean error is below 1 %. The distances of
+/// connected vertices are finite for any finite positions, even if triangles are degenerate. Polygons are cut into
+/// triangles. The result is identical bit for bit for any number of threads.
 ///
 /// # Errors
 ///
@@ -124,7 +124,8 @@ fn heat(
         let mut heat = start.to_vec();
         Factor::with_pins(&matrix, is_pinned, progress)?.solve(&none, &mut heat)?;
         let arrives = |(heat, is_pinned): (&f64, &bool)| *is_pinned || *heat > LEAST_HEAT;
-        // No path is longer than the sum of all edge lengths.
+        // The square root of this time is as long as 1e8 edges of mean length, which is longer than any path in
+        // practice.
         let is_longest = time > length * length * 1e16;
         if is_longest || heat.iter().zip(is_pinned).all(arrives) {
             return Ok(heat);

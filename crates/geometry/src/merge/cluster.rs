@@ -6,7 +6,7 @@
 //! ```text
 //!    +-----+        +---+      smallest distance above the limit: nothing to do
 //!    |  A  |<------>| B |      largest distance within the limit: all of A and B are one cluster
-//!    +-----+        +---+      otherwise: compare the halves of the larger box
+//!    +-----+        +---+      otherwise: compare the halves of the box with more points
 //! ```
 //!
 //! A grid of cells as wide as the distance would be simpler, but its cell indices overflow for tiny distances,

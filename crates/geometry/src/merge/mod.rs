@@ -51,8 +51,8 @@ pub enum MergeError {
 /// Merges vertices that are at most `distance` apart, and all vertices that are connected by steps of at most
 /// `distance`.
 ///
-/// The result does not depend on the order of vertices or on the number of threads. A distance of 0 merges only
-/// vertices with equal positions.
+/// Which vertices merge does not depend on their order. The result does not depend on the number of threads. A distance
+/// of 0 merges only vertices with equal positions.
 ///
 /// [`merge_clusters`] describes what happens to vertices, edges, faces and attributes. If no two vertices
 /// merge, the mesh is unchanged.
@@ -98,9 +98,10 @@ pub fn merge_vertices(
 /// Merges each cluster of vertices into one vertex. `lowest` has for each vertex the lowest vertex of its
 /// cluster, as returned by [`clusters`]. The mesh must be dense.
 ///
-/// The merged vertex has the position and the values of the lowest vertex. The other vertices are removed, and
-/// ids are renumbered without gaps. Edges between the same two vertices become one edge with the values of the
-/// lowest edge. Faces keep their order and values, and corners keep their values, so that seams are preserved.
+/// The merged vertex has the position and the values of the lowest vertex. The other vertices are removed, and ids are
+/// renumbered without gaps. Edges between the same two vertices become one edge with the values of the lowest edge.
+/// Faces keep their order and values, and corners keep their values, so that seams are preserved. Columns with
+/// [`Rule::Drop`](mesh::Rule::Drop) are removed.
 ///
 /// A face loses each corner that merges with the next corner of the face. The face is dropped if fewer than
 /// three corners are left or if it would contain a vertex twice. If connected faces then have opposite

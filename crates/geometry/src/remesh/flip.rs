@@ -7,8 +7,9 @@ use super::work::{Work, cross, is_bent, is_turned, quality};
 use super::{Refused, WHAT};
 
 impl Work<'_> {
-    /// Flips an edge if this improves the valences of vertices, or if it improves the angles and does not worsen
-    /// the valences. Returns the number of flips.
+    /// Flips each edge for which a flip improves the valences of vertices, or improves the angles and does not worsen
+    /// the valences. Flips that would make a thin triangle, turn a triangle too far or move the surface too far are
+    /// left out. Returns the number of flips.
     pub(super) fn flip_all(&mut self, progress: &dyn Progress) -> Result<usize, Cancelled> {
         let mut valences: Vec<i32> = vec![0; self.places.len()];
         for h in self.mesh.half_edges() {

@@ -17,8 +17,8 @@ use crate::surface_index::triangle::nearest_on_triangle;
 /// points between the samples.
 const SHARE: f64 = 0.7;
 
-/// Without a limit, the largest distance of samples of a new triangle from the original surface, as a fraction of the
-/// target length. It keeps edges from crossing ridges that are not features.
+/// The largest distance of samples of a new triangle from the original surface, as a fraction of the target length. It
+/// also applies if there is no limit, and keeps edges from crossing ridges that are not features.
 const SOFT: f64 = 0.1;
 
 /// The tolerance of the measured distance, as a fraction of the limit.

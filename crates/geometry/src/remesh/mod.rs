@@ -1,8 +1,9 @@
 //! Remeshing: nearly equilateral triangles of a given size for the same surface.
 //!
 //! Each pass splits long edges, collapses short edges, flips edges so that vertices have six edges, and moves vertices
-//! along the surface: Botsch, Kobbelt, "A Remeshing Approach to Multiresolution Modeling", 2004. All vertices lie on
-//! the original surface: after each movement, a vertex is placed at the nearest point of its chart.
+//! along the surface: Botsch, Kobbelt, "A Remeshing Approach to Multiresolution Modeling", 2004. After each movement, a
+//! vertex is placed at a point of its chart or its line, so the vertices lie on the original surface. Only a new vertex
+//! whose movements are all refused stays beside it.
 //!
 //! ```text
 //!     +---+-----------+            +-----+-----+
@@ -71,8 +72,8 @@ pub struct Options<'a> {
     /// guaranteed bound. If the bound is above the limit, remeshing starts again with shorter edges where the distance
     /// is too large. Remeshing fails after four attempts.
     pub error: Option<f64>,
-    /// Edges that are preserved as lines, in addition to boundaries, seams, borders of face tags and materials, tagged
-    /// edges and creases.
+    /// Edges that are preserved as lines, in addition to boundaries, seams, borders of face tags, materials and other
+    /// whole numbers of faces, tagged edges and creases.
     pub features: &'a [EdgeId],
     /// Vertices that keep their positions.
     pub pinned: &'a [VertexId],
@@ -91,7 +92,7 @@ pub struct Remeshed {
     pub counts: Counts,
 }
 
-/// The numbers of steps that [`remesh`] performed.
+/// The numbers of steps that [`remesh`] performed in its last attempt.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// The number of passes.
@@ -128,7 +129,7 @@ pub enum Refused {
     Lines,
     /// The step would make an edge that is too long.
     Long,
-    /// A triangle would turn over.
+    /// A triangle would turn by more than 60° or become degenerate.
     Turned,
     /// A triangle would become thin.
     Thin,
@@ -199,7 +200,8 @@ pub enum RemeshError {
 /// The topology is preserved: the Euler characteristic, the boundary loops and the graph of lines do not change. No
 /// step turns a triangle by more than 60°. These vertices keep their exact positions: the ends, meeting points and
 /// corners of lines (a corner is a turn by more than 40°), pinned vertices, vertices with sharpness, and vertices with
-/// a tag that is not set on all vertices of any adjacent triangle or line. Isolated vertices are preserved.
+/// a tag, unless all corners of an adjacent triangle or both neighbors on a line have the tag too. Isolated vertices
+/// are preserved.
 ///
 /// Attributes are taken from the same location on the original surface, and never from the other side of a line. Vertex
 /// and corner attributes are interpolated at this location. A new vertex has a tag if all original vertices around its

@@ -304,8 +304,8 @@ fn kinds_to_places(mesh: &Mesh, kinds: &[Kind]) -> Vec<Place> {
     mesh.vertices().map(place).collect()
 }
 
-/// Returns how each vertex may move. In addition to the ends of lines, these vertices keep their positions: corners of
-/// lines, sharp vertices, and vertices whose tags would be lost.
+/// Returns how each vertex may move. In addition to the fixed vertices of [`kinds`], these vertices keep their
+/// positions: corners of lines, sharp vertices, and vertices whose tags would be lost.
 fn fixed_kinds(source: &Mesh, mesh: &Mesh, lines: &[bool], pinned: &[VertexId]) -> Vec<Kind> {
     let kinds = kinds(source, lines, pinned);
     let tags: Vec<&[bool]> = labels(source, Domain::Vertex)

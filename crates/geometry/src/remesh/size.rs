@@ -23,7 +23,8 @@ pub(super) enum Sizes {
 
 impl Sizes {
     /// Returns the target lengths for a kind of length. `error` is the largest allowed distance between the surfaces,
-    /// if there is one. Where edges of the target length would exceed this distance, the target length is reduced.
+    /// if there is one. Where edges of the target length would exceed this distance, the target length is reduced, but
+    /// not below `min` or, for a uniform length, below `error`.
     pub(super) fn new(original: &Original, length: Length, error: Option<f64>) -> Self {
         let (error, min, max) = match (length, error) {
             (Length::Uniform(length), None) => return Self::Uniform(length * original.scale),
@@ -52,8 +53,8 @@ impl Sizes {
         *self = Self::Varying(sizes);
     }
 
-    /// Returns an estimate of the largest number of faces during remeshing: twice the number of triangles of the target
-    /// length that cover the area, plus the faces of the original.
+    /// Returns an estimate of the largest number of faces during remeshing: the faces of the original, plus twice the
+    /// number of triangles of the target length that cover the area and of splits along the longest side of each face.
     pub(super) fn n_faces(&self, original: &Original) -> f64 {
         let mesh = &original.mesh;
         mesh::blocks::sum(mesh.n_faces(), |f| {
@@ -112,8 +113,8 @@ fn chord(curvature: f64, error: f64) -> f64 {
 }
 
 /// Returns the largest absolute normal curvature at each vertex of the original surface: |H| + √(H² - K). Vertices on
-/// lines get the mean of their neighbors inside charts, because the surface bends across many lines; then all values
-/// are smoothed once.
+/// lines get the mean of their neighbors inside charts, because the surface bends across many lines, or the curvature
+/// of the line if it is larger. The other values are averaged once with their neighbors.
 fn curvatures(original: &Original) -> Vec<f64> {
     let mesh = &original.mesh;
     let (gaussian, mean) = (gaussian_curvatures(mesh), mean_curvatures(mesh));

@@ -8,7 +8,8 @@ use super::WHAT;
 use super::original::Place;
 use super::work::{Work, cross, is_bent, is_turned};
 
-/// A vertex that would move by less than this fraction of its target length is not moved.
+/// A vertex that would move by less than this fraction of its target length is not moved, unless it may lie off the
+/// original surface.
 const STILL: f64 = 1e-2;
 
 /// The movement of a vertex.
@@ -22,7 +23,8 @@ struct Step {
 impl Work<'_> {
     /// Moves all vertices once. A vertex inside a chart moves in the tangent plane to the mean of the triangles around
     /// it, and then to the nearest point of the original surface. A vertex on a line moves towards the middle between
-    /// its neighbors on the line. Returns the largest movement, as a fraction of the target length.
+    /// its neighbors on the line. Movements that turn a triangle or move the surface too far are undone. Returns the
+    /// largest movement, as a fraction of the target length.
     pub(super) fn smooth(&mut self, progress: &dyn Progress) -> Result<f64, Cancelled> {
         progress.report(WHAT, self.counts.passes, self.counts.max_passes)?;
         let n = self.places.len();
@@ -149,7 +151,7 @@ impl Work<'_> {
         for h in self.mesh.vertex_half_edges(v) {
             let [a, b, c] = self.triangle(h);
             let cross = cross([a, b, c]);
-            // Large triangles attract the vertex, in proportion to their target lengths.
+            // A triangle attracts the vertex in proportion to its area times the target lengths at its other corners.
             let size = self.sizes[self.mesh.target(h).index()]
                 + self.sizes[self.mesh.target(self.mesh.next(h)).index()];
             let area = cross.length() * size;

@@ -9,8 +9,8 @@ use super::work::{LONG, Work, cross, is_turned};
 use super::{Refused, RemeshError, WHAT};
 
 impl Work<'_> {
-    /// Splits edges at their midpoints, the longest first, until no edge is too long. Returns the number of
-    /// splits.
+    /// Splits edges at their midpoints, the longest first, until no edge that can be split is too long. Returns the
+    /// number of splits.
     pub(super) fn split_long(
         &mut self,
         max_faces: usize,
@@ -46,7 +46,7 @@ impl Work<'_> {
     }
 
     /// Splits an edge at its midpoint. An edge on a line is split at the midpoint of its part of the line. Returns
-    /// false if a triangle would turn over.
+    /// false if this would turn a triangle too far.
     fn split(&mut self, e: EdgeId) -> Result<bool, RemeshError> {
         let track = self.tracks[e.index()];
         let [a, b] = self.mesh.edge_vertices(e);

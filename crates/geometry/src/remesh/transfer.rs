@@ -135,7 +135,8 @@ impl Work<'_> {
                     source.position(v)
                 } else if nearest.distance <= ROUNDING * self.sizes[v.index()] {
                     let [a, b, c] = triangle.vertices.map(|v| source.position(v));
-                    // In this form, the position is in the plane of the triangle if the plane is parallel to the axes.
+                    // In this form, the position is exactly in the plane of the triangle if the plane is perpendicular
+                    // to an axis.
                     a + weights[1] * (b - a) + weights[2] * (c - a)
                 } else {
                     self.original.unscaled(p)
@@ -273,7 +274,7 @@ impl Work<'_> {
         index.triangle(nearest.triangle).face
     }
 
-    /// Returns the index of a triangle of the original surface that is near a face, if one is known.
+    /// Returns the index of a triangle of the original surface that is near a face; 0 if none is known.
     pub(super) fn hint_of(&self, f: FaceId) -> u32 {
         let hint = |v: VertexId| match self.places[v.index()] {
             Place::Inside(hint) => Some(hint),

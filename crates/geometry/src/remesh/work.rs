@@ -18,7 +18,7 @@ pub(super) const TURN: f64 = 0.5;
 /// The mesh between two steps.
 pub(super) struct Work<'a> {
     pub(super) original: &'a Original<'a>,
-    /// The mesh without attributes, in the coordinates of the original surface.
+    /// The mesh without attributes, in the scaled coordinates of [`Original::mesh`].
     pub(super) mesh: Mesh,
     pub(super) target: &'a Sizes,
     pub(super) limit: Option<f64>,
@@ -81,7 +81,7 @@ impl<'a> Work<'a> {
         self.relative_distance(a, b)
     }
 
-    /// Returns the distance between two vertices, divided by the target length between them.
+    /// Returns the distance between two vertices, divided by the smaller of their target lengths.
     pub(super) fn relative_distance(&self, a: VertexId, b: VertexId) -> f64 {
         let size = self.sizes[a.index()].min(self.sizes[b.index()]);
         self.mesh.position(a).distance(self.mesh.position(b)) / size

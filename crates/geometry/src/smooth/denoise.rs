@@ -17,8 +17,8 @@ use rayon::prelude::*;
 use super::{SmoothError, Smoother};
 use crate::sin_cos_degrees;
 
-/// At vertices with more faces than this number, only faces that share an edge are neighbors, so that the work
-/// stays proportional to the number of faces.
+/// At vertices with more edges than this number, only faces that share an edge are neighbors, so that the work stays
+/// proportional to the number of faces.
 const MAX_FAN: u8 = 64;
 /// The number of faces between two checks for cancellation.
 const CHECK: usize = 1024;
@@ -127,7 +127,8 @@ fn filtered_normals(
     Ok(normals)
 }
 
-/// Replaces `around` by the face and all faces that share a vertex with it, in ascending order.
+/// Replaces `around` by the face and all faces that share a vertex with it, in ascending order; see [`MAX_FAN`] for the
+/// exception.
 fn neighbors(mesh: &Mesh, fans: &[u8], f: FaceId, around: &mut Vec<FaceId>) {
     around.clear();
     if !mesh.has_face(f) {

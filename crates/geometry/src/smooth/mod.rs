@@ -8,8 +8,8 @@
 //! | [`Method::Implicit`] | one backward Euler step of mean curvature flow | `implicit.rs` |
 //! | [`Method::Denoise`] | filter the normals of the faces, then fit the vertices | `denoise.rs` |
 //!
-//! One task computes the new position of a vertex from the positions after the previous pass. The result is
-//! identical bit for bit for any number of threads.
+//! Except in the implicit method, one task computes the new position of a vertex from the positions after the previous
+//! step. The result is identical bit for bit for any number of threads.
 
 mod denoise;
 mod explicit;
@@ -69,10 +69,10 @@ pub enum Method {
 }
 
 impl Method {
-    /// Whether the method is stable: no frequency of a mesh grows with each pass.
+    /// Whether the method is stable: no frequency above the pass band grows with each pass.
     ///
-    /// A Taubin pass multiplies the amplitude of the frequency k by (1 - factor k)(1 - μ k). At the highest
-    /// frequency, 2, the absolute value of this factor must be at most 1.
+    /// A Taubin pass multiplies the amplitude of the frequency k by (1 - factor k)(1 - μ k). At the highest frequency,
+    /// 2, the absolute value of this product must be at most 1.
     pub fn is_stable(&self) -> bool {
         match *self {
             Self::Taubin {

@@ -1,8 +1,8 @@
 //! The numerical factorization L D Lᵀ, and the solution of equations.
 //!
-//! Each supernode has a front: a dense symmetric matrix of the rows of the supernode. The front is the sum of
-//! some entries of the matrix and of the updates U from the children of the supernode in the tree. Eliminating
-//! the pivots P gives the columns of L and the update for the parent:
+//! Each supernode has a front: a dense symmetric matrix of the rows of the supernode. The front is the sum of the
+//! entries of the matrix in the columns of the supernode and of the updates U from the children of the supernode in the
+//! tree. Eliminating the pivots P gives the columns of L and the update for the parent:
 //!
 //! ```text
 //!     | P      |   pivots        | L      |
@@ -24,7 +24,8 @@ use front::{Front, Update};
 const MAX_ENTRIES: u64 = 1 << 31;
 /// The largest accepted residual, relative to the size of the terms of the equations.
 const MAX_RESIDUAL: f64 = 1e-9;
-/// A solution is refined until its relative residual is at most this number.
+/// A solution is refined at most [`REFINEMENTS`] times, until its relative residual is at most this number or hardly
+/// decreases.
 const GOOD_RESIDUAL: f64 = 1e-14;
 const REFINEMENTS: usize = 3;
 /// The task in progress reports.
@@ -200,8 +201,8 @@ impl<'a> Factor<'a> {
     ///
     /// # Errors
     ///
-    /// Returns [`SolveError::Residual`] if the residual is larger than 1e-9 times the largest term of the
-    /// equations. `x` is then unspecified.
+    /// Returns [`SolveError::Residual`] if the residual is larger than 1e-9 times the largest sum of the absolute terms
+    /// of an equation. `x` is then unspecified.
     ///
     /// # Panics
     ///

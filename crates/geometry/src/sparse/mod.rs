@@ -73,7 +73,7 @@ impl Entry for mesh::DVec3 {
 /// Why a system of equations was not solved.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SolveError {
-    /// A pivot is not positive: the matrix is not positive definite, up to rounding.
+    /// A pivot is not positive and finite: the matrix is not positive definite, up to rounding.
     #[error(
         "the matrix is not positive definite: the pivot of row {row} is {pivot}; pin an unknown of each component, or add \
          a positive diagonal"
@@ -89,7 +89,7 @@ pub enum SolveError {
         "the solution is not accurate: the residual is {0:e} of the size of the terms, more than 1e-9"
     )]
     Residual(f64),
-    /// The factorization would not fit into memory.
+    /// The factor would have more entries than are supported.
     #[error("the factorization needs {needed} entries, but at most {limit} are supported")]
     TooLarge {
         /// The required number of entries of the factor.

@@ -56,7 +56,7 @@ struct Quotient {
     buckets: Buckets,
     /// The eliminated variables, in order.
     pivots: Vec<u32>,
-    /// For each element, `stamp` plus the weight of its members outside of the new element.
+    /// For each element, `stamp` times 2³² plus the weight of its members outside of the new element.
     outside: Vec<u64>,
     /// For each variable, the stamp of the last list that contained it.
     mark: Vec<u64>,

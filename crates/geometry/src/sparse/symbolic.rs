@@ -92,7 +92,8 @@ pub(super) fn inverse(order: &[u32]) -> Vec<u32> {
     position
 }
 
-/// Returns the parent of each column of the permuted matrix: the first row below the diagonal.
+/// Returns the parent of each column of the permuted matrix: the row of the first entry below the diagonal in this
+/// column of the factor.
 fn elimination_tree<I: Iterator<Item = u32>>(
     order: &[u32],
     neighbors: impl Fn(usize) -> I,

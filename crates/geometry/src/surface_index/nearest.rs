@@ -26,8 +26,8 @@ pub struct Nearest {
     pub(crate) visits: u32,
 }
 
-/// A search for a nearest point accepts an inexact answer after it has visited this number of nodes.
-/// A search usually visits at most a few hundred nodes.
+/// After this number of visited nodes, a search for a nearest point visits the nearest nodes first. After three times
+/// this number, it accepts an inexact answer. A search usually visits at most a few hundred nodes.
 const MAX_NODES: u32 = 1000;
 
 /// The number of points of one task. Each task starts without a hint.

@@ -31,7 +31,7 @@ impl SurfaceIndex {
     ///
     /// The test is watertight: if a ray passes through the surface at an inner edge or vertex, it meets exactly one of
     /// the triangles there. So a ray from outside meets a closed surface an even number of times. Triangles parallel to
-    /// the ray are not met. A ray whose direction is zero or not finite meets nothing.
+    /// the ray are not met. A ray whose direction is zero, or whose origin or direction is not finite, meets nothing.
     ///
     /// Sources: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", 2013, for the shear that moves the ray
     /// into an axis; the signs of areas are computed exactly, and an area of zero gets the sign that it would have

@@ -90,7 +90,7 @@ impl<'a> Winding<'a> {
     }
 
     /// Returns the winding number at `p`. On a face, it is the mean of the values on both sides, up to rounding.
-    /// Returns 0 if `p` is not finite.
+    /// Returns 0 if `p` is not finite or is extremely far away.
     pub fn at(&self, p: DVec3) -> f64 {
         let p = p * self.scale;
         if p.is_nan() || p.abs().max_element() > 1e30 {

@@ -46,7 +46,7 @@ pub enum UvError {
         padding = .0.padding
     )]
     PageTooSmall(Page),
-    /// An option is out of its range.
+    /// The computation failed for another reason, for example because an option is out of its range.
     #[error("the texture coordinates could not be computed: {0}")]
     Limit(String),
 }

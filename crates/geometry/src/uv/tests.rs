@@ -246,8 +246,8 @@ fn unwrapping_can_be_cancelled() {
     assert!(overlapping_faces(&mesh, &uvs, &Never).is_err());
 }
 
-/// Returns texture coordinates that map each face of a cube to the unit square. The first face is mapped to a
-/// mirrored square, and the last face to a larger one.
+/// Returns texture coordinates that map the faces of a cube to overlapping unit squares, except that the first face is
+/// mapped to a mirrored square and the last face to a larger one, both separate.
 fn stacked(mesh: &Mesh) -> Vec<DVec2> {
     let square = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
     let mut uvs = vec![DVec2::ZERO; mesh.n_half_edges()];

@@ -30,13 +30,14 @@ pub struct Unwrapped {
     pub charts: Charts,
     /// The area of the charts, as a fraction of the page.
     pub coverage: f64,
-    /// The faces whose area in the texture is zero, or too small for 32-bit numbers.
+    /// The faces with a triangle whose area in the texture is zero, or too small for 32-bit numbers.
     pub flat: Vec<FaceId>,
     /// The polygons that are bent so far that they overlap themselves in the texture.
     pub bent: Vec<FaceId>,
 }
 
-/// Computes texture coordinates for all faces of a dense mesh, without overlaps.
+/// Computes texture coordinates for all faces of a dense mesh, without overlaps except in the faces of
+/// [`Unwrapped::bent`].
 ///
 /// Charts grow from flat regions. Each chart is flattened by least squares conformal maps (Levy, Petitjean, Ray,
 /// Maillot, "Least Squares Conformal Maps for Automatic Texture Atlas Generation", 2002), then by the

@@ -216,7 +216,7 @@ fn curved_places_get_short_edges() {
         min: 0.01,
         max: 0.2,
     };
-    // The normal curvature is 4 everywhere: the length is sqrt(6 * 0.002 / 4 - 3 * 0.002^2).
+    // The largest normal curvature is 4 everywhere: the length is sqrt(6 * 0.002 / 4 - 3 * 0.002^2).
     let options = Options {
         length,
         ..Options::default()
@@ -450,7 +450,8 @@ fn it_can_be_cancelled_at_any_report() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
-    /// The input is any list of triangles, including degenerate ones, with any coordinates.
+    /// The input is any list of triangles between points of a small grid, including triangles without area, at any
+    /// scale.
     #[test]
     fn soups_of_triangles_keep_the_invariants(
         points in proptest::collection::vec((0..4_u8, 0..4_u8, 0..4_u8), 4..24),

@@ -50,7 +50,7 @@ impl Front {
     }
 
     /// Eliminates the pivots of a supernode. Takes the updates of its children from the end of `updates`, and appends
-    /// the update of its parent. Fails with a column and its pivot if the pivot is not positive.
+    /// the update for its parent, if there is one. Fails with a column and its pivot if the pivot is not positive.
     pub(super) fn eliminate<I: Iterator<Item = (u32, f64)>>(
         &mut self,
         supernode: &Supernode,

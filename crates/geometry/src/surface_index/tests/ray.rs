@@ -2,8 +2,8 @@
 
 use super::*;
 
-/// Returns where the line meets the inside of a triangle, in plain arithmetic: Möller, Trumbore, "Fast, Minimum Storage
-/// Ray/Triangle Intersection", 1997.
+/// Returns where the ray meets a triangle, in plain arithmetic: Möller, Trumbore, "Fast, Minimum Storage Ray/Triangle
+/// Intersection", 1997.
 fn plain(origin: DVec3, d: DVec3, t: &[DVec3; 3]) -> Option<f64> {
     let (ab, ac, at) = (t[1] - t[0], t[2] - t[0], origin - t[0]);
     let normal = d.cross(ac);

@@ -35,8 +35,9 @@ impl AttributeSources<'_> {
     ///
     /// - Vertices: [`Rule::Interpolate`] uses the masks of the positions. [`Rule::Copy`] keeps the values of
     ///   old vertices, and new vertices have the value zero.
-    /// - Corners: [`Rule::Interpolate`] smooths each piece between seams separately, as defined by [`FaceVarying`].
-    ///   [`Rule::Copy`] works in the same way as for vertices.
+    /// - Corners: if `sharpness` is given, [`Rule::Interpolate`] smooths each piece between seams separately, as
+    ///   defined by [`FaceVarying`]; otherwise it interpolates linearly within the old face. [`Rule::Copy`] works in
+    ///   the same way as for vertices.
     /// - Edges: parts of an old edge copy its value, and other new edges have the value zero.
     /// - Faces: parts of an old face copy its value.
     ///

@@ -1,8 +1,8 @@
 //! Subdivision surfaces: refine a coarse mesh into ever finer ones.
 //!
-//! Each level adds vertices on edges and in faces, connects them into smaller faces, and, if the scheme is
-//! smooth, moves each vertex to a weighted mean of its neighborhood. [`Rules`] hold the scheme and its options;
-//! [`subdivide`] computes the given number of levels.
+//! Each level adds vertices on edges, in faces or both, connects them into smaller faces, and, in most smooth schemes,
+//! moves each old vertex to a weighted mean of its neighborhood. (Doo-Sabin replaces the old vertices.) [`Rules`] hold
+//! the scheme and its options; [`subdivide`] computes the given number of levels.
 //!
 //! | scheme | faces become | old vertices | limit surface |
 //! | --- | --- | --- | --- |
@@ -20,8 +20,8 @@
 //!
 //! # Convergence
 //!
-//! [`limit`] computes the position to which each vertex converges. The diagram shows the largest distance from a
-//! vertex to its limit position after each level of Loop subdivision:
+//! For Loop and Catmull-Clark, [`limit`] computes the position to which each vertex converges. The diagram shows the
+//! largest distance from a vertex to its limit position after each level of Loop subdivision:
 //!
 //! ```text
 //! 1    |

@@ -2,12 +2,11 @@
 //!
 //! # Triangles
 //!
-//! Chosen triangles are cut into four ("red"). If a neighbor of a red triangle is not red, the new vertex on
-//! their common edge is a hanging vertex of the neighbor. Between levels, the neighbor keeps its hanging vertex
-//! as a fourth corner in the middle of a straight side. A triangle that would get a second hanging vertex, on
-//! the same side or on a different side, is also cut into four, and so on. So the edge lengths of neighboring
-//! triangles differ by at most a factor of two. After the last level, triangles with a hanging vertex are cut
-//! in two ("green"):
+//! Chosen triangles are cut into four ("red"). If a neighbor of a red triangle is not red, the new vertex on their
+//! common edge is a hanging vertex of the neighbor. Between levels, the neighbor keeps its hanging vertex as a fourth
+//! corner in the middle of a straight side. A triangle that would get a second hanging vertex, on the same side or on a
+//! different side, is also cut into four, and so on. So on a common edge, neighboring triangles differ by at most one
+//! cut. After the last level, triangles with a hanging vertex are cut in two ("green"):
 //!
 //! ```text
 //!            c                              c
@@ -21,10 +20,10 @@
 //!            b                              b
 //! ```
 //!
-//! Each piece is similar to its old triangle, or is half of a triangle that is similar to the old triangle. Angles
-//! therefore do not become smaller with each level: the cotangent of the smallest angle grows by at most a factor of
-//! three over all levels. Source: Bank, Sherman and Weiser, "Refinement Algorithms and Data Structures for Regular
-//! Local Mesh Refinement", 1983.
+//! Without smoothing, each piece is similar to its old triangle, or is half of a triangle that is similar to the old
+//! triangle. Angles therefore do not become smaller with each level: the cotangent of the smallest angle grows by at
+//! most a factor of three over all levels. Source: Bank, Sherman and Weiser, "Refinement Algorithms and Data Structures
+//! for Regular Local Mesh Refinement", 1983.
 //!
 //! # Polygons
 //!

@@ -3,7 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A scheme with its options. The rules and the mesh together determine the next level.
+/// A scheme with its options, which only Loop and Catmull-Clark use. The rules, the mesh and, for Sqrt3, the index of
+/// the level determine the next level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rules {
     /// The scheme.
@@ -103,9 +104,10 @@ pub enum Creasing {
 pub enum FaceVarying {
     /// Values are smoothed everywhere. Seams are smoothed as boundaries are.
     None,
-    /// Like `None`, but values do not change at a vertex where a piece has a single face.
+    /// Like `None`, but the value of a piece with a single face does not change.
     CornersOnly,
-    /// Like `CornersOnly`, but values also do not change where three or more pieces meet.
+    /// Like `CornersOnly`, but values also do not change where three or more pieces meet, or where two pieces meet and
+    /// one of them has a sharp edge inside or is not contiguous.
     CornersPlus1,
     /// Like `CornersPlus1`, but values also do not change at the ends of seams. If the value of one piece at a
     /// vertex does not change, the values of all pieces at this vertex do not change.

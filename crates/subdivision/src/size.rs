@@ -247,7 +247,7 @@ pub struct TooLarge {
     pub bytes: Option<u64>,
     /// The memory budget in bytes.
     pub budget: u64,
-    /// The highest level that fits, if any.
+    /// The highest of the checked levels that fits, if any.
     pub fits: Option<u32>,
 }
 

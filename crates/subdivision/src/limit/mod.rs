@@ -58,8 +58,9 @@ fn normal([a, b]: &[DVec3; 2]) -> DVec3 {
 ///
 /// # Errors
 ///
-/// Returns the errors of [`subdivide`](crate::subdivide), and [`SubdivisionError::NoLimit`] for other
-/// schemes.
+/// Returns [`SubdivisionError::NoLimit`] for other schemes, [`SubdivisionError::NotTriangle`] if the scheme needs
+/// triangles and a face has more corners, [`SubdivisionError::TooFar`] if a coordinate is too large, and
+/// [`SubdivisionError::Cancelled`] if the progress listener asks to stop.
 ///
 /// # Examples
 ///

@@ -44,7 +44,7 @@ fn cases() -> Vec<(&'static str, Mesh, Vec<bool>)> {
     cases
 }
 
-/// Adds every kind of attribute to a mesh, with values that differ between elements.
+/// Adds attributes of vertices, corners, edges and faces to a mesh, with values that differ between elements.
 fn with_attributes(mut mesh: Mesh) -> Mesh {
     let uvs = mesh.half_edges().map(|h| match mesh.face(h) {
         // Some faces have separate texture coordinates.

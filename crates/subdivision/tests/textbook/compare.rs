@@ -195,7 +195,7 @@ fn matches(points: &[DVec3], expected: &[DVec3]) -> Result<Vec<usize>, String> {
         .min_by(|a, b| distance(a).total_cmp(&distance(b)))
         .expect("both lists have the same length");
     Err(format!(
-        "{} of {} vertices do not match: vertex {i} is at {p}; the nearest vertex of the textbook is {nearest} at \\
+        "{} of {} vertices do not match: vertex {i} is at {p}; the nearest vertex of the textbook is {nearest} at \
          {}, {:.1e} away",
         unmatched.len(),
         points.len(),

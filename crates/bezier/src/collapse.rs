@@ -8,11 +8,11 @@
 //!     corner 0 --- side 0 --- corner 1
 //! ```
 //!
-//! To test a side, its boundary curve is sampled at 0, 1/m, ... 1, where m is the number of segments, but
-//! at most 3. The side is collapsed if every sample differs from the first sample by at most 1e-12 times
-//! the extent of the patch, in every coordinate. With three or more segments, a collapsed side is one
-//! point, because a cubic that has the same value at four parameters is constant. With fewer segments, a
-//! collapsed side can also be a loop whose samples coincide.
+//! To test a side, its boundary curve is sampled at i/m for i from 0 to m, where m is the number of segments, but at
+//! most 3. The side is collapsed if every sample differs from the first sample by at most 1e-12 times the extent of the
+//! patch, in every coordinate. With three or more segments, a collapsed side is one point, because a cubic that has the
+//! same value at four parameters is constant. With fewer segments, a collapsed side can also be a loop whose samples
+//! coincide.
 
 use glam::DVec3;
 
@@ -20,7 +20,7 @@ use crate::patch::{cubic, size};
 use crate::weights::Weights;
 use crate::{Counts, Faces, Patch};
 
-/// Points coincide if their distance is at most this fraction of the extent of the patch.
+/// Points coincide if each of their coordinates differs by at most this fraction of the extent of the patch.
 const TOLERANCE: f64 = 1e-12;
 
 /// The collapsed sides of a patch.

@@ -55,11 +55,11 @@ impl Point for DVec3 {
 
 /// A Bezier curve of degree n, given by n + 1 control points.
 ///
-/// The curve starts at the first control point (t = 0) and ends at the last (t = 1). At its ends, the curve is
-/// tangent to the first and the last leg of the control polygon; a leg joins two consecutive control points.
-/// For t from 0 to 1, the curve is inside the convex hull of the control points. Every function also accepts
-/// parameters outside this range: there, the function evaluates the same polynomial. If the parameter is NaN,
-/// the resulting points have NaN coordinates; no function panics.
+/// The curve starts at the first control point (t = 0) and ends at the last (t = 1). At its ends, the curve is tangent
+/// to the first and the last leg of the control polygon; a leg joins two consecutive control points. For t from 0 to 1,
+/// the curve is inside the convex hull of the control points. Every function also accepts parameters outside this
+/// range: there, the function evaluates the same polynomial. If the parameter is NaN, all results that depend on it
+/// have NaN coordinates; no function panics.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve<P> {
     /// At least one point and at most [`MAX_POINTS`].
@@ -146,8 +146,8 @@ impl<P: Point> Curve<P> {
         }
     }
 
-    /// Returns the n + 1 points at 0, 1/n, 2/n, ... 1, where n is `segments`. The first and the last point
-    /// are exactly the first and the last control point.
+    /// Returns the n + 1 points at i/n for i from 0 to n, where n is `segments`. The first and the last point are
+    /// exactly the first and the last control point.
     ///
     /// For 0 segments, returns only the start point. The reversed curve gives the same points, bit for bit,
     /// in reverse order.

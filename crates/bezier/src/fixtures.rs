@@ -46,9 +46,8 @@ pub(crate) fn octant() -> Patch {
     quarter_turn([[1.0, 0.0], [1.0, KAPPA], [KAPPA, 1.0], [0.0, 1.0]])
 }
 
-/// Returns the patch x = u², y = v², z = x y. All derivatives are zero at the corner (0, 0), and the
-/// derivatives across the edges u = 0 and v = 0 are zero. No edge is collapsed. The normal is (-y, -x, 1),
-/// normalized.
+/// Returns the patch x = u², y = v², z = x y. Both derivatives are zero at the corner (0, 0), and the derivatives
+/// across the edges u = 0 and v = 0 are zero. No edge is collapsed. The normal is (-y, -x, 1), normalized.
 pub(crate) fn squared() -> Patch {
     // The control points of the function t², written as a cubic.
     let square = [0.0, 0.0, 1.0 / 3.0, 1.0];

@@ -153,8 +153,8 @@ mod tests {
 
     #[test]
     fn normals_of_a_collapsed_edge_are_limits() {
-        // The first patch is a lid whose first and third rows are points, like the lid of the teapot. The
-        // second is a bottom.
+        // The first and the third row of `lid` are points, like those of the lid of the teapot. The first row of
+        // `bottom` is a point, like that of the bottom of the teapot.
         let lid = quarter_turn([[0.0, 3.15], [0.8, 3.15], [0.0, 2.85], [0.2, 2.7]]);
         let bottom = quarter_turn([[0.0, 0.0], [1.4, 0.0], [1.5, 0.1], [1.5, 0.2]]);
         for patch in [octant(), lid, bottom] {

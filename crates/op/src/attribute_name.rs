@@ -4,7 +4,7 @@ use mesh::{joint_of, morph_of};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The attributes that have a meaning for operations and files.
+/// The attributes with fixed names that have a meaning for operations and files.
 const RESERVED: [&str; 9] = [
     "color",
     "corner",

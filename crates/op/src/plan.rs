@@ -261,13 +261,13 @@ impl MeshPlan {
         self.drop_attribute(Domain::Corner, CORNER_TANGENT.name);
     }
 
-    /// Whether the mesh can have weights of joints.
+    /// Whether one of the known attributes has weights of joints.
     pub fn has_joints(&self) -> bool {
         let is_joint = |a: &PlannedAttribute| joint_of(&a.name).is_some();
         (self.attributes.iter()).any(|a| a.domain == Domain::Vertex && is_joint(a))
     }
 
-    /// Returns the largest number of morph targets that the mesh can have.
+    /// Returns the number of morph targets among the known attributes.
     pub fn n_morphs(&self) -> usize {
         let is_morph = |a: &&PlannedAttribute| morph_of(&a.name).is_some();
         (self.attributes.iter())
@@ -275,7 +275,7 @@ impl MeshPlan {
             .count()
     }
 
-    /// Returns the size of the mesh in bytes.
+    /// Returns the size of the mesh in bytes, without attributes that are not known.
     pub fn bytes(&self) -> Range {
         let count = |domain| match domain {
             Domain::Vertex => self.vertices,

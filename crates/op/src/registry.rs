@@ -114,7 +114,8 @@ impl Registry {
         Self::default()
     }
 
-    /// Adds an operation. If its name is taken, [`check`](Self::check) reports the conflict.
+    /// Adds an operation. If its name or one of its earlier names is taken, [`check`](Self::check) reports the
+    /// conflict.
     #[must_use]
     pub fn with<T: Operation>(mut self) -> Self {
         let entry = Entry::of::<T>();

@@ -17,7 +17,7 @@ pub struct TargetKind {
     pub operation: &'static str,
     /// What the operation does, as a verb phrase: `changes meshes`.
     pub does: &'static str,
-    /// The message if the scene has no object to act on: `no mesh to change`.
+    /// What is missing if the scene has no object to act on, for messages: `no mesh to change`.
     pub none: &'static str,
     /// How a recipe gets an object of this kind.
     pub help: &'static str,

@@ -64,8 +64,8 @@ pub fn run(operation: &impl Operation, scene: &mut Scene) -> Result<Report, OpEr
 ///
 /// # Panics
 ///
-/// If the operation fails or does not create exactly one object, if its plan has problems or differs from the mesh, or
-/// if the mesh breaks an invariant.
+/// If the operation fails or does not create exactly one object, if its plan has errors or differs from the mesh, or if
+/// the mesh breaks an invariant.
 pub fn made(operation: &impl Operation) -> Mesh {
     let files = Files::default();
     let mut plan = Plan::default();

@@ -1,7 +1,7 @@
 //! Parameter types that operations share.
 //!
-//! The range of a parameter is part of its type. A value outside of the range is an error when the recipe is
-//! read, the schema of the type contains the range, and operations do not check the range again.
+//! The range of a parameter is part of its type. A value outside of the range is an error when the recipe is read, the
+//! schema of a number contains its range, and operations do not check the range again.
 
 mod number;
 mod turn;

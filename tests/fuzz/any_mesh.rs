@@ -2,7 +2,7 @@
 
 use mesh::{CREASE, DVec3, Mesh};
 
-/// The scales of coordinates. Most meshes have ordinary coordinates.
+/// The scales of coordinates. Half of the meshes have ordinary coordinates.
 const SCALES: [f64; 8] = [1.0, 1.0, 1.0, 1.0, 0.0, 1e-300, 1e100, 1e290];
 
 /// Removes the first byte and returns it. Returns 0 if there are no bytes.
@@ -14,8 +14,8 @@ pub(crate) fn take(bytes: &mut &[u8]) -> u8 {
     first
 }
 
-/// Removes the bytes of a mesh and returns the mesh, which has at most 32 vertices and 40 faces. If the first byte is
-/// odd, the mesh has creases. Returns `None` if the bytes do not give a valid mesh.
+/// Removes the bytes of a mesh and returns the mesh, which is made of at most 32 points and 39 faces. If the first byte
+/// is odd, the mesh has creases. Returns `None` if the bytes do not give a valid mesh.
 pub(crate) fn mesh(bytes: &mut &[u8]) -> Option<Mesh> {
     let kind = take(bytes);
     let scale = SCALES[usize::from(kind >> 5)];

@@ -36,7 +36,7 @@ fuzz_target!(|text: &str| {
     };
     let loaded = engine.load(&source, &options);
     if loaded.has_errors() {
-        // Each error has a message and a position in the source.
+        // Each diagnostic has a message.
         assert!(loaded.diagnostics.iter().all(|d| !d.message.is_empty()));
         return;
     }

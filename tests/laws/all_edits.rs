@@ -48,7 +48,8 @@ proptest! {
             mesh.begin();
             for (i, &code) in codes.iter().enumerate() {
                 let code = if mesh.n_edges() > MAX_EDGES {
-                    // These kinds of edits delete faces, compact the mesh, or remove edges.
+                    // These kinds of edits collapse, dissolve or delete elements, move a vertex, compact the mesh or
+                    // simplify it.
                     EditCode { kind: [2, 7, 8, 9, 12, 25, 26, 27][usize::from(code.kind % 8)], ..code }
                 } else {
                     code

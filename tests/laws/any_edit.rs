@@ -121,7 +121,7 @@ pub(crate) fn edit(mesh: &mut Mesh, code: EditCode) -> Result<(), EditError> {
     }
 }
 
-/// Changes a dense mesh as a whole. Algorithms for triangles change nothing if there is another face.
+/// Changes a dense mesh as a whole. Algorithms for triangles change nothing if a face is not a triangle.
 fn change_surface(mesh: &mut Mesh, code: EditCode) {
     let EditCode { kind, a, b, place } = code;
     let vertices: Vec<VertexId> = mesh.vertices().collect();
@@ -215,7 +215,7 @@ fn change_surface(mesh: &mut Mesh, code: EditCode) {
                 with_uvs.set(mesh::UV, unwrapped.uvs);
                 mesh.replace(with_uvs);
             }
-            // Measures are finite or missing, but never panic.
+            // The measures must not panic.
             let is_source: Vec<bool> = (0..vertices.len()).map(|v| v == usize::from(b)).collect();
             geometry::geodesic_distances(mesh, &is_source, &NoProgress).ok();
             geometry::thickness(mesh, &NoProgress).ok();
@@ -257,7 +257,8 @@ fn around(mesh: &Mesh, h: HalfEdgeId, steps: u16) -> HalfEdgeId {
     }
 }
 
-/// Returns the first half-edge of a hole, starting at `h`. If the mesh has no hole, returns `h`.
+/// Returns the first half-edge without a face from `h` on, in the order of ids, continuing at id 0. If the mesh has no
+/// hole, returns `h`.
 fn hole(mesh: &Mesh, h: HalfEdgeId) -> HalfEdgeId {
     let n = mesh.domain_len(Domain::Corner);
     (0..n)

@@ -1,4 +1,5 @@
-//! Tests the book: every recipe runs, every example in the tables can be read, and no example is missing.
+//! Tests the book: every recipe runs, every example in the tables can be read, no example is missing, and every link
+//! leads to an existing file and heading.
 //!
 //! A code block marked `ron` is a whole recipe that runs in the folder `scenes/`. A block marked `ron,step` is a step,
 //! and a block marked `ron,sweep` is a sweep.

@@ -223,7 +223,7 @@ fn planning_never_panics_even_for_incomplete_plans() {
             on: None,
             budget: u64::MAX,
         };
-        // A plan is incomplete if an earlier step could not be read.
+        // A plan is incomplete if an earlier step could not be read or planned.
         for incomplete in [false, true] {
             let mut plan = exact_plan(&case.scene);
             plan.incomplete = incomplete;

@@ -11,7 +11,8 @@ use crate::every_op::{Case, defects, exact_plan, files};
 use crate::samples::samples;
 use crate::{assert_none, fixtures};
 
-/// Numbers that overflow, underflow or lose precision when they are added, multiplied or squared.
+/// Zero, a negative number, numbers that overflow, underflow or lose precision when they are added, multiplied or
+/// squared, and numbers at the limits of integers.
 const NUMBERS: &[&str] = &[
     "0",
     "-1",
@@ -34,8 +35,8 @@ const NUMBERS: &[&str] = &[
 /// small.
 const BUDGET: u64 = 1 << 20;
 
-/// Returns variants of a sample in which an extreme number replaces one number or all numbers. Variants that cannot be
-/// read are left out.
+/// Returns a sample and its variants in which an extreme number replaces one number or all numbers. Variants that
+/// cannot be read are left out.
 fn extreme_variants(parameters: &str, can_be_read: impl Fn(&str) -> bool) -> Vec<String> {
     let tokens: Vec<_> = Lexer::new(parameters).collect();
     let with = |chosen: &[usize], number: &str| -> String {

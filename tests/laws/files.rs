@@ -1,12 +1,12 @@
-//! Checks that only the programs and the crates in `ALLOWED` access files or clocks directly, because the other crates
-//! must run on platforms without files and clocks.
+//! Checks that only the crates in `ALLOWED` access files or clocks directly, because the other crates must run on
+//! platforms without files and clocks.
 
 use std::path::{Path, PathBuf};
 
 use super::{assert_none, root};
 
-/// The crates that can access files directly: the program, the window of the editor, the store, the step cache on disk, and
-/// benchmarks.
+/// The crates that can access files or clocks directly: the program, the window of the editor, the store, the step
+/// cache on disk, and benchmarks.
 const ALLOWED: [&str; 5] = ["benches", "cache", "cli", "store", "viewer"];
 
 /// The names in source code that indicate direct access to files or clocks.

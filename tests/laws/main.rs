@@ -1,4 +1,5 @@
-//! Tests general properties: of every operation on every fixture, of every schema, and of random sequences of edits.
+//! Tests general properties, for example of every operation on every fixture, of every schema, of random sequences of
+//! edits, and of the book and the sources.
 
 mod all_edits;
 mod any_edit;

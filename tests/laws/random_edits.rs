@@ -9,7 +9,7 @@ use proptest::prelude::*;
 
 use crate::fixtures;
 
-/// An edit with the id of its element. Ids can be beyond the last element.
+/// An edit with a number from which the id of its element is computed. The id can be beyond the last element.
 #[derive(Clone, Copy, Debug)]
 enum Edit {
     Flip(usize),
@@ -170,7 +170,8 @@ fn face(mesh: &Mesh, number: usize) -> FaceId {
     FaceId::new(number % (mesh.domain_len(Domain::Face) + 1))
 }
 
-/// Checks that both edits succeeded, or that both were refused for the same reason.
+/// Checks that the edits of the mesh and of the polygon list both succeeded, or that both were refused for the same
+/// reason. If they succeeded, sets `oracle` to the edited list.
 fn check_agreement(
     result: Result<(), EditError>,
     expected: Result<Polygons, EditError>,

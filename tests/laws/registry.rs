@@ -1,4 +1,5 @@
-//! Checks that the files in `ops/` agree with the list of built-in operations.
+//! Checks that the files in `ops/` agree with the list of built-in operations, and checks the names and summaries of
+//! these operations.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -9,7 +10,7 @@ fn list(folder: PathBuf) -> impl Iterator<Item = PathBuf> {
     entries.map(|entry| entry.expect("the folder can be listed").path())
 }
 
-/// Returns the names of the operations that the files of all groups define, each with its file.
+/// Returns the files of all groups that implement an operation, each with the name that the operation must have.
 fn files() -> BTreeMap<String, PathBuf> {
     list(crate::root().join("ops"))
         .flat_map(|group| list(group.join("src")))

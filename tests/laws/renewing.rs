@@ -1,5 +1,5 @@
 //! Tests the update of the recorded numbers of a recipe. The update restores changed numbers and keeps the rest of the
-//! text. The tests use the recipes in `scenes/`.
+//! text. The test uses the recipes in `scenes/`.
 
 use engine::FileReader;
 use op::Files;
@@ -51,8 +51,8 @@ fn with_other_digit(number: &str) -> String {
     format!("{rest}{}", (digit + 3) % 10)
 }
 
-/// Collects the spans of the integers that are recorded in expectations. Numbers that come from a parameter are
-/// skipped.
+/// Collects the spans of the integers in the fields `eq` of expectations. Numbers that come from a parameter, areas,
+/// volumes, and expectations that also have `min` or `max` are skipped.
 fn collect_recorded(items: &[Value], numbers: &mut Vec<Span>) {
     for item in items {
         if item.name().is_none() {

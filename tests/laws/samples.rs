@@ -219,7 +219,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 4000, ..ProptestConfig::default() })]
 
     /// Checks that the recipe parser and the crate `ron` read the same step from a sample or a slightly changed sample,
-    /// or both fail.
+    /// or both fail. Samples with syntax errors are skipped.
     #[test]
     fn samples_are_read_as_ron_reads_them(
         at in any::<Index>(),
@@ -244,7 +244,8 @@ proptest! {
         let parsed = ron_tree::parse(&tokens.concat());
         if parsed.diagnostics.is_empty() && matches!(parsed.value.kind, ValueKind::Struct(_) | ValueKind::Unit) {
             let by_tree = entry.parse(&parsed.value);
-            // `ron` does not accept white space in some places.
+            // The crate `ron` does not accept white space in some places, so it reads the value as `ron_tree` prints
+            // it.
             match entry.parse_by_ron(&parsed.value.to_string()) {
                 Ok(step) => prop_assert_eq!(by_tree.unwrap().canonical(), step.canonical()),
                 Err(error) => prop_assert!(by_tree.is_err(), "{}: {error}", tokens.concat()),

@@ -7,7 +7,7 @@ use serde_json::Value as Json;
 use crate::samples::samples;
 use crate::{assert_none, recipes};
 
-/// Calls `visit` with each schema inside this schema, and its path.
+/// Calls `visit` with this schema and each JSON value inside it, and the path of the value.
 fn walk<'s>(schema: &'s Json, path: &str, visit: &mut impl FnMut(&'s Json, &str)) {
     visit(schema, path);
     match schema {
@@ -38,8 +38,8 @@ fn no_object_in_a_schema_allows_unknown_fields() {
     let schema = recipe::schema(&ops_all::registry());
     let mut failures = Vec::new();
     walk(&schema, "", &mut |schema, path| {
-        // A field can also have the name `properties`. The value of a field named `properties` is a schema with a
-        // description.
+        // A parameter can also have the name `properties`. The JSON object that contains its schema is not a schema
+        // itself, and its `type` is not `object`.
         let is_object = schema["type"] == "object" && schema["properties"].is_object();
         if is_object && schema["additionalProperties"] != false {
             failures.push(format!("{path}: needs deny_unknown_fields"));
@@ -173,7 +173,7 @@ fn every_sample_fits_the_schema() {
     assert_none(&failures);
 }
 
-/// A recipe with an example of each part of the language.
+/// A valid recipe that uses many parts of the language.
 const VALID: &str = r#"(
     recipe: 1,
     about: "a bit of everything",

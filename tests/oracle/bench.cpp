@@ -3,10 +3,10 @@
 //
 //     g++ -std=c++17 -O2 bench.cpp -losdCPU -o bench && ./bench
 //
-// Each output line has the median, minimum and maximum time of five runs after one warm-up run, in seconds, and
-// the peak resident memory. Each kind of run has a separate process, so that its memory is measured separately.
-// "create" is the time to build the connectivity of the coarse mesh, "refine" to build the connectivity of all
-// levels, and "positions" to compute the positions of all levels, each in a newly allocated vector.
+// Each output line after the first has the median, minimum and maximum time of five runs after one warm-up run, in
+// seconds, and the peak resident memory. Each kind of run has a separate process, so that its memory is measured
+// separately. "create" is the time to build the connectivity of the coarse mesh, "refine" to build the connectivity
+// of all levels, and "positions" to compute the positions of all levels, each in a newly allocated vector.
 
 #include <opensubdiv/far/primvarRefiner.h>
 #include <opensubdiv/far/topologyDescriptor.h>

@@ -126,7 +126,7 @@ Case read(char const* path) {
             out.uvs.push_back(uv);
         } else if (key == "face") {
             read_face(line, out);
-            continue;  // Reading a face up to the end of the line is not an error.
+            continue;  // Reading a face ends with a failed read at the end of the line.
         } else if (key == "crease") {
             int v, w;
             float sharpness;
@@ -188,7 +188,7 @@ void print(Value<N> const& value) {
     }
 }
 
-/// Prints the sharpness of inner edges, and of vertices that the boundary rule does not make corners.
+/// Prints the positive sharpness of inner edges, and of vertices that the boundary rule does not make corners.
 void print_sharpness(Case const& in, Far::TopologyLevel const& level) {
     bool const corners =
         in.options.GetVtxBoundaryInterpolation() == Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER;

@@ -75,7 +75,8 @@ def n_charts(uvs):
 
 
 def measure(positions, uvs):
-    """Returns the charts, the covered part of the page, the aspect of 95 % of the area, and the mirrored part."""
+    """Returns the number of charts, the covered part of the page, the aspect that 95 % of the area does not exceed, and
+    the fraction of mirrored triangles."""
     a, b = positions[:, 1] - positions[:, 0], positions[:, 2] - positions[:, 0]
     length = numpy.linalg.norm(a, axis=1)
     area = numpy.linalg.norm(numpy.cross(a, b), axis=1) / 2

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use mesh::{CREASE, DVec2, DVec3, Mesh, UV, VERTEX_SHARPNESS, VertexId};
 use subdivision::{Boundary, Creasing, FaceVarying, LoopWeights, Rules, Scheme, Split};
 
-/// A case or a result file. Each line is a keyword followed by its values.
+/// A case or a result file. Each line that is not a comment is a keyword followed by its values.
 pub(super) struct Lines {
     text: String,
 }
@@ -92,7 +92,7 @@ pub(super) fn result(case: &str) -> Lines {
     Lines::of(&folder("results").join(case).with_extension("txt"))
 }
 
-/// Returns the mesh of a case with its attributes.
+/// Returns the mesh of a case or a result with its attributes.
 pub(super) fn mesh_of(case: &Lines) -> Mesh {
     let faces = case.faces();
     let polygons: Vec<Vec<u32>> = faces

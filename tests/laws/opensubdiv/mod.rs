@@ -11,12 +11,13 @@ use subdivision::{Rules, Scheme, subdivide};
 
 use case::{Lines, case, folder, mesh_of, parse, point, result, rules_of};
 
-/// The tolerance for equal numbers. It is necessary because the results have seven digits, and OpenSubdiv
-/// stores sharpness as `f32`.
+/// The tolerance for uvs, for sharpness, and for positions relative to the size of the mesh. Normals have ten times
+/// this tolerance. It is necessary because the results have seven decimal places, and OpenSubdiv stores sharpness as
+/// `f32`.
 const TOLERANCE: f64 = 1e-6;
 
-/// Finds the nearest position in `expected` for each vertex of `mesh`. Fails if a distance exceeds the tolerance, or a
-/// position is used twice.
+/// Finds the nearest position in `expected` for each vertex of `mesh`. Fails if the numbers of vertices and positions
+/// differ, a distance exceeds the tolerance, or a position is used twice.
 fn matched(mesh: &Mesh, expected: &[DVec3], tolerance: f64) -> Result<Vec<VertexId>, String> {
     if mesh.n_vertices() != expected.len() {
         let n = mesh.n_vertices();
@@ -106,9 +107,9 @@ fn faces_differ(mesh: &Mesh, partners: &[VertexId], expected: &Lines) -> Vec<Str
     failures
 }
 
-/// Describes the differences between the sharpness of `mesh` and the expected sharpness. Boundary edges, and vertices
-/// that are corners because of the boundary rule, are skipped, because the sharpness values of OpenSubdiv include this
-/// rule.
+/// Describes the differences between the sharpness of `mesh` and the expected sharpness. Boundary edges and vertices
+/// with one face are skipped, because OpenSubdiv's sharpness values include the boundary rule, which can make them
+/// sharp.
 fn sharpness_differs(mesh: &Mesh, partners: &[VertexId], expected: &Lines) -> Vec<String> {
     let creases: BTreeMap<[VertexId; 2], f64> = expected
         .creases()
@@ -179,8 +180,8 @@ fn compared(mesh: &Mesh, expected: &Lines, tolerance: f64) -> Vec<String> {
 
 /// Describes the differences between the limit surface at the vertices of a refined mesh and the expected limit
 /// surface. Compares only values for which OpenSubdiv uses exact limit masks. The compared values are the positions of
-/// all vertices except darts, and the normals of smooth vertices, of regular boundary vertices and of corners with one
-/// face.
+/// all vertices except darts, and the normals of smooth vertices, of creases on the boundary with at most 2 quads
+/// (Catmull-Clark) or 3 triangles (Loop), and of corners with one face.
 fn limits_differ(mesh: &Mesh, rules: Rules, expected: &Lines, tolerance: f64) -> Vec<String> {
     let partners =
         matched(mesh, &expected.positions(), tolerance).expect("the meshes were compared before");

@@ -18,12 +18,12 @@ pub enum ReadError {
         /// The error of the operating system.
         source: io::Error,
     },
-    /// The file name does not have the extension of a known format.
+    /// The file name does not have the extension of a format that can be read.
     #[error("{}: expected a file name that ends in one of {known}", path.display())]
     UnknownFormat {
         /// The file.
         path: PathBuf,
-        /// The known extensions.
+        /// The extensions of the formats that can be read.
         known: String,
     },
     /// A text file breaks the rules of its format.
@@ -64,7 +64,7 @@ pub enum ReadError {
         /// What would be left out.
         left_out: String,
     },
-    /// The content of a `.gz` file cannot be decompressed within the memory budget.
+    /// The content of a `.gz` file is damaged or exceeds the memory budget.
     #[error("{}: {message}", path.display())]
     Compressed {
         /// The file.
@@ -109,7 +109,8 @@ impl ReadError {
     }
 }
 
-/// The reason why a scene could not be written. No file was changed.
+/// The reason why a scene could not be written. No file was changed, unless the system failed to rename one of several
+/// files.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum WriteError {

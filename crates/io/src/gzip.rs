@@ -1,7 +1,7 @@
 //! Reads and writes compressed files: `model.obj.gz` is read and written like `model.obj`.
 //!
-//! The content is compressed with gzip (RFC 1952). All formats except the binary formats `.glb`, `.mws` and `.npz` can
-//! be compressed. The size of the decompressed content is limited, because a few bytes can expand to thousands.
+//! The content is compressed with gzip (RFC 1952). All formats except `.glb`, `.mws` and `.npz` can be compressed. The
+//! size of the decompressed content is limited, because a few bytes can expand to thousands.
 
 use std::borrow::Cow;
 use std::io::{self, Read as _, Write};

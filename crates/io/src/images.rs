@@ -1,5 +1,5 @@
-//! Handles the images of materials. When a model is read, images are searched for in the folder of the model. When a
-//! scene is written, images are embedded or copied.
+//! Handles the images of materials. When a model is read, images are searched for in the folders of its material
+//! libraries and in the folder of the model. When a scene is written, images are embedded or copied.
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -25,9 +25,10 @@ pub enum Images {
     /// Store the images in the file or, for `.gltf`, in its `.bin` file. OBJ files cannot embed images.
     Embed,
     /// Write the images to files in the folder of the written file. Each image keeps the path that it has in the
-    /// original model. If a different image with this path exists, a number is appended to the name of the copy.
+    /// original model. If a different file with this path exists, a number is appended to the name of the copy.
     Copy,
-    /// Write only the paths of the images, as in the original model. Embedded images stay embedded.
+    /// Write only the paths of the images, as in the original model. Embedded images stay embedded, except that OBJ
+    /// files cannot store them.
     Keep,
 }
 
@@ -182,7 +183,8 @@ pub(crate) fn sniffed(bytes: &[u8]) -> Option<&'static str> {
     }
 }
 
-/// A scene in which every image is a path or embedded, and the image files that must be written with this scene.
+/// A scene in which every image is a path or embedded, if the format stores materials, and the image files that must be
+/// written with this scene.
 pub(crate) struct Settled<'a> {
     pub(crate) scene: Cow<'a, Scene>,
     pub(crate) files: Vec<(PathBuf, Content<'static>)>,

@@ -1,4 +1,5 @@
-//! Reads and writes OBJ, glTF, PLY, STL, OFF, COLLADA, Bezier and Meshwright scene files.
+//! Reads and writes OBJ, glTF, PLY, STL, OFF, Bezier and Meshwright scene files. Reads COLLADA files, and writes CSV
+//! and NPZ files.
 //!
 //! [`read()`] reads the objects of a file, [`write()`] writes a scene to files, and [`peek()`] returns the kinds and
 //! the counts of the objects of a file without building meshes. The extension of the file name determines the
@@ -12,20 +13,22 @@
 //! | `.stl` | triangles | `stl` |
 //! | `.off` | polygons | `off` |
 //! | `.dae` (read only) | polygons, materials, placed objects | `dae` |
+//! | `.mws` | a complete Meshwright scene | `mws` |
 //! | `.bez` | Bezier patches | `bez` |
 //! | `.bzc` | a Bezier curve | `bez` |
 //! | `.csv` (write only) | a table of vertices, faces or corners | `csv` |
 //! | `.npz` (write only) | the arrays of a mesh for `NumPy` | `npz` |
 //! | `.gz` after one of these, except `.glb`, `.mws` and `.npz` | the same, compressed with gzip | `gzip` |
 //!
-//! Every loss is reported. Content that a reader leaves out or changes is reported as a [`Note`] with a count. Content
-//! that a format cannot store is reported as a [`Loss`]. Errors have a position: the line and the column in a text
-//! file, the byte offset in a binary file, or the JSON pointer in a glTF file. A path in a file must not lead out of
-//! the folder of the file. A file is written completely or not at all.
+//! Every loss is reported, except that comments and headers of files are not kept. Content that a reader leaves out or
+//! changes is reported as a [`Note`] with a count. Content that a format cannot store is reported as a [`Loss`]. Errors
+//! in the syntax of a file have a position: the line and the column in a text file, the byte offset in a binary file,
+//! or the JSON pointer in a glTF file. A path in a file must not lead out of the folder of the file. A file is written
+//! completely or not at all.
 //!
-//! Each format has a folder with the modules `read` (from bytes to polygons), `write` and `peek`. Its `mod.rs` lists
-//! how each construct of the format is converted. For example, the faces of an OBJ file are read in `obj/statement.rs`,
-//! and those of a glTF file in `gltf/primitives.rs`. All formats share these modules:
+//! Formats for meshes have a folder, whose `mod.rs` lists how each construct of the format is converted. Most of these
+//! folders have the modules `read` (from bytes to polygons) and `write`. For example, the faces of an OBJ file are read
+//! in `obj/statement.rs`, and those of a glTF file in `gltf/primitives.rs`. The formats share these modules:
 //!
 //! | module | purpose |
 //! | --- | --- |
@@ -254,8 +257,9 @@ pub fn read_bytes(
     })
 }
 
-/// Reads the polygons of a file unchanged, without building meshes, for programs that need no connectivity. Curves,
-/// patches and polylines are left out. The placements of nodes are applied as with [`Placements::Bake`].
+/// Reads the polygons of a file without building meshes, for programs that need no connectivity. Curves, patches,
+/// polylines and all objects of `.mws` files are left out. The placements of nodes are applied as with
+/// [`Placements::Bake`].
 ///
 /// # Errors
 ///
@@ -359,8 +363,8 @@ fn fail_if_left_out(path: &Path, notes: &[Note]) -> Result<(), ReadError> {
 ///
 /// Also returns notes about the content that reading would leave out, as far as it is known without reading.
 ///
-/// Bezier files are checked completely. In glTF files, only the JSON is checked. OBJ files are not checked, because
-/// their statements are only counted.
+/// Bezier and `.mws` files are checked completely. In glTF files, only the JSON is checked. OBJ files are not checked,
+/// because their statements are only counted.
 ///
 /// # Errors
 ///
@@ -426,7 +430,7 @@ pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Pee
 /// # Errors
 ///
 /// [`WriteError`] if the format cannot store the scene or the files cannot be written. Existing files are then
-/// unchanged.
+/// unchanged, unless the system failed to rename one of several files.
 pub fn write(
     store: &dyn Store,
     path: &Path,

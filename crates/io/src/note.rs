@@ -1,4 +1,4 @@
-//! Notes: the content that reading changed or left out. All such content is reported.
+//! Notes: the content that reading changed or left out. All such content is reported, except comments and headers.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -20,9 +20,9 @@ pub struct Note {
     pub line: Option<usize>,
     /// The number of elements, statements or other things that the note is about.
     pub count: usize,
-    /// The text that follows the count, in the plural, such as `statements 'vp' left out`. The text names the elements,
-    /// statements or other things, and says how the reader handled them. If the count is 1, [`Display`](fmt::Display)
-    /// writes the first noun in the singular.
+    /// The text that follows the count, such as `statements 'vp' left out`, in the plural if the count can exceed 1.
+    /// The text names the elements, statements or other things, and says how the reader handled them. If the count is
+    /// 1, [`Display`](fmt::Display) writes the first noun in the singular.
     pub what: String,
     /// The affected elements of the file, if they are known.
     pub elements: Option<Elements>,

@@ -45,7 +45,7 @@ pub struct PeekObject {
     pub name: String,
     /// The kind and the counts of its geometry.
     pub geometry: PeekGeometry,
-    /// The number of nodes that reference the object, or 1 in a file without nodes.
+    /// The number of nodes that reference the object, or 1 if no node does.
     pub instances: u64,
     /// The index of the skin of the first node that references the object.
     pub skin: Option<u64>,
@@ -119,8 +119,8 @@ impl PeekGeometry {
 /// The counts and attributes of a mesh according to its file.
 ///
 /// Reading never gives more faces or corners than these counts. Reading can give more vertices, because non-manifold
-/// vertices and edges are split. Reading can also give fewer vertices, because a glTF file has a separate vertex for
-/// each side of a seam.
+/// vertices and edges are split. Reading can also give fewer vertices, for example because a glTF file has a separate
+/// vertex for each side of a seam.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[expect(
     clippy::struct_excessive_bools,

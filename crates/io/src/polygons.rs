@@ -16,7 +16,7 @@ use crate::note::{NoteKind, Notes, PolygonArrays};
 use crate::writing::COPY_DISTANCE;
 use crate::{NonManifold, Orientation, Policies, ReadOptions, parallel};
 
-/// Polygons as flat arrays in the order of a file. Nothing is merged, split or left out.
+/// Polygons as flat arrays in the order of a file. They need not form a manifold.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polygons {
     /// The position of each vertex.
@@ -100,8 +100,9 @@ impl Polygons {
         self.insert(I::DOMAIN, attribute.name, attribute.rule, values);
     }
 
-    /// Applies the transform of a node to positions and normals. If the transform is a reflection, reverses the faces.
-    /// Returns the number of normals that are left out because the transform is singular.
+    /// Applies the transform of a node to positions, normals, tangents and the deltas of morph targets. If the
+    /// transform is a reflection, reverses the faces. Returns the number of normals that are left out because the
+    /// transform is singular.
     pub(crate) fn apply_transform(&mut self, to_scene: &DAffine3) -> usize {
         if *to_scene == DAffine3::IDENTITY {
             return 0;

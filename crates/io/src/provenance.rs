@@ -9,7 +9,7 @@ use crate::{Format, ReadError, gltf, gzip, mws};
 
 /// The number of bytes at the beginning of a file that are searched.
 const HEAD: u64 = 1 << 20;
-/// The number of bytes of a compressed glTF file that are read.
+/// The maximum number of decompressed bytes of a compressed glTF file that are read.
 const MAX_DOCUMENT: u64 = 1 << 30;
 
 /// Reads the provenance of a file. Returns `None` if the file has no provenance, or its format cannot store it. Also

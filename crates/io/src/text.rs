@@ -106,8 +106,8 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Reads the next word. A word ends before a blank, a line end or a backslash that continues the line. The word is
-    /// empty at the end of the text.
+    /// Reads the next word. A word ends before a blank, a line end, a backslash that continues the line, or the end of
+    /// the text. If the cursor is at one of these, the word is empty.
     pub(crate) fn word(&mut self) -> &'a [u8] {
         let start = self.at;
         while let Some(byte) = self.peek() {

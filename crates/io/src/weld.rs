@@ -258,7 +258,7 @@ fn bits(p: DVec3) -> [u64; 3] {
     p.to_array().map(|x| (x + 0.0).to_bits())
 }
 
-/// Random keys of the hash. They prevent files that are crafted so that the hashes of all positions collide.
+/// Random keys of the hash. They protect against files that are crafted so that the hashes of all positions collide.
 struct Keys([u64; 3]);
 
 impl Keys {

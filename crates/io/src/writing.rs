@@ -53,7 +53,7 @@ pub(crate) fn uvs_of_vertices(mesh: &Mesh, uvs: &Values) -> Option<Values> {
     vertex_values(mesh, uvs, |a, b| bits(a) == bits(b))
 }
 
-/// The reason for the loss of numbers that text formats cannot represent.
+/// The reason for the loss of non-finite numbers.
 pub(crate) const NOT_FINITE: &str = "non-finite numbers, written as 0";
 
 /// Returns the values of a column. Replaces non-finite values by zero, and adds a loss for them.

@@ -379,7 +379,7 @@ impl Mesh {
         );
     }
 
-    /// Returns the total size of all arrays of the mesh, in bytes.
+    /// Returns the size of the connectivity, the positions and the attributes together, in bytes.
     pub fn bytes(&self) -> usize {
         let c = &self.connectivity;
         let attributes: usize = self.attributes.iter().map(|(_, c)| c.values.bytes()).sum();

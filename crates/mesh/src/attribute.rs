@@ -51,9 +51,9 @@ pub enum Rule {
     /// A new element gets the weighted mean of the values of its source elements. Whole numbers and tags are not
     /// averaged: the new element gets the value with the largest weight.
     Interpolate,
-    /// The values are unit vectors. New values are interpolated, then scaled to length 1. Transforms rotate
-    /// them. Subdivision drops the column, because the vectors would be wrong. Many other operations remove the
-    /// normals for the same reason; see [`Mesh::remove_normals`](crate::Mesh::remove_normals).
+    /// The values are unit vectors. New values are interpolated, then scaled to length 1. Transforms treat them as
+    /// normals of the surface. Subdivision drops the column, because the vectors would be wrong. Many other operations
+    /// remove the normals for the same reason; see [`Mesh::remove_normals`](crate::Mesh::remove_normals).
     Normal,
     /// A new element gets the value of the old element that contained it. If no old element contained the new
     /// one, it gets the zero value. For example, both parts of a split edge keep the tags of the edge; a new

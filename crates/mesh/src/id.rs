@@ -20,7 +20,8 @@ pub trait Id:
     ///
     /// # Panics
     ///
-    /// Panics if `index` is not below 2³² − 1. Builders check sizes first, so a panic is a bug in this crate.
+    /// Panics if `index` is not below 2³² − 1. The edits and builders of this crate check the number of elements
+    /// first.
     fn new(index: usize) -> Self;
 
     /// Returns the index of the element in the arrays of the mesh.
@@ -43,7 +44,8 @@ macro_rules! id {
             ///
             /// # Panics
             ///
-            /// Panics if `index` is not below 2³² − 1. Builders check sizes first, so a panic is a bug in this crate.
+            /// Panics if `index` is not below 2³² − 1. The edits and builders of this crate check the number of elements
+            /// first.
             #[inline]
             pub fn new(index: usize) -> Self {
                 assert!(index < u32::MAX as usize, "more than 2^32 - 2 elements of one kind");

@@ -11,9 +11,9 @@
 //!
 //! The journal is a stack of entries. Elements that were added after the innermost level was opened need no
 //! entries: an undo truncates the arrays to their old lengths. An undo in turn records the values that it
-//! overwrites; this record is the change that redoes the edits. Entries that would take more memory than the
-//! mesh are replaced by one copy of the mesh, and a level that has a copy needs no further entries. A journal
-//! therefore never takes more than about twice the memory of its mesh.
+//! overwrites; this record is the change that redoes the edits. Between edits, entries that take more memory than the
+//! mesh, apart from copies of whole arrays, are replaced by one copy of the mesh. A level that has a copy needs no
+//! further entries.
 
 use bytemuck::cast_slice_mut;
 use glam::DVec3;
@@ -337,8 +337,8 @@ impl Mesh {
     }
 
     /// Replaces the entries by one copy of the mesh as it was at `begin`, if the entries have become larger than
-    /// the mesh. This function is called between edits. Does nothing while inner levels are open, because an
-    /// inner level lasts for one edit only.
+    /// the mesh. This function is called between edits. Does nothing while inner levels are open, because inner levels
+    /// should be short.
     pub(crate) fn bound_journal(&mut self) {
         let Some(journal) = &self.journal else { return };
         let [level] = journal.levels[..] else { return };

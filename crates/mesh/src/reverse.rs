@@ -11,7 +11,7 @@
 //! In a face, the half-edge h that leaves a vertex v becomes the half-edge that ends at v. The half-edge before
 //! h, prev(h), becomes the one that leaves v. So prev(h) replaces h in three roles: as the half-edge of v (if
 //! h is on the boundary, so is prev(h)), as the half-edge of the face, and as the half-edge that stores the
-//! values of the corner at v. Reversing twice restores every array.
+//! values of the corner at v. Reversing twice restores the connectivity of all living elements.
 
 use crate::attribute::Attributes;
 use crate::{Connectivity, Domain, HalfEdgeId, Mesh};

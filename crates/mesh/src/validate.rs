@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::{Connectivity, Domain, EdgeId, Element, FaceId, HalfEdgeId, Id, Mesh, VertexId};
 
-/// A broken invariant. The order and the words are those of the list in the crate's documentation.
+/// A broken invariant. The order is that of the list in the crate's documentation.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Defect {
     /// The length of an array does not match the number of elements.

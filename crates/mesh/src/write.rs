@@ -139,8 +139,8 @@ impl Mesh {
         }
     }
 
-    /// Merges the values of edge `from` into edge `to`, when the two become one edge. The larger value is
-    /// kept, and a tag is set if either edge had it. Columns of other types stay as they are.
+    /// Merges the values of edge `from` into edge `to`, when the two become one edge. The larger number is kept, and a
+    /// tag is set if either edge had it. Columns of other types stay as they are.
     pub(crate) fn merge_values(&mut self, from: EdgeId, to: EdgeId) {
         let (source, target) = (from.index(), to.index());
         self.edit_values(to, |column| match &mut column.values {

@@ -44,7 +44,7 @@ pub struct Meter<'a> {
     task: &'static str,
     done: AtomicU64,
     total: u64,
-    /// Progress is reported whenever the sum passes a multiple of this interval.
+    /// Progress is reported whenever the sum reaches or passes a multiple of this interval.
     interval: u64,
 }
 

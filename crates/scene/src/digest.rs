@@ -1,15 +1,15 @@
 //! The canonical form of a scene as bytes, and its digest.
 //!
 //! The canonical form contains every array and every string with its length. Numbers are little-endian and keep all
-//! their bits. Two scenes have the same canonical form if and only if they have the same objects with the same
-//! arrays, in the same order.
+//! their bits. Two scenes have the same canonical form if and only if they have the same graph and the same objects in
+//! the same order, bit by bit, apart from removed elements of meshes.
 //!
 //! If the scene has a graph, the graph follows the objects. A scene without a graph has the same form as in the
 //! first version, which had no graphs.
 //!
-//! A material is written as its name, base color, metalness, roughness and the path of its base color texture. If
-//! the material has other properties, they follow a marker ([`MORE`]), each with its name. A material without other
-//! properties has the same form as in the first version of the canonical form.
+//! A material is written as its name, base color, metalness, roughness and the path of its base color texture. If other
+//! properties of the material differ from their defaults, they follow a marker ([`MORE`]), each with its name. A
+//! material without such properties has the same form as in the first version of the canonical form.
 
 use std::fmt;
 
@@ -50,7 +50,7 @@ impl fmt::Debug for Digest {
 }
 
 impl Scene {
-    /// Returns the digest of the scene. Equal scenes have equal digests, on every machine.
+    /// Returns the digest of the canonical form of the scene. It is the same on every machine.
     pub fn digest(&self) -> Digest {
         let mut hasher = blake3::Hasher::new();
         self.encode(&mut |bytes| {
@@ -105,7 +105,8 @@ impl Scene {
     }
 }
 
-/// The string that precedes the graph in the canonical form. The form of a scene without nodes has no graph.
+/// The string that precedes the graph in the canonical form. If the graph is empty, the form has neither this string
+/// nor the graph.
 pub(crate) const GRAPH: &str = "graph";
 
 /// The first string of the canonical form. It contains the version of the form.
@@ -334,7 +335,7 @@ impl Encoder<'_> {
     }
 }
 
-/// Whether a texture has no properties other than its path.
+/// Whether a texture has a path that is not empty, and no other properties.
 fn is_only_path(texture: &Texture) -> bool {
     texture
         .path()

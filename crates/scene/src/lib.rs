@@ -125,14 +125,14 @@ impl Scene {
         &self.graph
     }
 
-    /// Returns the nodes that place objects in the scene, mutably. Each object that a node references must exist in
+    /// Returns the nodes that place objects in the scene, mutably. Each object that a node references must be a mesh of
     /// the scene.
     pub fn graph_mut(&mut self) -> &mut Graph {
         Arc::make_mut(&mut self.graph)
     }
 
-    /// Returns a scene of the objects that `is_wanted` accepts, with their nodes and the ancestors of these nodes, but
-    /// without cameras and lights.
+    /// Returns a scene of the objects that `is_wanted` accepts, with their nodes, the joints of their skins and the
+    /// ancestors of all these nodes, but without cameras and lights.
     #[must_use]
     pub fn only(&self, is_wanted: impl Fn(&str) -> bool) -> Self {
         let objects = self.objects.iter().filter(|o| is_wanted(&o.name));
@@ -182,8 +182,8 @@ impl Scene {
         Ok(self.graph_mut().append(graph))
     }
 
-    /// Removes an object and returns it. The nodes that reference the object are removed, unless they have
-    /// children, a camera or a light.
+    /// Removes an object and returns it. The nodes that reference the object are removed, unless they have other
+    /// children, a camera or a light, or are joints.
     pub fn remove(&mut self, name: &str) -> Option<Object> {
         let index = self.objects.iter().position(|o| o.name == name)?;
         self.unplace(name);
@@ -191,15 +191,16 @@ impl Scene {
     }
 
     /// Removes an object from all nodes, so that its own space becomes the space of the scene. The nodes that
-    /// referenced the object are removed, unless they have children, a camera or a light.
+    /// referenced the object are removed, unless they have other children, a camera or a light, or are joints.
     pub fn unplace(&mut self, name: &str) {
         if !self.graph.is_empty() {
             self.graph_mut().remove_object(name);
         }
     }
 
-    /// Renames an object. If a node or mesh of the object has the same name, it is renamed too. The object keeps
-    /// its position in the list. Returns whether the object exists.
+    /// Renames an object. A node or mesh of the object with the same name is renamed too. If no node of the object has
+    /// this name, the mesh is always renamed. The object keeps its position in the list. Returns whether the object
+    /// exists.
     ///
     /// # Errors
     ///

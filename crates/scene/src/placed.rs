@@ -1,4 +1,5 @@
-//! Lists the instances of objects. An object has one instance for each node that references it.
+//! Lists the instances of objects. An object has one instance for each node that references it, or one instance if no
+//! node references it.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -17,7 +18,8 @@ pub struct Instance<'s> {
     /// The object.
     pub object: &'s Object,
     /// A name that is unique among all instances. The only instance of an object has the name of the object.
-    /// Otherwise, the name of the instance is the name of the node, followed by a number if necessary.
+    /// Otherwise, the name of the instance is the name of the node (if the node has none, of the object), followed by a
+    /// number if necessary.
     pub name: String,
     /// The map from the space of the object to the scene. For a skinned mesh, the map of the first joint.
     pub to_scene: DAffine3,
@@ -27,8 +29,8 @@ pub struct Instance<'s> {
 
 impl Instance<'_> {
     /// Returns the object with points in scene space and with the name of the instance. Only meshes are placed.
-    /// Morph targets deform the mesh by their default weights, and a skin deforms it by the placements of the
-    /// joints.
+    /// Morph targets deform the mesh by the weights of the node (if the node has none, by the default weights), and a
+    /// skin deforms it by the placements of the joints.
     pub fn placed(&self) -> Object {
         let geometry = match &self.object.geometry {
             Geometry::Mesh(mesh) if self.pose.deforms() => {
@@ -129,8 +131,8 @@ impl Scene {
     }
 }
 
-/// Returns a mesh with all points, normals and deltas of morph targets transformed. All ids stay the same. If the map
-/// is a reflection, faces are reversed as by [`Mesh::reverse`], but no attribute is dropped.
+/// Returns a mesh with all points, normals, tangents and deltas of morph targets transformed. All ids stay the same. If
+/// the map is a reflection, faces are reversed as by [`Mesh::reverse`], but no attribute is dropped.
 ///
 /// Normals are multiplied by the cofactor matrix of the map: the inverse transpose of the map times its determinant
 /// (Turkowski, "Properties of Surface-Normal Transformations", 1990). The determinant of a reflection is negative, so

@@ -13,7 +13,7 @@ use crate::{Graph, Node};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pose {
     /// For each joint of the skin, the map from the points in the bind pose to the scene. `None` if the node has no
-    /// skin.
+    /// skin or the mesh has no weights of joints.
     pub joints: Option<Arc<[DAffine3]>>,
     /// The weights of the morph targets.
     pub weights: Vec<f64>,
@@ -49,7 +49,7 @@ impl Pose {
 
     /// Returns for each of `n` vertices the map from its point in the bind pose to the scene. The map is the
     /// weighted mean of the maps of the joints of the vertex (linear blend skinning). A vertex without weights
-    /// follows the first joint. Returns `None` if there is no skin.
+    /// follows the first joint. Returns `None` if the pose has no joints.
     pub fn blended(&self, attributes: &Attributes, n: usize) -> Option<Vec<DAffine3>> {
         let maps = self.joints.as_deref()?;
         let columns = attributes.joints();

@@ -10,8 +10,8 @@
 //! | `corner/name` | corners, or corners and components | the attributes of corners, face by face |
 //!
 //! Numbers are `float64`, whole numbers `int32`, tags `bool`, and vertex ids `int64`. The file is an uncompressed zip
-//! archive of `.npy` files (version 1.0 of the format). In the names of attributes, slashes and control characters
-//! become `_`.
+//! archive of `.npy` files (version 1.0 of the format). In the names of attributes, slashes, backslashes and control
+//! characters become `_`. If two arrays would have the same name, a number is appended to the second name.
 
 mod zip;
 
@@ -29,7 +29,7 @@ use zip::Archive;
 ///
 /// # Errors
 ///
-/// If an object is not a mesh, or if the file would be larger than 4 GiB.
+/// If an object is not a mesh, or if the file would exceed a limit of zip archives, such as 4 GiB.
 pub(crate) fn write(scene: &Scene) -> Result<SingleFile, Unwritable> {
     let joined = joined(scene, "NPZ", Names::Lost)?;
     let mesh = &*joined.mesh;

@@ -1,5 +1,5 @@
 //! Parses the corners of faces, lines and points. Indices start at 1. Negative indices count backward from the last
-//! element.
+//! element that is defined before the corner.
 
 use super::file::NONE;
 use crate::fault::Fault;

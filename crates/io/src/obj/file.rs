@@ -59,7 +59,7 @@ pub(super) struct Run {
     pub(super) smoothing: i32,
 }
 
-/// Content that the reader leaves out.
+/// Content that the reader leaves out or changes.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum LeftOut {
     /// Statements of the format that do not describe polygons, by keyword.

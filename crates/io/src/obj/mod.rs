@@ -5,7 +5,7 @@
 //! | statement | in the mesh |
 //! | --- | --- |
 //! | `v x y z` | position of a vertex; vertices keep their order |
-//! | `v x y z r g b` | vertex attribute `color` |
+//! | `v x y z r g b` or `v x y z r g b a` | vertex attribute `color` |
 //! | `#MRGB` comments of `ZBrush` | vertex attribute `color`, if there is one for each vertex |
 //! | `vt`, `f v/vt` | corner attribute `uv` |
 //! | `vn`, `f v//vn` | vertex attribute `normal` if the corners of each vertex agree, otherwise corner attribute |
@@ -14,6 +14,8 @@
 //! | `o a` | face tag `o:a` |
 //! | `s 1` | face attribute `smoothing` |
 //! | `usemtl a`, `mtllib` | face attribute `material`, and materials of the object |
+//! | `l` | a polyline, if the file has no faces; otherwise left out, with a note |
+//! | other statements | left out, with a note |
 //!
 //! The writer uses the same table in the other direction. Therefore, this content is preserved when a written file is
 //! read, and when a file that was read is written again.

@@ -21,7 +21,7 @@ use crate::text::{Cursor, TextPosition, name};
 ///
 /// # Errors
 ///
-/// If the path of a library leaves the folder.
+/// If the path of a library is not a path inside the folder of the file.
 pub(crate) fn peek(
     bytes: &[u8],
     name: &str,

@@ -25,7 +25,7 @@ pub(super) const POLYLINES: &str = "polylines (`l`) left out: the object is a me
 ///
 /// # Errors
 ///
-/// The first line that violates the format, or the path of a library that leaves the folder.
+/// The first line that violates the format, or the first path of a library that is not inside the folder of the file.
 pub(crate) fn read(bytes: &[u8], assets: &mut Assets, notes: &mut Notes) -> Result<Shape, Fault> {
     let mut file = parse(bytes)?;
     note_left_out(&file, notes);

@@ -14,9 +14,9 @@
 //! | comments, the number of edges | not kept |
 //!
 //! The letters can be combined, as in `STCNOFF`. A line then has position, normal, color and texture coordinates, in
-//! this order. The keyword can be missing. If all color components of a file are integers, and at least one is greater
-//! than 1, all components are divided by 255. Otherwise, the components are used unchanged. Binary files are refused,
-//! and so are files with a different number of coordinates (`4OFF`, `nOFF`).
+//! this order. The keyword can be missing. If all color components of the vertices are integers, and at least one is
+//! greater than 1, all of them are divided by 255. Otherwise, they are used unchanged. The same applies to the colors
+//! of the faces. Binary files are refused, and so are files with a different number of coordinates (`4OFF`, `nOFF`).
 //!
 //! The writer uses the same table in the other direction. Texture coordinates are written only if they agree around
 //! each vertex.

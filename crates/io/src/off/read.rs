@@ -190,7 +190,7 @@ fn numbers<const N: usize>(words: Words) -> Result<[f64; N], Fault> {
     Ok(numbers)
 }
 
-/// The colors of a file. The colors are scaled after all of them are read.
+/// The colors of the vertices or of the faces. The colors are scaled after all of them are read.
 #[derive(Default)]
 struct Colors {
     /// The color and, if given, the alpha of each element; `None` for a face without a color.

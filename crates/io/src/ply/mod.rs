@@ -17,14 +17,14 @@
 //! | other lists, other elements (`edge`, `range_grid` and so on) | left out, with a note |
 //! | other comments, `obj_info` | not kept |
 //!
-//! When the mesh is edited, floating-point properties of vertices are interpolated, and all other properties are
-//! copied. Non-finite positions are an error. Other non-finite values become 0, with a note.
+//! When the mesh is edited, the attribute of any other scalar is interpolated if it is a floating-point property of
+//! `vertex`, and copied otherwise. Non-finite positions are an error. Other non-finite values become 0, with a note.
 //!
-//! The writer uses the same table in the other direction and writes little-endian binary. All values are restored
-//! exactly when the file is read. Positions and custom attributes are written with 64 bits. Normals and texture
-//! coordinates are written with 32 bits if that is exact. Colors are written as bytes if every component is a multiple
-//! of 1/255. If texture coordinates agree around each vertex, they are written as `s t`. Corner attributes are written
-//! as lists of `face`. Materials and edge attributes cannot be stored.
+//! The writer uses the same table in the other direction and writes little-endian binary. All finite values are
+//! restored exactly when the file is read. Positions and custom floating-point attributes are written with 64 bits.
+//! Normals and texture coordinates are written with 32 bits if that is exact. Colors are written as bytes if every
+//! component is a multiple of 1/255. If texture coordinates agree around each vertex, they are written as `s t`. Corner
+//! attributes are written as lists of `face`. Materials and edge attributes cannot be stored.
 
 mod attribute_comments;
 mod body;

@@ -18,8 +18,8 @@ pub(super) struct Table<'a> {
     layout: Layout,
 }
 
-/// The positions of rows. A row is divided into segments. A new segment begins after each list whose length differs
-/// between rows. Each segment has its own list of positions.
+/// The positions of rows. A row is divided into segments. A new segment begins after each list. Each segment has its
+/// own list of positions.
 #[derive(Debug)]
 enum Layout {
     /// All rows have the same length, because each list has the same count in every row.
@@ -128,7 +128,8 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Returns the number of items in the list of each row, if this number is the same for all rows.
+    /// Returns the number of items in the list of each row, if each list of the element has the same length in all
+    /// rows.
     pub(super) fn even_count(&self, property: usize) -> Option<usize> {
         match &self.layout {
             Layout::Even { counts, .. } => Some(counts[property]),

@@ -58,7 +58,7 @@ fn kind(bytes: &[u8]) -> Result<Kind, Fault> {
         .unwrap_or(bytes)
         .trim_ascii_start();
     let word = start.get(..5).unwrap_or_default();
-    // The header of a binary file can also begin with `solid`. However, a binary file has zero bytes near its
+    // The header of a binary file can also begin with `solid`. However, a binary file usually has zero bytes near its
     // beginning, and a text file has none.
     if word.eq_ignore_ascii_case(b"solid") && !bytes[..n_bytes.min(512)].contains(&0) {
         return Ok(Kind::Text);

@@ -2,9 +2,9 @@
 //!
 //! The attribute `joint:j` has the weight of joint j of the skin at each vertex, and `morph:t` has the vector
 //! by which morph target t moves each vertex. Both attributes follow the rule
-//! [`Rule::Interpolate`](crate::Rule::Interpolate), so an edit that averages positions averages the deformed
-//! positions in the same way. For this purpose, each joint has a separate attribute, because a list of joints at
-//! each vertex could not be interpolated.
+//! [`Rule::Interpolate`](crate::Rule::Interpolate), so an edit that averages positions averages weights and deltas in
+//! the same way. For this purpose, each joint has a separate attribute, because a list of joints at each vertex could
+//! not be interpolated.
 
 use super::{Attributes, Values};
 use crate::{DVec3, Domain};

@@ -12,7 +12,8 @@
 //!                               |  split: copies vertices
 //! ```
 //!
-//! Input that is not a manifold is repaired, and a [`BuildReport`] lists all repairs:
+//! By default ([`NonManifold::Split`]), input that is not a manifold is repaired, and a [`BuildReport`] lists all
+//! repairs:
 //!
 //! - Two polygons that share an edge have a consistent orientation if their sides run along the edge in opposite
 //!   directions. Polygons that are connected through edges with exactly two sides form a part, and each part is
@@ -64,11 +65,11 @@ pub enum BuildError {
     /// A position is infinite or not a number.
     #[error("the position of vertex {0} is not finite")]
     NotFinite(usize),
-    /// The mesh would have more elements than there are ids.
-    #[error("{0} {1} are too many for a mesh: the highest id is 2^32 - 2")]
+    /// The mesh could have more elements than there are ids.
+    #[error("a mesh with up to {0} {1} would be too large: the highest id is 2^32 - 2")]
     TooLarge(usize, &'static str),
     /// The offsets do not divide the corners into polygons.
-    #[error("the offsets of the faces must increase from 0 to the number of corners, {0}")]
+    #[error("the offsets of the faces must be in ascending order, from 0 to the number of corners, {0}")]
     BadOffsets(usize),
     /// This polygon has fewer than three corners, or contains a vertex twice, and non-manifold input is refused.
     #[error(
@@ -147,7 +148,7 @@ impl BuildOutput {
 impl Mesh {
     /// Builds a mesh from polygons, given as lists of vertex indices in counter-clockwise order.
     ///
-    /// Polygon i becomes face i unless a degenerate polygon with a lower index was dropped. The
+    /// Polygon i becomes face i, unless polygon i or an earlier polygon is degenerate and dropped. The
     /// [module](mod@crate::build) documents how non-manifold input is repaired.
     ///
     /// # Errors
@@ -183,9 +184,9 @@ impl Mesh {
 ///
 /// # Errors
 ///
-/// Returns the errors of [`Mesh::from_polygons`], and [`BuildError::Degenerate`],
-/// [`BuildError::NonManifoldEdge`] or [`BuildError::NonManifoldVertex`] if `non_manifold` requires an error
-/// for non-manifold input.
+/// Returns the errors of [`Mesh::from_polygons`], [`BuildError::BadOffsets`] if the offsets do not divide the corners
+/// into polygons, and [`BuildError::Degenerate`], [`BuildError::NonManifoldEdge`] or [`BuildError::NonManifoldVertex`]
+/// if `non_manifold` requires an error for non-manifold input.
 pub fn build(
     positions: Vec<DVec3>,
     offsets: &[u32],

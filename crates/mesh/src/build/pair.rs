@@ -106,7 +106,7 @@ pub(super) fn pair(polygons: &Polygons, buckets: &Buckets) -> PairedSides {
         .clone()
         .flat_map(|block| block.edges.clone())
         .collect();
-    // Most edges were added twice, once at each end.
+    // An edge can be added twice, once at each end.
     non_manifold_edges.sort_unstable();
     non_manifold_edges.dedup();
     PairedSides {

@@ -166,7 +166,7 @@ pub(super) fn check(
     offsets: &[u32],
     corners: &[u32],
 ) -> Result<Vec<usize>, BuildError> {
-    // Half-edge ids are below 2^32 - 1, and each corner can need a separate edge.
+    // Ids are below 2^32 - 1. Each corner can need a separate edge and a separate copy of its vertex.
     to_u32(positions.len().saturating_add(corners.len()), "vertices")?;
     to_u32(corners.len().saturating_mul(2), "half-edges")?;
     let is_valid = offsets.first() == Some(&0)

@@ -86,7 +86,7 @@ impl BuildReport {
 pub struct Repair {
     /// A stable name of the kind of repair, for programs, such as `faces-reversed`.
     pub code: &'static str,
-    /// The text that follows the number of elements, such as "faces reversed".
+    /// The text that follows the number of elements, such as "non-manifold edges split".
     pub description: &'static str,
     /// The repaired elements, at least one.
     pub elements: Elements,
@@ -151,7 +151,7 @@ impl Elements {
     }
 }
 
-/// Writes up to five elements in parentheses: `(face 3)`, `(v0, v7)`.
+/// Writes up to five elements in parentheses, such as `(face 3)` or `(v0, v7)`, and `..` if there are more.
 impl fmt::Display for Elements {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         const MAX_SHOWN: usize = 5;

@@ -26,7 +26,8 @@ pub(super) struct Star {
     /// A corner that has no predecessor, at the start of a fan; 0 if all fans are closed.
     start: usize,
     is_closed: bool,
-    /// Whether several sides lead to the same neighbor, or come from the same neighbor.
+    /// Whether an edge at the vertex is not a manifold edge. Can be false if all sides along such an edge end at the
+    /// vertex; the star at the other end of the edge then has the flag.
     pub(super) has_non_manifold_edge: bool,
 }
 
@@ -91,8 +92,8 @@ impl Star {
         };
     }
 
-    /// Gives the same result as [`match_by_comparing`](Self::match_by_comparing), and is faster if there are
-    /// many corners.
+    /// Finds the same corners as [`match_by_comparing`](Self::match_by_comparing), and is faster if there are many
+    /// corners.
     fn match_by_sorting(&mut self) {
         let sorted = |neighbors: &[u32]| {
             let mut sorted: Vec<(u32, u32)> = neighbors.iter().copied().zip(0..).collect();

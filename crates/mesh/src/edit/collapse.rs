@@ -102,10 +102,9 @@ impl Mesh {
         self.collapse(e, t, point)
     }
 
-    /// Collapses an edge like [`collapse_edge`](Self::collapse_edge), to any point. The attributes of the
-    /// vertex and of all its corners are the weighted means of the attributes at three `corners`. Use this
-    /// function if the point lies in a face beside the edge; on a seam, use
-    /// [`collapse_edge_to`](Self::collapse_edge_to).
+    /// Collapses an edge like [`collapse_edge`](Self::collapse_edge), to any point. The interpolated attributes of the
+    /// vertex and of all its corners are the weighted means of the attributes at three `corners`. Use this function if
+    /// the point lies in a face beside the edge; on a seam, use [`collapse_edge_to`](Self::collapse_edge_to).
     ///
     /// # Errors
     ///

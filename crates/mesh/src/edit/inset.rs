@@ -19,10 +19,11 @@ impl Mesh {
     ///    + ------------- +              + ------------- +
     /// ```
     ///
-    /// V, E and F grow by n, 2n and n, where f has n corners. The inner face keeps the id of `f` and its first
-    /// corner. Existing vertices and edges do not move. As in [`extrude_faces`](Self::extrude_faces), the new
-    /// elements are numbered in the order of the half-edges h of `f`, counter-clockwise from the first. Each h adds
-    /// the vertex v', the edges v'-w' and v-v' in this order, and the face (v, w, w', v'), whose half-edge is h.
+    /// V, E and F grow by n, 2n and n, where f has n corners. The inner face keeps the id of `f`, and its first corner
+    /// is the copy of the first corner of `f`. Existing vertices and edges do not move. As in
+    /// [`extrude_faces`](Self::extrude_faces), the new elements are numbered in the order of the half-edges h of `f`,
+    /// counter-clockwise from the first. Each h adds the vertex v', the edges v'-w' and v-v' in this order, and the
+    /// face (v, w, w', v'), whose half-edge is h.
     ///
     /// Attributes of the new vertices and of the corners at them are interpolated at t between the outer corner
     /// and the mean of all corners of the face. Attributes that are not interpolated are copied from the outer

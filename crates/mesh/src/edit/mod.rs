@@ -1,5 +1,5 @@
-//! Local edits, one per file. Each edit first checks whether it is possible, then changes the mesh, so a refused
-//! edit leaves every array unchanged.
+//! Local edits, with one file for each edit or for a few similar edits. Each edit first checks whether it is possible,
+//! then changes the mesh, so a refused edit leaves every array unchanged.
 
 mod bevel;
 mod bridge;
@@ -96,7 +96,7 @@ pub enum EditError {
     /// Corner attributes differ between the two sides of the edge, and the edit would lose the difference.
     #[error("{0} is a seam of corner attributes")]
     Seam(EdgeId),
-    /// The position along the edge is not strictly between its ends.
+    /// The position along the edge is not between 0 and 1. Only a collapse allows 0 and 1 themselves.
     #[error("the position along the edge must be between 0 and 1, not {0}")]
     OutsideEdge(f64),
     /// A coordinate, length or fraction is not finite, or is out of range.
@@ -108,8 +108,8 @@ pub enum EditError {
     /// The corner does not belong to the required face or vertex.
     #[error("{0} is not a corner of the face or vertex that is to be split")]
     WrongCorner(HalfEdgeId),
-    /// The two corners are the same or adjacent.
-    #[error("{0} and {1} are the same corner or adjacent corners")]
+    /// The two corners are the same, adjacent, or at the same vertex.
+    #[error("{0} and {1} are the same corner, adjacent, or at the same vertex")]
     Adjacent(HalfEdgeId, HalfEdgeId),
     /// The edit needs whole components, and this face shares an edge with a face that was not listed.
     #[error("{0} shares an edge with a face that was not listed")]
@@ -135,8 +135,8 @@ pub enum EditError {
     /// The list of elements to edit is empty.
     #[error("the list of elements to edit is empty")]
     NoElements,
-    /// The mesh has as many elements as there are ids.
-    #[error("the mesh has too many elements: the highest id is 2^32 - 2")]
+    /// The mesh could have more elements than there are ids after the edit.
+    #[error("the mesh would have too many elements: the highest id is 2^32 - 2")]
     Full,
 }
 

@@ -163,7 +163,7 @@ fn a_length_that_exceeds_the_memory_is_refused() {
     assert!(Scene::decode(&rest, 1, &mut arrays).is_err());
 }
 
-/// Changes the arrays of a grid and returns the defect that decoding reports.
+/// Changes the arrays of a grid and returns the defect that prevents a mesh of these arrays.
 fn defect_after(change: impl FnOnce(&mut Connectivity, &mut Vec<DVec3>)) -> Option<Defect> {
     let mesh = shapes::grid(2, 2);
     let (mut c, mut positions) = (mesh.connectivity().clone(), mesh.positions().to_vec());

@@ -3,9 +3,9 @@
 use super::{AnimatedProperty, Graph, MeshLabel, Node};
 
 impl Graph {
-    /// Removes an object from all nodes. A node that referenced the object is removed if it has no camera, no light
-    /// and no children, and is not a joint. The channels that animate a removed node are removed too. The remaining
-    /// nodes keep their order.
+    /// Removes an object from all nodes. A node that referenced the object is removed if it has no camera, no light and
+    /// no remaining children, and is neither a joint nor the root of the joints of a skin. The channels that animate a
+    /// removed node are removed too. The remaining nodes keep their order.
     pub(crate) fn remove_object(&mut self, object: &str) {
         self.labels.remove(object);
         let mut n_children = vec![0_usize; self.nodes.len()];
@@ -33,8 +33,8 @@ impl Graph {
         self.retain_channels(|c| c.property != AnimatedProperty::Weights || shows[c.node]);
     }
 
-    /// Renames an object. A node or mesh with the old name gets the new name. If no node has the old name, the mesh
-    /// always gets the new name.
+    /// Renames an object. A node or mesh with the old name gets the new name. If no node of the object has the old
+    /// name, the mesh always gets the new name.
     pub(crate) fn rename_object(&mut self, from: &str, to: &str) {
         let mut is_named = false;
         for node in &mut self.nodes {
@@ -56,8 +56,9 @@ impl Graph {
         }
     }
 
-    /// Adds an instance of the object `to` beside each instance of the object `from`. The new node has the same
-    /// placement and extras as the node of `from`. If only one node references `from`, the new node is named `to`.
+    /// Adds an instance of the object `to` beside each instance of the object `from`. The new node has the same parent,
+    /// placement, skin, weights and extras as the node of `from`. If only one node references `from`, the new node is
+    /// named `to`.
     pub fn copy_object(&mut self, from: &str, to: &str) {
         let nodes = self.nodes_of(from);
         for &i in &nodes {
@@ -146,8 +147,8 @@ impl Graph {
     }
 
     /// Returns a graph for the objects that `is_wanted` accepts. The graph has the nodes that reference these
-    /// objects, the joints of their skins, the ancestors of all these nodes, and their animations. The parts of the
-    /// document are kept; cameras and lights are not.
+    /// objects, the joints of their skins, the roots of these joints, the ancestors of all these nodes, and their
+    /// animations. The parts of the document are kept; cameras and lights are not.
     pub(crate) fn only(&self, is_wanted: impl Fn(&str) -> bool) -> Self {
         let mut graph = Self {
             nodes: self.nodes.clone(),
@@ -183,8 +184,8 @@ impl Graph {
         graph
     }
 
-    /// Removes the nodes for which `keep` is false. `keep` must be true for joints of skins, and for the parents of
-    /// kept nodes.
+    /// Removes the nodes for which `keep` is false. `keep` must be true for joints and roots of skins, and for the
+    /// parents of kept nodes.
     fn keep_nodes(&mut self, keep: &[bool]) {
         let mut n = 0;
         let places = keep.iter().map(|&is_kept| {

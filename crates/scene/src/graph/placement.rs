@@ -32,7 +32,8 @@ impl Placement {
         scale: [1.0; 3],
     };
 
-    /// The largest allowed difference between a map and its parts, relative to the length of the axes of the map.
+    /// The largest allowed difference between the matrix of a map and the matrix of its parts, relative to the largest
+    /// number in the matrix of the map.
     const TOLERANCE: f64 = 1e-12;
 
     /// Returns the map from the space of the node to the space of its parent. The map is not finite if a number is not
@@ -58,8 +59,8 @@ impl Placement {
         }
     }
 
-    /// Returns the scale, the rotation and the translation of a map. Returns `None` if the map has a shear or is not
-    /// finite.
+    /// Returns the scale, the rotation and the translation of a map. Returns `None` if the map has a shear, is singular
+    /// or is not finite.
     pub fn of(map: &DAffine3) -> Option<Self> {
         if map.matrix3 == DMat3::IDENTITY {
             return map.translation.is_finite().then_some(Self::Parts {

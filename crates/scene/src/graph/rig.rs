@@ -173,7 +173,8 @@ impl Graph {
         }
     }
 
-    /// Replaces the object `from` by the object `to` in all nodes, with the same skins and weights of morph targets.
+    /// Replaces the object `from` by the object `to` in all nodes. The nodes keep their skins and weights of morph
+    /// targets, and `to` gets the label of `from`.
     pub fn show_instead(&mut self, from: &str, to: &str) {
         for node in &mut self.nodes {
             if node.object.as_deref() == Some(from) {
@@ -218,8 +219,8 @@ impl Graph {
     }
 
     /// Updates skins and animations after nodes were removed. `places` has the new index of each node, or `None` if
-    /// the node was removed. Joints of skins must not be removed. The channels of removed nodes are removed, and
-    /// then the animations without a channel.
+    /// the node was removed. Joints and roots of skins must not be removed. The channels of removed nodes are removed,
+    /// and then the animations without a channel.
     pub(super) fn renumber_rig(&mut self, places: &[Option<usize>]) {
         for skin in &mut self.skins {
             for node in skin.joints.iter_mut().chain(&mut skin.skeleton) {

@@ -159,8 +159,8 @@ fn both_builders_agree_on_random_polygons() {
 
 #[test]
 fn both_builders_agree_on_vertices_with_many_faces() {
-    // Each vertex has many corners, so the builder sorts them and does not compare them in pairs. Most edges have
-    // several sides.
+    // In some rounds, there are vertices with more than 32 corners, which the builder sorts instead of comparing them
+    // in pairs. In most rounds, most edges have more than two sides.
     let mut random = Random(2);
     for _ in 0..20 {
         let polygons = random.polygons(7, 150);

@@ -172,8 +172,8 @@ pub struct WriteOptions {
     pub compression: Option<Compression>,
     /// How to quantize the geometry of glTF files. If `None`, numbers have 32 bits. Other formats are refused.
     pub quantization: Option<Quantization>,
-    /// For glTF, the number of sets of four joints that are written for each vertex of a skinned mesh. If `None`, the
-    /// number of sets in the original file of the mesh, or 1 if the mesh was not read from a file.
+    /// For glTF, the maximum number of sets of four joints that are written for each vertex of a skinned mesh. If
+    /// `None`, the number of sets in the original file of the mesh, or 1 if the mesh was not read from a file.
     pub weight_sets: Option<u32>,
     /// The kind of elements of a `.csv` file. Each element has a row. If `None`, vertices. Other formats are refused.
     pub rows: Option<Rows>,

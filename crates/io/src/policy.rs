@@ -52,8 +52,8 @@ pub enum Placements {
     /// Keep the nodes. Each mesh becomes one object in its own space, and any number of nodes can reference it.
     #[default]
     Keep,
-    /// Apply the transforms of nodes to the points. Each node with a mesh becomes an object. The hierarchy, cameras and
-    /// lights are left out.
+    /// Apply the transforms of nodes to the points. Each node with a mesh becomes an object. The hierarchy, cameras,
+    /// lights and animations are left out.
     Bake,
 }
 

@@ -117,10 +117,11 @@ fn read_effect<'a>(document: &Document<'a>, effect: Node<'a>) -> Result<Material
     Ok(material)
 }
 
-/// Returns the opacity of a shader, from 0 to 1, or `None` if the shader does not declare an opacity.
+/// Returns the opacity of a shader, or `None` if the shader does not declare an opacity that can be used.
 ///
-/// COLLADA 1.4.1, "Determining transparency": `A_ONE` uses the alpha of the transparent color. `RGB_ZERO` uses 1 minus
-/// the luminance of the transparent color. In both modes, the result is multiplied by the transparency of the effect.
+/// COLLADA 1.4.1, "Determining transparency": In the mode `A_ONE`, the opacity is the alpha of the transparent color
+/// times the transparency of the effect. In the mode `RGB_ZERO`, it is 1 minus the luminance of the transparent color
+/// times the transparency. `A_ZERO` and `RGB_ONE` are the same modes with alpha and luminance exchanged.
 fn opacity(scope: &Scope, shader: Node) -> Result<Option<f64>, Fault> {
     let transparent = child(shader, "transparent");
     let transparency = match child(shader, "transparency") {

@@ -120,8 +120,7 @@ pub(super) fn load<'a>(
         let mut bytes = match &buffer.uri {
             None => {
                 let chunk = if i == 0 { binary.take() } else { None };
-                // A buffer without data is valid, because an extension can define its content. Buffers without data are
-                // treated as empty.
+                // A buffer without data is treated as empty. If it declares bytes, it is refused below.
                 Cow::Borrowed(chunk.unwrap_or_default())
             }
             Some(uri) => {

@@ -20,8 +20,8 @@ use super::surface::{
 use crate::fault::Fault;
 use crate::note::Notes;
 
-/// The extensions that the reader supports. `KHR_mesh_quantization` allows integers for positions and texture
-/// coordinates.
+/// The extensions that the reader supports. `KHR_mesh_quantization` allows integers for positions, normals, tangents
+/// and texture coordinates.
 const KNOWN_EXTENSIONS: [&str; 8] = [
     DRACO,
     "KHR_mesh_quantization",

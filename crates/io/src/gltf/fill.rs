@@ -99,7 +99,7 @@ pub(super) fn bounds_of(n: usize, value: impl Fn(usize) -> [f32; 3] + Sync) -> B
     }
 }
 
-/// The bounding box of the positions of all vertices.
+/// The bounding box of positions, or of the deltas of a morph target.
 #[derive(Clone, Copy)]
 pub(super) struct Bounds {
     pub(super) min: [f32; 3],

@@ -32,13 +32,13 @@
 //! | `material` | face attribute `material`, and materials of the object |
 //! | textures, samplers, images | textures of the materials: the path of an image file, or the bytes of an image |
 //! | cameras, lights | kept in the graph unchanged |
-//! | `asset.copyright`, name of the scene, `extras` of asset, scene and document | kept in the graph unchanged |
+//! | `asset.copyright`, name of the scene, `extras` of asset, scene, document and meshes | kept in the graph unchanged |
 //! | other `extras` | left out, with a note |
 //! | other scenes | left out, with a note |
 //!
 //! With [`Placements::Bake`](crate::Placements::Bake), each node with a mesh becomes an object, the transforms are
-//! applied to positions and normals, and there is no graph. Skinned meshes get the pose of their joints. If a transform
-//! is a reflection, the faces are reversed.
+//! applied to positions, normals and tangents, and there is no graph. Skinned meshes get the pose of their joints. If a
+//! transform is a reflection, the faces are reversed.
 //!
 //! Accessors can be interleaved or sparse. They can contain integers, also normalized ones. If an accessor has no view,
 //! all its values are zero. Buffers are files inside the folder of the document, data URIs, or the second chunk of a
@@ -66,8 +66,9 @@
 //! - vertices at exactly the same position are merged, unless their weights or deltas differ,
 //! - each vertex has at most four joints, or at most as many as in the file that was read,
 //! - normals are normalized, and colors are clamped to 0 to 1,
-//! - isolated vertices, empty meshes, vertex tangents, tangents without normals, integers, tags, sets of texture
-//!   coordinates after a gap in their numbering, and attributes of edges and faces (except `material`) are lost.
+//! - isolated vertices, empty meshes, unused materials, embedded images other than PNG and JPEG, vertex tangents,
+//!   tangents without normals, integers, tags, sets of texture coordinates after a gap in their numbering, and
+//!   attributes of edges and faces (except `material`) are lost.
 //!
 //! If [`WriteOptions`](crate::WriteOptions) asks for it, arrays are quantized (`quantize`) and compressed (`compress`).
 //!
@@ -75,7 +76,7 @@
 //! a [`Note`](crate::Note).
 //!
 //! A file can repeat content, such as a mesh that several nodes reference, but the memory that a file can use is
-//! limited to 64 times its size, or to 16 MiB if that is more.
+//! limited to 64 times its size (more if it is compressed), or to 16 MiB if that is more.
 //!
 //! Each part of the JSON is deserialized separately into the types of `gltf_json`. Therefore an error has the JSON
 //! pointer of its part, and errors in parts that are not read are ignored.

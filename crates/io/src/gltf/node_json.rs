@@ -49,7 +49,8 @@ impl NodeJson {
     ///
     /// # Errors
     ///
-    /// If the matrix is not affine or the rotation is not a quaternion. `here` is the location of the node.
+    /// If the matrix is not affine, or the length of the rotation is zero or not finite. `here` is the location of the
+    /// node.
     pub(super) fn placement(&self, here: &str) -> Result<Placement, Fault> {
         if let Some(matrix) = &self.matrix {
             let last_row = [3, 7, 11, 15].map(|i| matrix[i].to_bits());

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! The positions of an object are rounded to points of a grid. An additional node, the grid node, has the mesh and maps
-//! the grid to the space of the object. The grid node is a child of each node that references the object, so the other
+//! the grid to the space of the object. Each node that references the object gets a grid node as a child, so the other
 //! nodes do not change. If no node references the object, only the grid node is written. The scale of the grid is the
 //! same along all axes, so normals keep their directions.
 //!

@@ -12,11 +12,11 @@ use super::views::Reader;
 use crate::fault::Fault;
 use crate::note::Notes;
 
-/// Checks that all parts that skins and animations refer to exist.
+/// Checks the references of skins, nodes and animations to nodes, skins and samplers.
 ///
 /// # Errors
 ///
-/// If an index refers to a missing part.
+/// If an index refers to a missing part, or a skin has no joints.
 pub(super) fn check(document: &Document) -> Result<(), Fault> {
     for (i, skin) in document.skins.iter().enumerate() {
         let here = format!("/skins/{i}");
@@ -161,7 +161,7 @@ impl<'a, 'r> RigReader<'a, 'r> {
         if matrices.len() < skin.joints.len() {
             let (expected, found) = (skin.joints.len(), matrices.len());
             let message =
-                format!("expected {expected} elements, one for each joint, found {found}");
+                format!("expected at least {expected} elements, one for each joint, found {found}");
             return Err(Fault::json(here, message));
         }
         let is_affine = |m: &[f32; 16]| [3, 7, 11, 15].map(|k| m[k]) == [0.0, 0.0, 0.0, 1.0];
@@ -300,7 +300,8 @@ impl LostChannels {
         notes.left_out("animations", self.properties, None, what);
         for (sampler, count) in self.samplers {
             let what = format!(
-                "animation channels left out: {sampler} has times that do not increase, or a wrong number of values"
+                "animation channels left out: {sampler} has times that do not increase, negative times, no times, or a \
+                 wrong number of values"
             );
             notes.left_out("animations", count, None, what);
         }

@@ -1,4 +1,4 @@
-//! The glTF vertex attributes: normals, texture coordinates, colors and custom attributes.
+//! The glTF vertex attributes: normals, tangents, texture coordinates, colors and custom attributes.
 
 use glam::DVec3;
 use gltf_json::accessor::Type;

@@ -41,7 +41,7 @@ impl MaterialWriter {
         let reason = "the mesh does not have the texture coordinates of this texture, so the texture is not written";
         let dropped = drop_textures(&mut material, |texture| texture.uv_set < n_uvs);
         losses.add(None, &material.name, dropped, reason);
-        let reason = "glTF supports only PNG and JPEG, so the texture is not written";
+        let reason = "glTF can embed only PNG and JPEG images, so the texture is not written";
         let dropped = drop_textures(&mut material, |texture| match &texture.image {
             Image::File(_) | Image::Loaded { .. } => true,
             Image::Embedded { mime, .. } => matches!(mime.as_str(), "image/png" | "image/jpeg"),

@@ -16,16 +16,18 @@ const TIMES: usize = 64;
 /// The additional number of bytes that reading can use for tables, threads and messages.
 const SMALL: usize = 1 << 20;
 
-/// The maximum number of rounds of writing and reading after which the written bytes must stay the same. One round is
-/// not always sufficient. For example, an object that loses its last vertices is missing in the next round.
+/// The maximum number of rounds of writing and reading after the first round. One round is not always sufficient for
+/// the written bytes to stay the same. For example, an object that loses its last vertices is missing in the next
+/// round.
 const ROUNDS: usize = 4;
 
 /// The memory that repeated instances can use even in a small file.
 const INSTANCES: usize = 1 << 25;
 
-/// Reads `bytes` as a file with this extension, in bounded memory. Then writes and reads the result, until a round of
-/// writing and reading loses nothing. From that round on, the bytes must stay the same. An `.mtl` file is read as the
-/// library of an `.obj` file, and the content of a `.dae` file is written as OBJ.
+/// Reads `bytes` as a file with this extension, in bounded memory. Then writes and reads the result several times,
+/// until the written bytes stay the same. From the third time on, they may differ only if the time before lost
+/// something. An `.mtl` file is read as the library of an `.obj` file, and the content of a `.dae` file is written as
+/// OBJ.
 ///
 /// # Panics
 ///

@@ -1,4 +1,4 @@
-//! Tests of handmade COLLADA files, which are compared with the expected result and with another reader.
+//! Tests of handmade COLLADA files, which are compared with the expected result.
 
 use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4};

@@ -330,7 +330,7 @@ fn dense_triangles(n: usize) -> Value {
 
 #[test]
 fn well_compressed_files_are_read() {
-    // The meshes need 150 times the size of the file, and more than the minimum budget.
+    // The second mesh needs more than 64 times the size of the file, and more than the minimum budget.
     for n in [85, 60_000] {
         let loaded = read_json(&dense_triangles(n)).unwrap();
         let mesh = loaded.objects[0].as_mesh().unwrap();

@@ -36,7 +36,7 @@ pub(crate) fn data_uri(bytes: &[u8]) -> String {
     text
 }
 
-/// The bytes of a data URI of this module.
+/// Decodes a data URI that this module made.
 pub(crate) fn bytes_of_uri(uri: &str) -> Vec<u8> {
     const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let (_, digits) = uri.split_once(',').unwrap();

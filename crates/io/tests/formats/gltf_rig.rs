@@ -372,7 +372,8 @@ fn an_asset_that_no_step_touched_keeps_skin_targets_and_animations() {
         assert_eq!(back.digest(), scene.digest(), "{extension}");
         assert_eq!(back, scene, "{extension}");
     }
-    // The node has no weights, because the validator would report that they replace the weights of the mesh.
+    // The weights of the node are removed, because the validator would report that they replace the weights of the
+    // mesh.
     let valid = changed_scene(|j| drop(j["nodes"][4].as_object_mut().unwrap().remove("weights")));
     written("rigged_arm", &valid);
 }
@@ -451,7 +452,8 @@ fn instances_have_the_pose_of_the_joints_and_the_weights_of_the_node() {
 #[test]
 fn coincident_vertices_with_different_weights_are_not_merged() {
     let mut json = arm();
-    // In an arm without indices, vertices coincide and have the same weights.
+    // Two triangles without indices replace the mesh of the arm. Two pairs of their vertices coincide, and all vertices
+    // have the same weights.
     let mut a = Accessors::default();
     let points = [
         [0.0, 0.0, 0.0],

@@ -65,7 +65,7 @@ fn invalid_parts_are_errors_that_name_their_place() {
         }),
         (
             "/accessors/6",
-            "expected 3 elements, one for each joint, found 2",
+            "expected at least 3 elements, one for each joint, found 2",
             |j| {
                 j["accessors"][6]["count"] = json!(2);
             },
@@ -104,7 +104,7 @@ fn repairs_and_left_out_parts_are_counted() {
             "20 vertices without weights in /meshes/0/primitives/0/attributes/WEIGHTS_0"
         )
     );
-    // The accessor of the positions is used as weights.
+    // The weights are read from the bytes of the positions.
     let found = notes(|j| {
         j["accessors"][3]["count"] = json!(20);
         j["accessors"][3]["byteOffset"] = json!(0);

@@ -102,7 +102,7 @@ fn found(name: &str, content: impl AsRef<[u8]>) -> (Polygons, Vec<String>) {
     (all.remove(0).1, notes)
 }
 
-/// Returns the only object of a file. Reading the file must not give notes.
+/// Returns the only object of a file. Reading the file must not give notes, except about missing images.
 fn only(path: &Path) -> Object {
     let Loaded {
         mut objects, notes, ..

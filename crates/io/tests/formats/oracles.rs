@@ -1,5 +1,5 @@
-//! Tests with other readers. Simple readers read written PLY, STL and OFF files, and another program reads OBJ files of
-//! all dialects.
+//! Tests with other readers. Simple readers read written PLY and OFF files, and crates read written STL files and OBJ
+//! files of many dialects.
 
 use geometry::shapes;
 use glam::DVec3;
@@ -105,8 +105,7 @@ fn another_reader_finds_the_same_facets_in_stl_files() {
     }
 }
 
-/// How corners are written. Elements can be repeated for the same vertex, and texture coordinates and normals can be
-/// left out.
+/// How a corner is written: whether it has a texture coordinate and a normal, and which of its indices are negative.
 #[derive(Clone, Copy, Debug)]
 struct Spelling {
     has_uv: bool,
@@ -122,7 +121,7 @@ fn spelling() -> impl Strategy<Value = Spelling> {
     })
 }
 
-/// The numbers of positions, texture coordinates and normals.
+/// The number of positions, which is also the number of texture coordinates and of normals.
 const COUNT: usize = 12;
 
 impl Spelling {

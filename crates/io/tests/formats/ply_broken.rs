@@ -306,7 +306,7 @@ fn whatever(bytes: &[u8]) {
     let _ = mesh_io::peek(&store::Disk, &path, &ReadOptions::default());
 }
 
-/// A file with lists, seams and comments.
+/// A file with lists and seams.
 fn valid() -> Vec<u8> {
     let folder = Folder::new();
     let path = folder.path("a.ply");

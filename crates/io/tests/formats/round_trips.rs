@@ -17,7 +17,7 @@ use crate::{Folder, read, scene};
 use flat::{Difference, Key, differences, has_only_default_values, key};
 use models::{Feature, features};
 
-/// The formats that can be written, in the order of the table. `gltf` and `glb` store the same content.
+/// The formats of the table, in its order. `glb` stands for `.gltf`, which stores the same content.
 const FORMATS: [&str; 7] = ["obj", "glb", "ply", "stl", "off", "bez", "bzc"];
 
 /// The table in the documentation of the crate.
@@ -186,7 +186,8 @@ fn measured(feature: &Feature, extension: &str) -> Outcome {
 }
 
 /// Checks that a round trip preserves the objects, except for reported losses and the changes in the table. A second
-/// round trip must not change or lose anything, and must write the same bytes.
+/// round trip must not change or lose anything, and must write the same bytes unless the first one changed the form of
+/// the content.
 ///
 /// # Errors
 ///

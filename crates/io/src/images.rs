@@ -24,8 +24,9 @@ use crate::{Format, WriteOptions, gzip};
 pub enum Images {
     /// Store the images in the file or, for `.gltf`, in its `.bin` file. OBJ files cannot embed images.
     Embed,
-    /// Write the images to files in the folder of the written file. Each image keeps the path that it has in the
-    /// original model. If a different file with this path exists, a number is appended to the name of the copy.
+    /// Write the images to files in the folder of the written file. Each image file keeps the path that it has in the
+    /// original model, and each embedded image gets the name of the written file. If a different file with this path
+    /// exists, a number is appended to the name of the copy.
     Copy,
     /// Write only the paths of the images, as in the original model. Embedded images stay embedded, except that OBJ
     /// files cannot store them.

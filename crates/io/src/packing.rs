@@ -20,7 +20,8 @@ pub enum Compression {
 #[serde(deny_unknown_fields)]
 pub struct Quantization {
     /// The bits of each coordinate of a position. Positions are rounded to a grid that covers the bounding box of the
-    /// object and has the same step along all axes. The longest side of the box has 2^bits - 1 steps. Defaults to 16.
+    /// object and has the same step along all axes. The longest side of the box has 2^bits - 1 steps. Positions of
+    /// objects with joints or morph targets are not quantized. Defaults to 16.
     #[serde(default = "Bits::most")]
     pub position: Bits,
     /// The bits of each of the two numbers that represent a normal or a tangent as a point of an octahedron. Defaults

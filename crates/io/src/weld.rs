@@ -107,7 +107,8 @@ pub(crate) fn weld(positions: Vec<DVec3>) -> (Vec<DVec3>, Vec<u32>) {
     (unique, vertex_of)
 }
 
-/// Like [`weld`], but merges positions only if their vertex attributes are equal. Also merges the attributes.
+/// Like [`weld`], but merges positions only if their joint weights and deltas of morph targets are equal. Also merges
+/// the vertex attributes.
 pub(crate) fn weld_equal(
     positions: &[DVec3],
     attributes: &mut Attributes,

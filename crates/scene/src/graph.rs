@@ -7,8 +7,9 @@
 //! ```
 //!
 //! A mesh has coordinates in its own space. The placement of a node maps the space of the node to the space of its
-//! parent. The placements of a node and its ancestors, applied in turn, map the space of its object to the scene.
-//! An object that no node references appears once, and its own space is the space of the scene.
+//! parent. The placements of a node and its ancestors, applied in turn, map the space of its object to the scene. If
+//! the node has a skin, the joints of the skin place the object instead. An object that no node references appears
+//! once, and its own space is the space of the scene.
 
 mod edit;
 mod form;

@@ -25,7 +25,7 @@ pub(super) struct Body<'a> {
 }
 
 impl<'a> Body<'a> {
-    /// Prepares the elements for which `wanted` returns true; other elements are skipped.
+    /// Prepares the values of the elements. In a text file, elements for which `wanted` returns false are skipped.
     ///
     /// # Errors
     ///

@@ -102,7 +102,8 @@ pub enum EditError {
     /// A coordinate, length or fraction is not finite, or is out of range.
     #[error("{0} is not finite, or is out of the range of this edit")]
     BadNumber(f64),
-    /// The edit would leave two fans of faces at a vertex.
+    /// The edit would leave two fans of faces at a vertex. Also returned if a hole to be filled contains the vertex
+    /// twice, or if both ends of a diagonal are at the vertex.
     #[error("the faces around {0} would form two separate fans")]
     Pinch(VertexId),
     /// The corner does not belong to the required face or vertex.
@@ -117,7 +118,7 @@ pub enum EditError {
     /// The edge was listed twice.
     #[error("{0} was listed twice")]
     EdgeListedTwice(EdgeId),
-    /// The face was listed twice.
+    /// The face was listed twice, or two corners at which a vertex is to be split both belong to the face.
     #[error("{0} was listed twice")]
     FaceListedTwice(FaceId),
     /// The boundary loop has fewer than three edges.

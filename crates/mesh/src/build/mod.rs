@@ -69,7 +69,9 @@ pub enum BuildError {
     #[error("a mesh with up to {0} {1} would be too large: the highest id is 2^32 - 2")]
     TooLarge(usize, &'static str),
     /// The offsets do not divide the corners into polygons.
-    #[error("the offsets of the faces must be in ascending order, from 0 to the number of corners, {0}")]
+    #[error(
+        "the offsets of the faces must be in ascending order, from 0 to the number of corners, {0}"
+    )]
     BadOffsets(usize),
     /// This polygon has fewer than three corners, or contains a vertex twice, and non-manifold input is refused.
     #[error(

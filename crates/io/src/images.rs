@@ -25,8 +25,8 @@ pub enum Images {
     /// Store the images in the file or, for `.gltf`, in its `.bin` file. OBJ files cannot embed images.
     Embed,
     /// Write the images to files in the folder of the written file. Each image file keeps the path that it has in the
-    /// original model, and each embedded image gets the name of the written file. If a different file with this path
-    /// exists, a number is appended to the name of the copy.
+    /// original model, and each embedded image gets the name of the written file, with the extension of the image. If a
+    /// different file with this path exists, a number is appended to the name of the copy.
     Copy,
     /// Write only the paths of the images, as in the original model. Embedded images stay embedded, except that OBJ
     /// files cannot store them.

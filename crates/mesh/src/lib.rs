@@ -49,11 +49,11 @@
 //! | whole meshes | [`reverse`](Mesh::reverse) |
 //!
 //! The documentation of the edits writes V, E and F for the numbers of vertices, edges and faces. An element that an
-//! edit removes is marked dead ("dies"). No id is reused until [`Mesh::compact`] renumbers the elements.
-//! [`Mesh::begin`] starts to record edits, [`Mesh::rollback`] undoes them and ends the recording, and [`Mesh::commit`]
-//! ends the recording and returns a [`Change`]. [`Mesh::revert`] applies a change later: once to undo, a second time to
-//! redo. Operations on a whole mesh build new arrays ([`Mesh::from_arrays`]) or polygons ([`build()`]) and store them
-//! with [`Mesh::replace`].
+//! edit removes is marked dead ("dies"). No id is reused until [`Mesh::compact`] renumbers the elements or an undo
+//! removes new elements. [`Mesh::begin`] starts to record edits, [`Mesh::rollback`] undoes them and ends the recording,
+//! and [`Mesh::commit`] ends the recording and returns a [`Change`]. [`Mesh::revert`] applies a change later: once to
+//! undo, a second time to redo. Operations on a whole mesh build new arrays ([`Mesh::from_arrays`]) or polygons
+//! ([`build()`]) and store them with [`Mesh::replace`].
 //!
 //! # Read in this order
 //!

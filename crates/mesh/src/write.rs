@@ -188,7 +188,7 @@ impl Mesh {
     }
 
     /// Removes the columns whose rule is [`Rule::Drop`](crate::Rule::Drop), and bounds the size of the journal.
-    /// Every edit calls this function before its first change.
+    /// Every edit of the connectivity calls this function before its first change.
     #[inline]
     pub(crate) fn drop_columns_by_rule(&mut self) {
         if self.journal.is_some() {

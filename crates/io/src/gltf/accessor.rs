@@ -15,7 +15,7 @@ use crate::fault::Fault;
 use crate::parallel;
 
 /// The number of elements that an accessor without a buffer view can always have, even in a tiny file. All elements of
-/// such an accessor are zero.
+/// such an accessor are zero, except sparse ones.
 const MIN_ZEROS: u64 = 1 << 16;
 impl Reader<'_> {
     /// The number of elements of an accessor.

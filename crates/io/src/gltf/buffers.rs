@@ -100,8 +100,8 @@ pub(super) fn container(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
 ///
 /// # Errors
 ///
-/// If a URI leads out of the folder of the document, if a file cannot be read, or if there are fewer bytes than
-/// a buffer declares.
+/// If a URI leads out of the folder of the document, if a data URI is not base64, if a file cannot be read, if there
+/// are fewer bytes than a buffer declares, or if the budget is used up.
 pub(super) fn load<'a>(
     buffers: &[Buffer],
     fallbacks: &[bool],
@@ -168,7 +168,7 @@ pub(super) fn load<'a>(
 ///
 /// # Errors
 ///
-/// If the data is not valid base64.
+/// If the data is not marked as base64 or is not valid base64.
 pub(super) fn data_uri<'a>(data: &'a str, pointer: &str) -> Result<(&'a str, Vec<u8>), Fault> {
     let (kind, encoded) = data
         .split_once(";base64,")

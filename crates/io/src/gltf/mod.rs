@@ -41,8 +41,8 @@
 //! transform is a reflection, the faces are reversed.
 //!
 //! Accessors can be interleaved or sparse. They can contain integers, also normalized ones. If an accessor has no view,
-//! all its values are zero. Buffers are files inside the folder of the document, data URIs, or the second chunk of a
-//! GLB file.
+//! all its values are zero, except sparse ones. Buffers are files inside the folder of the document, data URIs, or the
+//! second chunk of a GLB file.
 //!
 //! | extension | support |
 //! | --- | --- |

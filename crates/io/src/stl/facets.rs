@@ -27,10 +27,10 @@ pub(super) enum Side {
     Opposite,
 }
 
-/// Compares the normal of a facet with the normal of its corners. The two normals agree if the sine of the angle
-/// between them is at most 1/10 (6 degrees), which allows for rounding errors in a sliver. The normals also agree if
+/// Compares the normal of a facet with the normal of its corners. The two normals agree if the angle between them is at
+/// most 6 degrees (its sine is at most 1/10), which allows for rounding errors in a sliver. The normals also agree if
 /// the normal of the facet is zero or not finite, if the area of the facet is zero, or if the facet is so thin that its
-/// area can be a result of rounding errors and the normals are not opposite.
+/// area can be a result of rounding errors and the normals are not nearly opposite.
 #[inline]
 pub(super) fn compare(normal: DVec3, [a, b, c]: [DVec3; 3]) -> Side {
     let area = (b - a).cross(c - a);

@@ -9,7 +9,8 @@ use crate::{Element, FaceId, HalfEdgeId, Mesh};
 /// The angle is computed as the arc tangent of sine and cosine. The arc tangent is accurate for angles near 0
 /// and π, unlike the arc cosine. Source: Kahan, "How Futile are Mindless Assessments of Roundoff", 2006, §12.
 pub fn angle_between(a: DVec3, b: DVec3) -> f64 {
-    libm::atan2(a.cross(b).length(), a.dot(b))
+    // Adding 0 turns -0 into 0: the arc tangent of (0, -0) is π.
+    libm::atan2(a.cross(b).length(), a.dot(b) + 0.0)
 }
 
 impl Mesh {
@@ -144,6 +145,14 @@ mod tests {
             let defect = 2.0 * std::f64::consts::PI * n - angles;
             let expected = 2.0 * std::f64::consts::PI * mesh.euler_characteristic() as f64;
             assert!((defect - expected).abs() < 1e-9, "{defect} {expected}");
+        }
+    }
+
+    #[test]
+    fn the_angle_to_the_zero_vector_is_zero() {
+        for x in [1.0, -1.0, 0.0, -0.0] {
+            assert_eq!(angle_between(DVec3::ZERO, DVec3::splat(x)), 0.0);
+            assert_eq!(angle_between(DVec3::splat(x), DVec3::ZERO), 0.0);
         }
     }
 

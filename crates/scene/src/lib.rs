@@ -27,7 +27,7 @@ pub use graph::{
     Placement, Skin,
 };
 pub use material::{AlphaMode, Filter, Image, Material, Sampler, Texture, TextureTransform, Wrap};
-pub use placed::{Instance, transform_tangent, transform_tangents, transformed};
+pub use placed::{Instance, holds_normals, transform_tangent, transform_tangents, transformed};
 pub use pose::Pose;
 
 /// A list of objects in the order of their creation, and the nodes that place them.

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3, DVec4};
-use mesh::{CORNER_TANGENT, Domain, HalfEdgeId, Mesh, Rule, Value, morph_of};
+use mesh::{CORNER_TANGENT, Column, Domain, HalfEdgeId, Mesh, Rule, TANGENT, Value, morph_of};
 use rayon::prelude::*;
 
 use crate::pose::posed;
@@ -186,10 +186,12 @@ pub(crate) fn mapped(
     points.for_each(|(v, p)| *p = map_of(v).map.transform_point3(*p));
     let is_delta = |domain, name: &str| domain == Domain::Vertex && morph_of(name).is_some();
     let columns: Vec<(Domain, String, Rule)> = (mesh.attributes().iter())
-        .map(|(domain, column)| (domain, column.name.clone(), column.rule))
-        .filter(|(domain, name, rule)| {
-            *rule == Rule::Normal || is_mirror && *rule == Rule::Drop || is_delta(*domain, name)
+        .filter(|(domain, column)| {
+            holds_normals(*domain, column)
+                || is_mirror && column.rule == Rule::Drop
+                || is_delta(*domain, &column.name)
         })
+        .map(|(domain, column)| (domain, column.name.clone(), column.rule))
         .collect();
     for (domain, name, rule) in &columns {
         let mut column = mesh.remove_column(*domain, name).expect("listed above");
@@ -228,7 +230,14 @@ pub(crate) fn mapped(
     mesh
 }
 
-/// Transforms the directions of [`CORNER_TANGENT`], if the mesh has such tangents. A reflection negates their signs.
+/// Whether a column holds normals, which the cofactor matrix of a map transforms. The tangents of vertices
+/// ([`TANGENT`]) have the rule of normals, but [`transform_tangents`] transforms them.
+pub fn holds_normals(domain: Domain, column: &Column) -> bool {
+    column.rule == Rule::Normal && (domain, &*column.name) != (Domain::Vertex, TANGENT.name)
+}
+
+/// Transforms the directions of [`CORNER_TANGENT`] and [`TANGENT`], if the mesh has such tangents. A
+/// reflection negates the signs of the tangents of corners.
 pub fn transform_tangents(mesh: &mut Mesh, linear: &DMat3) {
     change_tangents(mesh, |_| *linear);
 }
@@ -251,6 +260,11 @@ pub fn transform_tangent(tangent: DVec4, linear: &DMat3) -> DVec4 {
 
 /// Works like [`transform_tangents`], with a different map for each vertex.
 fn change_tangents(mesh: &mut Mesh, linear: impl Fn(usize) -> DMat3) {
+    if let Some(tangents) = mesh.get_mut(TANGENT) {
+        for (v, tangent) in tangents.iter_mut().enumerate() {
+            *tangent = transform_tangent(tangent.extend(1.0), &linear(v)).truncate();
+        }
+    }
     if mesh.get(CORNER_TANGENT).is_none() {
         return;
     }

@@ -11,7 +11,7 @@ use op::prelude::*;
 use op::{Operation, change_curves, plan_curves};
 use scene::Geometry;
 
-/// Replaces curves with polylines through their points.
+/// Replaces curves with polylines whose points lie on the curves.
 ///
 /// Each curve becomes one polyline with `segments` + 1 points in the plane z = 0, at the parameters 0, 1 /
 /// segments, 2 / segments and so on, up to 1. The first and the last point are exactly the end control points.
@@ -24,7 +24,7 @@ pub struct SampleCurve {
 
 impl Operation for SampleCurve {
     const NAME: &'static str = "SampleCurve";
-    const SUMMARY: &'static str = "Replace curves with polylines through their points";
+    const SUMMARY: &'static str = "Replace curves with polylines whose points lie on the curves";
     const EXAMPLE: &'static str = "SampleCurve(segments: 1)";
     const TAKES_ON: bool = true;
 

@@ -242,7 +242,7 @@ impl Operation for Transform {
 /// Transforms the values of all columns of normals.
 fn transform_normals(mesh: &mut Mesh, map: &Map) {
     let columns = mesh.attributes().iter();
-    let normals = columns.filter(|(_, column)| column.rule == Rule::Normal);
+    let normals = columns.filter(|(domain, column)| scene::holds_normals(*domain, column));
     let normals: Vec<_> = normals
         .map(|(domain, c)| (domain, c.name.clone()))
         .collect();

@@ -66,7 +66,8 @@ impl Editor {
     ///
     /// # Errors
     ///
-    /// [`CommandError::Text`] if the step or the place does not exist.
+    /// [`CommandError::Text`] if the step does not exist, or if `path` leads into a value without fields or to an item
+    /// that does not exist.
     pub fn set_parameter(
         &mut self,
         step: usize,

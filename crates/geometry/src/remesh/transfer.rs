@@ -220,7 +220,8 @@ impl Work<'_> {
             }
             (Place::Line { at, .. }, Some(track)) => {
                 let (g, t) = self.original.chains[track.chain as usize].locate(at);
-                // The corners at both ends of the edge of the source, on the side of the corner.
+                // `g` is the half-edge of the source at this location. Blends the corners at its two ends, on the side
+                // of the chain on which the new corner `h` lies.
                 let (near, far, t) = if track.is_along {
                     (g, source.next(g), t)
                 } else {

@@ -148,7 +148,7 @@ fn meets_flat([p, q]: [DVec3; 2], t: &[DVec3; 3]) -> bool {
         let turns = [0, 1, 2].map(|i| orient2d(t[i], t[(i + 1) % 3], p));
         !(turns.contains(&Greater) && turns.contains(&Less))
     };
-    // A segment that ends outside of the triangle meets the triangle if and only if it meets two of its sides. Two
+    // A segment with both ends outside of the triangle meets the triangle if and only if it meets one of its sides. Two
     // segments meet if neither has both ends strictly on one side of the line of the other.
     let crosses = |a, b| {
         let (at_a, at_b) = (orient2d(p, q, a), orient2d(p, q, b));

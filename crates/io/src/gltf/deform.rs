@@ -106,7 +106,7 @@ pub(super) fn joints(
     let bytes = (used.len() as u64).saturating_mul(n as u64 * 8);
     if !reader.budget.has(2 * bytes) {
         let what = format!(
-            "joints left out: their weights need {bytes} bytes, too much for a file of this size"
+            "joints left out: their weights need {bytes} bytes, too many for a file of this size"
         );
         *repairs.left_out.entry(what).or_default() += used.len();
         return Ok(Vec::new());
@@ -175,7 +175,7 @@ pub(super) fn morphs(
     let bytes = (deformers.targets as u64).saturating_mul(n as u64 * 24);
     if !reader.budget.has(2 * bytes) {
         let what = format!(
-            "morph targets left out: their deltas need {bytes} bytes, too much for a file of this size"
+            "morph targets left out: their deltas need {bytes} bytes, too many for a file of this size"
         );
         *repairs.left_out.entry(what).or_default() += deformers.targets;
         return Ok(Vec::new());

@@ -97,7 +97,11 @@ const BROKEN: &[(&str, &str, &str)] = &[
         "stride=\"3\" offset=\"18446744073709551615\"",
         "need more than",
     ),
-    ("<param name=\"Z\"/>", "", "expected 3 components, found 2"),
+    (
+        "<param name=\"Z\"/>",
+        "",
+        "expected at least 3 components, found 2",
+    ),
     (
         "source=\"#a\"",
         "source=\"#b\"",

@@ -272,7 +272,8 @@ fn large_meshes_get_32_bit_indices() {
     let folder = Folder::new();
     let path = folder.path("a.glb");
     for n in [254, 255] {
-        // 255 x 256 = 65280 vertices fit in 16-bit indices; 256 x 256 vertices do not.
+        // 255 x 256 = 65280 vertices get 16-bit indices. 256 x 256 vertices would need the index 65535, which has a
+        // special meaning in 16-bit indices.
         let mesh = shapes::grid(n, 255);
         write(&path, [Object::mesh("a", mesh.clone())]);
         let document = gltf::Gltf::open(&path).unwrap();

@@ -27,10 +27,11 @@ impl<'m> PositionIndex<'m> {
     fn nearest(&self, p: DVec3, tolerance: f64, free: &FreeVertices) -> Option<usize> {
         let mut best = (tolerance, VertexId::NONE, 0);
         let all = 0..self.tree.len();
-        self.visit(all, p, tolerance, &|i| free.any_below(i), &mut |i| {
+        let enter = |i, limit| free.distance(i, p) <= limit;
+        self.visit(all, p, tolerance, &enter, &mut |i| {
             let v = self.tree[i].0;
             let distance = self.mesh.position(v).distance(p);
-            if (distance < best.0 || distance == best.0 && v < best.1) && free.is_free(i) {
+            if (distance < best.0 || distance == best.0 && v < best.1) && free.is_free[i] {
                 best = (distance, v, i);
             }
             best.0
@@ -42,7 +43,7 @@ impl<'m> PositionIndex<'m> {
     pub(super) fn any_near(&self, p: DVec3, tolerance: f64) -> bool {
         let mut found = false;
         let all = 0..self.tree.len();
-        self.visit(all, p, tolerance, &|_| true, &mut |i| {
+        self.visit(all, p, tolerance, &|_, _| true, &mut |i| {
             found |= self.mesh.position(self.tree[i].0).distance(p) <= tolerance;
             if found { -1.0 } else { tolerance }
         });
@@ -51,17 +52,17 @@ impl<'m> PositionIndex<'m> {
 
     /// Calls `at` with the index of each vertex in a part of the tree that can be within a certain distance of `p`.
     /// The distance is `limit` at first, and then the last value that `at` returned. Skips a part of the tree if
-    /// `enter` returns `false` for its middle. Returns the final distance.
+    /// `enter` returns `false` for its middle and the distance. Returns the final distance.
     fn visit(
         &self,
         part: Range<usize>,
         p: DVec3,
         mut limit: f64,
-        enter: &impl Fn(usize) -> bool,
+        enter: &impl Fn(usize, f64) -> bool,
         at: &mut impl FnMut(usize) -> f64,
     ) -> f64 {
         let middle = middle(&part);
-        if part.is_empty() || !enter(middle) {
+        if part.is_empty() || !enter(middle, limit) {
             return limit;
         }
         let (v, axis) = self.tree[middle];
@@ -92,11 +93,11 @@ impl<'m> PositionIndex<'m> {
         if other.n_vertices() != self.mesh.n_vertices() {
             return None;
         }
-        let mut free = FreeVertices::all(self.tree.len());
+        let mut free = FreeVertices::all(self);
         let mut map = vec![VertexId::NONE; other.positions().len()];
         for v in other.vertices() {
             let found = self.nearest(image(v), tolerance, &free)?;
-            free.take(found);
+            free.take(self, found);
             map[v.index()] = self.tree[found].0;
         }
         Some(map)
@@ -108,51 +109,76 @@ fn middle(part: &Range<usize>) -> usize {
     part.start + part.len() / 2
 }
 
-/// The vertices of a k-d tree that have not been taken. A search skips the parts of the tree in which all vertices are
-/// taken; otherwise it would visit the same taken vertices again and again.
+/// The vertices of a k-d tree that have not been taken.
 struct FreeVertices {
     is_free: Vec<bool>,
-    /// The number of free vertices in the part of the tree that a vertex splits.
-    n_below: Vec<usize>,
+    /// The bounding box of the free vertices in the part of the tree that a vertex splits. A search that looked at all
+    /// vertices would visit the same taken vertices again and again.
+    boxes: Vec<[DVec3; 2]>,
 }
 
 impl FreeVertices {
-    fn all(n: usize) -> Self {
-        fn count(part: Range<usize>, n_below: &mut [usize]) {
-            if !part.is_empty() {
-                let middle = middle(&part);
-                n_below[middle] = part.len();
-                count(part.start..middle, n_below);
-                count(middle + 1..part.end, n_below);
-            }
-        }
-        let mut n_below = vec![0; n];
-        count(0..n, &mut n_below);
-        Self {
+    const EMPTY: [DVec3; 2] = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+
+    fn all(index: &PositionIndex) -> Self {
+        let n = index.tree.len();
+        let mut free = Self {
             is_free: vec![true; n],
-            n_below,
+            boxes: vec![Self::EMPTY; n],
+        };
+        free.measure(index, 0..n);
+        free
+    }
+
+    /// Computes the boxes of a part of the tree.
+    fn measure(&mut self, index: &PositionIndex, part: Range<usize>) {
+        if !part.is_empty() {
+            let middle = middle(&part);
+            self.measure(index, part.start..middle);
+            self.measure(index, middle + 1..part.end);
+            self.update(index, part);
         }
     }
 
-    fn is_free(&self, i: usize) -> bool {
-        self.is_free[i]
+    /// Computes the box of a part of the tree from those of its halves.
+    fn update(&mut self, index: &PositionIndex, part: Range<usize>) {
+        let middle = middle(&part);
+        let own = if self.is_free[middle] {
+            [index.mesh.position(index.tree[middle].0); 2]
+        } else {
+            Self::EMPTY
+        };
+        let halves = [part.start..middle, middle + 1..part.end];
+        let halves = halves.iter().filter(|half| !half.is_empty());
+        self.boxes[middle] = halves
+            .map(|half| self.boxes[self::middle(half)])
+            .fold(own, |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
     }
 
-    fn any_below(&self, i: usize) -> bool {
-        self.n_below[i] > 0
+    /// Returns the distance from `p` to the box of the part that a vertex splits; infinity if no vertex of it is free.
+    fn distance(&self, i: usize, p: DVec3) -> f64 {
+        let [min, max] = self.boxes[i];
+        if min.x > max.x {
+            return f64::INFINITY;
+        }
+        p.clamp(min, max).distance(p)
     }
 
-    fn take(&mut self, i: usize) {
+    fn take(&mut self, index: &PositionIndex, i: usize) {
         self.is_free[i] = false;
+        let mut parts = Vec::new();
         let mut part = 0..self.is_free.len();
         loop {
             let middle = middle(&part);
-            self.n_below[middle] -= 1;
+            parts.push(part.clone());
             match i.cmp(&middle) {
                 Ordering::Less => part.end = middle,
                 Ordering::Equal => break,
                 Ordering::Greater => part.start = middle + 1,
             }
+        }
+        for part in parts.into_iter().rev() {
+            self.update(index, part);
         }
     }
 }

@@ -20,7 +20,8 @@ pub trait StepCache: fmt::Debug + Sync {
 /// calls [`look_up`](Self::look_up). If the lookup fails, the run runs the step and calls
 /// [`record_step`](Self::record_step).
 pub trait CachedRun {
-    /// Looks up the next step. If `stage` is given, the files that the step wrote are restored into it.
+    /// Looks up the next step. If `stage` is given, the files that the step wrote are restored into this folder, which
+    /// collects the outputs of the run until it succeeds.
     ///
     /// # Errors
     ///
@@ -157,7 +158,7 @@ pub enum RerunReason {
     #[error("step {0} {1} ran again")]
     Earlier(usize, String),
     /// The earlier steps are not the same as in the last run.
-    #[error("the steps before it changed")]
+    #[error("earlier steps changed")]
     Order,
     /// The result of the step was removed from the cache.
     #[error("its result is no longer in the cache")]

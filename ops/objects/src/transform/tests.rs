@@ -3,7 +3,7 @@
 use super::*;
 use bezier::DVec2;
 use geometry::shapes;
-use mesh::{CORNER_NORMAL, VERTEX_NORMAL};
+use mesh::{CORNER_NORMAL, TANGENT, VERTEX_NORMAL};
 use op::Range;
 use scene::Object;
 
@@ -257,4 +257,25 @@ fn coordinates_that_overflow_are_refused() {
         op::test::try_applied(&step(text), shapes::cube()),
         Err(OpError::Parameter(_))
     ));
+}
+
+#[test]
+fn tangents_of_vertices_stay_tangent_to_the_surface() {
+    let mut mesh = shapes::square();
+    let along = DVec3::new(0.6, 0.8, 0.0);
+    mesh.set(TANGENT, vec![along; 4]);
+    let text = "(scale: (2, 1, 1), rotate: [(axis: X, angle: 90)])";
+    let expected = DVec3::new(1.2, 0.0, 0.8).normalize();
+    let mapped = glam::DAffine3::from_scale(DVec3::new(1.0, 5.0, 1.0));
+    for (mesh, expected) in [
+        (applied(text, mesh.clone()), expected),
+        (
+            scene::transformed(&mesh, &mapped),
+            DVec3::new(0.6, 4.0, 0.0).normalize(),
+        ),
+    ] {
+        for tangent in mesh.get(TANGENT).unwrap() {
+            assert!(tangent.distance(expected) < 1e-15, "{tangent}");
+        }
+    }
 }

@@ -118,7 +118,7 @@ fn an_edge_of_a_cube_becomes_a_quad() {
     assert_eq!(mesh.degree(new), 4);
     assert!(mesh.faces().filter(|&f| mesh.degree(f) == 5).count() == 2);
     assert!(mesh.face_normal(new).dot(DVec3::new(1.0, 0.0, 1.0)) > 1.4);
-    // The bevel removes a wedge of length 2.
+    // The bevel removes a prism of length 2. Its cross-section is a right triangle with two sides of length 1/2.
     assert!((crate::geometry::volume(&cube) - crate::geometry::volume(&mesh) - 0.25).abs() < 1e-13);
     // The face starts at the first new vertex and runs counter-clockwise; the vertices are numbered clockwise.
     assert_eq!(corners(&mesh, new), [8, 11, 10, 9]);

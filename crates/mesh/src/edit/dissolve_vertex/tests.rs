@@ -167,7 +167,9 @@ fn a_seam_is_dropped_only_with_seams_drop() {
             .map(|_| ())
     };
     let mesh = checked_edit_mesh(&mesh, drop).unwrap();
-    // Around the middle vertex, face 0 is counter-clockwise of the edge to 3, and face 1 of the edge to 1.
+    // Vertices 1 and 3 are corners of two of the faces. The corner takes the value of the face that is
+    // counter-clockwise of the removed edge: of face 0 at vertex 3, and of face 1, whose values are shifted by 10, at
+    // vertex 1.
     for h in mesh.face_half_edges(FaceId::new(0)) {
         let v = mesh.origin(h);
         let shift = if [0, 3].contains(&v.index()) {

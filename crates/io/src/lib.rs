@@ -492,7 +492,7 @@ fn write_placed(
         Format::Obj => return obj::write(store, path, scene, all, options),
         Format::Gltf => gltf::write(path, false, scene, options),
         Format::Glb => gltf::write(path, true, scene, options),
-        Format::Ply => ply::write(scene, options).map(one),
+        Format::Ply => return ply::write(store, path, scene, all, options),
         Format::Stl => stl::write(scene, options).map(one),
         Format::Off => off::write(scene, options).map(one),
         // COLLADA files were refused above.

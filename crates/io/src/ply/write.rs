@@ -2,10 +2,12 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 use mesh::{Column, Domain, FaceId, Mesh, Rule, UV, Values};
 use scene::Scene;
+use store::Store;
 
 use super::attribute_comments::AttributeComment;
 use super::columns::Kind;
@@ -13,22 +15,32 @@ use super::header::MAX_PROPERTIES;
 use super::read::plain_rule;
 use super::roles;
 use super::types::Type;
-use crate::error::Unwritable;
+use crate::error::WriteError;
 use crate::joined::{Names, joined};
 use crate::loss::Losses;
 use crate::parallel;
+use crate::save::{Block, Content, save};
 use crate::writing::{
     FileVertices, finite, is_byte, is_mark, push_comment, to_byte, uvs_of_vertices,
 };
-use crate::{SingleFile, WriteOptions};
+use crate::{WriteOptions, WriteReport, fail_if_lost};
 
-/// Writes `scene` as little-endian binary, and lists the content that the file does not store.
+/// The number of rows in a block of the file, which is then a few hundred kilobytes.
+const BLOCK: usize = 8192;
+
+/// Writes `scene` to a little-endian binary file, after `images`.
 ///
 /// # Errors
 ///
-/// If an object is not a mesh.
-pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile, Unwritable> {
-    let mut joined = joined(scene, "PLY", Names::Tags)?;
+/// If an object is not a mesh, or the files cannot be written.
+pub(crate) fn write(
+    store: &dyn Store,
+    path: &Path,
+    scene: &Scene,
+    images: Vec<(PathBuf, Content<'static>)>,
+    options: &WriteOptions,
+) -> Result<WriteReport, WriteError> {
+    let mut joined = joined(scene, "PLY", Names::Tags).map_err(|why| why.in_file(path))?;
     let mesh = &*joined.mesh;
     let mut losses = Losses::of(&joined.name, &mut joined.losses);
     losses.add_columns(mesh, "PLY", |domain, _| domain != Domain::Edge);
@@ -63,15 +75,25 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile,
             to.column(domain, column, values);
         }
     }
-    let mut out = b"ply\nformat binary_little_endian 1.0\n".to_vec();
-    push_comment(&mut out, "comment", options.provenance.as_deref());
+    fail_if_lost(path, options, &joined.losses)?;
     let file = FileVertices::of(mesh);
-    vertices.push_header(&mut out, "vertex", file.len());
-    faces.push_header(&mut out, "face", mesh.n_faces());
-    out.extend_from_slice(b"end_header\n");
-    vertices.push_rows(&mut out, mesh, &file, file.len(), |row| file.vertex(row));
-    faces.push_rows(&mut out, mesh, &file, mesh.n_faces(), |row| row);
-    Ok((out, joined.losses))
+    let mut head = b"ply\nformat binary_little_endian 1.0\n".to_vec();
+    push_comment(&mut head, "comment", options.provenance.as_deref());
+    vertices.push_header(&mut head, "vertex", file.len());
+    faces.push_header(&mut head, "face", mesh.n_faces());
+    head.extend_from_slice(b"end_header\n");
+    let mut blocks: Vec<Block> = vec![Box::new(move |out| out.extend_from_slice(&head))];
+    vertices.add_blocks(&mut blocks, mesh, &file, file.len(), |row| file.vertex(row));
+    faces.add_blocks(&mut blocks, mesh, &file, mesh.n_faces(), |row| row);
+    let mut files = images;
+    files.push((path.to_path_buf(), Content::Blocks(blocks)));
+    let (files, bytes) = save(store, files)?;
+    Ok(WriteReport {
+        files,
+        bytes,
+        losses: joined.losses,
+        packing: None,
+    })
 }
 
 /// A table to be written.
@@ -248,27 +270,24 @@ impl<'a> Element<'a> {
         }
     }
 
-    /// Appends the rows. `element` returns the element of the mesh for a row.
-    fn push_rows(
-        &self,
-        out: &mut Vec<u8>,
-        mesh: &Mesh,
-        file: &FileVertices,
-        rows: usize,
-        element: impl Fn(usize) -> usize + Sync,
+    /// Adds the blocks of the rows. `element` returns the element of the mesh for a row.
+    fn add_blocks<'b>(
+        &'b self,
+        blocks: &mut Vec<Block<'b>>,
+        mesh: &'b Mesh,
+        file: &'b FileVertices,
+        n: usize,
+        element: impl Fn(usize) -> usize + Copy + Send + Sync + 'b,
     ) {
-        let blocks = parallel::blocks(rows, |rows| {
-            let mut bytes = Vec::with_capacity(rows.len() * 32);
-            for row in rows {
-                for field in &self.fields {
-                    field.push(&mut bytes, mesh, file, element(row));
+        for first in (0..n).step_by(BLOCK) {
+            let rows = first..n.min(first + BLOCK);
+            blocks.push(Box::new(move |out| {
+                for row in rows.clone() {
+                    for field in &self.fields {
+                        field.push(out, mesh, file, element(row));
+                    }
                 }
-            }
-            bytes
-        });
-        out.reserve(blocks.iter().map(Vec::len).sum());
-        for block in blocks {
-            out.extend_from_slice(&block);
+            }));
         }
     }
 }
@@ -278,9 +297,7 @@ impl Field<'_> {
         let f = FaceId::new(row);
         match self {
             Self::Positions(positions) => {
-                for x in positions[row].to_array() {
-                    out.extend_from_slice(&x.to_le_bytes());
-                }
+                push_numbers(out, positions[row].to_array(), Type::Float64);
             }
             Self::Corners(count) => {
                 push_count(out, *count, mesh.degree(f));
@@ -329,20 +346,21 @@ fn push_value(out: &mut Vec<u8>, values: &Values, i: usize, size: usize, form: T
     match values {
         Values::Tag(v) => out.push(u8::from(v[i])),
         Values::Int(v) => out.extend_from_slice(&v[i].to_le_bytes()),
-        Values::Float(v) => push_numbers(out, &[v[i]], form),
-        Values::Vec2(v) => push_numbers(out, &v[i].to_array(), form),
-        Values::Vec3(v) => push_numbers(out, &v[i].to_array(), form),
-        Values::Vec4(v) => push_numbers(out, &v[i].to_array()[..size], form),
+        Values::Float(v) => push_numbers(out, [v[i]], form),
+        Values::Vec2(v) => push_numbers(out, v[i].to_array(), form),
+        Values::Vec3(v) => push_numbers(out, v[i].to_array(), form),
+        Values::Vec4(v) if size == 3 => push_numbers(out, v[i].truncate().to_array(), form),
+        Values::Vec4(v) => push_numbers(out, v[i].to_array(), form),
     }
 }
 
-fn push_numbers(out: &mut Vec<u8>, numbers: &[f64], form: Type) {
-    for &x in numbers {
-        match form {
-            Type::UInt8 => out.push(to_byte(x)),
-            Type::Float32 => out.extend_from_slice(&to_float(x).to_le_bytes()),
-            _ => out.extend_from_slice(&x.to_le_bytes()),
+fn push_numbers<const N: usize>(out: &mut Vec<u8>, numbers: [f64; N], form: Type) {
+    match form {
+        Type::UInt8 => out.extend_from_slice(&numbers.map(to_byte)),
+        Type::Float32 => {
+            out.extend_from_slice(numbers.map(|x| to_float(x).to_le_bytes()).as_flattened());
         }
+        _ => out.extend_from_slice(numbers.map(f64::to_le_bytes).as_flattened()),
     }
 }
 
@@ -372,4 +390,45 @@ fn all_numbers(values: &Values, size: usize, is: impl Fn(f64) -> bool + Sync) ->
         Values::Vec4(v) => v[i].to_array()[..size].iter().all(|&x| is(x)),
         _ => false,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use geometry::shapes;
+    use scene::{Object, Scene};
+    use store::{Memory, Store};
+
+    use super::{BLOCK, WriteOptions};
+    use crate::{ReadOptions, read, write};
+
+    #[test]
+    fn a_mesh_of_several_blocks_has_the_same_bytes_for_any_number_of_threads() {
+        let torus = shapes::torus(300, 70, 3.0, 1.0);
+        assert!(torus.n_vertices() > 2 * BLOCK);
+        let mut scene = Scene::new();
+        scene.insert(Object::mesh("torus", torus.clone())).unwrap();
+        let bytes = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            let (store, path) = (Memory::default(), Path::new("torus.ply"));
+            let report = pool
+                .unwrap()
+                .install(|| write(&store, path, &scene, &WriteOptions::default()))
+                .unwrap();
+            let bytes = store.read(path).unwrap();
+            assert_eq!(report.bytes, bytes.len() as u64);
+            let back = read(&store, path, &ReadOptions::default()).unwrap();
+            let mesh = back.objects[0].as_mesh().unwrap();
+            assert_eq!(mesh.positions(), torus.positions());
+            let corners = |mesh: &mesh::Mesh| -> Vec<Vec<mesh::VertexId>> {
+                let corners = mesh.faces().map(|f| mesh.face_vertices(f).collect());
+                corners.collect()
+            };
+            assert_eq!(corners(mesh), corners(&torus));
+            bytes
+        };
+        let one = bytes(1);
+        assert!([2, 8].iter().all(|&threads| bytes(threads) == one));
+    }
 }

@@ -202,7 +202,8 @@ impl Transform {
 impl Operation for Transform {
     const NAME: &'static str = "Transform";
     const SUMMARY: &'static str = "Scale, rotate, move and mirror objects";
-    const EXAMPLE: &'static str = "Transform()";
+    const EXAMPLE: &'static str =
+        "Transform(scale: (2, 1, 1), rotate: [(axis: Z, angle: 90)], move: (3, 1, 0))";
     const WORDS: &'static [&'static str] = &["move", "translate", "scale", "rotate", "mirror"];
     const TAKES_ON: bool = true;
 

@@ -23,7 +23,7 @@ use op::prelude::*;
 /// With `keep: Front` or `keep: Back`, the other side of the plane is removed. A face in the plane belongs to the back
 /// if its normal points to the front, because the face then closes the solid behind the plane. Vertices left without a
 /// face are removed. If the remaining faces around a vertex form several fans, each fan gets a separate copy of the
-/// vertex. No faces are added to close the cut.
+/// vertex. No faces are added to close the cut. `FillHoles` adds them.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bisect {

@@ -83,10 +83,14 @@ pub(crate) struct BatchArgs {
     #[arg(required_unless_present = "merge")]
     pub(crate) recipe: Option<PathBuf>,
     /// Input files, as paths or patterns: `*` and `?` match within one folder, `**` matches any number of folders
-    #[arg(long, value_name = "PATTERN", num_args = 1.., required_unless_present = "merge")]
+    #[arg(long, value_name = "PATTERN", num_args = 1.., required_unless_present_any = ["merge", "sets"])]
     pub(crate) inputs: Vec<String>,
+    /// Parameter sets, as a JSON list of objects such as [{"levels": 1}, {"levels": 2}]; the recipe runs with each set
+    /// (for each input file), with the outputs in a folder named after the number of the set
+    #[arg(long, value_name = "FILE.json")]
+    pub(crate) sets: Option<PathBuf>,
     /// The parameter that receives the input file; required if the recipe has several of type Path
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", requires = "inputs")]
     pub(crate) param: Option<String>,
     #[command(flatten)]
     pub(crate) values: ValueArgs,
@@ -105,6 +109,14 @@ pub(crate) struct BatchArgs {
     /// Process only part I of N of the input files; the path of a file alone determines its part
     #[arg(long, value_name = "I/N")]
     pub(crate) shard: Option<Shard>,
+    /// Estimate the memory of each of N parts of the batch, and run nothing
+    #[arg(
+        long,
+        value_name = "N",
+        conflicts_with_all = ["junit", "shard", "retry_failed"],
+        value_parser = clap::value_parser!(u32).range(1..=1_000_000),
+    )]
+    pub(crate) estimate: Option<u32>,
     /// Retry files that failed in an earlier run
     #[arg(long)]
     pub(crate) retry_failed: bool,
@@ -115,7 +127,8 @@ pub(crate) struct BatchArgs {
         num_args = 1..,
         requires = "report",
         conflicts_with_all = [
-            "recipe", "inputs", "param", "set", "preset", "folders", "junit", "shard", "retry_failed"
+            "recipe", "inputs", "sets", "param", "set", "preset", "folders", "junit", "shard", "retry_failed",
+            "estimate"
         ],
     )]
     pub(crate) merge: Vec<PathBuf>,

@@ -15,12 +15,15 @@ pub(super) fn folder(out: &Path) -> PathBuf {
 /// Returns the path for one failure: the name of the input, shortened for all file systems, with a digest that
 /// distinguishes inputs of the same name.
 fn path(batch: &Batch, file: &Input) -> PathBuf {
-    let name = file.relative.file_name().unwrap_or_default();
-    let name = name.to_string_lossy();
+    let name = file.relative.file_name().unwrap_or("set".as_ref());
+    let mut name = name.to_string_lossy().into_owned();
+    if let Some(set) = &file.set {
+        name += &format!("-{}", set.number);
+    }
     let is_safe = |c: char| c.is_alphanumeric() || matches!(c, '.' | '-' | '_');
     let sanitize = |c: char| if is_safe(c) { c } else { '_' };
     let name: String = name.chars().map(sanitize).take(50).collect();
-    let digest = blake3::hash(file.path.as_bytes()).to_hex();
+    let digest = file.digest().to_hex();
     folder(&batch.args.out).join(format!("{name}-{}.txt", &digest[..8]))
 }
 
@@ -32,7 +35,7 @@ pub(super) fn write(batch: &Batch, file: &Input, row: &Row, text: &str) -> anyho
     let folder = std::env::current_dir().unwrap_or_default();
     let text = format!(
         "{} failed{step}\n\n{text}\nTo repeat the run, in the folder {}:\n\n{command}\n",
-        file.path,
+        file.label(),
         folder.display()
     );
     write_atomically(&path(batch, file), text.as_bytes())
@@ -58,8 +61,7 @@ fn command(batch: &Batch, file: &Input) -> String {
     if let Some(preset) = &values.preset {
         option("--preset", preset.clone());
     }
-    let input = (batch.param.clone(), file.path.clone());
-    for (name, value) in values.set.iter().chain([&input]) {
+    for (name, value) in batch.values(file).set {
         option("--set", format!("{name}={value}"));
     }
     option("--out", batch.out(file).display().to_string());

@@ -6,25 +6,48 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, anyhow, bail, ensure};
 use walkdir::WalkDir;
 
-use crate::args::Shard;
+use super::sets::{ParameterSet, label};
 
 /// An input file of a batch.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Input {
-    /// The path, with the same beginning as the pattern.
+    /// The path, with the same beginning as the pattern. Empty if the recipe runs without an input file.
     pub(crate) path: String,
     /// The path relative to the folder in which the pattern starts.
     pub(crate) relative: PathBuf,
+    /// The parameter set of the run, if the batch has several.
+    pub(crate) set: Option<ParameterSet>,
 }
 
 impl Input {
-    /// Whether the file belongs to this part. The part of a file depends only on its path, so that adding a file does
-    /// not move other files to different parts.
-    pub(crate) fn is_in(&self, shard: Shard) -> bool {
-        let hash = blake3::hash(self.path.as_bytes());
+    /// The number of the parameter set, or 0.
+    pub(super) fn number(&self) -> usize {
+        self.set.as_ref().map_or(0, |set| set.number)
+    }
+
+    /// Returns the text for the file and its parameter set.
+    pub(super) fn label(&self) -> String {
+        let values = self.set.as_ref().map(|set| set.values.clone());
+        label(&self.path, &values.unwrap_or_default())
+    }
+
+    /// Returns a digest of the path and of the number of the parameter set.
+    pub(super) fn digest(&self) -> blake3::Hash {
+        let mut hasher = blake3::Hasher::new();
+        hasher.update(self.path.as_bytes());
+        if let Some(set) = &self.set {
+            hasher.update(format!("\0{}", set.number).as_bytes());
+        }
+        hasher.finalize()
+    }
+
+    /// Returns the part that the file belongs to, from 1. The part depends only on the path and on the number of the
+    /// parameter set, so that adding a file does not move other files to different parts.
+    pub(super) fn part(&self, of: u32) -> u32 {
         let mut first = [0; 8];
-        first.copy_from_slice(&hash.as_bytes()[..8]);
-        u64::from_le_bytes(first) % u64::from(shard.of) == u64::from(shard.index - 1)
+        first.copy_from_slice(&self.digest().as_bytes()[..8]);
+        let part = u64::from_le_bytes(first) % u64::from(of);
+        u32::try_from(part).map_or(of, |part| part + 1)
     }
 }
 
@@ -40,6 +63,7 @@ pub(crate) fn list(patterns: &[String]) -> anyhow::Result<Vec<Input>> {
             inputs.push(Input {
                 path: pattern.clone(),
                 relative: path.file_name().map(PathBuf::from).unwrap_or_default(),
+                set: None,
             });
         } else if path.is_dir() {
             bail!(
@@ -98,6 +122,7 @@ fn search(pattern: &str, inputs: &mut Vec<Input>) -> anyhow::Result<()> {
             inputs.push(Input {
                 path: text.to_owned(),
                 relative: relative.to_path_buf(),
+                set: None,
             });
         }
     }
@@ -142,18 +167,15 @@ mod tests {
     }
 
     #[test]
-    fn every_file_is_in_exactly_one_part() {
+    fn files_are_divided_evenly() {
         let input = |i: usize| Input {
             path: format!("models/{i}.obj"),
-            relative: PathBuf::new(),
+            ..Input::default()
         };
         for of in [1, 2, 3, 7] {
             let mut sizes = vec![0; of as usize];
             for input in (0..500).map(input) {
-                let parts = (1..=of).filter(|&index| input.is_in(Shard { index, of }));
-                let parts: Vec<u32> = parts.collect();
-                assert_eq!(parts.len(), 1);
-                sizes[parts[0] as usize - 1] += 1;
+                sizes[input.part(of) as usize - 1] += 1;
             }
             let fair = 500 / of;
             assert!(

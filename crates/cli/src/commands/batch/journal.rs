@@ -39,8 +39,8 @@ struct ProcessStart {
 pub(super) struct Journal {
     path: PathBuf,
     file: File,
-    /// The entries of earlier runs, by the path of the input.
-    pub(super) known: HashMap<String, Entry>,
+    /// The entries of earlier runs, by the path of the input and the number of the parameter set.
+    pub(super) known: HashMap<(String, usize), Entry>,
     /// The ids of the processes that wrote to the journal before.
     pub(super) processes: Vec<u32>,
 }
@@ -70,7 +70,8 @@ impl Journal {
         // Lines of a different version that cannot be parsed are ignored, so their files are processed again.
         for line in bytes.split(|&b| b == b'\n') {
             if let Ok(entry) = serde_json::from_slice::<Entry>(line) {
-                known.insert(entry.row.input.clone(), entry);
+                let (input, set) = entry.row.key();
+                known.insert((input.to_owned(), set), entry);
             } else if let Ok(start) = serde_json::from_slice::<ProcessStart>(line) {
                 processes.push(start.process);
             }
@@ -127,12 +128,14 @@ mod tests {
             );
             std::fs::write(&path, bytes).unwrap();
             let mut journal = Journal::open(path.clone()).unwrap();
-            assert_eq!(journal.known["a\n\"é"].row, row("a\n\"é"));
-            assert_eq!(journal.known["b"].key, "key of b");
-            assert!(!journal.known.contains_key("c"));
+            let known =
+                |journal: &Journal, input: &str| journal.known.get(&(input.to_owned(), 0)).cloned();
+            assert_eq!(known(&journal, "a\n\"é").unwrap().row, row("a\n\"é"));
+            assert_eq!(known(&journal, "b").unwrap().key, "key of b");
+            assert!(known(&journal, "c").is_none());
             journal.append(&[entry("d")]).unwrap();
             let journal = Journal::open(path.clone()).unwrap();
-            assert!(journal.known.contains_key("b") && journal.known.contains_key("d"));
+            assert!(known(&journal, "b").is_some() && known(&journal, "d").is_some());
             assert_eq!(journal.processes.len(), 2);
         }
     }

@@ -59,21 +59,21 @@ fn merge(reports: &[(&Path, Report)]) -> anyhow::Result<Report> {
             what.unwrap_or_default()
         );
     }
-    let mut rows: BTreeMap<&str, (&Path, &Row)> = BTreeMap::new();
+    let mut rows: BTreeMap<(&str, usize), (&Path, &Row)> = BTreeMap::new();
     let mut contradictions = 0;
     for (path, report) in reports {
         for row in &report.rows {
-            match rows.get(row.input.as_str()) {
+            match rows.get(&row.key()) {
                 // A file that is skipped in one report can be processed in another.
                 Some(_) if row.state == State::Skipped => {}
                 Some((_, earlier)) if earlier.state == State::Skipped => {
-                    rows.insert(&row.input, (path, row));
+                    rows.insert(row.key(), (path, row));
                 }
                 Some((other, earlier)) if !earlier.is_same(row) => {
                     contradictions += 1;
                     print_error(&format!(
                         "error: {} is {} in {} and {} in {}\n",
-                        escape_control(&row.input),
+                        escape_control(&row.label()),
                         description(earlier),
                         other.display(),
                         description(row),
@@ -82,7 +82,7 @@ fn merge(reports: &[(&Path, Report)]) -> anyhow::Result<Report> {
                 }
                 Some(_) => {}
                 None => {
-                    rows.insert(&row.input, (path, row));
+                    rows.insert(row.key(), (path, row));
                 }
             }
         }

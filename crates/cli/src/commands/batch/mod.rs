@@ -11,12 +11,14 @@
 //! files and renamed. If the disk is full, the files that are being processed count as failed. If the journal cannot be
 //! written, no further file is started.
 
+mod estimate;
 mod failed;
 pub(crate) mod inputs;
 mod journal;
 mod merge;
 mod plan;
 mod row;
+mod sets;
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -47,6 +49,9 @@ pub(crate) fn run(args: &BatchArgs, engine: &Engine) -> anyhow::Result<bool> {
         return Ok(false);
     };
     catch_interrupts();
+    if let Some(n) = args.estimate {
+        return estimate::run(&batch, n);
+    }
     let mut journal = Journal::open(batch.journal())?;
     batch.remove_stale(&journal.processes);
     let files_of_part = batch.files_of_part();
@@ -71,12 +76,15 @@ pub(crate) fn run(args: &BatchArgs, engine: &Engine) -> anyhow::Result<bool> {
 /// Returns the results as JUnit XML. The text of a failure is the content of its file in the folder of failures.
 fn junit_report(batch: &Batch, rows: &[Row]) -> String {
     let files = batch.files_of_part();
-    let pairs = rows.iter().zip(files);
-    let cases: Vec<Case> = pairs.map(|(row, file)| case(batch, file, row)).collect();
+    let labels: Vec<String> = files.iter().map(|file| file.label()).collect();
+    let cases = rows.iter().zip(files).zip(&labels);
+    let cases: Vec<Case> = cases
+        .map(|((row, file), label)| case(batch, file, label, row))
+        .collect();
     junit::report(&batch.path.display().to_string(), &cases)
 }
 
-fn case<'b>(batch: &Batch, file: &'b Input, row: &Row) -> Case<'b> {
+fn case<'b>(batch: &Batch, file: &Input, label: &'b str, row: &Row) -> Case<'b> {
     let message = || row.message.clone().unwrap_or_default();
     let end = match row.state {
         State::Ok => CaseEnd::Passed,
@@ -87,7 +95,7 @@ fn case<'b>(batch: &Batch, file: &'b Input, row: &Row) -> Case<'b> {
         },
     };
     Case {
-        path: Path::new(&file.path),
+        path: Path::new(label),
         time: row.seconds,
         end,
     }
@@ -157,7 +165,9 @@ impl<'b> Chunk<'b> {
     ) -> anyhow::Result<Self> {
         let limits = batch.args.many.limits();
         let ends = run_all(files.len(), limits, |i| {
-            let known = journal.known.get(&files[i].path);
+            let known = journal
+                .known
+                .get(&(files[i].path.clone(), files[i].number()));
             check(batch, files[i], known)
         })?;
         let task = |(end, file): (JobResult<Task>, &&Input)| {
@@ -231,7 +241,7 @@ impl<'b> Chunk<'b> {
         let outcome = loaded.run(run, &INTERRUPT);
         let row = Row {
             seconds: begin.elapsed().as_secs_f64(),
-            ..row(&self.files[i].path, loaded, &outcome)
+            ..row(self.files[i], loaded, &outcome)
         };
         FileResult {
             key: key
@@ -313,7 +323,7 @@ fn journal_key(key: String, row: &Row, batch: &Batch) -> String {
 fn failure(file: &Input, message: String) -> FileResult {
     FileResult {
         text: format!("error: {message}\n"),
-        row: Row::without_outputs(&file.path, State::Failed, Some(message)),
+        row: Row::without_outputs(file, State::Failed, Some(message)),
         key: None,
     }
 }
@@ -322,18 +332,18 @@ fn failure(file: &Input, message: String) -> FileResult {
 fn without_result(file: &Input, panicked: Option<String>) -> FileResult {
     match panicked {
         Some(message) => failure(file, message),
-        None => FileResult::unrecorded(Row::without_outputs(&file.path, State::Skipped, None)),
+        None => FileResult::unrecorded(Row::without_outputs(file, State::Skipped, None)),
     }
 }
 
 /// Returns the row of a file on which the recipe was run.
-fn row(path: &str, loaded: &Loaded, outcome: &Outcome) -> Row {
+fn row(file: &Input, loaded: &Loaded, outcome: &Outcome) -> Row {
     let state = match (outcome.succeeded(), outcome.cancelled) {
-        (_, true) => return Row::without_outputs(path, State::Skipped, None),
+        (_, true) => return Row::without_outputs(file, State::Skipped, None),
         (true, _) => State::Ok,
         (false, _) => State::Failed,
     };
-    let mut row = Row::without_outputs(path, state, None);
+    let mut row = Row::without_outputs(file, state, None);
     for step in &outcome.steps {
         let losses = step.report.losses.iter();
         row.losses
@@ -361,7 +371,8 @@ fn row(path: &str, loaded: &Loaded, outcome: &Outcome) -> Row {
 
 /// Formats the line of a file for the terminal.
 fn line(row: &Row) -> String {
-    let input = escape_control(&row.input);
+    let label = row.label();
+    let input = escape_control(&label);
     match row.state {
         State::Ok => {
             let (time, digest) = (row.seconds * 1e3, row.digest.as_deref());

@@ -1,6 +1,7 @@
 //! The plan of a batch: the recipe, the input files, and the outputs of each.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::path::{Path, PathBuf, absolute};
 
 use anyhow::{bail, ensure};
@@ -9,7 +10,8 @@ use recipe::{OtherMesh, Param, Parameter, Source, did_you_mean};
 
 use super::inputs::{self, Input};
 use super::row::Header;
-use crate::args::BatchArgs;
+use super::sets;
+use crate::args::{BatchArgs, Shard, ValueArgs};
 use crate::commands::run::report_errors;
 use crate::file_kind::{FileKind, expect_kind};
 use crate::loading::load_text;
@@ -19,8 +21,8 @@ use engine::Loaded;
 pub(super) struct Batch<'a> {
     pub(super) args: &'a BatchArgs,
     pub(super) path: &'a Path,
-    /// The parameter that receives the input file.
-    pub(super) param: String,
+    /// The parameter that receives the input file, if there are input files.
+    param: Option<String>,
     engine: &'a Engine<'a>,
     /// The text of the recipe, read once for all files.
     source: Source,
@@ -48,7 +50,20 @@ impl<'a> Batch<'a> {
         }
         let mut inputs = inputs::list(&args.inputs)?;
         inputs.sort_by(|a, b| a.path.cmp(&b.path));
-        let param = parameter(args, loaded.recipe.parameters())?;
+        let parameters = loaded.recipe.parameters();
+        let param = if args.inputs.is_empty() {
+            None
+        } else {
+            Some(parameter(args, parameters)?)
+        };
+        if let Some(path) = &args.sets {
+            let set = &args.values.set;
+            let is_given = |name: &str| {
+                param.as_deref() == Some(name) || set.iter().any(|(given, _)| given == name)
+            };
+            let sets = sets::read(path, parameters, is_given)?;
+            inputs = sets::combined(inputs, &sets);
+        }
         let batch = Self {
             args,
             path,
@@ -69,19 +84,31 @@ impl<'a> Batch<'a> {
     /// of each file.
     fn check_outputs(&self) -> anyhow::Result<()> {
         let [stem, name] = ["\u{1}", "\u{1}.\u{2}"];
-        let marked = self.load_at(name, &self.args.out)?;
         let below = |path: &PathBuf| path.strip_prefix(&self.args.out).unwrap_or(path).to_owned();
-        let outputs: Vec<PathBuf> = marked.forecast.outputs.iter().map(below).collect();
+        // The outputs for each parameter set.
+        let mut marked: HashMap<usize, Vec<PathBuf>> = HashMap::new();
 
         let place = |path: &Path| absolute(path).unwrap_or_else(|_| path.to_path_buf());
         let places = self.inputs.iter().map(|file| place(Path::new(&file.path)));
         let read: HashMap<PathBuf, &Input> = places.zip(&self.inputs).collect();
         let mut writers: HashMap<PathBuf, &Input> = HashMap::new();
         for file in &self.inputs {
+            let outputs = match marked.entry(file.number()) {
+                Entry::Occupied(known) => known.into_mut(),
+                Entry::Vacant(new) => {
+                    let path = self.param.as_ref().map_or("", |_| name).to_owned();
+                    let file = Input {
+                        path,
+                        ..file.clone()
+                    };
+                    let loaded = self.load_at(&file, &self.args.out)?;
+                    new.insert(loaded.forecast.outputs.iter().map(below).collect())
+                }
+            };
             let path = Path::new(&file.path);
             let parts = [store::stem(path), path.file_name().unwrap_or_default()];
             let [own_stem, own_name] = parts.map(|part| part.to_string_lossy());
-            for output in &outputs {
+            for output in outputs.iter() {
                 let output = output.to_string_lossy();
                 let output = output.replace(name, &own_name).replace(stem, &own_stem);
                 let output = self.out(file).join(output);
@@ -94,12 +121,11 @@ impl<'a> Batch<'a> {
                 }
                 if let Some(other) = writers.insert(place(&output), file) {
                     bail!(
-                        "{} and {} would both write {}: use `{{{}.stem}}` or `{{{}.name}}` in the output path, or write to separate folders with --folders",
-                        other.path,
-                        file.path,
+                        "{} and {} would both write {}: use `{{{param}.stem}}` or `{{{param}.name}}` in the output path, or write to separate folders with --folders",
+                        other.label(),
+                        file.label(),
                         output.display(),
-                        self.param,
-                        self.param
+                        param = self.param.as_deref().unwrap_or_default(),
                     );
                 }
             }
@@ -109,16 +135,29 @@ impl<'a> Batch<'a> {
 
     /// Returns the output folder of an input file.
     pub(super) fn out(&self, file: &Input) -> PathBuf {
-        if self.args.folders {
-            self.args.out.join(&file.relative)
-        } else {
-            self.args.out.clone()
+        let mut out = self.args.out.clone();
+        if let Some(set) = &file.set {
+            out.push(set.number.to_string());
         }
+        if self.args.folders {
+            out.push(&file.relative);
+        }
+        out
+    }
+
+    /// Returns the values of the parameters for an input file.
+    pub(super) fn values(&self, file: &Input) -> ValueArgs {
+        let mut values = self.args.values.clone();
+        let own = file.set.iter().flat_map(|set| set.values.clone());
+        let input = self.param.clone().map(|name| (name, file.path.clone()));
+        values.set.extend(own.chain(input));
+        values
     }
 
     /// Returns the input files of this part.
     pub(super) fn files_of_part(&self) -> Vec<&Input> {
-        let is_in_part = |file: &&Input| self.args.shard.is_none_or(|shard| file.is_in(shard));
+        let is_in = |file: &Input, shard: Shard| file.part(shard.of) == shard.index;
+        let is_in_part = |file: &&Input| self.args.shard.is_none_or(|shard| is_in(file, shard));
         self.inputs.iter().filter(is_in_part).collect()
     }
 
@@ -132,14 +171,12 @@ impl<'a> Batch<'a> {
 
     /// Checks the recipe for an input file.
     pub(super) fn load(&self, file: &Input) -> anyhow::Result<Loaded> {
-        self.load_at(&file.path, &self.out(file))
+        self.load_at(file, &self.out(file))
     }
 
-    fn load_at(&self, path: &str, out: &Path) -> anyhow::Result<Loaded> {
-        let mut values = self.args.values.clone();
-        values.set.push((self.param.clone(), path.to_owned()));
+    fn load_at(&self, file: &Input, out: &Path) -> anyhow::Result<Loaded> {
         let budget = self.args.many.budget;
-        load_text(&self.source, &values, out, budget, self.engine)
+        load_text(&self.source, &self.values(file), out, budget, self.engine)
     }
 
     /// Returns the digest of everything that the row of an input file depends on; `None` if an input cannot be read.
@@ -160,6 +197,10 @@ impl<'a> Batch<'a> {
             part(value.as_bytes());
         }
         part(file.path.as_bytes());
+        for (name, value) in file.set.iter().flat_map(|set| &set.values) {
+            part(name.as_bytes());
+            part(value.as_bytes());
+        }
         for output in &loaded.forecast.outputs {
             part(output.as_os_str().as_encoded_bytes());
         }
@@ -190,7 +231,7 @@ impl<'a> Batch<'a> {
         let stale = processes.iter().map(|p| store::temporary_prefix(*p));
         let stale: Vec<String> = stale.collect();
         let mut folders = vec![self.args.out.clone()];
-        if self.args.folders {
+        if self.args.folders || self.args.sets.is_some() {
             folders.extend(self.files_of_part().into_iter().map(|file| self.out(file)));
         }
         let lists = folders.iter().filter_map(|f| std::fs::read_dir(f).ok());
@@ -207,7 +248,7 @@ impl<'a> Batch<'a> {
     pub(super) fn header(&self) -> Header {
         let mut listed = blake3::Hasher::new();
         for file in &self.inputs {
-            listed.update(file.path.as_bytes());
+            listed.update(file.label().as_bytes());
             listed.update(b"\0");
         }
         Header {

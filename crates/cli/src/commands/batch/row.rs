@@ -20,7 +20,8 @@
 //!     "digest": "..",
 //!     "losses": [".."],
 //!     "outputs": [{"path": "out/cow.glb", "bytes": 1200}],
-//!     "seconds": 0.01
+//!     "seconds": 0.01,
+//!     "set": null, "values": {}           with `--sets`, the number of the parameter set and its values
 //!   }]
 //! }
 //! ```
@@ -31,6 +32,8 @@ use std::path::Path;
 use anyhow::{Context as _, bail, ensure};
 use serde::{Deserialize, Serialize};
 
+use super::inputs::Input;
+use super::sets::label;
 use crate::args::Shard;
 use crate::many::csv_line;
 use crate::output::write_atomically;
@@ -50,6 +53,10 @@ pub(super) struct Row {
     pub(super) losses: Vec<String>,
     pub(super) outputs: Vec<Output>,
     pub(super) seconds: f64,
+    #[serde(default)]
+    pub(super) set: Option<usize>,
+    #[serde(default)]
+    pub(super) values: BTreeMap<String, String>,
 }
 
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq, Serialize)]
@@ -71,13 +78,26 @@ pub(super) struct Output {
 
 impl Row {
     /// Creates a row without counts and outputs.
-    pub(super) fn without_outputs(input: &str, state: State, message: Option<String>) -> Self {
+    pub(super) fn without_outputs(input: &Input, state: State, message: Option<String>) -> Self {
+        let set = input.set.clone();
         Self {
-            input: input.to_owned(),
+            input: input.path.clone(),
             state,
             message,
+            set: set.as_ref().map(|set| set.number),
+            values: set.map(|set| set.values).unwrap_or_default(),
             ..Self::default()
         }
+    }
+
+    /// The input file and the number of the parameter set, or 0. No two rows of a batch have the same key.
+    pub(super) fn key(&self) -> (&str, usize) {
+        (&self.input, self.set.unwrap_or(0))
+    }
+
+    /// Returns the text for the input file and the parameter values.
+    pub(super) fn label(&self) -> String {
+        label(&self.input, &self.values)
     }
 
     /// Whether two rows are equal except for the time.
@@ -95,7 +115,7 @@ impl Row {
         })
     }
 
-    fn cells(&self) -> [String; 11] {
+    fn cells(&self) -> [String; 13] {
         let number = |n: Option<usize>| n.map(|n| n.to_string()).unwrap_or_default();
         let text = |text: &Option<String>| text.clone().unwrap_or_default();
         let outputs: Vec<&str> = self.outputs.iter().map(|o| o.path.as_str()).collect();
@@ -111,13 +131,15 @@ impl Row {
             self.losses.join("; "),
             outputs.join("; "),
             format!("{:.6}", self.seconds),
+            number(self.set),
+            label("", &self.values),
         ]
     }
 }
 
-const COLUMNS: [&str; 11] = [
+const COLUMNS: [&str; 13] = [
     "input", "state", "step", "message", "vertices", "edges", "faces", "digest", "losses",
-    "outputs", "seconds",
+    "outputs", "seconds", "set", "values",
 ];
 
 impl State {
@@ -261,7 +283,9 @@ pub(super) mod tests {
                 bytes: 12,
             }],
             seconds: 0.25,
-            ..Row::without_outputs(input, State::Ok, None)
+            input: input.to_owned(),
+            state: State::Ok,
+            ..Row::default()
         }
     }
 
@@ -292,7 +316,7 @@ pub(super) mod tests {
         let path = folder.path().join("a.csv");
         report().write(&path).unwrap();
         let mut table = csv::Reader::from_path(&path).unwrap();
-        assert_eq!(table.headers().unwrap().len(), 11);
+        assert_eq!(table.headers().unwrap().len(), 13);
         let rows: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();
         assert_eq!(&rows[0][0], "a, \"b\"\nc.obj");
         assert_eq!(&rows[1][9], "out/a b.glb");

@@ -2,6 +2,7 @@
 
 mod inputs;
 mod resume;
+mod sets;
 mod shards;
 
 use std::collections::BTreeSet;

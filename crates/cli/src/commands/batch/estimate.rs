@@ -1,0 +1,80 @@
+//! `meshwright batch --estimate N`: estimates the memory of N parts, and runs nothing. The scheduler of a cluster can
+//! then reserve the memory of each part. `--report FILE.json` writes one object:
+//!
+//! ```text
+//! {"parts": [{"part": 1, "runs": 12, "bytes": 34603008}]}
+//! ```
+//!
+//! `bytes` is the largest estimate of a run of the part, for a process that makes one run at a time (`--threads 1`).
+
+use anyhow::ensure;
+use recipe::shape::counted;
+use recipe::{Forecast, mebibytes};
+use serde::Serialize;
+
+use super::plan::Batch;
+use crate::listener::is_interrupted;
+use crate::many::run_all;
+use crate::output::{print, write_atomically};
+
+/// The memory of a part.
+#[derive(Clone, Debug, Default, Serialize)]
+struct Memory {
+    part: u32,
+    runs: usize,
+    bytes: u64,
+}
+
+#[derive(Serialize)]
+struct Estimate {
+    parts: Vec<Memory>,
+}
+
+/// Estimates the memory of `n` parts. A run that has errors needs no memory.
+pub(super) fn run(batch: &Batch, n: u32) -> anyhow::Result<bool> {
+    let args = batch.args;
+    if let Some(path) = &args.report {
+        ensure!(
+            path.extension().is_some_and(|e| e == "json"),
+            "{}: expected an estimate with the extension .json",
+            path.display()
+        );
+    }
+    let files = batch.files_of_part();
+    let all = run_all(files.len(), args.many.limits(), |i| {
+        let loaded = batch.load(files[i]).ok().filter(|l| !l.has_errors());
+        loaded.map_or(0, |loaded| memory(&loaded.forecast, args.many.budget))
+    })?;
+    ensure!(!is_interrupted(), "interrupted");
+    let parts = (1..=n).map(|part| Memory {
+        part,
+        ..Memory::default()
+    });
+    let mut parts: Vec<Memory> = parts.collect();
+    for (file, bytes) in files.iter().zip(all) {
+        if let Some(part) = parts.get_mut(file.part(n) as usize - 1) {
+            part.runs += 1;
+            part.bytes = part.bytes.max(bytes.unwrap_or(0));
+        }
+    }
+    let line = |p: &Memory| {
+        let (part, runs) = (p.part, counted(p.runs, "run"));
+        format!("part {part}/{n}: {runs}, {}\n", mebibytes(p.bytes))
+    };
+    print(&parts.iter().map(line).collect::<String>())?;
+    if let Some(path) = &args.report {
+        let text = serde_json::to_vec_pretty(&Estimate { parts })?;
+        write_atomically(path, &[text, b"\n".to_vec()].concat())?;
+    }
+    Ok(true)
+}
+
+/// Returns the estimated memory of a run: the largest meshes after a step, and the smaller meshes of two consecutive
+/// steps, because a step holds the meshes before and after it. Meshes cannot exceed the budget.
+fn memory(forecast: &Forecast, budget: u64) -> u64 {
+    let steps = forecast.steps.windows(2);
+    let smaller = steps.map(|pair| pair[0].bytes.max.min(pair[1].bytes.max));
+    // If a step has no limit, the estimate of the largest meshes includes a copy.
+    let copy = smaller.filter(|&bytes| bytes < u64::MAX).max();
+    forecast.peak_bytes().min(budget) + copy.unwrap_or(0).min(budget)
+}

@@ -1,0 +1,151 @@
+//! The parameter sets of a batch. The file of `--sets` is a list of objects, each with values of parameters:
+//!
+//! ```text
+//! [
+//!     {"levels": 1, "center": [0, 0, 1]},
+//!     {"levels": 2, "name": "fine"}
+//! ]
+//! ```
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use anyhow::{Context as _, bail, ensure};
+use recipe::{Parameter, did_you_mean};
+use serde_json::Value as Json;
+
+use super::inputs::Input;
+
+/// Values of parameters, with which the recipe runs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct ParameterSet {
+    /// The place of the set in its file, from 1. The outputs of the set are in a folder with this name.
+    pub(super) number: usize,
+    /// The values as texts, as for `--set`.
+    pub(super) values: BTreeMap<String, String>,
+}
+
+/// Reads parameter sets. `is_given` returns whether a parameter already has a value.
+///
+/// # Errors
+///
+/// If the file is not a list of objects, or a name or a value is not possible.
+pub(super) fn read(
+    path: &Path,
+    parameters: &[Parameter],
+    is_given: impl Fn(&str) -> bool,
+) -> anyhow::Result<Vec<ParameterSet>> {
+    let shown = path.display();
+    let text = std::fs::read_to_string(path).with_context(|| format!("cannot read {shown}"))?;
+    let expected =
+        "expected a list of objects with values of parameters, such as [{\"levels\": 1}]";
+    let sets: Vec<BTreeMap<String, Json>> =
+        serde_json::from_str(&text).with_context(|| format!("{shown}: {expected}"))?;
+    ensure!(!sets.is_empty(), "{shown} is empty: {expected}");
+    let mut all = Vec::with_capacity(sets.len());
+    for (number, set) in (1..).zip(sets) {
+        let mut values = BTreeMap::new();
+        for (name, value) in set {
+            let known = parameters.iter().map(|p| p.name.as_str());
+            if !known.clone().any(|known| known == name) {
+                let help = did_you_mean(&name, known);
+                bail!("{shown}: set {number}: the recipe has no parameter `{name}`: {help}");
+            }
+            ensure!(
+                !is_given(&name),
+                "{shown}: set {number}: the parameter `{name}` has a value from the command line already"
+            );
+            let Some(text) = plain(&value) else {
+                bail!(
+                    "{shown}: set {number}: `{name}` is {value}, expected a number, a text, a Boolean or a list of numbers"
+                );
+            };
+            values.insert(name, text);
+        }
+        all.push(ParameterSet { number, values });
+    }
+    Ok(all)
+}
+
+/// Returns a value as text, as on the command line.
+fn plain(value: &Json) -> Option<String> {
+    Some(match value {
+        Json::String(text) => text.clone(),
+        Json::Bool(_) | Json::Number(_) => value.to_string(),
+        Json::Array(parts) => {
+            let parts = parts
+                .iter()
+                .map(|part| part.is_number().then(|| part.to_string()));
+            format!("({})", parts.collect::<Option<Vec<String>>>()?.join(", "))
+        }
+        Json::Null | Json::Object(_) => return None,
+    })
+}
+
+/// Returns every input with every set. Without inputs, the list has one entry for each set.
+pub(super) fn combined(inputs: Vec<Input>, sets: &[ParameterSet]) -> Vec<Input> {
+    let inputs = if inputs.is_empty() {
+        vec![Input::default()]
+    } else {
+        inputs
+    };
+    let with = |input: &Input, set: &ParameterSet| Input {
+        set: Some(set.clone()),
+        ..input.clone()
+    };
+    let each = inputs.iter();
+    each.flat_map(|input| sets.iter().map(|set| with(input, set)))
+        .collect()
+}
+
+/// Returns the text for an input file and its parameter values: `cow.obj (levels = 2)`.
+pub(super) fn label(path: &str, values: &BTreeMap<String, String>) -> String {
+    let values: Vec<String> = values.iter().map(|(n, v)| format!("{n} = {v}")).collect();
+    match (path, values.join(", ")) {
+        (path, values) if values.is_empty() => path.to_owned(),
+        ("", values) => values,
+        (path, values) => format!("{path} ({values})"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_written_as_on_the_command_line() {
+        for (json, text) in [
+            ("1", Some("1")),
+            ("0.5", Some("0.5")),
+            ("true", Some("true")),
+            ("\"a b\"", Some("a b")),
+            ("[0, 0.5, 1]", Some("(0, 0.5, 1)")),
+            ("[[1]]", None),
+            ("null", None),
+            ("{}", None),
+        ] {
+            let value = serde_json::from_str(json).unwrap();
+            assert_eq!(plain(&value).as_deref(), text, "{json}");
+        }
+    }
+
+    #[test]
+    fn every_input_is_combined_with_every_set() {
+        let set = |number| ParameterSet {
+            number,
+            values: BTreeMap::new(),
+        };
+        let input = |path: &str| Input {
+            path: path.to_owned(),
+            ..Input::default()
+        };
+        let found = combined(vec![input("a"), input("b")], &[set(1), set(2)]);
+        let found: Vec<_> = found
+            .iter()
+            .map(|i| (i.path.as_str(), i.number()))
+            .collect();
+        assert_eq!(found, [("a", 1), ("a", 2), ("b", 1), ("b", 2)]);
+        let alone = combined(Vec::new(), &[set(1), set(2)]);
+        assert_eq!(alone.len(), 2);
+    }
+}

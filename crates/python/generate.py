@@ -15,6 +15,8 @@ import re
 import sys
 import textwrap
 import types
+from collections.abc import Sequence
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -23,8 +25,9 @@ FOLDER = Path(__file__).parent / "python" / "meshwright"
 
 def use_built_library() -> None:
     """Makes a package of the sources beside this file and of the library that cargo built."""
-    folder = Path(__file__).resolve().parents[2] / "target" / "debug"
-    found = [path for path in folder.glob("*meshwright_core.*") if path.suffix in (".so", ".dylib", ".dll")]
+    folder = Path(__file__).resolve().parents[2] / "target"
+    found = [path for path in folder.glob("*/*meshwright_core.*") if path.suffix in (".so", ".dylib", ".dll")]
+    found.sort(key=lambda path: path.stat().st_mtime, reverse=True)
     if not found:
         sys.exit("the library is missing: run cargo build -p meshwright-python")
     name = "meshwright._core"
@@ -41,10 +44,10 @@ def use_built_library() -> None:
 if __name__ == "__main__":
     use_built_library()
 
-from meshwright._ron import definition, name_of, operations, options, resolve  # noqa: E402
+from meshwright._ron import definition, name_of, operations, options, resolve, root  # noqa: E402
 
 SELECTIONS = ["VertexSelection", "EdgeSelection", "FaceSelection", "Region", "Elements"]
-WIDTH = 100
+EXPECTATIONS = ["Expectation", "OtherMesh", "Group"]
 
 
 def snake(name: str) -> str:
@@ -103,33 +106,170 @@ def default(schema: Any) -> str | None:
     if "default" not in schema or schema["default"] is None:
         return None
     value = schema["default"]
-    if isinstance(value, str | bool | int | float):
-        return str(value)
-    return None
+    if isinstance(value, str):
+        return f'``"{value}"``'
+    return f"``{value}``" if isinstance(value, bool | int | float) else None
 
 
 def sentence(text: str) -> str:
-    return " ".join(text.replace("`", "``").split())
+    """A paragraph on one line, with its values written as in Python."""
+    return re.sub(r"`([^`]+)`", lambda code: f"``{in_python(code[1]) or code[1]}``", " ".join(text.split()))
+
+
+TOKEN = re.compile(r'\s*("[^"]*"|[A-Za-z_]\w*|[-+]?[\d._]+(?:e[-+]?\d+)?|[()\[\]:,])')
+
+
+def in_python(code: str) -> str | None:
+    """The Python expression for a value or a parameter of a recipe: ``sel.Sharp(above=30)`` for `Sharp(above: 30)`.
+    `None` if the text is no such value."""
+    tokens = TOKEN.findall(code)
+    if "".join(tokens) != re.sub(r'\s+(?=(?:[^"]*"[^"]*")*[^"]*$)', "", code):
+        return None
+    try:
+        if len(tokens) > 2 and tokens[1] == ":":
+            value, rest = expression(tokens[2:])
+            text = f"{python_name(tokens[0])}={value}"
+        elif tokens in (["true"], ["false"]):
+            text, rest = tokens[0].capitalize(), []
+        elif len(tokens) == 1:
+            text, rest = word(tokens[0]), []
+        elif tokens[1] == "(":
+            text, rest = expression(tokens)
+        else:
+            return None
+    except (IndexError, KeyError):
+        return None
+    return None if rest else text
+
+
+def word(name: str) -> str:
+    """The Python name of a word alone. Most words are also reasons, formats or attributes, and stay as they are."""
+    if name in operations():
+        return f"{snake(name)}()"
+    modules = [("sel", selections()), ("choice", others()), ("expect", variants(EXPECTATIONS))]
+    known = [module for module, found in modules if all("const" not in option for option in found.get(name, [{"const": 0}]))]
+    return f"{known[0]}.{name}" if len(known) == 1 else python_name(name)
+
+
+def expression(tokens: list[str]) -> tuple[str, list[str]]:
+    """The Python expression for the value at the beginning, and the tokens behind it."""
+    first, rest = tokens[0], tokens[1:]
+    if first in "([":
+        parts, rest = arguments(rest)
+        if first == "(" and all("=" in part for part in parts):
+            fields = [part.split("=", 1) for part in parts]
+            return "{" + ", ".join(f'"{name}": {value}' for name, value in fields) + "}", rest
+        return (f"[{', '.join(parts)}]" if first == "[" else f"({', '.join(parts)})"), rest
+    if not first[0].isalpha():
+        return first, rest
+    if first in ("true", "false"):
+        return first.capitalize(), rest
+    if rest[:1] != ["("]:
+        return f'"{first}"', rest
+    parts, rest = arguments(rest[1:])
+    return f"{callable_name(first)}({', '.join(parts)})", rest
+
+
+def arguments(tokens: list[str]) -> tuple[list[str], list[str]]:
+    """The values before the closing bracket, and the tokens behind it."""
+    parts = []
+    while tokens[0] not in ")]":
+        name = ""
+        if len(tokens) > 1 and tokens[1] == ":":
+            name, tokens = f"{python_name(tokens[0])}=", tokens[2:]
+        value, tokens = expression(tokens)
+        parts.append(name + value)
+        tokens = tokens[1:] if tokens[0] == "," else tokens
+    return parts, tokens[1:]
+
+
+def callable_name(name: str) -> str:
+    """The Python name of an operation or of a variant with parameters."""
+    if name in operations():
+        return snake(name)
+    modules = [("sel", selections()), ("expect", variants(EXPECTATIONS)), ("choice", others())]
+    return next(f"{module}.{name}" for module, known in [*modules, ("mw", {name: []})] if name in known)
 
 
 def wrapped(text: str, indent: str, more: str = "") -> list[str]:
     width = 120 - len(indent)
-    return [indent + line for line in textwrap.wrap(text, width, subsequent_indent=more, break_long_words=False)]
+    parts = textwrap.wrap(text, width, subsequent_indent=more, break_long_words=False, break_on_hyphens=False)
+    return [indent + line for line in parts]
 
 
-def docstring(first: str, rest: str, fields: list[tuple[str, Any]], indent: str) -> list[str]:
-    lines = wrapped(f'"""{first}', indent)
-    for paragraph in rest.split("\n\n"):
-        text = sentence(paragraph)
-        if text and text.rstrip(".") != first.rstrip("."):
-            lines += ["", *wrapped(sentence(paragraph), indent)]
-    if fields:
-        lines.append("")
+def block(text: str, indent: str) -> list[str]:
+    """The lines of a paragraph, of a list, or of a table, which becomes a list."""
+    rows = [line.strip() for line in text.splitlines()]
+    if rows[0].startswith("|"):
+        cells = [[cell.strip() for cell in row.strip("|").split("|")] for row in rows[2:]]
+        items = [f"{method_word(first)}: {'; '.join(rest)}." for first, *rest in cells]
+    elif rows[0].startswith("- "):
+        items = [sentence(item) for item in re.split(r"(?:^|\n)\s*- ", text)[1:]]
+    else:
+        return wrapped(sentence(text), indent)
+    return [line for item in items for line in wrapped(f"- {item}", indent, "  ")]
+
+
+def method_word(cell: str) -> str:
+    """The first cell of a row of a table: a variant, if it names one."""
+    name = cell.strip("`")
+    known = name in others() and cell.startswith("`")
+    return f"``choice.{name}``" if known else sentence(cell)
+
+
+def variant_lines(schema: Any, indent: str) -> list[str]:
+    """A line for each variant of a parameter, except for selections, of which there are many."""
+    lines = []
+    for option in options(schema):
+        name, text = name_of(option), sentence(option.get("description", "")).partition(". ")[0].rstrip(".")
+        if name is None or not text:
+            continue
+        code = f'"{name}"' if "const" in option else f"choice.{name}(..)"
+        lines += wrapped(f"``{code}``: {text}.", indent, "    ")
+    return lines
+
+
+def field_lines(schema: Any, indent: str) -> list[str]:
+    """A line for each key of a parameter that is a mapping or a list of mappings."""
+    each = [part for option in options(schema) for part in (options(option["items"]) if option.get("items") else [option])]
+    lines = []
+    for option in each:
+        for name, inner in option.get("properties", {}).items() if name_of(option) is None else ():
+            text = sentence(inner.get("description") or resolve(inner).get("description") or "")
+            lines += wrapped(f'``"{name}"``: {text}', indent, "    ")
+    return lines
+
+
+def takes_selection(schema: Any) -> bool:
+    """Whether a parameter is a selection of elements or a region."""
+    alternatives = [schema, *schema.get("anyOf", [])]
+    return any(part.get("$ref", "").rsplit("/", 1)[-1] in SELECTIONS for part in alternatives)
+
+
+def docstring(
+    text: str, fields: list[tuple[str, Any]], indent: str, example: str = "", more: Sequence[str] = ()
+) -> list[str]:
+    """The lines of a docstring: the text, an example, the parameters, and `more` lines behind the parameters."""
+    first, *paragraphs = filter(str.strip, text.split("\n\n"))
+    lines = block('"""' + first, indent)
+    for paragraph in paragraphs:
+        lines += ["", *block(paragraph, indent)]
+    lines += ["", *wrapped(example, indent)] if example else []
+    lines += [""] if fields or more else []
     for name, schema in fields:
         text = sentence(schema.get("description") or resolve(schema).get("description") or "")
         value = default(schema)
-        note = f" Defaults to {value}." if value is not None and "Defaults to" not in text else ""
-        lines += wrapped(f":param {python_name(name)}: {text}{note}", indent, "    ")
+        is_known = value is None or "Defaults to" in text or "If omitted" in text
+        note = "" if is_known else f" Defaults to {value}."
+        where = ""
+        if takes_selection(schema):
+            known = dict.fromkeys(option["const"] for option in options(schema) if "const" in option)
+            where = " " + ", ".join([*(f'``"{name}"``' for name in known), "or a value of ``meshwright.sel``."])
+        lines += wrapped(f":param {python_name(name)}: {text}{note}{where}", indent, "    ")
+        if not where:
+            lines += variant_lines(schema, indent + "    ") or field_lines(schema, indent + "    ")
+    for line in more:
+        lines += wrapped(line, indent, "    ")
     if len(lines) == 1 and len(lines[0]) < 117:
         return [lines[0] + '"""']
     return [*lines, indent + '"""']
@@ -144,32 +284,40 @@ def method(name: str, entry: Any, of_mesh: bool) -> list[str]:
     properties = schema.get("properties", {})
     required = [n for n in properties if n in schema.get("required", [])]
     optional = [n for n in properties if n not in required]
-    head = ["self"]
-    for n in required:
-        ordered = list(dict.fromkeys([*split_union(kind(properties[n])), "Arg", "Ron"]))
-        if of_mesh and is_other(name, n):
-            ordered.insert(0, '"Mesh"')
+    # A parameter of a recipe has no value where a step runs immediately.
+    extra = ["Ron"] if of_mesh else ["Arg", "Ron"]
+    head, tail = ["self"], []
+    for n in [*required, *optional]:
+        kinds = list(dict.fromkeys([*split_union(kind(properties[n])), *extra]))
+        if of_mesh and (name, n) in OTHERS:
+            kinds.insert(0, '"Mesh"')
         if n == "path":
-            ordered.insert(1, "os.PathLike[str]")
-        head.append(f"{python_name(n)}: {' | '.join(ordered)}")
-    tail = []
-    for n in optional:
-        ordered = list(dict.fromkeys([*split_union(kind(properties[n])), "Arg", "Ron"]))
-        if of_mesh and is_other(name, n):
-            ordered.insert(0, '"Mesh"')
-        tail.append(f"{python_name(n)}: {' | '.join([*ordered, 'None'])} = None")
-    if not of_mesh and entry["takes_on"]:
-        tail.append("on: str | Sequence[str] | None = None")
+            kinds.insert(1, "os.PathLike[str]")
+        if n in required:
+            head.append(f"{python_name(n)}: {' | '.join(kinds)}")
+        else:
+            tail.append(f"{python_name(n)}: {' | '.join([*kinds, 'None'])} = None")
+    takes_on = not of_mesh and entry["takes_on"]
+    tail += ["on: str | Sequence[str] | None = None"] if takes_on else []
     tail.append("id: str | None = None")
     lines = [f"    def {snake(name)}("]
     lines += [f"        {part}," for part in [*head, "*", *tail]]
     lines.append("    ) -> Self:")
-    first = entry["summary"] + "."
-    rest = schema.get("description", "") + f"\n\nIn a recipe: `{entry['example']}`"
-    lines += [literal(line) for line in docstring(first, rest, list(properties.items()), " " * 8)]
+    text = schema.get("description") or entry["summary"] + "."
+    fields = [(n, properties[n]) for n in [*required, *optional]]
+    if of_mesh:
+        fields = [(n, {**s, "description": OTHERS[name, n]} if (name, n) in OTHERS else s) for n, s in fields]
+    more = [":param on: The objects that the step acts on. If omitted, all that it supports."] if takes_on else []
+    more.append(":param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.")
+    if of_mesh:
+        more.append(f":returns: The new mesh. This mesh does not change. {RESULTS.get(name, '')}".rstrip())
+    called = in_python(entry["example"]) or ""
+    for other in (f'{python_name(n)}="scan"' for operation, n in OTHERS if of_mesh and operation == name):
+        called = called.replace(other, f"{other.split('=')[0]}=scan")
+    example = f"Example: ``mesh.{called}``" if of_mesh else f"Example: ``scene.{called}``, in a recipe ``{entry['example']}``"
+    lines += [literal(line) for line in docstring(text, fields, " " * 8, example, more)]
     given = ", ".join(f"{n!r}: {python_name(n)}" for n in properties)
-    on = "on" if not of_mesh and entry["takes_on"] else "None"
-    lines.append(f"        return self._apply({name!r}, {{{given}}}, {on}, id)")
+    lines.append(f"        return self._apply({name!r}, {{{given}}}, {'on' if takes_on else 'None'}, id)")
     lines.append("")
     return lines
 
@@ -184,12 +332,20 @@ def split_union(text: str) -> list[str]:
     return [*parts, text[start:]]
 
 
-def is_other(operation: str, parameter: str) -> bool:
-    """Whether a parameter names another object, for which a method of a mesh takes a mesh."""
-    return (operation, parameter) in OTHERS
+#: Parameters that name another object, for which a method of a mesh takes a mesh, and what they are then.
+OTHERS = {
+    ("Transfer", "from"): "The mesh with the attributes.",
+    ("Project", "onto"): "The mesh with the surface.",
+}
 
-
-OTHERS = {("Transfer", "from"), ("Project", "onto")}
+TAGGED = [("Vertices", "vertex"), ("Edges", "edge"), ("Faces", "face")]
+#: Where a method of a mesh leaves its result.
+RESULTS = {
+    "Measure": 'Its ``attributes["mean_curvature"]``, or another name, has the values as an array.',
+    "Unwrap": 'Its ``attributes["uv"]`` has the coordinates of each corner, and ``corners`` its vertex.',
+    "VertexNormals": 'Its ``attributes["normal"]`` has the normals.',
+    **{f"Tag{d}": f"Its ``tag(\"{w}\", name)`` is an array of Booleans." for d, w in TAGGED},
+}
 
 HEADER = '''"""{doc}
 
@@ -232,11 +388,25 @@ def variants(names: list[str]) -> dict[str, list[Any]]:
     return found
 
 
+@cache
+def selections() -> dict[str, list[Any]]:
+    """The variants of selections and regions."""
+    return variants(SELECTIONS)
+
+
+@cache
+def others() -> dict[str, list[Any]]:
+    """The variants with parameters that are neither selections nor expectations."""
+    skipped = {*SELECTIONS, *EXPECTATIONS, "Step", "Param", "OnLoss", "Refusal", *operations()}
+    found = variants([name for name in root()["$defs"] if name not in skipped])
+    return {n: a for n, a in found.items() if not all("const" in option for option in a)}
+
+
 def function(name: str, alternatives: list[Any]) -> list[str]:
     """A function that makes a variant, or a constant for a variant without parameters."""
-    doc = " ".join(dict.fromkeys(sentence(a.get("description", "")) for a in alternatives)).strip()
+    doc = " ".join(dict.fromkeys(a.get("description", "") for a in alternatives)).strip()
     if all("const" in a for a in alternatives):
-        return [f"{name} = Choice({name!r})", *wrapped(f'"""{literal(doc)}"""', ""), ""]
+        return [f"{name} = Choice({name!r})", *wrapped(f'"""{literal(sentence(doc))}"""', ""), ""]
     inner = [resolve(a["properties"][name]) for a in alternatives if "properties" in a]
     structs = [i for i in inner if i.get("type") == "object" and "properties" in i]
     head: list[str]
@@ -246,15 +416,21 @@ def function(name: str, alternatives: list[Any]) -> list[str]:
         for i in structs:
             for n, s in i["properties"].items():
                 merged.setdefault(n, []).append(s)
-        needed = {n for n in merged if all(n in i.get("required", []) for i in structs)}
+        # In another parameter, the variant of the same name has one value without a name.
+        plain = [i for i in inner if i not in structs]
+        needed = {n for n in merged if not plain and all(n in i.get("required", []) for i in structs)}
         order = [n for n in merged if n in needed] + [n for n in merged if n not in needed]
         head = ["*"]
+        if plain:
+            kinds = list(dict.fromkeys(k for i in plain for k in split_union(kind(i))))
+            head = [f"value: {' | '.join(dict.fromkeys([*kinds, 'Arg', 'Ron']))} | None = None", "/", "*"]
         for n in order:
             kinds = list(dict.fromkeys(k for s in merged[n] for k in split_union(kind(s))))
             ending = "" if n in needed else " | None = None"
             head.append(f"{python_name(n)}: {' | '.join(dict.fromkeys([*kinds, 'Arg', 'Ron']))}{ending}")
             fields.append((n, merged[n][0]))
-        call = ", ".join([repr(name), *(f"{python_name(n)}={python_name(n)}" for n in order)])
+        first = ["*(() if value is None else (value,))"] if plain else []
+        call = ", ".join([repr(name), *first, *(f"{python_name(n)}={python_name(n)}" for n in order)])
     elif inner and all("prefixItems" in i for i in inner) and not is_vector(inner[0]):
         parts = inner[0]["prefixItems"]
         head = [f"{'abcd'[i]}: {kind(part)} | Arg" for i, part in enumerate(parts)] + ["/"]
@@ -267,7 +443,8 @@ def function(name: str, alternatives: list[Any]) -> list[str]:
     if len(lines[0]) > 118:
         lines = [f"def {name}(", *(f"    {part}," for part in head), ") -> Choice:"]
     first, _, rest = doc.partition(". ")
-    lines += [literal(line) for line in docstring((first.rstrip(".") or name) + ".", rest, fields, "    ")]
+    text = f"{first.rstrip('.') or name}.\n\n{rest}"
+    lines += [literal(line) for line in docstring(text, fields, "    ")]
     return [*lines, f"    return Choice({call})", ""]
 
 
@@ -285,18 +462,11 @@ def variants_file(doc: str, found: dict[str, list[Any]]) -> str:
 
 def files() -> dict[str, str]:
     """The contents of the generated files."""
-    import meshwright._ron as ron
-
-    selections = variants(SELECTIONS)
-    expectations = variants(["Expectation", "OtherMesh", "Group"])
-    skipped = {*SELECTIONS, "Expectation", "OtherMesh", "Group", "Step", "Param", "OnLoss", "Refusal", *operations()}
-    others = variants([name for name in ron.root()["$defs"] if name not in skipped])
-    others = {n: a for n, a in others.items() if not all("const" in option for option in a)}
     return {
         "_operations.py": operations_file(),
-        "sel.py": variants_file("Selections of vertices, edges and faces, and regions of space.", selections),
-        "choice.py": variants_file("Values of parameters that have parameters themselves.", others),
-        "expect.py": variants_file("Expectations of recipes.", expectations),
+        "sel.py": variants_file("Selections of vertices, edges and faces, and regions of space.", selections()),
+        "choice.py": variants_file("Values of parameters that have parameters themselves.", others()),
+        "expect.py": variants_file("Expectations of recipes.", variants(EXPECTATIONS)),
     }
 
 

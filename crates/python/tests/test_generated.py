@@ -3,23 +3,65 @@
 import doctest
 import importlib
 import importlib.util
+import inspect
 import pkgutil
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 import meshwright as mw
+from meshwright._ron import operations
 
 FOLDER = Path(__file__).resolve().parents[1]
 
 
-def test_generated_files_are_up_to_date() -> None:
+def generator() -> Any:
     spec = importlib.util.spec_from_file_location("generate", FOLDER / "generate.py")
     assert spec and spec.loader
     generate = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(generate)
-    for name, text in generate.files().items():
+    return generate
+
+
+def test_generated_files_are_up_to_date() -> None:
+    for name, text in generator().files().items():
         assert (FOLDER / "python" / "meshwright" / name).read_text() == text, "run python crates/python/generate.py"
+
+
+def test_values_of_recipes_are_documented_as_in_python() -> None:
+    in_python = generator().in_python
+    for ron, python in {
+        "Sharp(above: 30)": "sel.Sharp(above=30)",
+        'Not(Tagged("a b"))': 'sel.Not(sel.Tagged("a b"))',
+        "on_refusal: Skip": 'on_refusal="Skip"',
+        "keep_volume: true": "keep_volume=True",
+        "quantize: ()": "quantize={}",
+        "rotate: [(axis: Z, angle: 90)]": 'rotate=[{"axis": "Z", "angle": 90}]',
+        "move: (0, -1e-3, 1)": "move=(0, -1e-3, 1)",
+        "LoopSubdivide(levels: 2)": "loop_subdivide(levels=2)",
+        "Taubin()": "choice.Taubin()",
+        "Stitch": "stitch()",
+        "Tagged": "sel.Tagged",
+        "Boundary": "Boundary",
+        "from": "from_",
+        ".obj": None,
+        "a[0]": None,
+        "(1, 2": None,
+    }.items():
+        assert in_python(ron) == python, ron
+
+
+def test_the_examples_of_the_methods_are_those_of_the_operations() -> None:
+    """The example in the documentation of each method makes the step that the documentation of the operation shows."""
+    generate = generator()
+    for name, entry in operations().items():
+        call = generate.in_python(entry["example"])
+        assert f"``scene.{call}``" in " ".join(inspect.getdoc(getattr(mw.Scene, generate.snake(name))).split())
+        recipe = eval(f"recipe.{call}", {"recipe": mw.recipe(), "sel": mw.sel, "choice": mw.choice})
+        step = recipe.to_ron().split("steps: [\n", 1)[1].rsplit(",\n    ],", 1)[0].strip()
+        # The order of the parameters is that of the method.
+        assert sorted(generate.TOKEN.findall(generate.in_python(step))) == sorted(generate.TOKEN.findall(call)), step
 
 
 def test_no_operation_hides_a_member() -> None:
@@ -32,12 +74,7 @@ def test_no_operation_hides_a_member() -> None:
 
 
 def test_every_operation_has_a_method_and_documentation() -> None:
-    from meshwright._ron import operations
-
-    spec = importlib.util.spec_from_file_location("generate", FOLDER / "generate.py")
-    assert spec and spec.loader
-    generate = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(generate)
+    generate = generator()
     for name, entry in operations().items():
         assert getattr(mw.Scene, generate.snake(name)).__doc__
         if entry["takes_on"]:

@@ -2,6 +2,7 @@
 
 import pickle
 import re
+import runpy
 import signal
 import subprocess
 import sys
@@ -182,3 +183,28 @@ def test_the_example(tmp_path: Path) -> None:
     assert example.edit(tmp_path / "ring.obj").defects() == []
     digest = example.run(tmp_path / "ring.obj", tmp_path / "out")
     assert len(digest) == 32 and (tmp_path / "out" / "a.png").exists()
+
+
+def test_the_sample(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The script of the first steps runs as it is."""
+    monkeypatch.chdir(tmp_path)
+    ball = mw.Scene().icosahedron(name="ball").mesh()
+    ball.save("bunny.obj").save("scan.ply")
+    ball.loop_subdivide(levels=5).save("a.obj")
+    mw.recipe().load(mw.arg("input", default=Path("scan.ply"))).loop_subdivide(
+        levels=mw.arg("levels", int, default=1)
+    ).expect("Manifold").save_recipe("clean.ron")
+    made = runpy.run_path(str(Path(__file__).parent / "sample.py"))
+    assert made["out"].mesh().n_faces == 1280
+    assert made["r"].run().mesh().n_faces == 5000
+    assert mw.read("out/a.glb").mesh().n_faces == 5000 and made["m"].n_faces == 320
+
+
+def test_a_variant_with_one_value_and_with_fields(tmp_path: Path) -> None:
+    """The variant `Distance` of `ExtrudeFaces` has one value, and that of `Measure` has fields."""
+    box = mw.Scene().cube(name="box", size=2).mesh()
+    grown = box.extrude_faces(faces=sel.Facing(direction=(0, 0, 1), within=1), by=choice.Distance(0.5))
+    assert grown.vertices[:, 2].max() == 1.5
+    scene = mw.Scene().cube(name="box").icosahedron(name="ball")
+    measured = scene.measure(of=choice.Distance(to="box"), name="far", on="ball")
+    assert measured["ball"].attributes["far"].shape == (12,)

@@ -9,7 +9,7 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
@@ -18,15 +18,17 @@ from ._progress import numbers
 from ._recipe import Recipe
 from ._scene import fsspec, is_address, write_bytes
 
-#: Parts for each worker: the sizes of files vary, so a worker that is done early takes another part.
-PARTS_PER_WORKER = 8
+#: Parts for each thread of a cluster: the sizes of files vary, so a thread that is done early takes another part.
+PARTS_PER_THREAD = 8
+#: The memory of a process besides its meshes, in bytes.
+PROCESS_BYTES = 128 << 20
 
 
 @dataclass(frozen=True)
 class Row:
-    """The result of one input file."""
+    """The result of one input file, or of one parameter set."""
 
-    #: The input file.
+    #: The input file. Empty if there is none.
     input: str
     #: ok, failed, or skipped after Ctrl-C.
     state: Literal["ok", "failed", "skipped"]
@@ -48,11 +50,15 @@ class Row:
     outputs: list[dict[str, Any]]
     #: How long the run took.
     seconds: float
+    #: The number of the parameter set, from 1. Its outputs are in the folder of this name.
+    set: int | None = None
+    #: The values of the parameter set, as texts.
+    values: dict[str, str] = field(default_factory=dict)
 
 
 class Report(Sequence[Row]):
-    """The report of a batch: a row for each input file, in the order of their paths. The same as the report of
-    ``meshwright batch``."""
+    """The report of a batch: a row for each input file and parameter set, in the order of the paths and sets. The same
+    as the report of ``meshwright batch``."""
 
     def __init__(self, header: dict[str, Any], rows: list[Row]) -> None:
         #: The recipe, its digest, the parameters and the numbers of rows, as in the JSON report of the program.
@@ -80,8 +86,9 @@ class Report(Sequence[Row]):
 
 def batch(
     recipe: Recipe | str | os.PathLike[str],
-    inputs: str | os.PathLike[str] | Sequence[str | os.PathLike[str]],
+    inputs: str | os.PathLike[str] | Sequence[str | os.PathLike[str]] = (),
     *,
+    sets: Sequence[Mapping[str, Any]] | None = None,
     engine: Any = "local",
     out: str | os.PathLike[str] = "out",
     values: Mapping[str, Any] | None = None,
@@ -94,25 +101,35 @@ def batch(
     budget: str | None = None,
     upload: str | None = None,
 ) -> Report:
-    """Runs one recipe on many files, several at the same time.
+    """Runs one recipe on many files, with many parameter sets, or both; several runs at the same time.
+
+    >>> mw.batch("clean.ron", "models/*.obj")                                     # doctest: +SKIP
+    Report(12 ok, 1 failed)
+    >>> report = mw.batch("part.ron", sets=[{"levels": 1}, {"levels": 2}])        # doctest: +SKIP
+    >>> [(row.values["levels"], row.faces) for row in report]                     # doctest: +SKIP
+    [('1', 80), ('2', 320)]
 
     A batch that was interrupted, or whose workers were killed, continues when it is called again: a file is not processed
     again if the recipe, the parameters and every file that the run reads are unchanged. This is decided by their content.
     A file that fails is a row of the report, and does not stop the batch.
 
-    :param recipe: The recipe, or the path of its file. It needs a parameter of type Path, which receives the input.
+    :param recipe: The recipe, or the path of its file. For inputs, it needs a parameter of type Path, which receives the
+        input.
     :param inputs: Files, or patterns: ``*`` and ``?`` match within one folder, ``**`` any number of folders. Addresses such
         as ``s3://bucket/*.obj`` need fsspec, and are copied to the folder ``inputs`` in `out` first.
+    :param sets: Parameter sets: ``[{"levels": 1}, {"levels": 2}]``. The recipe runs with each set, for each input if there
+        are inputs. The outputs of a set are in a folder in `out` that is named after the number of the set, from 1.
     :param engine: "local" uses the processors of this machine; "dask" starts a local cluster of Dask, and a client of Dask
-        uses its cluster; "ray" uses Ray. The workers of a cluster need this package, and the same folders.
+        uses its cluster; "ray" uses Ray. The workers of a cluster need this package, and the same folders. Each task
+        states its estimated memory: to Ray as ``memory``, and to Dask as the resource ``MEMORY`` if workers have it.
     :param out: The folder for outputs, and for the state of the batch.
     :param values: Values of the other parameters of the recipe.
     :param preset: The name of a preset of the recipe.
     :param param: The parameter that receives the input; needed if the recipe has several of type Path.
     :param folders: Whether the outputs of each input go to a folder of their own.
     :param retry_failed: Whether files that failed before are processed again.
-    :param parts: The number of tasks on a cluster. Defaults to 8 for each worker. A batch continues only with the same
-        number of parts.
+    :param parts: The number of tasks on a cluster. Defaults to 8 for each thread of the workers. A batch continues only
+        with the same number of parts.
     :param report: A file for the report: .json, .jsonl or .csv.
     :param budget: The memory budget for meshes of a process, such as "2GiB". Defaults to 8 GiB.
     :param upload: An address such as ``s3://bucket/clean``, to which outputs are copied at the end.
@@ -128,9 +145,10 @@ def batch(
         else:
             listed.append(path)
     listed += addresses
-    if not listed:
+    if not (listed or given == () and sets) or sets is not None and not sets:
         return Report({}, [])
-    arguments = [recipe_file(recipe, folder), "--inputs", *listed, "--out", os.fspath(out)]
+    arguments = [recipe_file(recipe, folder), "--out", os.fspath(out)]
+    arguments += ["--inputs", *listed] if listed else []
     for name, value in numbers(dict(values or {})):
         arguments += ["--set", f"{name}={value}"]
     for option, text in (("--preset", preset), ("--param", param), ("--budget", budget)):
@@ -140,6 +158,11 @@ def batch(
 
     with tempfile.TemporaryDirectory(dir=folder, prefix=".parts-") as temporary:
         merged = os.path.join(temporary, "all.json")
+        if sets is not None:
+            texts = json.dumps([dict(numbers(dict(values))) for values in sets])
+            file = Path(temporary, "sets.json")
+            file.write_text(texts, encoding="utf-8")
+            arguments += ["--sets", os.fspath(file)]
         if isinstance(engine, str) and engine == "local":
             run_part([*arguments, "--report", merged], os.getcwd())
         else:
@@ -191,37 +214,99 @@ def recipe_file(recipe: Recipe | str | os.PathLike[str], folder: Path) -> str:
     return os.fspath(written)
 
 
+@dataclass(frozen=True)
+class Task:
+    """A part of a batch."""
+
+    #: The arguments of the program. The last one is the report.
+    arguments: list[str]
+    #: The estimated memory of its process, in bytes.
+    bytes: int
+
+
 def run_parts(engine: Any, arguments: list[str], temporary: str, parts: int | None) -> list[str]:
     """Runs the parts of a batch on a cluster, and returns their reports."""
-    here = os.getcwd()
-
-    def tasks(workers: int) -> list[list[str]]:
-        n = parts or PARTS_PER_WORKER * max(workers, 1)
-        made = []
-        for i in range(1, n + 1):
-            file = os.path.join(temporary, f"{i}.json")
-            made.append([*arguments, "--threads", "1", "--shard", f"{i}/{n}", "--report", file])
-        return made
-
     if engine == "ray":
-        ray = needed("ray")
-        if not ray.is_initialized():
-            ray.init()
-        listed = tasks(int(ray.cluster_resources().get("CPU", 1)))
-        remote = ray.remote(max_retries=3)(run_part)
-        ray.get([remote.remote(task, here) for task in listed])
-        return [task[-1] for task in listed]
-    if engine == "dask":
+        ran = run_on_ray(needed("ray"), arguments, temporary, parts)
+    elif engine == "dask":
         distributed = needed("distributed")
-        with distributed.LocalCluster(threads_per_worker=1, dashboard_address=None) as cluster:
+        # The tasks are processes, so one worker with a thread for each processor is enough. It has the memory of the machine.
+        memory = {"MEMORY": distributed.system.MEMORY_LIMIT}
+        threads = needed("dask.system").CPU_COUNT
+        with distributed.LocalCluster(
+            n_workers=1, threads_per_worker=threads, resources=memory, dashboard_address=None
+        ) as cluster:
             with distributed.Client(cluster) as client:
-                return run_parts(client, arguments, temporary, parts)
-    if not hasattr(engine, "map") or not hasattr(engine, "gather"):
+                ran = run_on_dask(client, arguments, temporary, parts)
+    elif hasattr(engine, "submit") and hasattr(engine, "gather"):
+        ran = run_on_dask(engine, arguments, temporary, parts)
+    else:
         raise ValueError(f'unknown engine {engine!r}: expected "local", "dask", "ray" or a client of Dask')
-    listed = tasks(len(engine.scheduler_info()["workers"]))
-    # Dask takes each part for new work, so that a second call looks at the files again.
-    engine.gather(engine.map(run_part, listed, [here] * len(listed), pure=False, retries=3))
-    return [task[-1] for task in listed]
+    return [task.arguments[-1] for task in ran]
+
+
+def tasks(arguments: list[str], temporary: str, n: int) -> list[Task]:
+    """Divides a batch into parts, and estimates the memory of each."""
+    estimate = os.path.join(temporary, "estimate.json")
+    run_program(["batch", *arguments, "--estimate", str(n), "--report", estimate], os.getcwd())
+    made = []
+    for part in json.loads(Path(estimate).read_text(encoding="utf-8"))["parts"]:
+        file = os.path.join(temporary, f"{part['part']}.json")
+        one = ["--threads", "1", "--shard", f"{part['part']}/{n}", "--report", file]
+        made.append(Task([*arguments, *one], PROCESS_BYTES + part["bytes"]))
+    return made
+
+
+def run_on_ray(ray: Any, arguments: list[str], temporary: str, parts: int | None) -> list[Task]:
+    """Runs the parts of a batch on Ray."""
+    if not ray.is_initialized():
+        ray.init(include_dashboard=False)
+    nodes = [node["Resources"] for node in ray.nodes() if node["Alive"]]
+    threads = int(sum(node.get("CPU", 0) for node in nodes))
+    # A task that needs more memory than every machine has would wait forever.
+    room = int(max((node.get("memory", 0) for node in nodes), default=0))
+    made = tasks(arguments, temporary, parts or PARTS_PER_THREAD * max(threads, 1))
+    remote = ray.remote(max_retries=3, num_cpus=1)(run_part)
+    running = [remote.options(memory=min(task.bytes, room)).remote(task.arguments, os.getcwd()) for task in made]
+    try:
+        ray.get(running)
+    except BaseException:
+        for task in running:
+            ray.cancel(task, force=True)
+        raise
+    return made
+
+
+def run_on_dask(client: Any, arguments: list[str], temporary: str, parts: int | None) -> list[Task]:
+    """Runs the parts of a batch on a cluster of Dask."""
+    threads = sum(client.ncores().values())
+    made = tasks(arguments, temporary, parts or PARTS_PER_THREAD * max(threads, 1))
+    # A task that needs more memory than every worker has would wait forever.
+    room = max((m for m in memory_of_workers(client) if m is not None), default=None)
+    running = [
+        client.submit(
+            run_part,
+            task.arguments,
+            os.getcwd(),
+            # Dask takes each part for new work, so that a second call looks at the files again.
+            pure=False,
+            retries=3,
+            resources=None if room is None else {"MEMORY": min(task.bytes, room)},
+        )
+        for task in made
+    ]
+    client.gather(running)
+    return made
+
+
+def memory_of_workers(client: Any) -> list[float | None]:
+    """The resource `MEMORY` of each worker of Dask, if the worker has it."""
+    try:
+        workers = client.scheduler_info(n_workers=-1)["workers"]
+    except TypeError:
+        # Older versions list all workers.
+        workers = client.scheduler_info()["workers"]
+    return [worker["resources"].get("MEMORY") for worker in workers.values()]
 
 
 def needed(name: str) -> Any:

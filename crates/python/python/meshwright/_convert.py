@@ -76,7 +76,7 @@ class MeshConversions:
 
     def to_trimesh(self) -> Any:
         """Returns a `trimesh.Trimesh` with the attributes of vertices and faces. Faces must be triangles. The positions
-        are shared, not copied: trimesh must not change them in place."""
+        are copied, because trimesh and its simplification need arrays that can be changed."""
         mesh = self._mesh()
         trimesh = module("trimesh")
         of = {"vertex": {}, "face": {}}  # type: dict[str, dict[str, NDArray[Any]]]
@@ -88,7 +88,11 @@ class MeshConversions:
                 other.append(f"{domain} {name}")
         left_out("trimesh", other)
         return trimesh.Trimesh(
-            mesh.vertices, mesh.triangles, vertex_attributes=of["vertex"], face_attributes=of["face"], process=False
+            mesh.vertices.copy(),
+            mesh.triangles,
+            vertex_attributes=of["vertex"],
+            face_attributes=of["face"],
+            process=False,
         )
 
     @classmethod

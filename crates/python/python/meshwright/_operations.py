@@ -39,9 +39,7 @@ class SceneOperations:
         strict: bool | Arg | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Read the objects of a file.
-
-        Reads the objects of a file into the scene.
+        """Reads the objects of a file into the scene.
 
         Formats: ``.obj``, ``.gltf``, ``.glb``, ``.ply``, ``.stl``, ``.off``, ``.dae``, ``.bez`` (Bezier patches),
         ``.bzc`` (a Bezier curve) and ``.mws`` (a complete scene). A file compressed with gzip has ``.gz`` after its
@@ -53,21 +51,35 @@ class SceneOperations:
         model. A corner that repeats the previous corner is removed, and a face that still contains a vertex twice is
         left out.
 
-        In a recipe: ``Load(path: "teapot.bez")``
+        Example: ``scene.load(path="teapot.bez")``, in a recipe ``Load(path: "teapot.bez")``
 
         :param path: The file. A relative path is relative to the folder of the recipe.
         :param name: The name for objects that have no name in the file, and for the only object of an ``.mws`` file.
             Defaults to the name of the file without its extension; objects of an ``.mws`` file then keep their names.
         :param non_manifold: What to do if more than two faces share an edge, or if faces at a vertex share no edge.
-            Defaults to Split.
-        :param orientation: What to do if neighboring faces have opposite orientations. Defaults to Orient.
+            Defaults to ``"Split"``.
+            ``"Split"``: Split edges and vertices until the faces form a manifold, and list the splits.
+            ``"Refuse"``: Fail.
+        :param orientation: What to do if neighboring faces have opposite orientations. Defaults to ``"Orient"``.
+            ``"Orient"``: If possible, reverse faces so that neighbors have the same orientation, and list the reversed
+                faces.
+            ``"Keep"``: Keep the orientation of every face.
         :param duplicates: What to do with faces that have the same vertices as an earlier face, in either direction.
-            Defaults to Keep.
-        :param degenerate: What to do with zero-area faces. Defaults to Keep.
-        :param isolated: What to do with vertices without a face. Defaults to Keep.
+            Defaults to ``"Keep"``.
+            ``"Keep"``: Keep them.
+            ``"Drop"``: Leave them out, and list them.
+        :param degenerate: What to do with zero-area faces. Defaults to ``"Keep"``.
+            ``"Keep"``: Keep them.
+            ``"Drop"``: Leave them out, and list them.
+        :param isolated: What to do with vertices without a face. Defaults to ``"Keep"``.
+            ``"Keep"``: Keep them.
+            ``"Drop"``: Leave them out, and list them.
         :param placements: What to do with the nodes of a glTF file. If the nodes are kept, steps change a mesh in its
-            own space, once for all nodes that reference the mesh. Defaults to Keep.
-        :param strict: If true, the step fails if anything in the file would be left out. Defaults to False.
+            own space, once for all nodes that reference the mesh. Defaults to ``"Keep"``.
+            ``"Keep"``: Keep the nodes.
+            ``"Bake"``: Apply the transforms of nodes to the points.
+        :param strict: If true, the step fails if anything in the file would be left out. Defaults to ``False``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Load', {'path': path, 'name': name, 'non_manifold': non_manifold, 'orientation': orientation, 'duplicates': duplicates, 'degenerate': degenerate, 'isolated': isolated, 'placements': placements, 'strict': strict}, None, id)
 
@@ -83,9 +95,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Write objects to a file.
-
-        Writes objects to a file in the output folder.
+        """Writes objects to a file in the output folder.
 
         The extension determines the format: ``.obj``, ``.gltf``, ``.glb``, ``.ply``, ``.stl`` or ``.off`` for meshes,
         ``.bez`` for Bezier patches, ``.bzc`` for a curve, and ``.mws`` for a complete scene without any loss. ``.csv``
@@ -94,22 +104,39 @@ class SceneOperations:
         compressed with gzip. Content that the format cannot store is reported. The file is only created when the whole
         recipe has succeeded.
 
-        In a recipe: ``Save(path: "a.obj")``
+        Example: ``scene.save(path="a.obj")``, in a recipe ``Save(path: "a.obj")``
 
         :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
             without extension, of the file in the recipe parameter ``name``.
         :param images: What to do with the images of materials. By default, images are embedded in ``.glb`` files. For
             ``.gltf`` and ``.obj``, images in the folder of the source model are copied to the folder of the output
             file. OBJ cannot embed images, so embedded images are also written to files.
+            ``"Embed"``: Store the images in the file or, for ``.gltf``, in its ``.bin`` file.
+            ``"Copy"``: Write the images to files in the folder of the written file.
+            ``"Keep"``: Write only the paths of the images, as in the original model.
         :param compress: How to compress the geometry of ``.glb`` and ``.gltf`` files without loss. If omitted, the
             geometry is not compressed.
+            ``"Meshopt"``: The extension ``EXT_meshopt_compression``.
         :param quantize: The number of bits for each attribute of the geometry in ``.glb`` and ``.gltf`` files. If
-            omitted, numbers are stored as 32-bit floats. ``quantize: ()`` uses the default of each attribute. The
-            report lists the largest errors.
+            omitted, numbers are stored as 32-bit floats. ``quantize={}`` uses the default of each attribute. The report
+            lists the largest errors.
+            ``"position"``: The bits of each coordinate of a position. Positions are rounded to a grid that covers the
+                bounding box of the object and has the same step along all axes. The longest side of the box has 2^bits
+                - 1 steps. Defaults to 16.
+            ``"normal"``: The bits of each of the two numbers that represent a normal or a tangent as a point of an
+                octahedron. Defaults to 8.
+            ``"uv"``: The bits of each texture coordinate. A set with coordinates outside the range from 0 to 1 is not
+                quantized. Defaults to 16.
+            ``"color"``: The bits of each component of a color. Defaults to 8.
         :param weight_sets: For ``.gltf`` and ``.glb``, the number of sets of four joints that are written for each
             vertex of a skinned mesh. If omitted, the number of sets in the file that the mesh comes from, or 1 if it
             does not come from such a file.
         :param rows: For ``.csv``, the elements that the rows list. If omitted, vertices.
+            ``"Vertices"``: Vertices.
+            ``"Faces"``: Faces, at the means of their corners.
+            ``"Corners"``: The corners of the faces, face by face.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Save', {'path': path, 'images': images, 'compress': compress, 'quantize': quantize, 'weight_sets': weight_sets, 'rows': rows}, on, id)
 
@@ -121,9 +148,7 @@ class SceneOperations:
         name: str | Arg | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Create a mesh from points and faces.
-
-        Creates a mesh from points and faces.
+        """Creates a mesh from points and faces.
 
         Point i becomes vertex i, and polygon i becomes face i. If connected faces have different orientations, the
         faces in the minority are reversed, provided that all orientations then agree. If the faces do not form a
@@ -131,13 +156,15 @@ class SceneOperations:
         faces. The other faces get copies of the vertices, which get the highest ids. Both the report and the check of
         the recipe list the reversed and split elements.
 
-        In a recipe: ``Polygons(name: "new", points: [(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces: [[0, 1, 2]])``
+        Example: ``scene.polygons(name="new", points=[(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces=[[0, 1, 2]])``, in a
+        recipe ``Polygons(name: "new", points: [(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces: [[0, 1, 2]])``
 
-        :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
-            number if this name is taken.
         :param points: The points ``(x, y, z)``, in scene units. Points that no face uses become isolated vertices.
         :param faces: The faces. Each face is a list of the indices of its points, counted from 0, in counter-clockwise
             order seen from outside. A face has at least three points, without duplicates.
+        :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
+            number if this name is taken.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Polygons', {'name': name, 'points': points, 'faces': faces}, None, id)
 
@@ -150,23 +177,23 @@ class SceneOperations:
         triangles: bool | Arg | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Create a cube.
-
-        Creates a cube.
+        """Creates a cube.
 
         The cube has 8 vertices and 6 squares: bottom (0, 2, 3, 1), top (4, 5, 7, 6), front (0, 1, 5, 4), right (1, 3,
         7, 5), back (3, 2, 6, 7), left (2, 0, 4, 6). The id of a vertex is (x > center) + 2 (y > center) + 4 (z >
         center), where a true comparison counts as 1.
 
-        In a recipe: ``Cube(name: "new", size: 3, center: (1, 2, 3))``
+        Example: ``scene.cube(name="new", size=3, center=(1, 2, 3))``, in a recipe ``Cube(name: "new", size: 3, center:
+        (1, 2, 3))``
 
         :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
             number if this name is taken.
-        :param size: The length of the edges, in scene units. More than 0. Defaults to 2.0.
+        :param size: The length of the edges, in scene units. More than 0. Defaults to ``2.0``.
         :param center: The center of the cube, in scene units.
         :param triangles: Whether to cut each square (a, b, c, d) along its diagonal from a to c into the triangles (a,
             b, c) and (a, c, d). Square f becomes the faces 2 f and 2 f + 1. The diagonals are 0-3, 4-7, 0-5, 1-7, 3-6
-            and 2-4. Defaults to False.
+            and 2-4. Defaults to ``False``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Cube', {'name': name, 'size': size, 'center': center, 'triangles': triangles}, None, id)
 
@@ -178,19 +205,18 @@ class SceneOperations:
         center: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Create a regular tetrahedron.
-
-        Creates a regular tetrahedron with 4 vertices and 4 triangles.
+        """Creates a regular tetrahedron with 4 vertices and 4 triangles.
 
         The vertices are four of the eight corners of a cube with the same center. The signs of their coordinates
         relative to the center are (+, +, +), (-, -, +), (-, +, -) and (+, -, -), in this order.
 
-        In a recipe: ``Tetrahedron(name: "new")``
+        Example: ``scene.tetrahedron(name="new")``, in a recipe ``Tetrahedron(name: "new")``
 
         :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
             number if this name is taken.
-        :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to 1.0.
+        :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to ``1.0``.
         :param center: The center of the tetrahedron, in scene units.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Tetrahedron', {'name': name, 'radius': radius, 'center': center}, None, id)
 
@@ -202,18 +228,17 @@ class SceneOperations:
         center: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Create a regular octahedron.
-
-        Creates a regular octahedron with 6 vertices and 8 triangles.
+        """Creates a regular octahedron with 6 vertices and 8 triangles.
 
         The vertices are in the directions +x, -x, +y, -y, +z and -z from the center, in this order.
 
-        In a recipe: ``Octahedron(name: "new")``
+        Example: ``scene.octahedron(name="new")``, in a recipe ``Octahedron(name: "new")``
 
         :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
             number if this name is taken.
-        :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to 1.0.
+        :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to ``1.0``.
         :param center: The center of the octahedron, in scene units.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Octahedron', {'name': name, 'radius': radius, 'center': center}, None, id)
 
@@ -225,18 +250,17 @@ class SceneOperations:
         center: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Create a regular icosahedron.
-
-        Creates a regular icosahedron with 12 vertices and 20 triangles.
+        """Creates a regular icosahedron with 12 vertices and 20 triangles.
 
         The vertices are the corners of three golden rectangles, one in each coordinate plane.
 
-        In a recipe: ``Icosahedron(name: "new")``
+        Example: ``scene.icosahedron(name="new")``, in a recipe ``Icosahedron(name: "new")``
 
         :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
             number if this name is taken.
-        :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to 1.0.
+        :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to ``1.0``.
         :param center: The center of the icosahedron, in scene units.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Icosahedron', {'name': name, 'radius': radius, 'center': center}, None, id)
 
@@ -250,20 +274,19 @@ class SceneOperations:
         center: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Create a flat sheet of squares.
-
-        Creates a flat sheet of squares whose normals point to +z.
+        """Creates a flat sheet of squares whose normals point to +z.
 
         The ids of vertices and faces follow the rows, from -x to +x and from -y to +y.
 
-        In a recipe: ``Grid(name: "new", columns: 3, rows: 2)``
+        Example: ``scene.grid(name="new", columns=3, rows=2)``, in a recipe ``Grid(name: "new", columns: 3, rows: 2)``
 
         :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
             number if this name is taken.
         :param columns: The number of squares along x. At least 1. Defaults to 10.
         :param rows: The number of squares along y. At least 1. Defaults to 10.
-        :param size: The side length of a square, in scene units. More than 0. Defaults to 1.0.
+        :param size: The side length of a square, in scene units. More than 0. Defaults to ``1.0``.
         :param center: The center of the sheet, in scene units.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Grid', {'name': name, 'columns': columns, 'rows': rows, 'size': size, 'center': center}, None, id)
 
@@ -278,24 +301,24 @@ class SceneOperations:
         center: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Create a torus.
-
-        Creates a torus of quadrilaterals around the z axis.
+        """Creates a torus of quadrilaterals around the z axis.
 
         Vertex ``i * across + j`` is vertex j of ring i across the tube. Ring 0 is in the direction +x, and its vertex 0
         is farthest from the axis.
 
-        In a recipe: ``Torus(name: "new", around: 7, across: 5, major: 2, minor: 0.5)``
+        Example: ``scene.torus(name="new", around=7, across=5, major=2, minor=0.5)``, in a recipe ``Torus(name: "new",
+        around: 7, across: 5, major: 2, minor: 0.5)``
 
         :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
             number if this name is taken.
         :param around: The number of faces around the z axis. At least 3. Defaults to 32.
         :param across: The number of faces around the tube. At least 3. Defaults to 16.
         :param major: The distance from the z axis to the center of the tube, in scene units. More than 0. Defaults to
-            1.0.
+            ``1.0``.
         :param minor: The radius of the tube, in scene units. More than 0. The tube intersects itself unless ``minor``
-            is less than ``major``. Defaults to 0.25.
+            is less than ``major``. Defaults to ``0.25``.
         :param center: The center of the torus, in scene units.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Torus', {'name': name, 'around': around, 'across': across, 'major': major, 'minor': minor, 'center': center}, None, id)
 
@@ -310,23 +333,24 @@ class SceneOperations:
         center: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Create a cylinder.
-
-        Creates a cylinder around the z axis.
+        """Creates a cylinder around the z axis.
 
         The vertices of the lower rim come first, and then the vertices of the upper rim. Each rim is counter-clockwise
         seen from above and starts in the direction +x. The faces are ``around`` rectangles and, with caps, the lower
         and the upper polygon with ``around`` corners.
 
-        In a recipe: ``Cylinder(name: "new", around: 6, radius: 1, height: 2, caps: true)``
+        Example: ``scene.cylinder(name="new", around=6, radius=1, height=2, caps=True)``, in a recipe ``Cylinder(name:
+        "new", around: 6, radius: 1, height: 2, caps: true)``
 
         :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
             number if this name is taken.
         :param around: The number of sides. At least 3. Defaults to 32.
-        :param radius: The distance from the axis to the vertical edges, in scene units. More than 0. Defaults to 1.0.
-        :param height: The height along z, in scene units. More than 0. Defaults to 2.0.
-        :param caps: Whether the ends are closed. Defaults to True.
+        :param radius: The distance from the axis to the vertical edges, in scene units. More than 0. Defaults to
+            ``1.0``.
+        :param height: The height along z, in scene units. More than 0. Defaults to ``2.0``.
+        :param caps: Whether the ends are closed. Defaults to ``True``.
         :param center: The center of the cylinder, in scene units.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Cylinder', {'name': name, 'around': around, 'radius': radius, 'height': height, 'caps': caps, 'center': center}, None, id)
 
@@ -340,21 +364,21 @@ class SceneOperations:
         center: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Create a sphere of meridians and rings.
-
-        Creates a sphere of meridians and rings, with poles at -z and +z.
+        """Creates a sphere of meridians and rings, with poles at -z and +z.
 
         Vertex 0 is the lower pole. The circles of vertices follow from the bottom to the top; each starts in the
         direction +x and is counter-clockwise seen from above. The last vertex is the upper pole.
 
-        In a recipe: ``UvSphere(name: "new", around: 8, rings: 4, radius: 2)``
+        Example: ``scene.uv_sphere(name="new", around=8, rings=4, radius=2)``, in a recipe ``UvSphere(name: "new",
+        around: 8, rings: 4, radius: 2)``
 
         :param name: The name of the new object. Defaults to the name of the operation in lower case, followed by a
             number if this name is taken.
         :param around: The number of meridians. At least 3. Defaults to 32.
         :param rings: The number of bands of faces from pole to pole. At least 2. Defaults to 16.
-        :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to 1.0.
+        :param radius: The distance from the center to the vertices, in scene units. More than 0. Defaults to ``1.0``.
         :param center: The center of the sphere, in scene units.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('UvSphere', {'name': name, 'around': around, 'rings': rings, 'radius': radius, 'center': center}, None, id)
 
@@ -368,24 +392,26 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Turn Bezier patches into a mesh.
-
-        Turns Bezier patches into a mesh.
+        """Turns Bezier patches into a mesh.
 
         Acts on all objects that consist of patches, or on the objects in ``on``. Each object becomes one mesh of the
         same name. Every patch is divided into ``segments`` x ``segments`` cells. The ids of elements follow the order
         of the patches. Patches share no vertices, but if they have the same control points on a common side, the
-        positions of their vertices there are identical bit for bit, so that ``Weld(distance: 0)`` joins them. A side
+        positions of their vertices there are identical bit for bit, so that ``weld(distance=0)`` joins them. A side
         whose points coincide, as at the pole of a teapot's lid, becomes one vertex. Zero-area patches give no faces and
         are counted. The mesh has UVs and normals only if they are requested.
 
-        In a recipe: ``Tessellate(segments: 3)``
+        Example: ``scene.tessellate(segments=3)``, in a recipe ``Tessellate(segments: 3)``
 
-        :param segments: The number of cells along each side of a patch. Defaults to 8.
-        :param faces: The faces that a cell becomes. Defaults to Triangles.
+        :param segments: The number of cells along each side of a patch. Defaults to ``8``.
+        :param faces: The faces that a cell becomes. Defaults to ``"Triangles"``.
+            ``"Triangles"``: Two triangles, divided by the diagonal from the corner with the lowest u and v.
+            ``"Quads"``: One quad.
         :param uvs: Whether to store the parameters (u, v) of each patch as UVs of corners. Each patch covers the whole
-            square from 0 to 1. Defaults to False.
-        :param normals: Whether to store the exact unit normals of the patches as vertex normals. Defaults to False.
+            square from 0 to 1. Defaults to ``False``.
+        :param normals: Whether to store the exact unit normals of the patches as vertex normals. Defaults to ``False``.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Tessellate', {'segments': segments, 'faces': faces, 'uvs': uvs, 'normals': normals}, on, id)
 
@@ -396,16 +422,16 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Replace curves with polylines through their points.
-
-        Replaces curves with polylines through their points.
+        """Replaces curves with polylines through their points.
 
         Each curve becomes one polyline with ``segments`` + 1 points in the plane z = 0, at the parameters 0, 1 /
         segments, ... 1. The first and the last point are exactly the end control points.
 
-        In a recipe: ``SampleCurve(segments: 1)``
+        Example: ``scene.sample_curve(segments=1)``, in a recipe ``SampleCurve(segments: 1)``
 
         :param segments: The number of straight segments.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('SampleCurve', {'segments': segments}, on, id)
 
@@ -416,17 +442,17 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Replace curves with the levels of de Casteljau's algorithm.
-
-        Replaces curves with the levels of de Casteljau's algorithm.
+        """Replaces curves with the levels of de Casteljau's algorithm.
 
         A curve with n control points becomes n polylines in the plane z = 0. The first polyline is the control polygon
         with n points. Each of the following polylines has one point less. The last polyline is the point of the curve
         at ``t``.
 
-        In a recipe: ``CurveLevels(t: 0)``
+        Example: ``scene.curve_levels(t=0)``, in a recipe ``CurveLevels(t: 0)``
 
         :param t: The parameter of the point, from 0 (the start of the curve) to 1 (its end).
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('CurveLevels', {'t': t}, on, id)
 
@@ -438,19 +464,20 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Move one control point of curves.
-
-        Moves one control point of curves.
+        """Moves one control point of curves.
 
         The other control points do not move. The point of the curve at a parameter t moves in the same direction as the
         control point. Its distance is the distance of the control point times the value at t of the Bernstein
         polynomial of the control point.
 
-        In a recipe: ``MoveControlPoint(index: 1, to: (2, -3.5))``
+        Example: ``scene.move_control_point(index=1, to=(2, -3.5))``, in a recipe ``MoveControlPoint(index: 1, to: (2,
+        -3.5))``
 
         :param index: The index of the control point, from 0. Every curve on which the step acts must have a control
             point with this index.
         :param to: The new position: ``(x, y)`` in the plane z = 0, in scene units.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('MoveControlPoint', {'index': index, 'to': to}, on, id)
 
@@ -461,17 +488,16 @@ class SceneOperations:
         *,
         id: str | None = None,
     ) -> Self:
-        """Copy an object under a new name.
-
-        Copies an object, with its attributes and materials, under a new name.
+        """Copies an object, with its attributes and materials, under a new name.
 
         The copy is added after all other objects. The elements of the copy have the same ids as in the original. If
         nodes place the object, a node that places the copy is added next to each of them.
 
-        In a recipe: ``Copy(from: "mesh", to: "new")``
+        Example: ``scene.copy(from_="mesh", to="new")``, in a recipe ``Copy(from: "mesh", to: "new")``
 
         :param from_: The name of the object to copy.
         :param to: The name of the new object.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Copy', {'from': from_, 'to': to}, None, id)
 
@@ -481,16 +507,15 @@ class SceneOperations:
         *,
         id: str | None = None,
     ) -> Self:
-        """Delete objects.
-
-        Deletes objects.
+        """Deletes objects.
 
         The remaining objects keep their order. A node that places a deleted object is also removed, unless it has
         children, a camera or a light.
 
-        In a recipe: ``Delete(objects: ["mesh"])``
+        Example: ``scene.delete(objects=["mesh"])``, in a recipe ``Delete(objects: ["mesh"])``
 
         :param objects: The names of the objects. All of these objects must exist.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Delete', {'objects': objects}, None, id)
 
@@ -501,16 +526,15 @@ class SceneOperations:
         *,
         id: str | None = None,
     ) -> Self:
-        """Rename an object.
-
-        Renames an object.
+        """Renames an object.
 
         The order of the objects does not change. A node or mesh that has the name of the object also gets the new name.
 
-        In a recipe: ``Rename(from: "mesh", to: "new")``
+        Example: ``scene.rename(from_="mesh", to="new")``, in a recipe ``Rename(from: "mesh", to: "new")``
 
         :param from_: The current name.
         :param to: The new name.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Rename', {'from': from_, 'to': to}, None, id)
 
@@ -522,9 +546,7 @@ class SceneOperations:
         tag_parts: bool | Arg | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Join meshes into one object.
-
-        Joins meshes into one object.
+        """Joins meshes into one object.
 
         Each mesh becomes a part of the result. The ids of vertices, edges and faces follow the parts, in the order of
         the list. The parts are not connected, even where they touch. The result replaces the first mesh of the list in
@@ -536,12 +558,14 @@ class SceneOperations:
         attribute of a part has a different type than in earlier parts, the attribute of this part is dropped and
         reported as lost. Equal materials become one material.
 
-        In a recipe: ``Join(objects: ["mesh", "other"], name: "joined")``
+        Example: ``scene.join(objects=["mesh", "other"], name="joined")``, in a recipe ``Join(objects: ["mesh",
+        "other"], name: "joined")``
 
         :param objects: The names of the meshes. At least one name, without duplicates.
         :param name: The name of the result. This name may be the name of one of the meshes.
-        :param tag_parts: Whether to tag the faces of each part with the name of the part, so that ``Tagged("head")``
-            selects them in later steps. Defaults to True.
+        :param tag_parts: Whether to tag the faces of each part with the name of the part, so that
+            ``sel.Tagged("head")`` selects them in later steps. Defaults to ``True``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Join', {'objects': objects, 'name': name, 'tag_parts': tag_parts}, None, id)
 
@@ -553,9 +577,7 @@ class SceneOperations:
         count: int | Arg | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Split a mesh into several objects.
-
-        Splits a mesh into several objects.
+        """Splits a mesh into several objects.
 
         The parts of "figure" are named "figure 1", "figure 2" and so on. The first part replaces the object, and the
         other parts are added after all other objects. Elements keep their order and their values, and every part has
@@ -567,13 +589,18 @@ class SceneOperations:
         If parts of one component are separated, the edges and vertices between them are copied to both parts. If the
         faces of a part around a vertex form several fans, each fan gets a separate copy of the vertex.
 
-        In a recipe: ``Separate(object: "mesh")``
+        Example: ``scene.separate(object="mesh")``, in a recipe ``Separate(object: "mesh")``
 
         :param object: The name of the mesh.
-        :param by: How the faces are grouped into parts. Defaults to Components.
+        :param by: How the faces are grouped into parts. Defaults to ``"Components"``.
+            ``"Components"``: One part for each connected component, in order of the lowest face id in each component.
+            ``"Material"``: One part for each material that a face has, in order of the materials.
+            ``choice.Tag(..)``: The first part has the faces with the tag of this name, and the second part all other
+                faces.
         :param count: The expected number of parts. The step is refused if the number differs. If omitted, the names of
             the parts are not known before the recipe runs, so the object names in later steps cannot be checked before
             the run.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Separate', {'object': object, 'by': by, 'count': count}, None, id)
 
@@ -588,9 +615,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Scale, rotate, move and mirror objects.
-
-        Scales, rotates and moves objects.
+        """Scales, rotates and moves objects.
 
         Points are first scaled, then rotated, then moved. The step changes the points of meshes, patches, curves and
         polylines. If nodes of a glTF file place an object, the step changes the placements of these nodes instead, and
@@ -604,13 +629,24 @@ class SceneOperations:
         mirrored patches, u and v are exchanged, so that the outside stays the outside. A mirror drops attributes with
         the rule ``Drop``, as does any step that changes the connectivity.
 
-        In a recipe: ``Transform()``
+        Example: ``scene.transform(scale=(2, 1, 1), rotate=[{"axis": "Z", "angle": 90}], move=(3, 1, 0))``, in a recipe
+        ``Transform(scale: (2, 1, 1), rotate: [(axis: Z, angle: 90)], move: (3, 1, 0))``
 
         :param scale: The scale factors along x, y and z. No factor may be 0; a negative factor mirrors.
         :param rotate: The rotations, applied in order.
+            ``"axis"``: The direction of the axis.
+            ``"angle"``: The angle in degrees, counter-clockwise when the axis points towards the viewer. Multiples of
+                90 are exact.
         :param move: The distances to move along x, y and z, in scene units.
-        :param about: The fixed point of scaling and rotation. Defaults to Origin.
-        :param space: The coordinates in which objects move. Defaults to Scene.
+        :param about: The fixed point of scaling and rotation. Defaults to ``"Origin"``.
+            ``"Origin"``: The origin.
+            ``"Center"``: The center of the bounding box of each object with all its instances.
+            ``choice.Point(..)``: A point with the coordinates x, y, z.
+        :param space: The coordinates in which objects move. Defaults to ``"Scene"``.
+            ``"Scene"``: The space of the scene.
+            ``"Object"``: The space of each object.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Transform', {'scale': scale, 'rotate': rotate, 'move': move, 'about': about, 'space': space}, on, id)
 
@@ -625,27 +661,30 @@ class SceneOperations:
         name: str | Arg | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Place copies of an object on a surface.
-
-        Places copies of an object on a surface, at random and evenly spread.
+        """Places copies of an object on a surface, at random and evenly spread.
 
         Exactly ``count`` points are chosen so that they keep their distance from each other (Yuksel, "Sample
         Elimination for Generating Poisson Disk Sample Sets", 2015). Each copy is a node that references the object (an
         instance), so copies need almost no memory or file space. The node moves the origin of the object to the point.
-        To make one mesh of all copies, use ``Join`` afterwards. If no node placed the object before, it then appears
+        To make one mesh of all copies, use ``join()`` afterwards. If no node placed the object before, it then appears
         only at the points.
 
         Without ``object``, the result is a mesh of the points without faces. Its normals are those of the surface.
 
-        In a recipe: ``Scatter(surface: "mesh", count: 20, seed: 7)``
+        Example: ``scene.scatter(surface="mesh", count=20, seed=7)``, in a recipe ``Scatter(surface: "mesh", count: 20,
+        seed: 7)``
 
-        :param object: The name of the object that is placed. If omitted, only the points are made.
         :param surface: The name of the object with the surface, which must be a mesh with a single instance.
         :param count: The number of points.
-        :param seed: The seed. A different seed gives different points. Defaults to 0.
+        :param object: The name of the object that is placed. If omitted, only the points are made.
+        :param seed: The seed. A different seed gives different points. Defaults to ``0``.
         :param align: The axis of the object that is aligned with the normal of the surface. If omitted, the copies are
             not rotated.
+            ``"X"``: The x axis.
+            ``"Y"``: The y axis.
+            ``"Z"``: The z axis.
         :param name: The name of the mesh of points, without ``object``. Defaults to ``points``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Scatter', {'object': object, 'surface': surface, 'count': count, 'seed': seed, 'align': align, 'name': name}, None, id)
 
@@ -656,9 +695,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Merge vertices that are close together.
-
-        Merges vertices that are close together, and joins the faces at them.
+        """Merges vertices that are close together, and joins the faces at them.
 
         Vertices at most ``distance`` apart are linked, and vertices that are connected by a chain of links merge into
         one, even if the ends of the chain are farther apart than ``distance``. The merged vertex has the position and
@@ -673,10 +710,12 @@ class SceneOperations:
         are counted. For example, a third face at an edge gets a copy of the edge. If no vertices merge, the mesh does
         not change.
 
-        In a recipe: ``Weld(distance: 0)``
+        Example: ``scene.weld(distance=0)``, in a recipe ``Weld(distance: 0)``
 
         :param distance: The largest distance between linked vertices, in scene units. With 0, only vertices at equal
             positions merge.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Weld', {'distance': distance}, on, id)
 
@@ -687,18 +726,19 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Reverse the orientation of faces.
-
-        Reverses the orientation of faces, so that their other side is the outside.
+        """Reverses the orientation of faces, so that their other side is the outside.
 
         Adjacent faces must have the same orientation, so only whole connected components can be reversed. If a selected
         face shares an edge with a face that is not selected, the step is refused. No vertex moves, and all elements
         keep their ids. The first corner of a face stays first, and the other corners follow in reverse order. Normals
         are negated. Other attributes stay with their elements, and corner values stay with their vertex and face.
 
-        In a recipe: ``Reverse()``
+        Example: ``scene.reverse()``, in a recipe ``Reverse()``
 
-        :param faces: The faces to reverse. They must form whole connected components. Defaults to All.
+        :param faces: The faces to reverse. They must form whole connected components. Defaults to ``"All"``. ``"All"``,
+            ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Reverse', {'faces': faces}, on, id)
 
@@ -709,9 +749,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Cut polygons into triangles.
-
-        Cuts polygons into triangles.
+        """Cuts polygons into triangles.
 
         A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length (the relative
         difference of their squared lengths is at most 1e-12), it is cut along the diagonal at its vertex with the
@@ -727,9 +765,12 @@ class SceneOperations:
         The triangles replace their face in the order of the faces and have the values of the face. Vertices and edges
         keep their ids. The corners of the triangles have the values of the corners of the face at the same vertices.
 
-        In a recipe: ``Triangulate()``
+        Example: ``scene.triangulate()``, in a recipe ``Triangulate()``
 
-        :param faces: The faces to cut. Defaults to All.
+        :param faces: The faces to cut. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a
+            value of ``meshwright.sel``.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Triangulate', {'faces': faces}, on, id)
 
@@ -744,9 +785,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Flip edges to the other diagonal of their two triangles.
-
-        Replaces the edge between two triangles with the other diagonal of the two triangles.
+        """Replaces the edge between two triangles with the other diagonal of the two triangles.
 
         Edges are flipped in order of their ids. Each flip is checked against the mesh as edited so far. A flip is
         refused if the edge is on the boundary, if a face beside it is not a triangle, or if the opposite corners of the
@@ -755,24 +794,35 @@ class SceneOperations:
         values. Each triangle gets one new corner. The new corner takes the values that the other triangle has at the
         same vertex; all other corners keep their values.
 
-        With ``until: Delaunay`` or ``until: Valence``, an edge is flipped only if the flip improves the mesh. Edges are
-        checked again, pass after pass, until no edge is flipped. Flips with ``until: Delaunay`` or ``until: Valence``
-        neither fold the surface nor create zero-area triangles. If a flip that would improve the mesh is refused, the
-        step does not fail. The edge is left unchanged, and the report counts the refusals by reason. The report also
-        contains the number of passes, and whether the step stopped because ``passes`` was reached.
+        With ``until="Delaunay"`` or ``until="Valence"``, an edge is flipped only if the flip improves the mesh. Edges
+        are checked again, pass after pass, until no edge is flipped. Flips with ``until="Delaunay"`` or
+        ``until="Valence"`` neither fold the surface nor create zero-area triangles. If a flip that would improve the
+        mesh is refused, the step does not fail. The edge is left unchanged, and the report counts the refusals by
+        reason. The report also contains the number of passes, and whether the step stopped because ``passes`` was
+        reached.
 
         On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from
-        ``edges``, for example with ``Flat(below: 30)`` or ``Not(Tagged("keep"))``.
+        ``edges``, for example with ``sel.Flat(below=30)`` or ``sel.Not(sel.Tagged("keep"))``.
 
-        In a recipe: ``FlipEdges(edges: All)``
+        Example: ``scene.flip_edges(edges="All")``, in a recipe ``FlipEdges(edges: All)``
 
         :param edges: The edges to flip. The edges are selected before the first flip. An edge keeps its id when it is
-            flipped.
-        :param until: Which edges are flipped, and when to stop. Defaults to Once.
+            flipped. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
+        :param until: Which edges are flipped, and when to stop. Defaults to ``"Once"``.
+            ``"Once"``: Flip each edge once.
+            ``"Delaunay"``: Flip edges until no flip reduces the sum of the cotangents of all angles of all triangles.
+            ``"Valence"``: Flip edges until no flip brings the valences of the vertices closer to 6, or to 4 on the
+                boundary.
         :param passes: The largest number of passes over the edges. Ignored for ``Once``, which makes one pass. Defaults
-            to 100.
-        :param on_refusal: What to do when a flip is refused. Only for ``Once``. Defaults to Error.
-        :param seams: What to do at seams. Defaults to Refuse.
+            to ``100``.
+        :param on_refusal: What to do when a flip is refused. Only for ``Once``. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param seams: What to do at seams. Defaults to ``"Refuse"``.
+            ``"Refuse"``: Refuse the edit.
+            ``"Drop"``: Edit anyway.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('FlipEdges', {'edges': edges, 'until': until, 'passes': passes, 'on_refusal': on_refusal, 'seams': seams}, on, id)
 
@@ -785,21 +835,24 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Insert a vertex on each edge and join it to the opposite corners.
-
-        Inserts a vertex on each edge and joins it to the opposite corners of the triangles beside the edge.
+        """Inserts a vertex on each edge and joins it to the opposite corners of the triangles beside the edge.
 
         In a mesh of triangles, a split adds 1 vertex, 3 edges and 2 faces, or 1 vertex, 2 edges and 1 face on the
         boundary. A face with more than three corners only gains the new vertex as a corner. Edges are split in order of
         their ids; new edges are not split again. New vertices get the highest ids, in the order of the splits. Values
         at the new vertex and its corners are interpolated between the ends, on each side of a seam separately.
 
-        In a recipe: ``SplitEdges(edges: All)``
+        Example: ``scene.split_edges(edges="All")``, in a recipe ``SplitEdges(edges: All)``
 
-        :param edges: The edges to split.
-        :param at: The position of the new vertex on the edge. From 0 to 1, exclusive. If ``edges`` is ``Between(v,
-            w)``, 0 is at v and 1 is at w. Otherwise 0 is at the end with the lower id. Defaults to 0.5.
-        :param on_refusal: What to do when a split is refused. Defaults to Error.
+        :param edges: The edges to split. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
+        :param at: The position of the new vertex on the edge. From 0 to 1, exclusive. If ``edges`` is
+            ``sel.Between("v", "w")``, 0 is at v and 1 is at w. Otherwise 0 is at the end with the lower id. Defaults to
+            ``0.5``.
+        :param on_refusal: What to do when a split is refused. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('SplitEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, on, id)
 
@@ -812,9 +865,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Collapse edges to points.
-
-        Collapses edges, so that the two ends of each edge become one vertex.
+        """Collapses edges, so that the two ends of each edge become one vertex.
 
         In a mesh of triangles, a collapse removes 1 vertex, 3 edges and 2 faces or, on the boundary, 1 vertex, 2 edges
         and 1 face. A face with more than three corners beside the edge only loses a corner. Of the two ends, the vertex
@@ -823,23 +874,30 @@ class SceneOperations:
 
         A collapse is refused if it would change the topology of the surface or make elements coincide:
 
-        - ``JoinsBoundaries``: an edge inside the surface joins two boundary vertices. - ``Link``: the ends have a
-        common neighbor that is not a corner of a triangle beside the edge, for example on a tube with three sides or at
-        a hole with three edges. - ``DuplicateEdge``: a second edge joins the ends. - ``RepeatedVertex``: both ends are
-        also corners of a face that is not beside the edge. - ``Vanishes``: the mesh around the edge is a tetrahedron or
-        a single triangle. - ``SameFace``: the same face is on both sides of the edge. - ``SameOpposite``: the two
-        triangles beside the edge share another edge.
+        - ``JoinsBoundaries``: an edge inside the surface joins two boundary vertices.
+        - ``Link``: the ends have a common neighbor that is not a corner of a triangle beside the edge, for example on a
+          tube with three sides or at a hole with three edges.
+        - ``DuplicateEdge``: a second edge joins the ends.
+        - ``RepeatedVertex``: both ends are also corners of a face that is not beside the edge.
+        - ``Vanishes``: the mesh around the edge is a tetrahedron or a single triangle.
+        - ``SameFace``: the same face is on both sides of the edge.
+        - ``SameOpposite``: the two triangles beside the edge share another edge.
 
         Values at the remaining vertex and its corners are interpolated between the ends, on each side of a seam
         separately. When two edges become one, the remaining edge has the larger of the two creases, and the tags of
         both. Normals are dropped.
 
-        In a recipe: ``CollapseEdges(edges: All, on_refusal: Skip)``
+        Example: ``scene.collapse_edges(edges="All", on_refusal="Skip")``, in a recipe ``CollapseEdges(edges: All,
+        on_refusal: Skip)``
 
-        :param edges: The edges to collapse.
-        :param at: The position of the remaining vertex on the edge, from 0 to 1. If ``edges`` is ``Between(v, w)``, 0
-            is at v and 1 is at w. Otherwise 0 is at the end with the lower id. Defaults to 0.5.
-        :param on_refusal: What to do when a collapse is refused. Defaults to Error.
+        :param edges: The edges to collapse. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
+        :param at: The position of the remaining vertex on the edge, from 0 to 1. If ``edges`` is ``sel.Between("v",
+            "w")``, 0 is at v and 1 is at w. Otherwise 0 is at the end with the lower id. Defaults to ``0.5``.
+        :param on_refusal: What to do when a collapse is refused. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('CollapseEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, on, id)
 
@@ -852,25 +910,29 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Remove edges and merge the faces beside them.
-
-        Removes edges and merges the faces beside them.
+        """Removes edges and merges the faces beside them.
 
         Edges are removed in order of their ids. Each removal is checked against the mesh as edited so far. Each removal
         reduces the numbers of edges and faces by 1. Of the two faces beside the edge, the face with the lower id is
         kept, with its values. No vertex is removed or moved. To remove vertices that are left with two edges, use
-        ``DissolveVertices(vertices: Valence(2))`` in a later step. The remaining elements keep their order and their
-        values but get new ids.
+        ``dissolve_vertices(vertices=sel.Valence(2))`` in a later step. The remaining elements keep their order and
+        their values but get new ids.
 
         An edge is refused if it is on the boundary, if the same face is on both of its sides, if one of its ends has
         only two edges, or if its two faces have common corners other than its ends. An edge that is a seam is refused
         unless ``seams`` is ``Drop``.
 
-        In a recipe: ``DissolveEdges(edges: Between(0, 1))``
+        Example: ``scene.dissolve_edges(edges=sel.Between(0, 1))``, in a recipe ``DissolveEdges(edges: Between(0, 1))``
 
-        :param edges: The edges to remove.
-        :param on_refusal: What to do when an edge is refused. Defaults to Error.
-        :param seams: What to do at seams. Defaults to Refuse.
+        :param edges: The edges to remove. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
+        :param on_refusal: What to do when an edge is refused. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param seams: What to do at seams. Defaults to ``"Refuse"``.
+            ``"Refuse"``: Refuse the edit.
+            ``"Drop"``: Edit anyway.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('DissolveEdges', {'edges': edges, 'on_refusal': on_refusal, 'seams': seams}, on, id)
 
@@ -884,9 +946,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Replace edges with faces.
-
-        Replaces edges with faces of constant width.
+        """Replaces edges with faces of constant width.
 
         A selected edge and both of its ends are removed, and a new face replaces the edge. In both faces beside the
         edge, the new face ends at the distance ``width`` from the old edge. Each other edge at an end is cut at this
@@ -905,13 +965,18 @@ class SceneOperations:
         An edge is refused if it is on the boundary, if one of its ends has only one other edge and this edge is not
         selected, or if the bevels at both ends of an edge would overlap.
 
-        In a recipe: ``BevelEdges(edges: Between(0, 2), width: 0.25)``
+        Example: ``scene.bevel_edges(edges=sel.Between(0, 2), width=0.25)``, in a recipe ``BevelEdges(edges: Between(0,
+        2), width: 0.25)``
 
-        :param edges: The edges to bevel.
+        :param edges: The edges to bevel. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
         :param width: The distance between the beveled edge and the new edges in each of its two faces, in scene units.
         :param fraction: The width as a fraction of the length of the shortest edge at the ends of the selected edges.
             Replaces ``width``. From 0 to 1, exclusive.
-        :param on_refusal: What to do when an edge is refused. Defaults to Error.
+        :param on_refusal: What to do when an edge is refused. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('BevelEdges', {'edges': edges, 'width': width, 'fraction': fraction, 'on_refusal': on_refusal}, on, id)
 
@@ -924,9 +989,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Make edges and vertices sharp for subdivision.
-
-        Makes edges and vertices sharp for subdivision.
+        """Makes edges and vertices sharp for subdivision.
 
         Sets the edge attribute ``crease`` of the selected edges and the vertex attribute ``corner`` of the selected
         vertices to ``sharpness``. Other elements keep their values, or get 0 if the attribute did not exist. Loop and
@@ -937,12 +1000,17 @@ class SceneOperations:
         At least one of ``edges`` and ``vertices`` must be given. The geometry does not change. The report counts the
         elements whose value changed.
 
-        In a recipe: ``Crease(edges: Sharp(above: 40), sharpness: 2.5)``
+        Example: ``scene.crease(edges=sel.Sharp(above=40), sharpness=2.5)``, in a recipe ``Crease(edges: Sharp(above:
+        40), sharpness: 2.5)``
 
-        :param edges: The edges to change. If omitted, no edges.
-        :param vertices: The vertices to change. If omitted, no vertices.
         :param sharpness: The number of levels for which the elements stay sharp, from 0 to 10. With 0, creases are
             removed. With 10, the elements are sharp at every level.
+        :param edges: The edges to change. If omitted, no edges. ``"All"``, ``"Boundary"``, or a value of
+            ``meshwright.sel``.
+        :param vertices: The vertices to change. If omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or
+            a value of ``meshwright.sel``.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Crease', {'edges': edges, 'vertices': vertices, 'sharpness': sharpness}, on, id)
 
@@ -955,9 +1023,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Insert a vertex at the center of each face and connect it to the corners.
-
-        Inserts a vertex at the center of each face and connects it to the corners of the face.
+        """Inserts a vertex at the center of each face and connects it to the corners of the face.
 
         A face with n corners becomes n triangles. Each poked face adds 1 vertex, n edges and n - 1 faces. The first
         triangle keeps the id of the face; the other triangles and the new vertices and edges get the highest ids, in
@@ -969,13 +1035,18 @@ class SceneOperations:
         A face is refused only if the position of the new vertex would not be finite, or if the mesh already has the
         largest supported number of elements.
 
-        In a recipe: ``PokeFaces()``
+        Example: ``scene.poke_faces()``, in a recipe ``PokeFaces()``
 
-        :param faces: The faces to poke. Defaults to All.
+        :param faces: The faces to poke. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a
+            value of ``meshwright.sel``.
         :param distance: The distance of the vertex from the center along the normal of the face, in scene units. A
             negative distance moves the vertex inwards. A zero-area face has no normal, so its vertex is at the center.
-            Defaults to 0.0.
-        :param on_refusal: What to do when a face is refused. Defaults to Error.
+            Defaults to ``0.0``.
+        :param on_refusal: What to do when a face is refused. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('PokeFaces', {'faces': faces, 'distance': distance, 'on_refusal': on_refusal}, on, id)
 
@@ -987,9 +1058,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Cut each face in two with an edge between two of its corners.
-
-        Cuts each face in two with an edge between two of its corners.
+        """Cuts each face in two with an edge between two of its corners.
 
         Each pair (v, w) of vertices cuts the face that has both vertices as corners. The new edge joins the two
         vertices. Each cut adds 1 edge and 1 face. Cuts are made in the order of the list, so a face can be cut several
@@ -1000,10 +1069,14 @@ class SceneOperations:
         A cut is refused if the two vertices are the same, if they are already joined by an edge, if no face has both as
         corners, or if several faces have both as corners, because the cut would be ambiguous.
 
-        In a recipe: ``SplitFaces(between: [])``
+        Example: ``scene.split_faces(between=[])``, in a recipe ``SplitFaces(between: [])``
 
         :param between: The cuts, as a list of pairs of vertex ids, for example ``[(0, 2), (5, 9)]``.
-        :param on_refusal: What to do when a cut is refused. Defaults to Error.
+        :param on_refusal: What to do when a cut is refused. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('SplitFaces', {'between': between, 'on_refusal': on_refusal}, on, id)
 
@@ -1016,24 +1089,28 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Delete faces and leave holes.
-
-        Removes faces and leaves holes.
+        """Removes faces and leaves holes.
 
         All faces are removed at once, so their order does not matter. Edges left without a face are removed. Vertices
         that lose their last edge are also removed, unless ``keep_vertices`` is true. Vertices that were isolated before
         the step are kept. The remaining elements keep their order and their values but get new ids. To delete edges or
-        vertices together with their faces, select the faces with ``FacesBeside(edges)`` or ``FacesAround(vertices)``.
+        vertices together with their faces, select the faces with ``sel.FacesBeside("edges")`` or
+        ``sel.FacesAround("vertices")``.
 
         The removal is refused if the remaining faces around a vertex would form separate fans that meet only at that
-        vertex. With ``on_refusal: Skip``, faces are instead removed one by one, in order of their ids, in repeated
+        vertex. With ``on_refusal="Skip"``, faces are instead removed one by one, in order of their ids, in repeated
         passes until no more selected faces can be removed. The selected faces that remain are counted as refused.
 
-        In a recipe: ``DeleteFaces(faces: All)``
+        Example: ``scene.delete_faces(faces="All")``, in a recipe ``DeleteFaces(faces: All)``
 
-        :param faces: The faces to delete.
-        :param on_refusal: What to do when not all faces can be removed. Defaults to Error.
-        :param keep_vertices: Whether to keep vertices that are left without an edge. Defaults to False.
+        :param faces: The faces to delete. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
+            ``meshwright.sel``.
+        :param on_refusal: What to do when not all faces can be removed. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param keep_vertices: Whether to keep vertices that are left without an edge. Defaults to ``False``.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('DeleteFaces', {'faces': faces, 'on_refusal': on_refusal, 'keep_vertices': keep_vertices}, on, id)
 
@@ -1048,15 +1125,13 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Move faces out of the surface and add side faces.
-
-        Moves faces out of the surface and connects them to their old rim with side faces.
+        """Moves faces out of the surface and connects them to their old rim with side faces.
 
         Selected faces that share an edge form a region and move together, with one normal and one center. A region is
         first scaled, then rotated, both about the mean of its vertices, and then moved. Side faces with four corners
         are added along the rim of the region, which consists of the edges with a face of the region on one side only.
         If all faces of an open sheet are extruded, the result is a box that is open where the sheet was. A closed
-        region has no rim and no normal, so its faces only move, and ``by`` must be an ``Offset``.
+        region has no rim and no normal, so its faces only move, and ``by`` must be an ``choice.Offset``.
 
         The faces keep their ids, so the same selection can be extruded again in later steps, for example to grow an arm
         out of a body. Vertices and edges inside a region also keep their ids. The vertices and edges of the old rim do
@@ -1071,14 +1146,23 @@ class SceneOperations:
         of the old ones (creases, tags), and the edges between the old and the new rim have zero values (no crease, no
         tags). Normals are dropped.
 
-        In a recipe: ``ExtrudeFaces(faces: Faces([0]), by: Distance(0.5))``
+        Example: ``scene.extrude_faces(faces=sel.Faces([0]), by=choice.Distance(0.5))``, in a recipe
+        ``ExtrudeFaces(faces: Faces([0]), by: Distance(0.5))``
 
-        :param faces: The faces to extrude.
+        :param faces: The faces to extrude. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
+            ``meshwright.sel``.
         :param by: The distance or offset by which the faces move.
-        :param scale: The factor by which each region is scaled about its center. More than 0. Defaults to 1.0.
+            ``choice.Distance(..)``: The distance along the normal of each region, in scene units.
+            ``choice.Offset(..)``: The offset along x, y and z, in scene units.
+        :param scale: The factor by which each region is scaled about its center. More than 0. Defaults to ``1.0``.
         :param rotate: Rotations of each region about its center, applied in order.
+            ``"axis"``: The direction of the axis.
+            ``"angle"``: The angle in degrees, counter-clockwise when the axis points towards the viewer. Multiples of
+                90 are exact.
         :param tag: The name of a tag for the moved faces and their side faces. Faces that already have the tag keep it.
             If omitted, no faces are tagged.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('ExtrudeFaces', {'faces': faces, 'by': by, 'scale': scale, 'rotate': rotate, 'tag': tag}, on, id)
 
@@ -1091,9 +1175,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Shrink faces and surround each face with a ring of faces.
-
-        Shrinks faces and surrounds each face with a ring of faces.
+        """Shrinks faces and surrounds each face with a ring of faces.
 
         Each face is inset separately, even if selected faces share edges. The inner face keeps the id of the face, and
         existing vertices do not move. A face with n corners adds n vertices, 2 n edges and n faces with four corners.
@@ -1106,12 +1188,18 @@ class SceneOperations:
 
         A face is refused if it is on both sides of one of its edges.
 
-        In a recipe: ``InsetFaces(faces: All, fraction: 0.25)``
+        Example: ``scene.inset_faces(faces="All", fraction=0.25)``, in a recipe ``InsetFaces(faces: All, fraction:
+        0.25)``
 
-        :param faces: The faces to inset.
+        :param faces: The faces to inset. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
+            ``meshwright.sel``.
         :param fraction: The position of the corners of the inner face on the lines from the old corners to the center
             of the face. From 0 (the corner) to 1 (the center), exclusive.
-        :param on_refusal: What to do when a face is refused. Defaults to Error.
+        :param on_refusal: What to do when a face is refused. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('InsetFaces', {'faces': faces, 'fraction': fraction, 'on_refusal': on_refusal}, on, id)
 
@@ -1125,13 +1213,11 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Shrink and raise faces, and surround each face with a ring of faces.
+        """Shrinks and raises faces, and surrounds each face with a ring of faces.
 
-        Shrinks and raises faces, and surrounds each face with a ring of faces.
-
-        Works like ``InsetFaces``, and also moves the inner face along its normal. Each face is beveled separately, even
-        if selected faces share edges. The inner face keeps the id of the face, and existing vertices do not move. A
-        face with n corners adds n vertices, 2 n edges and n faces with four corners. New vertices and faces get the
+        Works like ``inset_faces()``, and also moves the inner face along its normal. Each face is beveled separately,
+        even if selected faces share edges. The inner face keeps the id of the face, and existing vertices do not move.
+        A face with n corners adds n vertices, 2 n edges and n faces with four corners. New vertices and faces get the
         highest ids: in order of the selected faces, and counter-clockwise around each face from its first corner. A
         zero-area face has no normal, so its inner face is not raised.
 
@@ -1141,14 +1227,20 @@ class SceneOperations:
 
         A face is refused if it is on both sides of one of its edges.
 
-        In a recipe: ``BevelFaces(faces: All, fraction: 0.25, distance: 0.5)``
+        Example: ``scene.bevel_faces(faces="All", fraction=0.25, distance=0.5)``, in a recipe ``BevelFaces(faces: All,
+        fraction: 0.25, distance: 0.5)``
 
-        :param faces: The faces to bevel.
+        :param faces: The faces to bevel. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
+            ``meshwright.sel``.
         :param fraction: The position of the corners of the inner face on the lines from the old corners to the center
             of the face. From 0 (the corner) to 1 (the center), exclusive.
         :param distance: The distance by which the inner face moves along its normal, in scene units. A negative
             distance moves the inner face inwards.
-        :param on_refusal: What to do when a face is refused. Defaults to Error.
+        :param on_refusal: What to do when a face is refused. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('BevelFaces', {'faces': faces, 'fraction': fraction, 'distance': distance, 'on_refusal': on_refusal}, on, id)
 
@@ -1161,9 +1253,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Remove vertices and merge the faces around them.
-
-        Removes vertices and merges the faces around them.
+        """Removes vertices and merges the faces around them.
 
         Vertices are removed in order of their ids. Each removal is checked against the mesh as edited so far. All faces
         around the vertex become one face, which has the id and the values of the face with the lowest id. If the vertex
@@ -1176,11 +1266,19 @@ class SceneOperations:
         inside a face, if a face would contain a vertex twice or have fewer than three corners, or if an edge would join
         two vertices that are already joined. At a seam, a vertex is refused unless ``seams`` is ``Drop``.
 
-        In a recipe: ``DissolveVertices(vertices: Vertices([1]))``
+        Example: ``scene.dissolve_vertices(vertices=sel.Vertices([1]))``, in a recipe ``DissolveVertices(vertices:
+        Vertices([1]))``
 
-        :param vertices: The vertices to remove.
-        :param on_refusal: What to do when a vertex is refused. Defaults to Error.
-        :param seams: What to do at seams. Defaults to Refuse.
+        :param vertices: The vertices to remove. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of
+            ``meshwright.sel``.
+        :param on_refusal: What to do when a vertex is refused. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param seams: What to do at seams. Defaults to ``"Refuse"``.
+            ``"Refuse"``: Refuse the edit.
+            ``"Drop"``: Edit anyway.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('DissolveVertices', {'vertices': vertices, 'on_refusal': on_refusal, 'seams': seams}, on, id)
 
@@ -1193,9 +1291,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Replace vertices with faces.
-
-        Replaces vertices with faces.
+        """Replaces vertices with faces.
 
         Each edge at a selected vertex is cut at a fraction of the length that it had before the step, and a new face
         joins the cuts. The new face has as many corners as the vertex had edges. If both ends of an edge are selected,
@@ -1212,12 +1308,18 @@ class SceneOperations:
         A vertex is refused if it is on the boundary, if it has fewer than three edges, or if one of its edges is too
         short after earlier cuts.
 
-        In a recipe: ``BevelVertices(vertices: All, fraction: 0.25)``
+        Example: ``scene.bevel_vertices(vertices="All", fraction=0.25)``, in a recipe ``BevelVertices(vertices: All,
+        fraction: 0.25)``
 
-        :param vertices: The vertices to bevel.
+        :param vertices: The vertices to bevel. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of
+            ``meshwright.sel``.
         :param fraction: The distance of the cuts from the vertex, as a fraction of the edge length. From 0 to 1,
             exclusive.
-        :param on_refusal: What to do when a vertex is refused. Defaults to Error.
+        :param on_refusal: What to do when a vertex is refused. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('BevelVertices', {'vertices': vertices, 'fraction': fraction, 'on_refusal': on_refusal}, on, id)
 
@@ -1228,17 +1330,20 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Compute a unit normal for every vertex from the faces around it.
-
-        Computes a unit normal for every vertex, from the faces around it.
+        """Computes a unit normal for every vertex, from the faces around it.
 
         The normals are written to the vertex attribute ``normal``, which is replaced if it exists. Corner normals are
         removed, because they would contradict the vertex normals. A vertex that has no faces, or whose face normals
         cancel each other out, gets the zero vector and is counted.
 
-        In a recipe: ``VertexNormals()``
+        Example: ``scene.vertex_normals()``, in a recipe ``VertexNormals()``
 
-        :param weight: The weights of the faces around a vertex. Defaults to Area.
+        :param weight: The weights of the faces around a vertex. Defaults to ``"Area"``.
+            ``"Area"``: The area of the face.
+            ``"Angle"``: The angle of the face at the vertex, at most 180 degrees.
+            ``"Uniform"``: The same weight for all faces.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('VertexNormals', {'weight': weight}, on, id)
 
@@ -1249,20 +1354,20 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Compute tangents of corners for normal maps.
+        """Computes tangents for normal maps with the ``MikkTSpace`` algorithm, which many other tools also use.
 
-        Computes tangents for normal maps with the ``MikkTSpace`` algorithm, which many other tools also use.
-
-        The mesh needs texture coordinates and normals, such as the normals that ``VertexNormals`` computes. The
+        The mesh needs texture coordinates and normals, such as the normals that ``vertex_normals()`` computes. The
         tangents are written to the corner attribute ``tangent``, which is replaced if it exists. A tangent is a unit
         vector perpendicular to the normal, followed by the sign of the bitangent as the fourth number. ``.glb`` and
         ``.gltf`` files store the attribute as ``TANGENT``. Polygons are triangulated in the same way as for ``.glb``
         and ``.gltf`` files. Steps that change the shape or the faces remove the tangents. Corners at which the texture
         coordinates define no direction get an arbitrary tangent and are counted.
 
-        In a recipe: ``Tangents()``
+        Example: ``scene.tangents()``, in a recipe ``Tangents()``
 
         :param uv: The name of the texture coordinates of the normal map. Defaults to ``uv``.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Tangents', {'uv': uv}, on, id)
 
@@ -1276,9 +1381,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Fill holes with a face or with triangles.
-
-        Covers holes with faces.
+        """Covers holes with faces.
 
         A hole is a boundary loop: a loop of edges with a face on one side only. The outer rim of an open sheet is also
         a boundary loop; use ``around`` or ``max_edges`` to exclude it. No vertices are added, and existing elements
@@ -1288,17 +1391,24 @@ class SceneOperations:
         off one corner after the other, in each case the corner whose two neighbors are closest to each other. If the
         hole is far from convex, the triangles may overlap. Two vertices that are already joined by an edge are not
         joined again. If a hole cannot be filled without a second edge between them, it is refused (``DuplicateEdge``).
-        A hole with two edges is also refused (``WrongPlace``); ``Stitch`` closes it.
+        A hole with two edges is also refused (``WrongPlace``); ``stitch()`` closes it.
 
         New faces have the values of a face beside the hole. New corners have the values of the corner at the same
         vertex in the adjacent face. Normals are dropped if a hole was filled.
 
-        In a recipe: ``FillHoles()``
+        Example: ``scene.fill_holes()``, in a recipe ``FillHoles()``
 
-        :param around: Fill only holes with at least one of these vertices. Defaults to All.
+        :param around: Fill only holes with at least one of these vertices. Defaults to ``"All"``. ``"All"``,
+            ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
         :param max_edges: Fill only holes with at most this number of edges. If omitted, holes of any size.
-        :param with_: The faces that cover a hole. Defaults to Triangles.
-        :param on_refusal: What to do when a hole is refused. Defaults to Error.
+        :param with_: The faces that cover a hole. Defaults to ``"Triangles"``.
+            ``"Triangles"``: Triangles with the smallest total area.
+            ``"Face"``: One face with all vertices of the hole as corners.
+        :param on_refusal: What to do when a hole is refused. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('FillHoles', {'around': around, 'max_edges': max_edges, 'with': with_, 'on_refusal': on_refusal}, on, id)
 
@@ -1310,14 +1420,12 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Join two holes with a band of faces.
-
-        Joins two holes with a band of faces.
+        """Joins two holes with a band of faces.
 
         Each hole is identified by one of its vertices. An edge joins the two vertices, and the band goes around both
         holes from this edge. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and n - m
         evenly spread triangles. The step adds n edges and no vertices. The holes may be in one part of the mesh, which
-        then gets a tunnel or a handle, or in two parts of one object. (``Join`` joins two objects into one.)
+        then gets a tunnel or a handle, or in two parts of one object. (``join()`` joins two objects into one.)
 
         New faces have the values of the adjacent faces at the longer hole. New corners have the values of the corners
         at the same vertices in the adjacent faces. Normals are dropped.
@@ -1326,10 +1434,12 @@ class SceneOperations:
         (``WrongPlace``), or if the band would join two vertices that are already joined by an edge (``DuplicateEdge``).
         If the reason is ``DuplicateEdge``, the step may succeed with other vertices.
 
-        In a recipe: ``BridgeLoops(first: 0, second: 5)``
+        Example: ``scene.bridge_loops(first=0, second=5)``, in a recipe ``BridgeLoops(first: 0, second: 5)``
 
         :param first: The id of a vertex on the first hole.
         :param second: The id of the vertex on the second hole that is joined to ``first``.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('BridgeLoops', {'first': first, 'second': second}, on, id)
 
@@ -1341,14 +1451,12 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Join boundary edges that coincide.
-
-        Joins boundary edges that coincide.
+        """Joins boundary edges that coincide.
 
         Two boundary edges coincide if both pairs of corresponding ends are at most ``distance`` apart. Two edges that
         coincide only with each other form a pair. Choose a distance below the lengths of the edges. An edge that
         coincides with several edges is refused (``NonManifold``), and none of the coincident edges are joined. Unlike
-        ``Weld``, this operation never merges vertices inside the surface or vertices whose edges do not coincide.
+        ``weld()``, this operation never merges vertices inside the surface or vertices whose edges do not coincide.
 
         Of each pair of vertices or edges, the one with the lower id keeps its position and its values. The other vertex
         or edge is removed, so the ids of later elements change. Faces and corners do not change, so an edge whose sides
@@ -1358,11 +1466,16 @@ class SceneOperations:
         vertex or a face would contain a vertex twice (``WrongPlace``), or if two edges would join the same vertices
         (``DuplicateEdge``).
 
-        In a recipe: ``Stitch(distance: 0)``
+        Example: ``scene.stitch(distance=0)``, in a recipe ``Stitch(distance: 0)``
 
         :param distance: The largest distance between corresponding ends of two edges, in scene units. With 0, only ends
             at equal positions are joined.
-        :param on_refusal: What to do when a pair is refused, or when more than two edges coincide. Defaults to Error.
+        :param on_refusal: What to do when a pair is refused, or when more than two edges coincide. Defaults to
+            ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Stitch', {'distance': distance, 'on_refusal': on_refusal}, on, id)
 
@@ -1374,24 +1487,26 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Open the mesh along edges.
-
-        Opens the mesh along edges.
+        """Opens the mesh along edges.
 
         The edges may form paths, loops and trees. A loop cuts out a piece. Each edge becomes two edges, one for each
         side. If the cuts separate the faces around a vertex into several parts, each part gets a separate copy of the
         vertex. The part with the lowest face id keeps the id of the vertex, and new vertices get the highest ids. Faces
         keep their ids, and no vertex moves. Copies have the values of the originals, and corners keep their values.
-        ``Stitch`` is the inverse.
+        ``stitch()`` is the inverse.
 
         All edges are cut at once. An edge is refused if it is on the boundary (``Boundary``), or if the cut would not
         open the mesh because both ends are inside the mesh and no other cut continues at either end
         (``DuplicateEdge``).
 
-        In a recipe: ``Cut(edges: All)``
+        Example: ``scene.cut(edges="All")``, in a recipe ``Cut(edges: All)``
 
-        :param edges: The edges to cut.
-        :param on_refusal: What to do when an edge is refused. Defaults to Error.
+        :param edges: The edges to cut. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
+        :param on_refusal: What to do when an edge is refused. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Cut', {'edges': edges, 'on_refusal': on_refusal}, on, id)
 
@@ -1403,19 +1518,21 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Tag vertices.
-
-        Tags the selected vertices and removes the tag from all other vertices. In later steps, ``Tagged("rim")``
+        """Tags the selected vertices and removes the tag from all other vertices. In later steps, ``sel.Tagged("rim")``
         selects the vertices with the tag ``rim``.
 
         New vertices of later edits are not tagged. An existing tag of the same name is replaced. If an attribute of
         another type has this name, the step fails. The geometry does not change. The report counts the vertices that
         gained or lost the tag.
 
-        In a recipe: ``TagVertices(name: "some", vertices: Boundary)``
+        Example: ``scene.tag_vertices(name="some", vertices="Boundary")``, in a recipe ``TagVertices(name: "some",
+        vertices: Boundary)``
 
         :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
-        :param vertices: The vertices to tag. An empty selection gives an empty tag.
+        :param vertices: The vertices to tag. An empty selection gives an empty tag. ``"All"``, ``"Boundary"``,
+            ``"Isolated"``, or a value of ``meshwright.sel``.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('TagVertices', {'name': name, 'vertices': vertices}, on, id)
 
@@ -1427,19 +1544,21 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Tag edges.
-
-        Tags the selected edges and removes the tag from all other edges. In later steps, ``Tagged("rim")`` selects the
-        edges with the tag ``rim``.
+        """Tags the selected edges and removes the tag from all other edges. In later steps, ``sel.Tagged("rim")``
+        selects the edges with the tag ``rim``.
 
         When a tagged edge is split or subdivided, its parts are also tagged. An existing tag of the same name is
         replaced. If an attribute of another type has this name, the step fails. The geometry does not change. The
         report counts the edges that gained or lost the tag.
 
-        In a recipe: ``TagEdges(name: "marked", edges: EdgeLoop(Longest(count: 2)))``
+        Example: ``scene.tag_edges(name="marked", edges=sel.EdgeLoop(sel.Longest(count=2)))``, in a recipe
+        ``TagEdges(name: "marked", edges: EdgeLoop(Longest(count: 2)))``
 
         :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
-        :param edges: The edges to tag. An empty selection gives an empty tag.
+        :param edges: The edges to tag. An empty selection gives an empty tag. ``"All"``, ``"Boundary"``, or a value of
+            ``meshwright.sel``.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('TagEdges', {'name': name, 'edges': edges}, on, id)
 
@@ -1451,19 +1570,21 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Tag faces.
-
-        Tags the selected faces and removes the tag from all other faces. In later steps, ``Tagged("rim")`` selects the
-        faces with the tag ``rim``.
+        """Tags the selected faces and removes the tag from all other faces. In later steps, ``sel.Tagged("rim")``
+        selects the faces with the tag ``rim``.
 
         When a tagged face is split or subdivided, its parts are also tagged. An existing tag of the same name is
         replaced. If an attribute of another type has this name, the step fails. The geometry does not change. The
         report counts the faces that gained or lost the tag.
 
-        In a recipe: ``TagFaces(name: "some", faces: Facing(direction: (0, 0, 1), within: 45))``
+        Example: ``scene.tag_faces(name="some", faces=sel.Facing(direction=(0, 0, 1), within=45))``, in a recipe
+        ``TagFaces(name: "some", faces: Facing(direction: (0, 0, 1), within: 45))``
 
         :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
-        :param faces: The faces to tag. An empty selection gives an empty tag.
+        :param faces: The faces to tag. An empty selection gives an empty tag. ``"All"``, ``"Boundary"``,
+            ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('TagFaces', {'name': name, 'faces': faces}, on, id)
 
@@ -1481,9 +1602,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Split every triangle into four and smooth the surface.
-
-        Splits every triangle into four and smooths the surface, for a number of levels.
+        """Splits every triangle into four and smooths the surface, for a number of levels.
 
         A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles, so V -
         E + F does not change. Old vertices keep their ids, the vertex on edge e has the id V + e, edge e becomes edges
@@ -1492,22 +1611,43 @@ class SceneOperations:
         Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values
         are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a triangle copy the values
         of the old edge or triangle. Normals are dropped, because they would be wrong. Edges and vertices that
-        ``Crease`` made sharp stay sharp for as many levels as their sharpness states.
+        ``crease()`` made sharp stay sharp for as many levels as their sharpness states.
 
-        In a recipe: ``LoopSubdivide(levels: 2)``
+        Example: ``scene.loop_subdivide(levels=2)``, in a recipe ``LoopSubdivide(levels: 2)``
 
         :param levels: The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With
             ``until``, the maximum number of levels, which defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
-        :param weights: The weights at old vertices. Defaults to Warren.
-        :param boundary: How vertices on the boundary move. Defaults to EdgesOnly.
-        :param creasing: How the sharpness of creases decreases from level to level. Defaults to Uniform.
-        :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to All.
+            ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
+            ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
+                than ``below``.
+        :param weights: The weights at old vertices. Defaults to ``"Warren"``.
+            ``"Warren"``: u is 3/16 for n = 3, otherwise 3/(8n).
+            ``"Loop"``: u is (5/8 - (3/8 + cos(2π/n)/4)²)/n, as in Loop's thesis, 1987.
+        :param boundary: How vertices on the boundary move. Defaults to ``"EdgesOnly"``.
+            ``"EdgesOnly"``: The boundary becomes a smooth curve that depends on boundary vertices only.
+            ``"EdgesAndCorners"``: Like ``EdgesOnly``, but vertices with one face stay in place.
+            ``"Fixed"``: Boundary vertices stay in place, and new vertices on the boundary lie in the middle of their
+                edges.
+        :param creasing: How the sharpness of creases decreases from level to level. Defaults to ``"Uniform"``.
+            ``"Uniform"``: The sharpness decreases by 1.
+            ``"Chaikin"``: The sharpness is averaged with the sharpness of the neighboring edges of the crease, then
+                decreases by 1.
+        :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to ``"All"``.
+            ``"None"``: Values are smoothed everywhere.
+            ``"CornersOnly"``: Like ``None_``, but values do not change at a vertex where a piece has a single face.
+            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change where three or more pieces meet.
+            ``"CornersPlus2"``: Like ``CornersPlus1``, but values also do not change at the ends of seams.
+            ``"Boundaries"``: Values are interpolated linearly along seams and boundaries, and smoothed elsewhere.
+            ``"All"``: Values are interpolated linearly everywhere: each new value is a mean of values of one old face.
         :param to_limit: Whether to move the vertices of the last level to the limit surface and to store its normals
-            and tangents. Defaults to False.
+            and tangents. Defaults to ``False``.
         :param faces: The faces to refine. If omitted, all faces. Triangles next to the refined faces are cut in two or
             four, so that no vertex lies inside an edge, and the surface outside the refined faces does not move. For
-            the ids of new elements, see ``subdivision::refine_faces``.
+            the ids of new elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``,
+            ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('LoopSubdivide', {'levels': levels, 'until': until, 'weights': weights, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, on, id)
 
@@ -1524,9 +1664,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Split every face into quads and smooth the surface.
-
-        Splits every face into quads and smooths the surface, for a number of levels.
+        """Splits every face into quads and smooths the surface, for a number of levels.
 
         A level creates a quad at each corner of each face. A level turns V vertices, E edges and F faces with C corners
         in total into V + E + F vertices, 2 E + C edges and C quads, so V - E + F does not change. Old vertices keep
@@ -1535,22 +1673,41 @@ class SceneOperations:
 
         Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values
         are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a face copy the values of
-        the old edge or face. Normals are dropped, because they would be wrong. Edges and vertices that ``Crease`` made
-        sharp stay sharp for as many levels as their sharpness states.
+        the old edge or face. Normals are dropped, because they would be wrong. Edges and vertices that ``crease()``
+        made sharp stay sharp for as many levels as their sharpness states.
 
-        In a recipe: ``CatmullClark(levels: 2)``
+        Example: ``scene.catmull_clark(levels=2)``, in a recipe ``CatmullClark(levels: 2)``
 
         :param levels: The number of levels. Each level replaces every corner of a face with a quad. Defaults to 1. With
             ``until``, the maximum number of levels, which defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
-        :param boundary: How vertices on the boundary move. Defaults to EdgesOnly.
-        :param creasing: How the sharpness of creases decreases from level to level. Defaults to Uniform.
-        :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to All.
+            ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
+            ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
+                than ``below``.
+        :param boundary: How vertices on the boundary move. Defaults to ``"EdgesOnly"``.
+            ``"EdgesOnly"``: The boundary becomes a smooth curve that depends on boundary vertices only.
+            ``"EdgesAndCorners"``: Like ``EdgesOnly``, but vertices with one face stay in place.
+            ``"Fixed"``: Boundary vertices stay in place, and new vertices on the boundary lie in the middle of their
+                edges.
+        :param creasing: How the sharpness of creases decreases from level to level. Defaults to ``"Uniform"``.
+            ``"Uniform"``: The sharpness decreases by 1.
+            ``"Chaikin"``: The sharpness is averaged with the sharpness of the neighboring edges of the crease, then
+                decreases by 1.
+        :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to ``"All"``.
+            ``"None"``: Values are smoothed everywhere.
+            ``"CornersOnly"``: Like ``None_``, but values do not change at a vertex where a piece has a single face.
+            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change where three or more pieces meet.
+            ``"CornersPlus2"``: Like ``CornersPlus1``, but values also do not change at the ends of seams.
+            ``"Boundaries"``: Values are interpolated linearly along seams and boundaries, and smoothed elsewhere.
+            ``"All"``: Values are interpolated linearly everywhere: each new value is a mean of values of one old face.
         :param to_limit: Whether to move the vertices of the last level to the limit surface and to store its normals
-            and tangents. Defaults to False.
+            and tangents. Defaults to ``False``.
         :param faces: The faces to refine. If omitted, all faces. Faces next to the refined faces get the new vertices
             on common edges as corners, and the surface outside the refined faces does not move. For the ids of new
-            elements, see ``subdivision::refine_faces``.
+            elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value
+            of ``meshwright.sel``.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('CatmullClark', {'levels': levels, 'until': until, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, on, id)
 
@@ -1564,12 +1721,10 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Split every face into smaller faces without moving vertices.
+        """Splits every face into smaller faces without moving vertices, for a number of levels.
 
-        Splits every face into smaller faces without moving vertices, for a number of levels.
-
-        ``into: Triangles`` requires a mesh of triangles. A level turns V vertices, E edges and F triangles into V + E
-        vertices, 2 E + 3 F edges and 4 F triangles. ``into: Quads`` accepts all polygons and creates a quad at each
+        ``into="Triangles"`` requires a mesh of triangles. A level turns V vertices, E edges and F triangles into V + E
+        vertices, 2 E + 3 F edges and 4 F triangles. ``into="Quads"`` accepts all polygons and creates a quad at each
         corner: V vertices, E edges and F faces with C corners in total become V + E + F vertices, 2 E + C edges and C
         quads. Old vertices keep their ids and positions, the vertex on edge e has the id V + e, and edge e becomes
         edges 2e and 2e + 1. Triangle f becomes faces 4f to 4f + 3. The ids of quads follow the order of the faces, and
@@ -1578,15 +1733,23 @@ class SceneOperations:
         Vertex attributes are interpolated. Corner values are interpolated within one old face. Parts of an edge or a
         face copy the values of the old edge or face, including sharpness. Normals are dropped.
 
-        In a recipe: ``Midpoint(levels: 2, into: Quads)``
+        Example: ``scene.midpoint(levels=2, into="Quads")``, in a recipe ``Midpoint(levels: 2, into: Quads)``
 
         :param levels: The number of levels. Each level multiplies the number of faces by about four. Defaults to 1.
             With ``until``, the maximum number of levels, which defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
-        :param into: How faces are split. Defaults to Triangles.
-        :param faces: The faces to refine. If omitted, all faces. With ``into: Triangles``, triangles next to the
-            refined faces are cut in two or four. With ``into: Quads``, faces next to the refined faces get the new
+            ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
+            ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
+                than ``below``.
+        :param into: How faces are split. Defaults to ``"Triangles"``.
+            ``"Triangles"``: Splits each triangle into four.
+            ``"Quads"``: Splits each face with n corners into n quads around its center.
+        :param faces: The faces to refine. If omitted, all faces. With ``into="Triangles"``, triangles next to the
+            refined faces are cut in two or four. With ``into="Quads"``, faces next to the refined faces get the new
             vertices on common edges as corners. For the ids of new elements, see ``subdivision::refine_faces``.
+            ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Midpoint', {'levels': levels, 'until': until, 'into': into, 'faces': faces}, on, id)
 
@@ -1598,9 +1761,8 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Split every triangle into four and smooth the surface without moving the old vertices.
-
-        Splits every triangle into four and smooths the surface without moving the old vertices, for a number of levels.
+        """Splits every triangle into four and smooths the surface without moving the old vertices, for a number of
+        levels.
 
         A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles, so V -
         E + F does not change. Old vertices keep their ids, the vertex on edge e has the id V + e, edge e becomes edges
@@ -1610,11 +1772,16 @@ class SceneOperations:
         linearly within one old triangle. Parts of an edge or a triangle copy the values of the old edge or triangle.
         Normals are dropped, because they would be wrong. Sharpness has no effect and is copied unchanged.
 
-        In a recipe: ``Butterfly(levels: 1)``
+        Example: ``scene.butterfly(levels=1)``, in a recipe ``Butterfly(levels: 1)``
 
         :param levels: The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With
             ``until``, the maximum number of levels, which defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
+            ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
+            ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
+                than ``below``.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Butterfly', {'levels': levels, 'until': until}, on, id)
 
@@ -1626,9 +1793,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Split every triangle into three, flip the old edges, and smooth the surface.
-
-        Splits every triangle into three, flips the old edges, and smooths the surface, for a number of levels.
+        """Splits every triangle into three, flips the old edges, and smooths the surface, for a number of levels.
 
         A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles. Every
         second level adds one more vertex and one more edge for each boundary edge. V - E + F does not change. Old
@@ -1642,11 +1807,16 @@ class SceneOperations:
         of their old triangle. Parts of a boundary edge copy the values of the edge; other edges have zero values (no
         crease, no tags). Normals are dropped, because they would be wrong.
 
-        In a recipe: ``Sqrt3(levels: 1)``
+        Example: ``scene.sqrt3(levels=1)``, in a recipe ``Sqrt3(levels: 1)``
 
         :param levels: The number of levels. Each level multiplies the number of triangles by three. Defaults to 1. With
             ``until``, the maximum number of levels, which defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
+            ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
+            ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
+                than ``below``.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Sqrt3', {'levels': levels, 'until': until}, on, id)
 
@@ -1658,9 +1828,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Replace every edge and every vertex with a face.
-
-        Replaces every edge and every vertex with a face and shrinks the old faces, for a number of levels.
+        """Replaces every edge and every vertex with a face and shrinks the old faces, for a number of levels.
 
         A level turns a closed mesh with V vertices, E edges and F faces into a mesh with 2 E vertices, 4 E edges and V
         + E + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. V - E + F
@@ -1674,11 +1842,16 @@ class SceneOperations:
         values of an adjacent face. The two edges along an old edge copy its values; other edges have zero values (no
         crease, no tags). Normals are dropped, because they would be wrong.
 
-        In a recipe: ``DooSabin(levels: 1)``
+        Example: ``scene.doo_sabin(levels=1)``, in a recipe ``DooSabin(levels: 1)``
 
         :param levels: The number of levels. Each level multiplies the number of faces by about four. Defaults to 1.
             With ``until``, the maximum number of levels, which defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
+            ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
+            ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
+                than ``below``.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('DooSabin', {'levels': levels, 'until': until}, on, id)
 
@@ -1692,9 +1865,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Cut meshes along a plane.
-
-        Cuts meshes along a plane.
+        """Cuts meshes along a plane.
 
         Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along it.
         A concave face can be cut several times. A vertex is on the plane if its distance from the plane is less than
@@ -1702,19 +1873,24 @@ class SceneOperations:
         id keeps the id of the edge. When a face is cut, the part with the first corner keeps the id of the face. New
         elements get the highest ids. Attributes are interpolated at the crossings, separately on each side of a seam.
 
-        With ``keep: Front`` or ``keep: Back``, the other side of the plane is removed. A face in the plane belongs to
+        With ``keep="Front"`` or ``keep="Back"``, the other side of the plane is removed. A face in the plane belongs to
         the back if its normal points to the front, because the face then closes the solid behind the plane. Vertices
         left without a face are removed. If the remaining faces around a vertex form several fans, each fan gets a
-        separate copy of the vertex. No faces are added to close the cut.
+        separate copy of the vertex. No faces are added to close the cut. ``fill_holes()`` adds them.
 
-        In a recipe: ``Bisect(normal: (0, 0, 1))``
+        Example: ``scene.bisect(normal=(0, 0, 1))``, in a recipe ``Bisect(normal: (0, 0, 1))``
 
-        :param point: A point on the plane.
         :param normal: The normal of the plane, which points to the front. The length of the normal does not matter but
             must not be 0.
-        :param keep: The side to keep. Defaults to Both.
+        :param point: A point on the plane.
+        :param keep: The side to keep. Defaults to ``"Both"``.
+            ``"Both"``: Both sides.
+            ``"Front"``: The side that the normal points to.
+            ``"Back"``: The side that the normal points away from.
         :param tag: The name of a tag for the edges on the plane. Edges that already have the tag keep it. If omitted,
             no edges are tagged.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Bisect', {'point': point, 'normal': normal, 'keep': keep, 'tag': tag}, on, id)
 
@@ -1727,24 +1903,26 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Replace one half of a mesh with the mirror image of the other half.
+        """Replaces one half of a mesh with the mirror image of the other half.
 
-        Replaces one half of a mesh with the mirror image of the other half.
-
-        The mesh is cut along a plane, as with ``Bisect``. The half on the side ``from`` is kept and mirrored, and the
-        halves are joined at the plane. Vertices near the plane (see ``Bisect``) are moved exactly onto it, so that the
-        result is symmetric. Faces in the plane are removed, because they would be walls inside the result. Where the
-        surface only touches the plane, the halves are not joined.
+        The mesh is cut along a plane, as with ``bisect()``. The half on the side ``from_`` is kept and mirrored, and
+        the halves are joined at the plane. Vertices near the plane (see ``bisect()``) are moved exactly onto it, so
+        that the result is symmetric. Faces in the plane are removed, because they would be walls inside the result.
+        Where the surface only touches the plane, the halves are not joined.
 
         The elements of the kept half come first, in their old order. The elements of the mirror image follow.
         Attributes are copied, so both halves have the same texture coordinates, tags and weights of joints. Normals and
         tangents are dropped.
 
-        In a recipe: ``Symmetrize(normal: (1, 0, 0))``
+        Example: ``scene.symmetrize(normal=(1, 0, 0))``, in a recipe ``Symmetrize(normal: (1, 0, 0))``
 
-        :param point: A point on the plane.
         :param normal: The normal of the plane, which points to the front. Its length does not matter but must not be 0.
-        :param from_: The half that is kept and mirrored. Defaults to Front.
+        :param point: A point on the plane.
+        :param from_: The half that is kept and mirrored. Defaults to ``"Front"``.
+            ``"Front"``: The side that the normal points to.
+            ``"Back"``: The side that the normal points away from.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Symmetrize', {'point': point, 'normal': normal, 'from': from_}, on, id)
 
@@ -1761,9 +1939,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Remove triangles, and change the surface as little as possible.
-
-        Removes triangles from meshes, and changes the surface as little as possible.
+        """Removes triangles from meshes, and changes the surface as little as possible.
 
         Edges are collapsed, starting with the edges whose collapse changes the surface least. The change is the mean
         squared distance of the new vertex to the planes of the original triangles that it replaces (Garland, Heckbert,
@@ -1772,19 +1948,21 @@ class SceneOperations:
 
         The following properties are kept:
 
-        - Topology: holes, handles and separate parts stay. - Lines: the boundary, seams of texture coordinates and
-        normals, borders between face tags or materials, edges with a tag or a crease, and ``features``. A line can lose
-        vertices, but its ends, and the vertices where lines meet, keep their exact positions. - Attributes: texture
-        coordinates, normals, colors and other numbers are a part of the change that is kept small (Hoppe, 1999), and
-        new vertices get the values that fit best. Values are never mixed across a line, and no triangle is turned over
-        in the texture. Normals are kept, so that a simplified mesh is shaded like the original. - Vertex tags: vertices
-        with different tags or sharpness are not merged.
+        - Topology: holes, handles and separate parts stay.
+        - Lines: the boundary, seams of texture coordinates and normals, borders between face tags or materials, edges
+          with a tag or a crease, and ``features``. A line can lose vertices, but its ends, and the vertices where lines
+          meet, keep their exact positions.
+        - Attributes: texture coordinates, normals, colors and other numbers are a part of the change that is kept small
+          (Hoppe, 1999), and new vertices get the values that fit best. Values are never mixed across a line, and no
+          triangle is turned over in the texture. Normals are kept, so that a simplified mesh is shaded like the
+          original.
+        - Vertex tags: vertices with different tags or sharpness are not merged.
 
         No triangle is turned over. Remaining elements get new ids, in the order of their old ids. If the number of
         faces cannot be reached and ``error`` is not given, the step is refused as ``Unreached``, and the message states
-        the reasons. With ``on_refusal: Skip``, the result is kept.
+        the reasons. With ``on_refusal="Skip"``, the result is kept.
 
-        In a recipe: ``Simplify(ratio: 0.5)``
+        Example: ``scene.simplify(ratio=0.5)``, in a recipe ``Simplify(ratio: 0.5)``
 
         :param faces: The number of faces to reach, for each mesh. The result can have one face fewer. A mesh that
             already has at most this number of faces does not change.
@@ -1792,12 +1970,19 @@ class SceneOperations:
         :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. The
             limit is guaranteed, because the step adds up an upper bound for the distance by which each collapse moves
             the surface. The true distance is therefore usually much smaller. If omitted, there is no limit.
-        :param features: Edges that are treated as lines, for example ``Sharp(above: 30)``. If omitted, only the lines
-            that are always kept.
+        :param features: Edges that are treated as lines, for example ``sel.Sharp(above=30)``. If omitted, only the
+            lines that are always kept. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
         :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
+            ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
         :param intersections: Whether the step may create intersections of faces. They can occur where parts of the
-            surface are close together. Defaults to Allow.
-        :param on_refusal: What to do if the number of faces cannot be reached. Defaults to Error.
+            surface are close together. Defaults to ``"Allow"``.
+            ``"Allow"``: New intersections are allowed, and not detected.
+            ``"Refuse"``: No changed face intersects another face, so a mesh without self-intersections never gets any.
+        :param on_refusal: What to do if the number of faces cannot be reached. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Simplify', {'faces': faces, 'ratio': ratio, 'error': error, 'features': features, 'pin': pin, 'intersections': intersections, 'on_refusal': on_refusal}, on, id)
 
@@ -1811,24 +1996,26 @@ class SceneOperations:
         on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Make simplified copies of an object, its levels of detail.
-
-        Makes simplified copies of an object, its levels of detail.
+        """Makes simplified copies of an object, its levels of detail.
 
         The copies are named after the object, for example ``rock_lod1``, ``rock_lod2`` and so on. Each copy is made
-        from the previous copy in the same way as with ``Simplify``, and keeps the same attributes, materials and lines.
-        If nodes place the object, a node for each copy is added next to each of them.
+        from the previous copy in the same way as with ``simplify()``, and keeps the same attributes, materials and
+        lines. If nodes place the object, a node for each copy is added next to each of them.
 
-        In a recipe: ``Lods(from: "mesh", ratios: [0.5, 0.25])``
+        Example: ``scene.lods(from_="mesh", ratios=[0.5, 0.25])``, in a recipe ``Lods(from: "mesh", ratios: [0.5,
+        0.25])``
 
         :param from_: The name of the object.
         :param ratios: The number of faces of each copy, as a fraction of the number of faces of the object. Each
             fraction must be smaller than the previous one.
         :param to: The start of the names of the copies, before the number. If omitted, the name of the object and
             ``_lod``.
-        :param features: Edges that are treated as lines, for example ``Sharp(above: 30)``. If omitted, only the lines
-            that ``Simplify`` always keeps.
-        :param on_refusal: What to do if the number of faces of a copy cannot be reached. Defaults to Error.
+        :param features: Edges that are treated as lines, for example ``sel.Sharp(above=30)``. If omitted, only the
+            lines that ``simplify()`` always keeps. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
+        :param on_refusal: What to do if the number of faces of a copy cannot be reached. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Lods', {'from': from_, 'ratios': ratios, 'to': to, 'features': features, 'on_refusal': on_refusal}, None, id)
 
@@ -1845,9 +2032,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Replace all triangles with nearly equilateral triangles of a given size.
-
-        Replaces all triangles with nearly equilateral triangles of a given size, on the same surface.
+        """Replaces all triangles with nearly equilateral triangles of a given size, on the same surface.
 
         Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
         vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target
@@ -1857,32 +2042,42 @@ class SceneOperations:
 
         The following properties are kept:
 
-        - Topology: holes, handles and separate parts stay. - Lines: the boundary, seams of texture coordinates and
-        normals, borders between face tags or materials, edges with a tag or a crease, and ``features``. Vertices on a
-        line slide along it. The ends of lines, the vertices where lines meet, and corners where a line turns by more
-        than 40 degrees keep their exact positions. Other sharp edges are rounded. - Attributes: they come from the same
-        point of the original surface, and are never interpolated across a line. - Vertex tags: a new vertex has a tag
-        if all old vertices around its position had the tag. Tagged vertices without tagged neighbors and vertices with
-        sharpness keep their exact positions.
+        - Topology: holes, handles and separate parts stay.
+        - Lines: the boundary, seams of texture coordinates and normals, borders between face tags or materials, edges
+          with a tag or a crease, and ``features``. Vertices on a line slide along it. The ends of lines, the vertices
+          where lines meet, and corners where a line turns by more than 40 degrees keep their exact positions. Other
+          sharp edges are rounded.
+        - Attributes: they come from the same point of the original surface, and are never interpolated across a line.
+        - Vertex tags: a new vertex has a tag if all old vertices around its position had the tag. Tagged vertices
+          without tagged neighbors and vertices with sharpness keep their exact positions.
 
         Edits that would turn a triangle over are refused. All elements get new ids. If the distance between the result
-        and the original could exceed ``error``, the step is refused as ``Unreached``. With ``on_refusal: Skip``, the
+        and the original could exceed ``error``, the step is refused as ``Unreached``. With ``on_refusal="Skip"``, the
         mesh then does not change.
 
-        In a recipe: ``Remesh(length: 0.5)``
+        Example: ``scene.remesh(length=0.5)``, in a recipe ``Remesh(length: 0.5)``
 
         :param length: The target length of edges, in scene units.
         :param curvature: Target lengths that follow the curvature, instead of ``length``.
-        :param features: Edges that are treated as lines, for example ``Sharp(above: 30)``. If omitted, only the lines
-            that are always kept.
+            ``"error"``: The intended distance between the surface and the triangles, in scene units. It is not
+                guaranteed. To guarantee a distance, use the parameter ``error`` of the step.
+            ``"min"``: The smallest length, in scene units.
+            ``"max"``: The largest length, in scene units.
+        :param features: Edges that are treated as lines, for example ``sel.Sharp(above=30)``. If omitted, only the
+            lines that are always kept. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
         :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. Edges
             become shorter than the target length where this is necessary. The distance is measured at the end, in both
             directions and for all points. If omitted, there is no limit.
         :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
+            ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
         :param passes: The largest number of passes, from 1 to 1000. The step ends earlier if a pass changes almost
             nothing. Defaults to 10.
         :param on_refusal: What to do if the distance between the result and the original could exceed ``error``.
-            Defaults to Error.
+            Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Remesh', {'length': length, 'curvature': curvature, 'features': features, 'error': error, 'pin': pin, 'passes': passes, 'on_refusal': on_refusal}, on, id)
 
@@ -1898,30 +2093,40 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Remove noise by moving vertices.
-
-        Moves vertices so that noise disappears.
+        """Moves vertices so that noise disappears.
 
         Only vertices in ``vertices`` that are not in ``pin`` and have a face move. All other vertices keep their exact
         positions. Faces can have any number of corners, and degenerate faces are allowed. All elements keep their ids.
         Attributes are kept, so textures stretch with the surface, but normals are dropped.
 
-        | ``by`` | use | size | | --- | --- | --- | | ``Laplacian`` | strong smoothing | shrinks | | ``Taubin`` |
-        removing noise | nearly the same | | ``Implicit`` | strong smoothing of dense meshes in one pass | shrinks | |
-        ``Denoise`` | scans of objects with flat sides and sharp edges | nearly the same |
+        - ``choice.Laplacian``: strong smoothing; shrinks.
+        - ``choice.Taubin``: removing noise; nearly the same.
+        - ``choice.Implicit``: strong smoothing of dense meshes in one pass; shrinks.
+        - ``choice.Denoise``: scans of objects with flat sides and sharp edges; nearly the same.
 
         If ``boundary`` is ``Fixed``, vertices on the boundary do not move, so that adjacent objects still fit together.
 
-        In a recipe: ``Smooth(by: Taubin())``
+        Example: ``scene.smooth(by=choice.Taubin())``, in a recipe ``Smooth(by: Taubin())``
 
         :param by: The method.
-        :param passes: The number of passes. If omitted, 1 for ``Implicit`` and 10 for the other methods. For
-            ``Denoise``, the number of passes over the normals. At most 10000.
-        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
-        :param pin: Vertices that do not move. If omitted, no vertices.
-        :param boundary: How vertices on the boundary move. Defaults to Fixed.
+            ``choice.Laplacian(..)``: Moves each vertex towards the mean of its neighbors.
+            ``choice.Taubin(..)``: Moves each vertex towards the mean of its neighbors, then back by slightly more.
+            ``choice.Implicit(..)``: Moves the surface by mean curvature flow for the given time, in one stable step.
+            ``choice.Denoise(..)``: Filters the normals of the faces, so that similar normals become equal, then moves
+                the vertices to fit the normals.
+        :param passes: The number of passes. If omitted, 1 for ``choice.Implicit`` and 10 for the other methods. For
+            ``choice.Denoise``, the number of passes over the normals. At most 10000.
+        :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
+            value of ``meshwright.sel``.
+        :param pin: Vertices that do not move. If omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
+            value of ``meshwright.sel``.
+        :param boundary: How vertices on the boundary move. Defaults to ``"Fixed"``.
+            ``"Fixed"``: The vertices do not move.
+            ``"Free"``: The boundary is smoothed as curves, so only neighbors along the boundary affect a vertex.
         :param keep_volume: Whether the moved vertices are finally shifted along their normals, all by the same
-            distance, until the mesh has its original volume. The mesh must be closed. Defaults to False.
+            distance, until the mesh has its original volume. The mesh must be closed. Defaults to ``False``.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Smooth', {'by': by, 'passes': passes, 'vertices': vertices, 'pin': pin, 'boundary': boundary, 'keep_volume': keep_volume}, on, id)
 
@@ -1934,15 +2139,13 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Copy attributes from the nearest points of another object.
+        """Copies attributes from the nearest points of another object.
 
-        Copies attributes from the nearest points of another object.
-
-        An attribute of vertices, corners or faces of the object ``from`` becomes an attribute of the same kind. Numbers
-        and vectors of vertices and corners are interpolated inside the face of the nearest point. Whole numbers, tags,
-        and attributes that edits do not interpolate are copied from the nearest corner of this face. Values of faces
-        are copied from this face. An existing attribute with the same type of values is overwritten. Without ``on``,
-        the step acts on all meshes except ``from``.
+        An attribute of vertices, corners or faces of the object ``from_`` becomes an attribute of the same kind.
+        Numbers and vectors of vertices and corners are interpolated inside the face of the nearest point. Whole
+        numbers, tags, and attributes that edits do not interpolate are copied from the nearest corner of this face.
+        Values of faces are copied from this face. An existing attribute with the same type of values is overwritten.
+        Without ``on``, the step acts on all meshes except ``from_``.
 
         All corners of a face take their values from one chart of the source, that is, from faces that are connected
         without crossing a seam of the attribute. The chart is the one nearest to the center of the face, so no triangle
@@ -1951,11 +2154,14 @@ class SceneOperations:
         Elements whose distance from the source exceeds ``within`` keep their values, or get zeros if the attribute is
         new, and are counted. If this applies to a corner of a face, it applies to all corners of the face.
 
-        In a recipe: ``Transfer(from: "scan", attributes: ["uv", "color"], within: 0.01)``
+        Example: ``scene.transfer(from_="scan", attributes=["uv", "color"], within=0.01)``, in a recipe ``Transfer(from:
+        "scan", attributes: ["uv", "color"], within: 0.01)``
 
         :param from_: The name of the object with the attributes.
         :param attributes: The names of the attributes, for example ``["uv", "color"]``.
         :param within: The largest distance from the source, in scene units. If omitted, any distance.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Transfer', {'from': from_, 'attributes': attributes, 'within': within}, on, id)
 
@@ -1968,25 +2174,30 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Move vertices, and move nearby vertices by a smaller distance.
-
-        Moves vertices.
+        """Moves vertices.
 
         Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped.
 
-        With ``falloff: r``, vertices near the selected vertices also move. At the distance d from the nearest selected
+        With ``falloff="r"``, vertices near the selected vertices also move. At the distance d from the nearest selected
         vertex, the movement is multiplied by the weight (1 - (d/r)²)². The weight is 1 at selected vertices and falls
         smoothly to 0 at the distance r. Distances are measured along straight lines, not along the surface.
 
-        With ``by: Distance(..)``, each vertex moves along its own normal, which is the mean of the normals of its
+        With ``by=choice.Distance(..)``, each vertex moves along its own normal, which is the mean of the normals of its
         faces, weighted by their areas. Vertices without a normal do not move and are counted.
 
-        In a recipe: ``MoveVertices(vertices: Vertices([0]), by: Offset((0, 0, 0.5)))``
+        Example: ``scene.move_vertices(vertices=sel.Vertices([0]), by=choice.Offset((0, 0, 0.5)))``, in a recipe
+        ``MoveVertices(vertices: Vertices([0]), by: Offset((0, 0, 0.5)))``
 
-        :param vertices: The vertices to move.
+        :param vertices: The vertices to move. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of
+            ``meshwright.sel``.
         :param by: How the vertices move.
+            ``choice.Offset(..)``: By this offset along x, y and z, in scene units.
+            ``choice.Distance(..)``: By this distance along the normal of each vertex, in scene units.
+            ``choice.To(..)``: By the offset that moves the mean of the selected vertices to this point.
         :param falloff: The distance from the selected vertices at which the movement has fallen to 0, in scene units.
             If omitted, only the selected vertices move.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('MoveVertices', {'vertices': vertices, 'by': by, 'falloff': falloff}, on, id)
 
@@ -1999,9 +2210,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Move vertices along their normals by noise or by an attribute.
-
-        Moves vertices along their normals, by amounts that vary over the surface.
+        """Moves vertices along their normals, by amounts that vary over the surface.
 
         Each vertex moves along its normal by ``distance`` times the value of ``by``. The normal of a vertex is the mean
         of the normals of its faces, weighted by their areas. Vertices without a normal do not move and are counted.
@@ -2010,11 +2219,18 @@ class SceneOperations:
         The values are computed without functions that differ between machines, so the result is identical on all
         machines.
 
-        In a recipe: ``Displace(by: Noise(scale: 0.5, seed: 7), distance: 0.1)``
+        Example: ``scene.displace(by=choice.Noise(scale=0.5, seed=7), distance=0.1)``, in a recipe ``Displace(by:
+        Noise(scale: 0.5, seed: 7), distance: 0.1)``
 
         :param by: The values by which ``distance`` is multiplied.
+            ``choice.Noise(..)``: Smooth noise from -1 to 1 (Perlin, "Improving Noise", 2002).
+            ``choice.Random(..)``: A random number from -1 to 1 for each vertex, which depends on the id of the vertex.
+            ``choice.Attribute(..)``: A vertex attribute that holds one number for each vertex.
         :param distance: The distance for the value 1, in scene units. A negative distance moves inwards.
-        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
+        :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
+            value of ``meshwright.sel``.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Displace', {'by': by, 'distance': distance, 'vertices': vertices}, on, id)
 
@@ -2031,31 +2247,38 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Bend a mesh, so that an axis becomes an arc of a circle.
+        """Bends a mesh, so that an axis becomes an arc of a circle.
 
-        Bends a mesh, so that an axis becomes an arc of a circle.
-
-        The plane at ``from`` does not move. Between ``from`` and ``to``, the axis becomes an arc that keeps its length
-        and turns by ``angle`` in total. Vertices beyond ``to`` move rigidly. Vertices between the axis and the center
-        of the circle move closer together, and vertices on the other side of the axis move apart. The distance between
-        the center and the axis is (to - from) / angle, with the angle in radians. Parts of the mesh beyond the center
-        turn inside out. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
+        The plane at ``from_`` does not move. Between ``from_`` and ``to``, the axis becomes an arc that keeps its
+        length and turns by ``angle`` in total. Vertices beyond ``to`` move rigidly. Vertices between the axis and the
+        center of the circle move closer together, and vertices on the other side of the axis move apart. The distance
+        between the center and the axis is (to - from) / angle, with the angle in radians. Parts of the mesh beyond the
+        center turn inside out. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
 
         Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
         vertices move, so refine the mesh first if its faces are large.
 
-        In a recipe: ``Bend(axis: Z, angle: 90)``
+        Example: ``scene.bend(axis="Z", angle=90)``, in a recipe ``Bend(axis: Z, angle: 90)``
 
         :param axis: The axis that becomes an arc.
+            ``"X"``: The x axis.
+            ``"Y"``: The y axis.
+            ``"Z"``: The z axis.
         :param angle: The angle between the ends of the axis, in degrees. A negative angle bends to the other side.
         :param towards: The axis towards which the upper end bends. If omitted, the axis after ``axis`` in the order x,
             y, z, x.
+            ``"X"``: The x axis.
+            ``"Y"``: The y axis.
+            ``"Z"``: The z axis.
         :param about: A point on the axis. The coordinate of the point along the axis does not matter.
         :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
             of the mesh.
         :param to: The coordinate along the axis at which the deformation is complete. If omitted, the highest
-            coordinate of the mesh. Must not be less than ``from``.
-        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
+            coordinate of the mesh. Must not be less than ``from_``.
+        :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
+            value of ``meshwright.sel``.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Bend', {'axis': axis, 'angle': angle, 'towards': towards, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, on, id)
 
@@ -2071,27 +2294,31 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Rotate vertices around an axis, by an angle that grows along the axis.
+        """Rotates vertices around an axis, by an angle that grows along the axis.
 
-        Rotates vertices around an axis, by an angle that grows along the axis.
-
-        The angle grows linearly from 0 at ``from`` to ``angle`` at ``to``. Below ``from`` and above ``to``, vertices
+        The angle grows linearly from 0 at ``from_`` to ``angle`` at ``to``. Below ``from_`` and above ``to``, vertices
         rotate by the angle of the nearer end. A twist does not change volumes, and a twist by the opposite angle undoes
         it. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
 
         Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
         vertices move, so refine the mesh first if its faces are large.
 
-        In a recipe: ``Twist(axis: Z, angle: 90)``
+        Example: ``scene.twist(axis="Z", angle=90)``, in a recipe ``Twist(axis: Z, angle: 90)``
 
         :param axis: The axis of the rotation.
+            ``"X"``: The x axis.
+            ``"Y"``: The y axis.
+            ``"Z"``: The z axis.
         :param angle: The angle at ``to``, in degrees, counter-clockwise if the axis points to the viewer.
         :param about: A point on the axis. The coordinate of the point along the axis does not matter.
         :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
             of the mesh.
         :param to: The coordinate along the axis at which the deformation is complete. If omitted, the highest
-            coordinate of the mesh. Must not be less than ``from``.
-        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
+            coordinate of the mesh. Must not be less than ``from_``.
+        :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
+            value of ``meshwright.sel``.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Twist', {'axis': axis, 'angle': angle, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, on, id)
 
@@ -2107,27 +2334,31 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Scale vertices around an axis, by a factor that changes along the axis.
+        """Scales vertices towards or away from an axis, by a factor that changes along the axis.
 
-        Scales vertices towards or away from an axis, by a factor that changes along the axis.
-
-        The factor changes linearly from 1 at ``from`` to ``factor`` at ``to``. Below ``from`` and above ``to``, the
+        The factor changes linearly from 1 at ``from_`` to ``factor`` at ``to``. Below ``from_`` and above ``to``, the
         factor of the nearer end applies. Coordinates along the axis do not change. Source: Barr, "Global and Local
         Deformations of Solid Primitives", 1984.
 
         Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
         vertices move, so refine the mesh first if its faces are large.
 
-        In a recipe: ``Taper(axis: Z, factor: 0.5)``
+        Example: ``scene.taper(axis="Z", factor=0.5)``, in a recipe ``Taper(axis: Z, factor: 0.5)``
 
         :param axis: The axis. Points on the axis do not move.
+            ``"X"``: The x axis.
+            ``"Y"``: The y axis.
+            ``"Z"``: The z axis.
         :param factor: The factor at ``to``. More than 0. A factor below 1 makes the upper end narrower.
         :param about: A point on the axis. The coordinate of the point along the axis does not matter.
         :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
             of the mesh.
         :param to: The coordinate along the axis at which the deformation is complete. If omitted, the highest
-            coordinate of the mesh. Must not be less than ``from``.
-        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
+            coordinate of the mesh. Must not be less than ``from_``.
+        :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
+            value of ``meshwright.sel``.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Taper', {'axis': axis, 'factor': factor, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, on, id)
 
@@ -2142,9 +2373,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Deform vertices with a box of control points.
-
-        Deforms vertices with a box of control points.
+        """Deforms vertices with a box of control points.
 
         The box has a grid of ``size`` control points along x, y and z. ``moves`` moves some of them, and the space in
         the box follows smoothly. Each point becomes a sum of the control points with Bernstein polynomials as weights
@@ -2155,14 +2384,18 @@ class SceneOperations:
         Vertices outside the box do not move. Faces, element ids and attributes do not change, so textures stretch with
         the surface. Normals are dropped. Only vertices move, so refine the mesh first if its faces are large.
 
-        In a recipe: ``Lattice(size: (3, 3, 3), moves: [((2, 2, 2), (0.5, 0.5, 0.5))])``
+        Example: ``scene.lattice(size=(3, 3, 3), moves=[((2, 2, 2), (0.5, 0.5, 0.5))])``, in a recipe ``Lattice(size:
+        (3, 3, 3), moves: [((2, 2, 2), (0.5, 0.5, 0.5))])``
 
         :param size: The number of control points along x, y and z, from 2 to 16 each.
         :param moves: The control points that move: their indices along x, y and z, counted from 0, and the offset in
             scene units. A control point that is listed several times moves by the sum of its offsets.
         :param min: The lowest corner of the box. If omitted, the lowest corner of the bounding box of the mesh.
         :param max: The highest corner of the box. If omitted, the highest corner of the bounding box of the mesh.
-        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
+        :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
+            value of ``meshwright.sel``.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Lattice', {'size': size, 'moves': moves, 'min': min, 'max': max, 'vertices': vertices}, on, id)
 
@@ -2177,24 +2410,30 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Move vertices onto the surface of another object.
-
-        Moves vertices onto the surface of another object (shrinkwrap).
+        """Moves vertices onto the surface of another object (shrinkwrap).
 
         Only vertices in ``vertices`` that are not in ``pin`` move. All others keep their exact positions. Without
         ``on``, the step acts on all meshes except the object ``onto``, which does not change. Faces, element ids and
         attributes do not change, so textures stretch with the surface. Normals are dropped.
 
-        Vertices that would move farther than ``distance`` do not move. With ``Normal`` and ``Direction``, vertices
-        whose line misses the surface do not move either. The report counts both kinds of vertices.
+        Vertices that would move farther than ``distance`` do not move. With ``Normal`` and ``choice.Direction``,
+        vertices whose line misses the surface do not move either. The report counts both kinds of vertices.
 
-        In a recipe: ``Project(onto: "scan", distance: 0.1)``
+        Example: ``scene.project(onto="scan", distance=0.1)``, in a recipe ``Project(onto: "scan", distance: 0.1)``
 
         :param onto: The name of the object with the surface.
-        :param along: Where each vertex goes. Defaults to Nearest.
-        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
-        :param pin: Vertices that do not move. If omitted, no vertices.
+        :param along: Where each vertex goes. Defaults to ``"Nearest"``.
+            ``"Nearest"``: To the nearest point of the surface.
+            ``"Normal"``: To the nearest point of the surface on the line through the vertex along its normal, on either
+                side.
+            ``choice.Direction(..)``: To the first point of the surface in this direction.
+        :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
+            value of ``meshwright.sel``.
+        :param pin: Vertices that do not move. If omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
+            value of ``meshwright.sel``.
         :param distance: The largest distance that a vertex moves, in scene units. If omitted, any distance.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Project', {'onto': onto, 'along': along, 'vertices': vertices, 'pin': pin, 'distance': distance}, on, id)
 
@@ -2207,26 +2446,47 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Store a quantity of vertices or faces, such as a curvature or a distance, as an attribute.
+        """Stores a quantity, such as a curvature or a distance, as an attribute of vertices or faces.
 
-        Stores a quantity, such as a curvature or a distance, as an attribute of vertices or faces.
-
-        Later steps can select elements by the attribute with ``Where``, ``Displace`` vertices by it, show it in a
-        ``Picture``, and save it to files. The attribute is not updated when the mesh changes. Positions and other
+        Later steps can select elements by the attribute with ``sel.Where``, ``displace()`` vertices by it, show it in a
+        ``picture()``, and save it to files. The attribute is not updated when the mesh changes. Positions and other
         attributes do not change. Quantities are computed in the space of the mesh, without the transforms of nodes. The
         report states the lowest, the mean and the highest value of each object.
 
         An attribute of the same name is replaced if it has one number for each element of the same kind. Otherwise the
         step fails.
 
-        In a recipe: ``Measure(of: MeanCurvature)``
+        Example: ``scene.measure(of="MeanCurvature")``, in a recipe ``Measure(of: MeanCurvature)``
 
         :param of: The quantity.
+            ``"MeanCurvature"``: The mean curvature at each vertex, in 1 / scene unit: 1 / r on a sphere of radius r, 1
+                / (2 r) on a cylinder, and negative where the surface is concave (Cohen-Steiner, Morvan, 2003).
+            ``"GaussianCurvature"``: The Gaussian curvature at each vertex, in 1 / scene unit²: the angle defect divided
+                by the area of the vertex (Meyer, Desbrun, Schröder, Barr, 2003).
+            ``choice.PrincipalCurvature(..)``: A principal curvature at each vertex, in 1 / scene unit: an eigenvalue of
+                the curvature tensor of Cohen-Steiner and Morvan, 2003.
+            ``"Area"``: The area of each face, in scene units².
+            ``"VertexArea"``: The area of each vertex, in scene units².
+            ``"MinAngle"``: The smallest angle of each face, in degrees.
+            ``"AspectRatio"``: The aspect ratio of each face: 1 for regular polygons, more for others.
+            ``choice.Distance(..)``: The distance from each vertex to the nearest point of another mesh of the scene, in
+                scene units.
+            ``choice.Geodesic(..)``: The distance along the surface from each vertex to the nearest selected vertex, in
+                scene units, by the heat method (Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013; Sharp, Crane,
+                2020).
+            ``"Thickness"``: The thickness of the solid at each vertex, in scene units.
+            ``choice.Occlusion(..)``: The ambient occlusion of each vertex, from 0 (open) to 1 (enclosed), which is the
+                fraction of the rays from the vertex that meet the mesh.
+            ``choice.Winding(..)``: The winding number of another mesh of the scene around each vertex: 1 inside, 0
+                outside, and numbers between 0 and 1 near gaps of the other mesh (Jacobson, Kavan, Sorkine-Hornung,
+                2013; Barill, Dickson, Schmidt, Levin, Jacobson, 2018).
         :param name: The name of the attribute. If omitted, the name of the quantity in lower case, such as
             ``mean_curvature``.
         :param missing: The value for elements at which the quantity is not defined, such as the curvature of a vertex
             without faces. These elements are counted. If omitted, 0 for quantities that can be negative, and -1 for all
             others.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Measure', {'of': of, 'name': name, 'missing': missing}, on, id)
 
@@ -2243,36 +2503,39 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Compute texture coordinates without overlaps.
-
-        Computes texture coordinates without overlaps.
+        """Computes texture coordinates without overlaps.
 
         The surface is cut into charts, which are flattened and packed into a square page. Charts grow from flat regions
-        up to ``max_angle``. They are flattened by least squares conformal maps (Levy and others, 2002) and the as-
-        rigid-as-possible method (Liu and others, 2008), and are cut again where they would overlap themselves or exceed
-        ``max_stretch``. All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays in one
-        chart. Each mesh gets its own page.
+        up to ``max_angle``. They are flattened by least squares conformal maps (Levy and others, 2002) and the
+        as-rigid-as-possible method (Liu and others, 2008), and are cut again where they would overlap themselves or
+        exceed ``max_stretch``. All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays in
+        one chart. Each mesh gets its own page.
 
         The coordinates are written to the corner attribute ``uv``, which is replaced if it exists. Edges at which
         charts meet become its seams. Positions, faces and other attributes do not change, but tangents are removed.
         Zero-area faces have no area in the texture and are counted. A polygon that is bent so far that it overlaps
-        itself is refused as ``WrongPlace``, so triangulate it first. With ``on_refusal: Skip``, its triangles overlap
+        itself is refused as ``WrongPlace``, so triangulate it first. With ``on_refusal="Skip"``, its triangles overlap
         in the texture.
 
-        In a recipe: ``Unwrap(max_angle: 60)``
+        Example: ``scene.unwrap(max_angle=60)``, in a recipe ``Unwrap(max_angle: 60)``
 
-        :param seams: Edges that become borders of charts, for example ``Tagged("seam")`` or ``Sharp(above: 60)``. If
-            omitted, only edges that the algorithm chooses.
+        :param seams: Edges that become borders of charts, for example ``sel.Tagged("seam")`` or
+            ``sel.Sharp(above=60)``. If omitted, only edges that the algorithm chooses. ``"All"``, ``"Boundary"``, or a
+            value of ``meshwright.sel``.
         :param max_angle: The largest angle between the normal of a face and the mean normal of its chart, in degrees.
-            Smaller angles give more charts with less stretch. Defaults to 70.0.
+            Smaller angles give more charts with less stretch. Defaults to ``70.0``.
         :param max_stretch: The largest ratio between the area scale of a triangle and the area scale of its whole
-            chart. Defaults to 4.0.
+            chart. Defaults to ``4.0``.
         :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size;
-            the size determines how large the padding is. Defaults to 1024.
+            the size determines how large the padding is. Defaults to ``1024``.
         :param padding: The number of empty texels around each chart. The distance between two charts is at least twice
             this number. Defaults to 2.
         :param uv: The name of the texture coordinates. Defaults to ``uv``.
-        :param on_refusal: What to do if a polygon overlaps itself in the texture. Defaults to Error.
+        :param on_refusal: What to do if a polygon overlaps itself in the texture. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Unwrap', {'seams': seams, 'max_angle': max_angle, 'max_stretch': max_stretch, 'page': page, 'padding': padding, 'uv': uv, 'on_refusal': on_refusal}, on, id)
 
@@ -2285,9 +2548,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Move and scale charts of texture coordinates into one page.
-
-        Moves, rotates and scales charts of texture coordinates so that they do not overlap and have the same scale.
+        """Moves, rotates and scales charts of texture coordinates so that they do not overlap and have the same scale.
 
         A chart is a set of faces that are connected without seams of the texture coordinates. Afterwards, the area of
         each chart in the texture is proportional to its area on the surface. The shape of each chart does not change,
@@ -2295,13 +2556,15 @@ class SceneOperations:
         chart becomes a point and is counted. Each mesh gets its own page. Tangents are removed, because charts are
         rotated.
 
-        In a recipe: ``PackUvs(page: 2048, padding: 4)``
+        Example: ``scene.pack_uvs(page=2048, padding=4)``, in a recipe ``PackUvs(page: 2048, padding: 4)``
 
         :param uv: The name of the texture coordinates. Defaults to ``uv``.
         :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size;
-            the size determines how large the padding is. Defaults to 1024.
+            the size determines how large the padding is. Defaults to ``1024``.
         :param padding: The number of empty texels around each chart. The distance between two charts is at least twice
             this number. Defaults to 2.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('PackUvs', {'uv': uv, 'page': page, 'padding': padding}, on, id)
 
@@ -2323,35 +2586,69 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Draw the scene into an image file.
-
-        Draws the scene into an image file.
+        """Draws the scene into an image file.
 
         The extension of the file determines the format: ``.png`` for an image or, with ``turntable``, ``.gif`` for an
         animated GIF and ``.apng`` or ``.png`` for an animated PNG. The file is written only if the whole recipe
         succeeds. The scene does not change. Drawing needs no GPU and gives the same bytes on every machine.
 
-        In a recipe: ``Picture(path: "a.png", size: (64, 48), highlight: Edges(Sharp(above: 30)), color_by: (of:
-        Valence), style: (wireframe: ()))``
+        Example: ``scene.picture(path="a.png", size=(64, 48), highlight=sel.Edges(sel.Sharp(above=30)), color_by={"of":
+        "Valence"}, style={"wireframe": {}})``, in a recipe ``Picture(path: "a.png", size: (64, 48), highlight:
+        Edges(Sharp(above: 30)), color_by: (of: Valence), style: (wireframe: ()))``
 
         :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
             without extension, of the file in the recipe parameter ``name``.
         :param size: The width and the height of each view in pixels.
         :param camera: The camera.
+            ``choice.Fit(..)``: Looks from a side, at the distance from which the picture shows the whole scene.
+            ``choice.LookAt(..)``: Looks from one point to another point.
         :param views: Several cameras, which replace ``camera``. The views of the cameras are placed side by side.
         :param columns: The number of views in a row. If omitted, the number of views, but at most 4.
         :param style: The style: shading, lines, background.
-        :param highlight: Elements to highlight in orange, as in ``Edges(Sharp(above: 30))`` or
-            ``Faces(Tagged("top"))``.
+            ``"shading"``: The lighting of surfaces.
+            ``"sharp"``: The minimum angle between the normals of two faces, in degrees, at which the edge between the
+                faces is shaded as sharp. Ignored if the mesh has normals.
+            ``"occlusion"``: The strength of ambient occlusion, which darkens hollows, from 0 (none) to 1.
+            ``"background"``: The background.
+            ``"color"``: The color of all surfaces. If omitted, the colors of the scene.
+            ``"back"``: The color of the back of faces. The back is visible where a mesh is open or inside out.
+            ``"wireframe"``: Draws the edges of meshes, and grids on Bezier patches. Lines that are only a few pixels
+                apart are thinner, so that they do not cover the surface.
+            ``"boundary"``: Draws the boundary edges of meshes.
+            ``"creases"``: Draws crease edges. The width grows with the sharpness, up to twice ``width``.
+            ``"normals"``: Draws vertex normals as short lines. The value is the length of the lines as a fraction of
+                the size of the scene.
+            ``"points"``: Draws dots at all vertices of meshes and all points of polylines. The value is the diameter of
+                the dots in pixels.
+            ``"control_nets"``: Draws the control nets of Bezier patches and the control polygons of curves.
+            ``"ids"``: Labels vertices or faces with their ids. Only small meshes can be labeled.
+            ``"curve_width"``: The width of curves and polylines in pixels.
+        :param highlight: Elements to highlight in orange, as in ``sel.Edges(sel.Sharp(above=30))`` or
+            ``sel.Faces(sel.Tagged("top"))``. ``"All"``, ``"Boundary"``, ``"Isolated"``, ``"SelfIntersecting"``, or a
+            value of ``meshwright.sel``.
         :param highlight_width: The width of highlighted edges and the diameter of highlighted vertices, in pixels. The
             defaults depend on the height of the picture: 2.8 and 7.5 for 240 pixels, 3.4 and 10 for 480, 4 and 13 for
             960, 8 and 26 for 1920. If there are many highlighted vertices, they are drawn smaller. Hidden edges are
             faint, and hidden vertices are rings.
         :param marks: More elements to highlight, each in its color.
+            ``"of"``: The elements.
+            ``"color"``: The color.
+            ``"width"``: The width of edges and the diameter of vertices, in pixels. If omitted, the defaults of
+                ``highlight_width``.
         :param color_by: The quantity to show as colors of the surface.
+            ``"of"``: The numbers.
+            ``"map"``: The color map. If omitted, ``Classes`` for valences, ``Diverging`` for curvatures, else
+                ``Viridis``.
+            ``"range"``: The numbers of the first and the last color, as in ``(0, 60)``. If omitted, the range is chosen
+                from the numbers; for curvatures, without the lowest and the highest 2 %.
+            ``"legend"``: Whether a legend in a corner explains the colors.
         :param turntable: If given, the picture is an animation in which the camera moves once around the scene.
+            ``"frames"``: The number of images.
+            ``"seconds"``: The duration of the turn.
         :param images: The folder of images that are not next to their model, relative to the folder of the recipe. If
             omitted, the folder of the recipe. Missing images are not drawn, and are reported.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Picture', {'path': path, 'size': size, 'camera': camera, 'views': views, 'columns': columns, 'style': style, 'highlight': highlight, 'highlight_width': highlight_width, 'marks': marks, 'color_by': color_by, 'turntable': turntable, 'images': images}, on, id)
 
@@ -2370,9 +2667,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Draw de Casteljau's construction of Bezier curves.
-
-        Draws Bezier curves, and de Casteljau's construction of their points, into an image file.
+        """Draws Bezier curves, and de Casteljau's construction of their points, into an image file.
 
         The figure has a panel for each curve and each ``t``. With ``by_level``, it instead has a panel for each curve,
         each ``t`` and each level. A panel shows the control polygon, every level of de Casteljau's algorithm in a
@@ -2380,22 +2675,25 @@ class SceneOperations:
         determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene
         does not change.
 
-        In a recipe: ``CurveFigure(path: "figure.svg", t: [0.25, 0.5])``
+        Example: ``scene.curve_figure(path="figure.svg", t=[0.25, 0.5])``, in a recipe ``CurveFigure(path: "figure.svg",
+        t: [0.25, 0.5])``
 
         :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
             without extension, of the file in the recipe parameter ``name``.
         :param t: The parameters of the constructed points, from 0 (start) to 1 (end). If empty, only the curves and
             their control polygons are drawn.
         :param by_level: Whether each level of the algorithm has its own panel. If false, one panel shows all levels.
-            Defaults to False.
+            Defaults to ``False``.
         :param before: The name of a curve that shows an earlier state of the other curves. This curve is drawn faintly
             behind the other curves, with arrows to the control points that moved.
-        :param width: The width of the figure in SVG pixels. The font size is 12 to 19 pixels. Defaults to 640.
+        :param width: The width of the figure in SVG pixels. The font size is 12 to 19 pixels. Defaults to ``640``.
         :param columns: The number of panels in a row. If omitted, the number of values of ``t`` (with ``by_level``, the
             number of levels), but at most 4.
-        :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to 2.
-        :param labels: Whether points are labeled with their names. Defaults to True.
-        :param legend: Whether there is a legend below the panels. Defaults to True.
+        :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to ``2``.
+        :param labels: Whether points are labeled with their names. Defaults to ``True``.
+        :param legend: Whether there is a legend below the panels. Defaults to ``True``.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('CurveFigure', {'path': path, 't': t, 'by_level': by_level, 'before': before, 'width': width, 'columns': columns, 'scale': scale, 'labels': labels, 'legend': legend}, on, id)
 
@@ -2409,26 +2707,27 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Draw the half-edges of faces.
-
-        Draws the half-edges of some faces of a mesh into an image file.
+        """Draws the half-edges of some faces of a mesh into an image file.
 
         Each half-edge is an arrow beside its edge, inside its face, with its name. A thin curve leads from the head of
-        the arrow to the next half-edge of the face. The twin of a half-edge is on the other side of the edge. Half-
-        edges on the boundary have no face and are gray. The faces are seen along their mean normal. Faces that face
-        away from the viewer are left out and reported. The extension of the file determines the format: ``.svg`` or
-        ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
+        the arrow to the next half-edge of the face. The twin of a half-edge is on the other side of the edge.
+        Half-edges on the boundary have no face and are gray. The faces are seen along their mean normal. Faces that
+        face away from the viewer are left out and reported. The extension of the file determines the format: ``.svg``
+        or ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
 
-        A name is a letter and the id of the element: ``v`` for vertices, ``h`` for half-edges, ``f`` for faces. Half-
-        edges ``2e`` and ``2e + 1`` belong to edge ``e``.
+        A name is a letter and the id of the element: ``v`` for vertices, ``h`` for half-edges, ``f`` for faces.
+        Half-edges ``2e`` and ``2e + 1`` belong to edge ``e``.
 
-        In a recipe: ``HalfEdgeFigure(path: "figure.svg")``
+        Example: ``scene.half_edge_figure(path="figure.svg")``, in a recipe ``HalfEdgeFigure(path: "figure.svg")``
 
         :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
             without extension, of the file in the recipe parameter ``name``.
-        :param faces: The faces to draw, at most 200. Defaults to All.
-        :param width: The width of the figure in SVG pixels. Defaults to 640.
-        :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to 2.
+        :param faces: The faces to draw, at most 200. Defaults to ``"All"``. ``"All"``, ``"Boundary"``,
+            ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
+        :param width: The width of the figure in SVG pixels. Defaults to ``640``.
+        :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to ``2``.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('HalfEdgeFigure', {'path': path, 'faces': faces, 'width': width, 'scale': scale}, on, id)
 
@@ -2444,24 +2743,27 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Draw the UV layout (the UV charts of a mesh).
-
-        Draws the charts of the texture coordinates of a mesh into an image file.
+        """Draws the charts of the texture coordinates of a mesh into an image file.
 
         The frame is the page of the texture, with u and v from 0 to 1 and v upwards. Thick lines are the borders of
         charts, and thin lines are the other edges. Coordinates outside the page are also drawn. They make the figure
         higher or its scale smaller. The extension of the file determines the format: ``.svg`` or ``.png``. The file is
         written only if the whole recipe succeeds. The scene does not change.
 
-        In a recipe: ``UvPicture(path: "uv.svg")``
+        Example: ``scene.uv_picture(path="uv.svg")``, in a recipe ``UvPicture(path: "uv.svg")``
 
         :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
             without extension, of the file in the recipe parameter ``name``.
         :param uv: The name of the texture coordinates. Defaults to ``uv``.
-        :param fill: What the colors inside charts show. Defaults to Charts.
-        :param edges: Whether edges inside charts are drawn. Defaults to True.
-        :param width: The width of the figure in SVG pixels. Defaults to 640.
-        :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to 2.
+        :param fill: What the colors inside charts show. Defaults to ``"Charts"``.
+            ``"None"``: Nothing.
+            ``"Charts"``: The charts, in eight colors that repeat.
+            ``"Stretch"``: The stretch of angles.
+        :param edges: Whether edges inside charts are drawn. Defaults to ``True``.
+        :param width: The width of the figure in SVG pixels. Defaults to ``640``.
+        :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to ``2``.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('UvPicture', {'path': path, 'uv': uv, 'fill': fill, 'edges': edges, 'width': width, 'scale': scale}, on, id)
 
@@ -2476,18 +2778,16 @@ class MeshOperations:
 
     def save(
         self,
-        path: str | os.PathLike[str] | Arg | Ron,
+        path: str | os.PathLike[str] | Ron,
         *,
-        images: Literal['Embed', 'Copy', 'Keep'] | Arg | Ron | None = None,
-        compress: Literal['Meshopt'] | Arg | Ron | None = None,
-        quantize: Mapping[str, Any] | Arg | Ron | None = None,
-        weight_sets: int | Arg | Ron | None = None,
-        rows: Literal['Vertices', 'Faces', 'Corners'] | Arg | Ron | None = None,
+        images: Literal['Embed', 'Copy', 'Keep'] | Ron | None = None,
+        compress: Literal['Meshopt'] | Ron | None = None,
+        quantize: Mapping[str, Any] | Ron | None = None,
+        weight_sets: int | Ron | None = None,
+        rows: Literal['Vertices', 'Faces', 'Corners'] | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Write objects to a file.
-
-        Writes objects to a file in the output folder.
+        """Writes objects to a file in the output folder.
 
         The extension determines the format: ``.obj``, ``.gltf``, ``.glb``, ``.ply``, ``.stl`` or ``.off`` for meshes,
         ``.bez`` for Bezier patches, ``.bzc`` for a curve, and ``.mws`` for a complete scene without any loss. ``.csv``
@@ -2496,130 +2796,147 @@ class MeshOperations:
         compressed with gzip. Content that the format cannot store is reported. The file is only created when the whole
         recipe has succeeded.
 
-        In a recipe: ``Save(path: "a.obj")``
+        Example: ``mesh.save(path="a.obj")``
 
         :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
             without extension, of the file in the recipe parameter ``name``.
         :param images: What to do with the images of materials. By default, images are embedded in ``.glb`` files. For
             ``.gltf`` and ``.obj``, images in the folder of the source model are copied to the folder of the output
             file. OBJ cannot embed images, so embedded images are also written to files.
+            ``"Embed"``: Store the images in the file or, for ``.gltf``, in its ``.bin`` file.
+            ``"Copy"``: Write the images to files in the folder of the written file.
+            ``"Keep"``: Write only the paths of the images, as in the original model.
         :param compress: How to compress the geometry of ``.glb`` and ``.gltf`` files without loss. If omitted, the
             geometry is not compressed.
+            ``"Meshopt"``: The extension ``EXT_meshopt_compression``.
         :param quantize: The number of bits for each attribute of the geometry in ``.glb`` and ``.gltf`` files. If
-            omitted, numbers are stored as 32-bit floats. ``quantize: ()`` uses the default of each attribute. The
-            report lists the largest errors.
+            omitted, numbers are stored as 32-bit floats. ``quantize={}`` uses the default of each attribute. The report
+            lists the largest errors.
+            ``"position"``: The bits of each coordinate of a position. Positions are rounded to a grid that covers the
+                bounding box of the object and has the same step along all axes. The longest side of the box has 2^bits
+                - 1 steps. Defaults to 16.
+            ``"normal"``: The bits of each of the two numbers that represent a normal or a tangent as a point of an
+                octahedron. Defaults to 8.
+            ``"uv"``: The bits of each texture coordinate. A set with coordinates outside the range from 0 to 1 is not
+                quantized. Defaults to 16.
+            ``"color"``: The bits of each component of a color. Defaults to 8.
         :param weight_sets: For ``.gltf`` and ``.glb``, the number of sets of four joints that are written for each
             vertex of a skinned mesh. If omitted, the number of sets in the file that the mesh comes from, or 1 if it
             does not come from such a file.
         :param rows: For ``.csv``, the elements that the rows list. If omitted, vertices.
+            ``"Vertices"``: Vertices.
+            ``"Faces"``: Faces, at the means of their corners.
+            ``"Corners"``: The corners of the faces, face by face.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Save', {'path': path, 'images': images, 'compress': compress, 'quantize': quantize, 'weight_sets': weight_sets, 'rows': rows}, None, id)
 
     def tessellate(
         self,
         *,
-        segments: int | Arg | Ron | None = None,
-        faces: Literal['Triangles', 'Quads'] | Arg | Ron | None = None,
-        uvs: bool | Arg | Ron | None = None,
-        normals: bool | Arg | Ron | None = None,
+        segments: int | Ron | None = None,
+        faces: Literal['Triangles', 'Quads'] | Ron | None = None,
+        uvs: bool | Ron | None = None,
+        normals: bool | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Turn Bezier patches into a mesh.
-
-        Turns Bezier patches into a mesh.
+        """Turns Bezier patches into a mesh.
 
         Acts on all objects that consist of patches, or on the objects in ``on``. Each object becomes one mesh of the
         same name. Every patch is divided into ``segments`` x ``segments`` cells. The ids of elements follow the order
         of the patches. Patches share no vertices, but if they have the same control points on a common side, the
-        positions of their vertices there are identical bit for bit, so that ``Weld(distance: 0)`` joins them. A side
+        positions of their vertices there are identical bit for bit, so that ``weld(distance=0)`` joins them. A side
         whose points coincide, as at the pole of a teapot's lid, becomes one vertex. Zero-area patches give no faces and
         are counted. The mesh has UVs and normals only if they are requested.
 
-        In a recipe: ``Tessellate(segments: 3)``
+        Example: ``mesh.tessellate(segments=3)``
 
-        :param segments: The number of cells along each side of a patch. Defaults to 8.
-        :param faces: The faces that a cell becomes. Defaults to Triangles.
+        :param segments: The number of cells along each side of a patch. Defaults to ``8``.
+        :param faces: The faces that a cell becomes. Defaults to ``"Triangles"``.
+            ``"Triangles"``: Two triangles, divided by the diagonal from the corner with the lowest u and v.
+            ``"Quads"``: One quad.
         :param uvs: Whether to store the parameters (u, v) of each patch as UVs of corners. Each patch covers the whole
-            square from 0 to 1. Defaults to False.
-        :param normals: Whether to store the exact unit normals of the patches as vertex normals. Defaults to False.
+            square from 0 to 1. Defaults to ``False``.
+        :param normals: Whether to store the exact unit normals of the patches as vertex normals. Defaults to ``False``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Tessellate', {'segments': segments, 'faces': faces, 'uvs': uvs, 'normals': normals}, None, id)
 
     def sample_curve(
         self,
-        segments: int | Arg | Ron,
+        segments: int | Ron,
         *,
         id: str | None = None,
     ) -> Self:
-        """Replace curves with polylines through their points.
-
-        Replaces curves with polylines through their points.
+        """Replaces curves with polylines through their points.
 
         Each curve becomes one polyline with ``segments`` + 1 points in the plane z = 0, at the parameters 0, 1 /
         segments, ... 1. The first and the last point are exactly the end control points.
 
-        In a recipe: ``SampleCurve(segments: 1)``
+        Example: ``mesh.sample_curve(segments=1)``
 
         :param segments: The number of straight segments.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('SampleCurve', {'segments': segments}, None, id)
 
     def curve_levels(
         self,
-        t: float | Arg | Ron,
+        t: float | Ron,
         *,
         id: str | None = None,
     ) -> Self:
-        """Replace curves with the levels of de Casteljau's algorithm.
-
-        Replaces curves with the levels of de Casteljau's algorithm.
+        """Replaces curves with the levels of de Casteljau's algorithm.
 
         A curve with n control points becomes n polylines in the plane z = 0. The first polyline is the control polygon
         with n points. Each of the following polylines has one point less. The last polyline is the point of the curve
         at ``t``.
 
-        In a recipe: ``CurveLevels(t: 0)``
+        Example: ``mesh.curve_levels(t=0)``
 
         :param t: The parameter of the point, from 0 (the start of the curve) to 1 (its end).
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('CurveLevels', {'t': t}, None, id)
 
     def move_control_point(
         self,
-        index: int | Arg | Ron,
-        to: Sequence[float] | NDArray[Any] | Arg | Ron,
+        index: int | Ron,
+        to: Sequence[float] | NDArray[Any] | Ron,
         *,
         id: str | None = None,
     ) -> Self:
-        """Move one control point of curves.
-
-        Moves one control point of curves.
+        """Moves one control point of curves.
 
         The other control points do not move. The point of the curve at a parameter t moves in the same direction as the
         control point. Its distance is the distance of the control point times the value at t of the Bernstein
         polynomial of the control point.
 
-        In a recipe: ``MoveControlPoint(index: 1, to: (2, -3.5))``
+        Example: ``mesh.move_control_point(index=1, to=(2, -3.5))``
 
         :param index: The index of the control point, from 0. Every curve on which the step acts must have a control
             point with this index.
         :param to: The new position: ``(x, y)`` in the plane z = 0, in scene units.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('MoveControlPoint', {'index': index, 'to': to}, None, id)
 
     def transform(
         self,
         *,
-        scale: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
-        rotate: Sequence[Mapping[str, Any]] | NDArray[Any] | Arg | Ron | None = None,
-        move: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
-        about: Literal['Origin', 'Center'] | Choice | Arg | Ron | None = None,
-        space: Literal['Scene', 'Object'] | Arg | Ron | None = None,
+        scale: Sequence[float] | NDArray[Any] | Ron | None = None,
+        rotate: Sequence[Mapping[str, Any]] | NDArray[Any] | Ron | None = None,
+        move: Sequence[float] | NDArray[Any] | Ron | None = None,
+        about: Literal['Origin', 'Center'] | Choice | Ron | None = None,
+        space: Literal['Scene', 'Object'] | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Scale, rotate, move and mirror objects.
-
-        Scales, rotates and moves objects.
+        """Scales, rotates and moves objects.
 
         Points are first scaled, then rotated, then moved. The step changes the points of meshes, patches, curves and
         polylines. If nodes of a glTF file place an object, the step changes the placements of these nodes instead, and
@@ -2633,25 +2950,33 @@ class MeshOperations:
         mirrored patches, u and v are exchanged, so that the outside stays the outside. A mirror drops attributes with
         the rule ``Drop``, as does any step that changes the connectivity.
 
-        In a recipe: ``Transform()``
+        Example: ``mesh.transform(scale=(2, 1, 1), rotate=[{"axis": "Z", "angle": 90}], move=(3, 1, 0))``
 
         :param scale: The scale factors along x, y and z. No factor may be 0; a negative factor mirrors.
         :param rotate: The rotations, applied in order.
+            ``"axis"``: The direction of the axis.
+            ``"angle"``: The angle in degrees, counter-clockwise when the axis points towards the viewer. Multiples of
+                90 are exact.
         :param move: The distances to move along x, y and z, in scene units.
-        :param about: The fixed point of scaling and rotation. Defaults to Origin.
-        :param space: The coordinates in which objects move. Defaults to Scene.
+        :param about: The fixed point of scaling and rotation. Defaults to ``"Origin"``.
+            ``"Origin"``: The origin.
+            ``"Center"``: The center of the bounding box of each object with all its instances.
+            ``choice.Point(..)``: A point with the coordinates x, y, z.
+        :param space: The coordinates in which objects move. Defaults to ``"Scene"``.
+            ``"Scene"``: The space of the scene.
+            ``"Object"``: The space of each object.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Transform', {'scale': scale, 'rotate': rotate, 'move': move, 'about': about, 'space': space}, None, id)
 
     def weld(
         self,
-        distance: float | Arg | Ron,
+        distance: float | Ron,
         *,
         id: str | None = None,
     ) -> Self:
-        """Merge vertices that are close together.
-
-        Merges vertices that are close together, and joins the faces at them.
+        """Merges vertices that are close together, and joins the faces at them.
 
         Vertices at most ``distance`` apart are linked, and vertices that are connected by a chain of links merge into
         one, even if the ends of the chain are farther apart than ``distance``. The merged vertex has the position and
@@ -2666,43 +2991,44 @@ class MeshOperations:
         are counted. For example, a third face at an edge gets a copy of the edge. If no vertices merge, the mesh does
         not change.
 
-        In a recipe: ``Weld(distance: 0)``
+        Example: ``mesh.weld(distance=0)``
 
         :param distance: The largest distance between linked vertices, in scene units. With 0, only vertices at equal
             positions merge.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Weld', {'distance': distance}, None, id)
 
     def reverse(
         self,
         *,
-        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Reverse the orientation of faces.
-
-        Reverses the orientation of faces, so that their other side is the outside.
+        """Reverses the orientation of faces, so that their other side is the outside.
 
         Adjacent faces must have the same orientation, so only whole connected components can be reversed. If a selected
         face shares an edge with a face that is not selected, the step is refused. No vertex moves, and all elements
         keep their ids. The first corner of a face stays first, and the other corners follow in reverse order. Normals
         are negated. Other attributes stay with their elements, and corner values stay with their vertex and face.
 
-        In a recipe: ``Reverse()``
+        Example: ``mesh.reverse()``
 
-        :param faces: The faces to reverse. They must form whole connected components. Defaults to All.
+        :param faces: The faces to reverse. They must form whole connected components. Defaults to ``"All"``. ``"All"``,
+            ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Reverse', {'faces': faces}, None, id)
 
     def triangulate(
         self,
         *,
-        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Cut polygons into triangles.
-
-        Cuts polygons into triangles.
+        """Cuts polygons into triangles.
 
         A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length (the relative
         difference of their squared lengths is at most 1e-12), it is cut along the diagonal at its vertex with the
@@ -2718,25 +3044,26 @@ class MeshOperations:
         The triangles replace their face in the order of the faces and have the values of the face. Vertices and edges
         keep their ids. The corners of the triangles have the values of the corners of the face at the same vertices.
 
-        In a recipe: ``Triangulate()``
+        Example: ``mesh.triangulate()``
 
-        :param faces: The faces to cut. Defaults to All.
+        :param faces: The faces to cut. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a
+            value of ``meshwright.sel``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Triangulate', {'faces': faces}, None, id)
 
     def flip_edges(
         self,
-        edges: Literal['All', 'Boundary'] | Choice | Arg | Ron,
+        edges: Literal['All', 'Boundary'] | Choice | Ron,
         *,
-        until: Literal['Once', 'Delaunay', 'Valence'] | Arg | Ron | None = None,
-        passes: int | Arg | Ron | None = None,
-        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
-        seams: Literal['Refuse', 'Drop'] | Arg | Ron | None = None,
+        until: Literal['Once', 'Delaunay', 'Valence'] | Ron | None = None,
+        passes: int | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
+        seams: Literal['Refuse', 'Drop'] | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Flip edges to the other diagonal of their two triangles.
-
-        Replaces the edge between two triangles with the other diagonal of the two triangles.
+        """Replaces the edge between two triangles with the other diagonal of the two triangles.
 
         Edges are flipped in order of their ids. Each flip is checked against the mesh as edited so far. A flip is
         refused if the edge is on the boundary, if a face beside it is not a triangle, or if the opposite corners of the
@@ -2745,64 +3072,76 @@ class MeshOperations:
         values. Each triangle gets one new corner. The new corner takes the values that the other triangle has at the
         same vertex; all other corners keep their values.
 
-        With ``until: Delaunay`` or ``until: Valence``, an edge is flipped only if the flip improves the mesh. Edges are
-        checked again, pass after pass, until no edge is flipped. Flips with ``until: Delaunay`` or ``until: Valence``
-        neither fold the surface nor create zero-area triangles. If a flip that would improve the mesh is refused, the
-        step does not fail. The edge is left unchanged, and the report counts the refusals by reason. The report also
-        contains the number of passes, and whether the step stopped because ``passes`` was reached.
+        With ``until="Delaunay"`` or ``until="Valence"``, an edge is flipped only if the flip improves the mesh. Edges
+        are checked again, pass after pass, until no edge is flipped. Flips with ``until="Delaunay"`` or
+        ``until="Valence"`` neither fold the surface nor create zero-area triangles. If a flip that would improve the
+        mesh is refused, the step does not fail. The edge is left unchanged, and the report counts the refusals by
+        reason. The report also contains the number of passes, and whether the step stopped because ``passes`` was
+        reached.
 
         On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from
-        ``edges``, for example with ``Flat(below: 30)`` or ``Not(Tagged("keep"))``.
+        ``edges``, for example with ``sel.Flat(below=30)`` or ``sel.Not(sel.Tagged("keep"))``.
 
-        In a recipe: ``FlipEdges(edges: All)``
+        Example: ``mesh.flip_edges(edges="All")``
 
         :param edges: The edges to flip. The edges are selected before the first flip. An edge keeps its id when it is
-            flipped.
-        :param until: Which edges are flipped, and when to stop. Defaults to Once.
+            flipped. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
+        :param until: Which edges are flipped, and when to stop. Defaults to ``"Once"``.
+            ``"Once"``: Flip each edge once.
+            ``"Delaunay"``: Flip edges until no flip reduces the sum of the cotangents of all angles of all triangles.
+            ``"Valence"``: Flip edges until no flip brings the valences of the vertices closer to 6, or to 4 on the
+                boundary.
         :param passes: The largest number of passes over the edges. Ignored for ``Once``, which makes one pass. Defaults
-            to 100.
-        :param on_refusal: What to do when a flip is refused. Only for ``Once``. Defaults to Error.
-        :param seams: What to do at seams. Defaults to Refuse.
+            to ``100``.
+        :param on_refusal: What to do when a flip is refused. Only for ``Once``. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param seams: What to do at seams. Defaults to ``"Refuse"``.
+            ``"Refuse"``: Refuse the edit.
+            ``"Drop"``: Edit anyway.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('FlipEdges', {'edges': edges, 'until': until, 'passes': passes, 'on_refusal': on_refusal, 'seams': seams}, None, id)
 
     def split_edges(
         self,
-        edges: Literal['All', 'Boundary'] | Choice | Arg | Ron,
+        edges: Literal['All', 'Boundary'] | Choice | Ron,
         *,
-        at: float | Arg | Ron | None = None,
-        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        at: float | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Insert a vertex on each edge and join it to the opposite corners.
-
-        Inserts a vertex on each edge and joins it to the opposite corners of the triangles beside the edge.
+        """Inserts a vertex on each edge and joins it to the opposite corners of the triangles beside the edge.
 
         In a mesh of triangles, a split adds 1 vertex, 3 edges and 2 faces, or 1 vertex, 2 edges and 1 face on the
         boundary. A face with more than three corners only gains the new vertex as a corner. Edges are split in order of
         their ids; new edges are not split again. New vertices get the highest ids, in the order of the splits. Values
         at the new vertex and its corners are interpolated between the ends, on each side of a seam separately.
 
-        In a recipe: ``SplitEdges(edges: All)``
+        Example: ``mesh.split_edges(edges="All")``
 
-        :param edges: The edges to split.
-        :param at: The position of the new vertex on the edge. From 0 to 1, exclusive. If ``edges`` is ``Between(v,
-            w)``, 0 is at v and 1 is at w. Otherwise 0 is at the end with the lower id. Defaults to 0.5.
-        :param on_refusal: What to do when a split is refused. Defaults to Error.
+        :param edges: The edges to split. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
+        :param at: The position of the new vertex on the edge. From 0 to 1, exclusive. If ``edges`` is
+            ``sel.Between("v", "w")``, 0 is at v and 1 is at w. Otherwise 0 is at the end with the lower id. Defaults to
+            ``0.5``.
+        :param on_refusal: What to do when a split is refused. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('SplitEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, None, id)
 
     def collapse_edges(
         self,
-        edges: Literal['All', 'Boundary'] | Choice | Arg | Ron,
+        edges: Literal['All', 'Boundary'] | Choice | Ron,
         *,
-        at: float | Arg | Ron | None = None,
-        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        at: float | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Collapse edges to points.
-
-        Collapses edges, so that the two ends of each edge become one vertex.
+        """Collapses edges, so that the two ends of each edge become one vertex.
 
         In a mesh of triangles, a collapse removes 1 vertex, 3 edges and 2 faces or, on the boundary, 1 vertex, 2 edges
         and 1 face. A face with more than three corners beside the edge only loses a corner. Of the two ends, the vertex
@@ -2811,68 +3150,76 @@ class MeshOperations:
 
         A collapse is refused if it would change the topology of the surface or make elements coincide:
 
-        - ``JoinsBoundaries``: an edge inside the surface joins two boundary vertices. - ``Link``: the ends have a
-        common neighbor that is not a corner of a triangle beside the edge, for example on a tube with three sides or at
-        a hole with three edges. - ``DuplicateEdge``: a second edge joins the ends. - ``RepeatedVertex``: both ends are
-        also corners of a face that is not beside the edge. - ``Vanishes``: the mesh around the edge is a tetrahedron or
-        a single triangle. - ``SameFace``: the same face is on both sides of the edge. - ``SameOpposite``: the two
-        triangles beside the edge share another edge.
+        - ``JoinsBoundaries``: an edge inside the surface joins two boundary vertices.
+        - ``Link``: the ends have a common neighbor that is not a corner of a triangle beside the edge, for example on a
+          tube with three sides or at a hole with three edges.
+        - ``DuplicateEdge``: a second edge joins the ends.
+        - ``RepeatedVertex``: both ends are also corners of a face that is not beside the edge.
+        - ``Vanishes``: the mesh around the edge is a tetrahedron or a single triangle.
+        - ``SameFace``: the same face is on both sides of the edge.
+        - ``SameOpposite``: the two triangles beside the edge share another edge.
 
         Values at the remaining vertex and its corners are interpolated between the ends, on each side of a seam
         separately. When two edges become one, the remaining edge has the larger of the two creases, and the tags of
         both. Normals are dropped.
 
-        In a recipe: ``CollapseEdges(edges: All, on_refusal: Skip)``
+        Example: ``mesh.collapse_edges(edges="All", on_refusal="Skip")``
 
-        :param edges: The edges to collapse.
-        :param at: The position of the remaining vertex on the edge, from 0 to 1. If ``edges`` is ``Between(v, w)``, 0
-            is at v and 1 is at w. Otherwise 0 is at the end with the lower id. Defaults to 0.5.
-        :param on_refusal: What to do when a collapse is refused. Defaults to Error.
+        :param edges: The edges to collapse. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
+        :param at: The position of the remaining vertex on the edge, from 0 to 1. If ``edges`` is ``sel.Between("v",
+            "w")``, 0 is at v and 1 is at w. Otherwise 0 is at the end with the lower id. Defaults to ``0.5``.
+        :param on_refusal: What to do when a collapse is refused. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('CollapseEdges', {'edges': edges, 'at': at, 'on_refusal': on_refusal}, None, id)
 
     def dissolve_edges(
         self,
-        edges: Literal['All', 'Boundary'] | Choice | Arg | Ron,
+        edges: Literal['All', 'Boundary'] | Choice | Ron,
         *,
-        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
-        seams: Literal['Refuse', 'Drop'] | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
+        seams: Literal['Refuse', 'Drop'] | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Remove edges and merge the faces beside them.
-
-        Removes edges and merges the faces beside them.
+        """Removes edges and merges the faces beside them.
 
         Edges are removed in order of their ids. Each removal is checked against the mesh as edited so far. Each removal
         reduces the numbers of edges and faces by 1. Of the two faces beside the edge, the face with the lower id is
         kept, with its values. No vertex is removed or moved. To remove vertices that are left with two edges, use
-        ``DissolveVertices(vertices: Valence(2))`` in a later step. The remaining elements keep their order and their
-        values but get new ids.
+        ``dissolve_vertices(vertices=sel.Valence(2))`` in a later step. The remaining elements keep their order and
+        their values but get new ids.
 
         An edge is refused if it is on the boundary, if the same face is on both of its sides, if one of its ends has
         only two edges, or if its two faces have common corners other than its ends. An edge that is a seam is refused
         unless ``seams`` is ``Drop``.
 
-        In a recipe: ``DissolveEdges(edges: Between(0, 1))``
+        Example: ``mesh.dissolve_edges(edges=sel.Between(0, 1))``
 
-        :param edges: The edges to remove.
-        :param on_refusal: What to do when an edge is refused. Defaults to Error.
-        :param seams: What to do at seams. Defaults to Refuse.
+        :param edges: The edges to remove. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
+        :param on_refusal: What to do when an edge is refused. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param seams: What to do at seams. Defaults to ``"Refuse"``.
+            ``"Refuse"``: Refuse the edit.
+            ``"Drop"``: Edit anyway.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('DissolveEdges', {'edges': edges, 'on_refusal': on_refusal, 'seams': seams}, None, id)
 
     def bevel_edges(
         self,
-        edges: Literal['All', 'Boundary'] | Choice | Arg | Ron,
+        edges: Literal['All', 'Boundary'] | Choice | Ron,
         *,
-        width: float | Arg | Ron | None = None,
-        fraction: float | Arg | Ron | None = None,
-        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        width: float | Ron | None = None,
+        fraction: float | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Replace edges with faces.
-
-        Replaces edges with faces of constant width.
+        """Replaces edges with faces of constant width.
 
         A selected edge and both of its ends are removed, and a new face replaces the edge. In both faces beside the
         edge, the new face ends at the distance ``width`` from the old edge. Each other edge at an end is cut at this
@@ -2891,27 +3238,29 @@ class MeshOperations:
         An edge is refused if it is on the boundary, if one of its ends has only one other edge and this edge is not
         selected, or if the bevels at both ends of an edge would overlap.
 
-        In a recipe: ``BevelEdges(edges: Between(0, 2), width: 0.25)``
+        Example: ``mesh.bevel_edges(edges=sel.Between(0, 2), width=0.25)``
 
-        :param edges: The edges to bevel.
+        :param edges: The edges to bevel. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
         :param width: The distance between the beveled edge and the new edges in each of its two faces, in scene units.
         :param fraction: The width as a fraction of the length of the shortest edge at the ends of the selected edges.
             Replaces ``width``. From 0 to 1, exclusive.
-        :param on_refusal: What to do when an edge is refused. Defaults to Error.
+        :param on_refusal: What to do when an edge is refused. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('BevelEdges', {'edges': edges, 'width': width, 'fraction': fraction, 'on_refusal': on_refusal}, None, id)
 
     def crease(
         self,
-        sharpness: float | Arg | Ron,
+        sharpness: float | Ron,
         *,
-        edges: Literal['All', 'Boundary'] | Choice | Arg | Ron | None = None,
-        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        edges: Literal['All', 'Boundary'] | Choice | Ron | None = None,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Make edges and vertices sharp for subdivision.
-
-        Makes edges and vertices sharp for subdivision.
+        """Makes edges and vertices sharp for subdivision.
 
         Sets the edge attribute ``crease`` of the selected edges and the vertex attribute ``corner`` of the selected
         vertices to ``sharpness``. Other elements keep their values, or get 0 if the attribute did not exist. Loop and
@@ -2922,26 +3271,28 @@ class MeshOperations:
         At least one of ``edges`` and ``vertices`` must be given. The geometry does not change. The report counts the
         elements whose value changed.
 
-        In a recipe: ``Crease(edges: Sharp(above: 40), sharpness: 2.5)``
+        Example: ``mesh.crease(edges=sel.Sharp(above=40), sharpness=2.5)``
 
-        :param edges: The edges to change. If omitted, no edges.
-        :param vertices: The vertices to change. If omitted, no vertices.
         :param sharpness: The number of levels for which the elements stay sharp, from 0 to 10. With 0, creases are
             removed. With 10, the elements are sharp at every level.
+        :param edges: The edges to change. If omitted, no edges. ``"All"``, ``"Boundary"``, or a value of
+            ``meshwright.sel``.
+        :param vertices: The vertices to change. If omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or
+            a value of ``meshwright.sel``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Crease', {'edges': edges, 'vertices': vertices, 'sharpness': sharpness}, None, id)
 
     def poke_faces(
         self,
         *,
-        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
-        distance: float | Arg | Ron | None = None,
-        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Ron | None = None,
+        distance: float | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Insert a vertex at the center of each face and connect it to the corners.
-
-        Inserts a vertex at the center of each face and connects it to the corners of the face.
+        """Inserts a vertex at the center of each face and connects it to the corners of the face.
 
         A face with n corners becomes n triangles. Each poked face adds 1 vertex, n edges and n - 1 faces. The first
         triangle keeps the id of the face; the other triangles and the new vertices and edges get the highest ids, in
@@ -2953,26 +3304,29 @@ class MeshOperations:
         A face is refused only if the position of the new vertex would not be finite, or if the mesh already has the
         largest supported number of elements.
 
-        In a recipe: ``PokeFaces()``
+        Example: ``mesh.poke_faces()``
 
-        :param faces: The faces to poke. Defaults to All.
+        :param faces: The faces to poke. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a
+            value of ``meshwright.sel``.
         :param distance: The distance of the vertex from the center along the normal of the face, in scene units. A
             negative distance moves the vertex inwards. A zero-area face has no normal, so its vertex is at the center.
-            Defaults to 0.0.
-        :param on_refusal: What to do when a face is refused. Defaults to Error.
+            Defaults to ``0.0``.
+        :param on_refusal: What to do when a face is refused. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('PokeFaces', {'faces': faces, 'distance': distance, 'on_refusal': on_refusal}, None, id)
 
     def split_faces(
         self,
-        between: Sequence[Sequence[int] | NDArray[Any]] | NDArray[Any] | Arg | Ron,
+        between: Sequence[Sequence[int] | NDArray[Any]] | NDArray[Any] | Ron,
         *,
-        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Cut each face in two with an edge between two of its corners.
-
-        Cuts each face in two with an edge between two of its corners.
+        """Cuts each face in two with an edge between two of its corners.
 
         Each pair (v, w) of vertices cuts the face that has both vertices as corners. The new edge joins the two
         vertices. Each cut adds 1 edge and 1 face. Cuts are made in the order of the list, so a face can be cut several
@@ -2983,61 +3337,67 @@ class MeshOperations:
         A cut is refused if the two vertices are the same, if they are already joined by an edge, if no face has both as
         corners, or if several faces have both as corners, because the cut would be ambiguous.
 
-        In a recipe: ``SplitFaces(between: [])``
+        Example: ``mesh.split_faces(between=[])``
 
         :param between: The cuts, as a list of pairs of vertex ids, for example ``[(0, 2), (5, 9)]``.
-        :param on_refusal: What to do when a cut is refused. Defaults to Error.
+        :param on_refusal: What to do when a cut is refused. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('SplitFaces', {'between': between, 'on_refusal': on_refusal}, None, id)
 
     def delete_faces(
         self,
-        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Ron,
         *,
-        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
-        keep_vertices: bool | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
+        keep_vertices: bool | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Delete faces and leave holes.
-
-        Removes faces and leaves holes.
+        """Removes faces and leaves holes.
 
         All faces are removed at once, so their order does not matter. Edges left without a face are removed. Vertices
         that lose their last edge are also removed, unless ``keep_vertices`` is true. Vertices that were isolated before
         the step are kept. The remaining elements keep their order and their values but get new ids. To delete edges or
-        vertices together with their faces, select the faces with ``FacesBeside(edges)`` or ``FacesAround(vertices)``.
+        vertices together with their faces, select the faces with ``sel.FacesBeside("edges")`` or
+        ``sel.FacesAround("vertices")``.
 
         The removal is refused if the remaining faces around a vertex would form separate fans that meet only at that
-        vertex. With ``on_refusal: Skip``, faces are instead removed one by one, in order of their ids, in repeated
+        vertex. With ``on_refusal="Skip"``, faces are instead removed one by one, in order of their ids, in repeated
         passes until no more selected faces can be removed. The selected faces that remain are counted as refused.
 
-        In a recipe: ``DeleteFaces(faces: All)``
+        Example: ``mesh.delete_faces(faces="All")``
 
-        :param faces: The faces to delete.
-        :param on_refusal: What to do when not all faces can be removed. Defaults to Error.
-        :param keep_vertices: Whether to keep vertices that are left without an edge. Defaults to False.
+        :param faces: The faces to delete. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
+            ``meshwright.sel``.
+        :param on_refusal: What to do when not all faces can be removed. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param keep_vertices: Whether to keep vertices that are left without an edge. Defaults to ``False``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('DeleteFaces', {'faces': faces, 'on_refusal': on_refusal, 'keep_vertices': keep_vertices}, None, id)
 
     def extrude_faces(
         self,
-        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron,
-        by: Choice | Arg | Ron,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Ron,
+        by: Choice | Ron,
         *,
-        scale: float | Arg | Ron | None = None,
-        rotate: Sequence[Mapping[str, Any]] | NDArray[Any] | Arg | Ron | None = None,
-        tag: str | Arg | Ron | None = None,
+        scale: float | Ron | None = None,
+        rotate: Sequence[Mapping[str, Any]] | NDArray[Any] | Ron | None = None,
+        tag: str | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Move faces out of the surface and add side faces.
-
-        Moves faces out of the surface and connects them to their old rim with side faces.
+        """Moves faces out of the surface and connects them to their old rim with side faces.
 
         Selected faces that share an edge form a region and move together, with one normal and one center. A region is
         first scaled, then rotated, both about the mean of its vertices, and then moved. Side faces with four corners
         are added along the rim of the region, which consists of the edges with a face of the region on one side only.
         If all faces of an open sheet are extruded, the result is a box that is open where the sheet was. A closed
-        region has no rim and no normal, so its faces only move, and ``by`` must be an ``Offset``.
+        region has no rim and no normal, so its faces only move, and ``by`` must be an ``choice.Offset``.
 
         The faces keep their ids, so the same selection can be extruded again in later steps, for example to grow an arm
         out of a body. Vertices and edges inside a region also keep their ids. The vertices and edges of the old rim do
@@ -3052,28 +3412,34 @@ class MeshOperations:
         of the old ones (creases, tags), and the edges between the old and the new rim have zero values (no crease, no
         tags). Normals are dropped.
 
-        In a recipe: ``ExtrudeFaces(faces: Faces([0]), by: Distance(0.5))``
+        Example: ``mesh.extrude_faces(faces=sel.Faces([0]), by=choice.Distance(0.5))``
 
-        :param faces: The faces to extrude.
+        :param faces: The faces to extrude. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
+            ``meshwright.sel``.
         :param by: The distance or offset by which the faces move.
-        :param scale: The factor by which each region is scaled about its center. More than 0. Defaults to 1.0.
+            ``choice.Distance(..)``: The distance along the normal of each region, in scene units.
+            ``choice.Offset(..)``: The offset along x, y and z, in scene units.
+        :param scale: The factor by which each region is scaled about its center. More than 0. Defaults to ``1.0``.
         :param rotate: Rotations of each region about its center, applied in order.
+            ``"axis"``: The direction of the axis.
+            ``"angle"``: The angle in degrees, counter-clockwise when the axis points towards the viewer. Multiples of
+                90 are exact.
         :param tag: The name of a tag for the moved faces and their side faces. Faces that already have the tag keep it.
             If omitted, no faces are tagged.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('ExtrudeFaces', {'faces': faces, 'by': by, 'scale': scale, 'rotate': rotate, 'tag': tag}, None, id)
 
     def inset_faces(
         self,
-        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron,
-        fraction: float | Arg | Ron,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Ron,
+        fraction: float | Ron,
         *,
-        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Shrink faces and surround each face with a ring of faces.
-
-        Shrinks faces and surrounds each face with a ring of faces.
+        """Shrinks faces and surrounds each face with a ring of faces.
 
         Each face is inset separately, even if selected faces share edges. The inner face keeps the id of the face, and
         existing vertices do not move. A face with n corners adds n vertices, 2 n edges and n faces with four corners.
@@ -3086,31 +3452,34 @@ class MeshOperations:
 
         A face is refused if it is on both sides of one of its edges.
 
-        In a recipe: ``InsetFaces(faces: All, fraction: 0.25)``
+        Example: ``mesh.inset_faces(faces="All", fraction=0.25)``
 
-        :param faces: The faces to inset.
+        :param faces: The faces to inset. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
+            ``meshwright.sel``.
         :param fraction: The position of the corners of the inner face on the lines from the old corners to the center
             of the face. From 0 (the corner) to 1 (the center), exclusive.
-        :param on_refusal: What to do when a face is refused. Defaults to Error.
+        :param on_refusal: What to do when a face is refused. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('InsetFaces', {'faces': faces, 'fraction': fraction, 'on_refusal': on_refusal}, None, id)
 
     def bevel_faces(
         self,
-        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron,
-        fraction: float | Arg | Ron,
-        distance: float | Arg | Ron,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Ron,
+        fraction: float | Ron,
+        distance: float | Ron,
         *,
-        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Shrink and raise faces, and surround each face with a ring of faces.
+        """Shrinks and raises faces, and surrounds each face with a ring of faces.
 
-        Shrinks and raises faces, and surrounds each face with a ring of faces.
-
-        Works like ``InsetFaces``, and also moves the inner face along its normal. Each face is beveled separately, even
-        if selected faces share edges. The inner face keeps the id of the face, and existing vertices do not move. A
-        face with n corners adds n vertices, 2 n edges and n faces with four corners. New vertices and faces get the
+        Works like ``inset_faces()``, and also moves the inner face along its normal. Each face is beveled separately,
+        even if selected faces share edges. The inner face keeps the id of the face, and existing vertices do not move.
+        A face with n corners adds n vertices, 2 n edges and n faces with four corners. New vertices and faces get the
         highest ids: in order of the selected faces, and counter-clockwise around each face from its first corner. A
         zero-area face has no normal, so its inner face is not raised.
 
@@ -3120,28 +3489,31 @@ class MeshOperations:
 
         A face is refused if it is on both sides of one of its edges.
 
-        In a recipe: ``BevelFaces(faces: All, fraction: 0.25, distance: 0.5)``
+        Example: ``mesh.bevel_faces(faces="All", fraction=0.25, distance=0.5)``
 
-        :param faces: The faces to bevel.
+        :param faces: The faces to bevel. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
+            ``meshwright.sel``.
         :param fraction: The position of the corners of the inner face on the lines from the old corners to the center
             of the face. From 0 (the corner) to 1 (the center), exclusive.
         :param distance: The distance by which the inner face moves along its normal, in scene units. A negative
             distance moves the inner face inwards.
-        :param on_refusal: What to do when a face is refused. Defaults to Error.
+        :param on_refusal: What to do when a face is refused. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('BevelFaces', {'faces': faces, 'fraction': fraction, 'distance': distance, 'on_refusal': on_refusal}, None, id)
 
     def dissolve_vertices(
         self,
-        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Ron,
         *,
-        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
-        seams: Literal['Refuse', 'Drop'] | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
+        seams: Literal['Refuse', 'Drop'] | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Remove vertices and merge the faces around them.
-
-        Removes vertices and merges the faces around them.
+        """Removes vertices and merges the faces around them.
 
         Vertices are removed in order of their ids. Each removal is checked against the mesh as edited so far. All faces
         around the vertex become one face, which has the id and the values of the face with the lowest id. If the vertex
@@ -3154,25 +3526,30 @@ class MeshOperations:
         inside a face, if a face would contain a vertex twice or have fewer than three corners, or if an edge would join
         two vertices that are already joined. At a seam, a vertex is refused unless ``seams`` is ``Drop``.
 
-        In a recipe: ``DissolveVertices(vertices: Vertices([1]))``
+        Example: ``mesh.dissolve_vertices(vertices=sel.Vertices([1]))``
 
-        :param vertices: The vertices to remove.
-        :param on_refusal: What to do when a vertex is refused. Defaults to Error.
-        :param seams: What to do at seams. Defaults to Refuse.
+        :param vertices: The vertices to remove. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of
+            ``meshwright.sel``.
+        :param on_refusal: What to do when a vertex is refused. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param seams: What to do at seams. Defaults to ``"Refuse"``.
+            ``"Refuse"``: Refuse the edit.
+            ``"Drop"``: Edit anyway.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('DissolveVertices', {'vertices': vertices, 'on_refusal': on_refusal, 'seams': seams}, None, id)
 
     def bevel_vertices(
         self,
-        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron,
-        fraction: float | Arg | Ron,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Ron,
+        fraction: float | Ron,
         *,
-        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Replace vertices with faces.
-
-        Replaces vertices with faces.
+        """Replaces vertices with faces.
 
         Each edge at a selected vertex is cut at a fraction of the length that it had before the step, and a new face
         joins the cuts. The new face has as many corners as the vertex had edges. If both ends of an edge are selected,
@@ -3189,70 +3566,76 @@ class MeshOperations:
         A vertex is refused if it is on the boundary, if it has fewer than three edges, or if one of its edges is too
         short after earlier cuts.
 
-        In a recipe: ``BevelVertices(vertices: All, fraction: 0.25)``
+        Example: ``mesh.bevel_vertices(vertices="All", fraction=0.25)``
 
-        :param vertices: The vertices to bevel.
+        :param vertices: The vertices to bevel. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of
+            ``meshwright.sel``.
         :param fraction: The distance of the cuts from the vertex, as a fraction of the edge length. From 0 to 1,
             exclusive.
-        :param on_refusal: What to do when a vertex is refused. Defaults to Error.
+        :param on_refusal: What to do when a vertex is refused. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('BevelVertices', {'vertices': vertices, 'fraction': fraction, 'on_refusal': on_refusal}, None, id)
 
     def vertex_normals(
         self,
         *,
-        weight: Literal['Area', 'Angle', 'Uniform'] | Arg | Ron | None = None,
+        weight: Literal['Area', 'Angle', 'Uniform'] | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Compute a unit normal for every vertex from the faces around it.
-
-        Computes a unit normal for every vertex, from the faces around it.
+        """Computes a unit normal for every vertex, from the faces around it.
 
         The normals are written to the vertex attribute ``normal``, which is replaced if it exists. Corner normals are
         removed, because they would contradict the vertex normals. A vertex that has no faces, or whose face normals
         cancel each other out, gets the zero vector and is counted.
 
-        In a recipe: ``VertexNormals()``
+        Example: ``mesh.vertex_normals()``
 
-        :param weight: The weights of the faces around a vertex. Defaults to Area.
+        :param weight: The weights of the faces around a vertex. Defaults to ``"Area"``.
+            ``"Area"``: The area of the face.
+            ``"Angle"``: The angle of the face at the vertex, at most 180 degrees.
+            ``"Uniform"``: The same weight for all faces.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change. Its ``attributes["normal"]`` has the normals.
         """
         return self._apply('VertexNormals', {'weight': weight}, None, id)
 
     def tangents(
         self,
         *,
-        uv: str | Arg | Ron | None = None,
+        uv: str | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Compute tangents of corners for normal maps.
+        """Computes tangents for normal maps with the ``MikkTSpace`` algorithm, which many other tools also use.
 
-        Computes tangents for normal maps with the ``MikkTSpace`` algorithm, which many other tools also use.
-
-        The mesh needs texture coordinates and normals, such as the normals that ``VertexNormals`` computes. The
+        The mesh needs texture coordinates and normals, such as the normals that ``vertex_normals()`` computes. The
         tangents are written to the corner attribute ``tangent``, which is replaced if it exists. A tangent is a unit
         vector perpendicular to the normal, followed by the sign of the bitangent as the fourth number. ``.glb`` and
         ``.gltf`` files store the attribute as ``TANGENT``. Polygons are triangulated in the same way as for ``.glb``
         and ``.gltf`` files. Steps that change the shape or the faces remove the tangents. Corners at which the texture
         coordinates define no direction get an arbitrary tangent and are counted.
 
-        In a recipe: ``Tangents()``
+        Example: ``mesh.tangents()``
 
         :param uv: The name of the texture coordinates of the normal map. Defaults to ``uv``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Tangents', {'uv': uv}, None, id)
 
     def fill_holes(
         self,
         *,
-        around: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
-        max_edges: int | Arg | Ron | None = None,
-        with_: Literal['Triangles', 'Face'] | Arg | Ron | None = None,
-        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        around: Literal['All', 'Boundary', 'Isolated'] | Choice | Ron | None = None,
+        max_edges: int | Ron | None = None,
+        with_: Literal['Triangles', 'Face'] | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Fill holes with a face or with triangles.
-
-        Covers holes with faces.
+        """Covers holes with faces.
 
         A hole is a boundary loop: a loop of edges with a face on one side only. The outer rim of an open sheet is also
         a boundary loop; use ``around`` or ``max_edges`` to exclude it. No vertices are added, and existing elements
@@ -3262,35 +3645,40 @@ class MeshOperations:
         off one corner after the other, in each case the corner whose two neighbors are closest to each other. If the
         hole is far from convex, the triangles may overlap. Two vertices that are already joined by an edge are not
         joined again. If a hole cannot be filled without a second edge between them, it is refused (``DuplicateEdge``).
-        A hole with two edges is also refused (``WrongPlace``); ``Stitch`` closes it.
+        A hole with two edges is also refused (``WrongPlace``); ``stitch()`` closes it.
 
         New faces have the values of a face beside the hole. New corners have the values of the corner at the same
         vertex in the adjacent face. Normals are dropped if a hole was filled.
 
-        In a recipe: ``FillHoles()``
+        Example: ``mesh.fill_holes()``
 
-        :param around: Fill only holes with at least one of these vertices. Defaults to All.
+        :param around: Fill only holes with at least one of these vertices. Defaults to ``"All"``. ``"All"``,
+            ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
         :param max_edges: Fill only holes with at most this number of edges. If omitted, holes of any size.
-        :param with_: The faces that cover a hole. Defaults to Triangles.
-        :param on_refusal: What to do when a hole is refused. Defaults to Error.
+        :param with_: The faces that cover a hole. Defaults to ``"Triangles"``.
+            ``"Triangles"``: Triangles with the smallest total area.
+            ``"Face"``: One face with all vertices of the hole as corners.
+        :param on_refusal: What to do when a hole is refused. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('FillHoles', {'around': around, 'max_edges': max_edges, 'with': with_, 'on_refusal': on_refusal}, None, id)
 
     def bridge_loops(
         self,
-        first: int | Arg | Ron,
-        second: int | Arg | Ron,
+        first: int | Ron,
+        second: int | Ron,
         *,
         id: str | None = None,
     ) -> Self:
-        """Join two holes with a band of faces.
-
-        Joins two holes with a band of faces.
+        """Joins two holes with a band of faces.
 
         Each hole is identified by one of its vertices. An edge joins the two vertices, and the band goes around both
         holes from this edge. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and n - m
         evenly spread triangles. The step adds n edges and no vertices. The holes may be in one part of the mesh, which
-        then gets a tunnel or a handle, or in two parts of one object. (``Join`` joins two objects into one.)
+        then gets a tunnel or a handle, or in two parts of one object. (``join()`` joins two objects into one.)
 
         New faces have the values of the adjacent faces at the longer hole. New corners have the values of the corners
         at the same vertices in the adjacent faces. Normals are dropped.
@@ -3299,28 +3687,28 @@ class MeshOperations:
         (``WrongPlace``), or if the band would join two vertices that are already joined by an edge (``DuplicateEdge``).
         If the reason is ``DuplicateEdge``, the step may succeed with other vertices.
 
-        In a recipe: ``BridgeLoops(first: 0, second: 5)``
+        Example: ``mesh.bridge_loops(first=0, second=5)``
 
         :param first: The id of a vertex on the first hole.
         :param second: The id of the vertex on the second hole that is joined to ``first``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('BridgeLoops', {'first': first, 'second': second}, None, id)
 
     def stitch(
         self,
-        distance: float | Arg | Ron,
+        distance: float | Ron,
         *,
-        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Join boundary edges that coincide.
-
-        Joins boundary edges that coincide.
+        """Joins boundary edges that coincide.
 
         Two boundary edges coincide if both pairs of corresponding ends are at most ``distance`` apart. Two edges that
         coincide only with each other form a pair. Choose a distance below the lengths of the edges. An edge that
         coincides with several edges is refused (``NonManifold``), and none of the coincident edges are joined. Unlike
-        ``Weld``, this operation never merges vertices inside the surface or vertices whose edges do not coincide.
+        ``weld()``, this operation never merges vertices inside the surface or vertices whose edges do not coincide.
 
         Of each pair of vertices or edges, the one with the lower id keeps its position and its values. The other vertex
         or edge is removed, so the ids of later elements change. Faces and corners do not change, so an edge whose sides
@@ -3330,127 +3718,135 @@ class MeshOperations:
         vertex or a face would contain a vertex twice (``WrongPlace``), or if two edges would join the same vertices
         (``DuplicateEdge``).
 
-        In a recipe: ``Stitch(distance: 0)``
+        Example: ``mesh.stitch(distance=0)``
 
         :param distance: The largest distance between corresponding ends of two edges, in scene units. With 0, only ends
             at equal positions are joined.
-        :param on_refusal: What to do when a pair is refused, or when more than two edges coincide. Defaults to Error.
+        :param on_refusal: What to do when a pair is refused, or when more than two edges coincide. Defaults to
+            ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Stitch', {'distance': distance, 'on_refusal': on_refusal}, None, id)
 
     def cut(
         self,
-        edges: Literal['All', 'Boundary'] | Choice | Arg | Ron,
+        edges: Literal['All', 'Boundary'] | Choice | Ron,
         *,
-        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Open the mesh along edges.
-
-        Opens the mesh along edges.
+        """Opens the mesh along edges.
 
         The edges may form paths, loops and trees. A loop cuts out a piece. Each edge becomes two edges, one for each
         side. If the cuts separate the faces around a vertex into several parts, each part gets a separate copy of the
         vertex. The part with the lowest face id keeps the id of the vertex, and new vertices get the highest ids. Faces
         keep their ids, and no vertex moves. Copies have the values of the originals, and corners keep their values.
-        ``Stitch`` is the inverse.
+        ``stitch()`` is the inverse.
 
         All edges are cut at once. An edge is refused if it is on the boundary (``Boundary``), or if the cut would not
         open the mesh because both ends are inside the mesh and no other cut continues at either end
         (``DuplicateEdge``).
 
-        In a recipe: ``Cut(edges: All)``
+        Example: ``mesh.cut(edges="All")``
 
-        :param edges: The edges to cut.
-        :param on_refusal: What to do when an edge is refused. Defaults to Error.
+        :param edges: The edges to cut. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
+        :param on_refusal: What to do when an edge is refused. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Cut', {'edges': edges, 'on_refusal': on_refusal}, None, id)
 
     def tag_vertices(
         self,
-        name: str | Arg | Ron,
-        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron,
+        name: str | Ron,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Ron,
         *,
         id: str | None = None,
     ) -> Self:
-        """Tag vertices.
-
-        Tags the selected vertices and removes the tag from all other vertices. In later steps, ``Tagged("rim")``
+        """Tags the selected vertices and removes the tag from all other vertices. In later steps, ``sel.Tagged("rim")``
         selects the vertices with the tag ``rim``.
 
         New vertices of later edits are not tagged. An existing tag of the same name is replaced. If an attribute of
         another type has this name, the step fails. The geometry does not change. The report counts the vertices that
         gained or lost the tag.
 
-        In a recipe: ``TagVertices(name: "some", vertices: Boundary)``
+        Example: ``mesh.tag_vertices(name="some", vertices="Boundary")``
 
         :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
-        :param vertices: The vertices to tag. An empty selection gives an empty tag.
+        :param vertices: The vertices to tag. An empty selection gives an empty tag. ``"All"``, ``"Boundary"``,
+            ``"Isolated"``, or a value of ``meshwright.sel``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change. Its ``tag("vertex", name)`` is an array of Booleans.
         """
         return self._apply('TagVertices', {'name': name, 'vertices': vertices}, None, id)
 
     def tag_edges(
         self,
-        name: str | Arg | Ron,
-        edges: Literal['All', 'Boundary'] | Choice | Arg | Ron,
+        name: str | Ron,
+        edges: Literal['All', 'Boundary'] | Choice | Ron,
         *,
         id: str | None = None,
     ) -> Self:
-        """Tag edges.
-
-        Tags the selected edges and removes the tag from all other edges. In later steps, ``Tagged("rim")`` selects the
-        edges with the tag ``rim``.
+        """Tags the selected edges and removes the tag from all other edges. In later steps, ``sel.Tagged("rim")``
+        selects the edges with the tag ``rim``.
 
         When a tagged edge is split or subdivided, its parts are also tagged. An existing tag of the same name is
         replaced. If an attribute of another type has this name, the step fails. The geometry does not change. The
         report counts the edges that gained or lost the tag.
 
-        In a recipe: ``TagEdges(name: "marked", edges: EdgeLoop(Longest(count: 2)))``
+        Example: ``mesh.tag_edges(name="marked", edges=sel.EdgeLoop(sel.Longest(count=2)))``
 
         :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
-        :param edges: The edges to tag. An empty selection gives an empty tag.
+        :param edges: The edges to tag. An empty selection gives an empty tag. ``"All"``, ``"Boundary"``, or a value of
+            ``meshwright.sel``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change. Its ``tag("edge", name)`` is an array of Booleans.
         """
         return self._apply('TagEdges', {'name': name, 'edges': edges}, None, id)
 
     def tag_faces(
         self,
-        name: str | Arg | Ron,
-        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron,
+        name: str | Ron,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Ron,
         *,
         id: str | None = None,
     ) -> Self:
-        """Tag faces.
-
-        Tags the selected faces and removes the tag from all other faces. In later steps, ``Tagged("rim")`` selects the
-        faces with the tag ``rim``.
+        """Tags the selected faces and removes the tag from all other faces. In later steps, ``sel.Tagged("rim")``
+        selects the faces with the tag ``rim``.
 
         When a tagged face is split or subdivided, its parts are also tagged. An existing tag of the same name is
         replaced. If an attribute of another type has this name, the step fails. The geometry does not change. The
         report counts the faces that gained or lost the tag.
 
-        In a recipe: ``TagFaces(name: "some", faces: Facing(direction: (0, 0, 1), within: 45))``
+        Example: ``mesh.tag_faces(name="some", faces=sel.Facing(direction=(0, 0, 1), within=45))``
 
         :param name: The name of the tag. The name must not be empty and must not start or end with whitespace.
-        :param faces: The faces to tag. An empty selection gives an empty tag.
+        :param faces: The faces to tag. An empty selection gives an empty tag. ``"All"``, ``"Boundary"``,
+            ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change. Its ``tag("face", name)`` is an array of Booleans.
         """
         return self._apply('TagFaces', {'name': name, 'faces': faces}, None, id)
 
     def loop_subdivide(
         self,
         *,
-        levels: int | Arg | Ron | None = None,
-        until: Choice | Arg | Ron | None = None,
-        weights: Literal['Warren', 'Loop'] | Arg | Ron | None = None,
-        boundary: Literal['EdgesOnly', 'EdgesAndCorners', 'Fixed'] | Arg | Ron | None = None,
-        creasing: Literal['Uniform', 'Chaikin'] | Arg | Ron | None = None,
-        face_varying: Literal['None', 'CornersOnly', 'CornersPlus1', 'CornersPlus2', 'Boundaries', 'All'] | Arg | Ron | None = None,
-        to_limit: bool | Arg | Ron | None = None,
-        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
+        levels: int | Ron | None = None,
+        until: Choice | Ron | None = None,
+        weights: Literal['Warren', 'Loop'] | Ron | None = None,
+        boundary: Literal['EdgesOnly', 'EdgesAndCorners', 'Fixed'] | Ron | None = None,
+        creasing: Literal['Uniform', 'Chaikin'] | Ron | None = None,
+        face_varying: Literal['None', 'CornersOnly', 'CornersPlus1', 'CornersPlus2', 'Boundaries', 'All'] | Ron | None = None,
+        to_limit: bool | Ron | None = None,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Split every triangle into four and smooth the surface.
-
-        Splits every triangle into four and smooths the surface, for a number of levels.
+        """Splits every triangle into four and smooths the surface, for a number of levels.
 
         A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles, so V -
         E + F does not change. Old vertices keep their ids, the vertex on edge e has the id V + e, edge e becomes edges
@@ -3459,40 +3855,59 @@ class MeshOperations:
         Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values
         are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a triangle copy the values
         of the old edge or triangle. Normals are dropped, because they would be wrong. Edges and vertices that
-        ``Crease`` made sharp stay sharp for as many levels as their sharpness states.
+        ``crease()`` made sharp stay sharp for as many levels as their sharpness states.
 
-        In a recipe: ``LoopSubdivide(levels: 2)``
+        Example: ``mesh.loop_subdivide(levels=2)``
 
         :param levels: The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With
             ``until``, the maximum number of levels, which defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
-        :param weights: The weights at old vertices. Defaults to Warren.
-        :param boundary: How vertices on the boundary move. Defaults to EdgesOnly.
-        :param creasing: How the sharpness of creases decreases from level to level. Defaults to Uniform.
-        :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to All.
+            ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
+            ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
+                than ``below``.
+        :param weights: The weights at old vertices. Defaults to ``"Warren"``.
+            ``"Warren"``: u is 3/16 for n = 3, otherwise 3/(8n).
+            ``"Loop"``: u is (5/8 - (3/8 + cos(2π/n)/4)²)/n, as in Loop's thesis, 1987.
+        :param boundary: How vertices on the boundary move. Defaults to ``"EdgesOnly"``.
+            ``"EdgesOnly"``: The boundary becomes a smooth curve that depends on boundary vertices only.
+            ``"EdgesAndCorners"``: Like ``EdgesOnly``, but vertices with one face stay in place.
+            ``"Fixed"``: Boundary vertices stay in place, and new vertices on the boundary lie in the middle of their
+                edges.
+        :param creasing: How the sharpness of creases decreases from level to level. Defaults to ``"Uniform"``.
+            ``"Uniform"``: The sharpness decreases by 1.
+            ``"Chaikin"``: The sharpness is averaged with the sharpness of the neighboring edges of the crease, then
+                decreases by 1.
+        :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to ``"All"``.
+            ``"None"``: Values are smoothed everywhere.
+            ``"CornersOnly"``: Like ``None_``, but values do not change at a vertex where a piece has a single face.
+            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change where three or more pieces meet.
+            ``"CornersPlus2"``: Like ``CornersPlus1``, but values also do not change at the ends of seams.
+            ``"Boundaries"``: Values are interpolated linearly along seams and boundaries, and smoothed elsewhere.
+            ``"All"``: Values are interpolated linearly everywhere: each new value is a mean of values of one old face.
         :param to_limit: Whether to move the vertices of the last level to the limit surface and to store its normals
-            and tangents. Defaults to False.
+            and tangents. Defaults to ``False``.
         :param faces: The faces to refine. If omitted, all faces. Triangles next to the refined faces are cut in two or
             four, so that no vertex lies inside an edge, and the surface outside the refined faces does not move. For
-            the ids of new elements, see ``subdivision::refine_faces``.
+            the ids of new elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``,
+            ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('LoopSubdivide', {'levels': levels, 'until': until, 'weights': weights, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, None, id)
 
     def catmull_clark(
         self,
         *,
-        levels: int | Arg | Ron | None = None,
-        until: Choice | Arg | Ron | None = None,
-        boundary: Literal['EdgesOnly', 'EdgesAndCorners', 'Fixed'] | Arg | Ron | None = None,
-        creasing: Literal['Uniform', 'Chaikin'] | Arg | Ron | None = None,
-        face_varying: Literal['None', 'CornersOnly', 'CornersPlus1', 'CornersPlus2', 'Boundaries', 'All'] | Arg | Ron | None = None,
-        to_limit: bool | Arg | Ron | None = None,
-        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
+        levels: int | Ron | None = None,
+        until: Choice | Ron | None = None,
+        boundary: Literal['EdgesOnly', 'EdgesAndCorners', 'Fixed'] | Ron | None = None,
+        creasing: Literal['Uniform', 'Chaikin'] | Ron | None = None,
+        face_varying: Literal['None', 'CornersOnly', 'CornersPlus1', 'CornersPlus2', 'Boundaries', 'All'] | Ron | None = None,
+        to_limit: bool | Ron | None = None,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Split every face into quads and smooth the surface.
-
-        Splits every face into quads and smooths the surface, for a number of levels.
+        """Splits every face into quads and smooths the surface, for a number of levels.
 
         A level creates a quad at each corner of each face. A level turns V vertices, E edges and F faces with C corners
         in total into V + E + F vertices, 2 E + C edges and C quads, so V - E + F does not change. Old vertices keep
@@ -3501,40 +3916,57 @@ class MeshOperations:
 
         Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner values
         are smoothed according to ``face_varying``, and seams are kept. Parts of an edge or a face copy the values of
-        the old edge or face. Normals are dropped, because they would be wrong. Edges and vertices that ``Crease`` made
-        sharp stay sharp for as many levels as their sharpness states.
+        the old edge or face. Normals are dropped, because they would be wrong. Edges and vertices that ``crease()``
+        made sharp stay sharp for as many levels as their sharpness states.
 
-        In a recipe: ``CatmullClark(levels: 2)``
+        Example: ``mesh.catmull_clark(levels=2)``
 
         :param levels: The number of levels. Each level replaces every corner of a face with a quad. Defaults to 1. With
             ``until``, the maximum number of levels, which defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
-        :param boundary: How vertices on the boundary move. Defaults to EdgesOnly.
-        :param creasing: How the sharpness of creases decreases from level to level. Defaults to Uniform.
-        :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to All.
+            ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
+            ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
+                than ``below``.
+        :param boundary: How vertices on the boundary move. Defaults to ``"EdgesOnly"``.
+            ``"EdgesOnly"``: The boundary becomes a smooth curve that depends on boundary vertices only.
+            ``"EdgesAndCorners"``: Like ``EdgesOnly``, but vertices with one face stay in place.
+            ``"Fixed"``: Boundary vertices stay in place, and new vertices on the boundary lie in the middle of their
+                edges.
+        :param creasing: How the sharpness of creases decreases from level to level. Defaults to ``"Uniform"``.
+            ``"Uniform"``: The sharpness decreases by 1.
+            ``"Chaikin"``: The sharpness is averaged with the sharpness of the neighboring edges of the crease, then
+                decreases by 1.
+        :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to ``"All"``.
+            ``"None"``: Values are smoothed everywhere.
+            ``"CornersOnly"``: Like ``None_``, but values do not change at a vertex where a piece has a single face.
+            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change where three or more pieces meet.
+            ``"CornersPlus2"``: Like ``CornersPlus1``, but values also do not change at the ends of seams.
+            ``"Boundaries"``: Values are interpolated linearly along seams and boundaries, and smoothed elsewhere.
+            ``"All"``: Values are interpolated linearly everywhere: each new value is a mean of values of one old face.
         :param to_limit: Whether to move the vertices of the last level to the limit surface and to store its normals
-            and tangents. Defaults to False.
+            and tangents. Defaults to ``False``.
         :param faces: The faces to refine. If omitted, all faces. Faces next to the refined faces get the new vertices
             on common edges as corners, and the surface outside the refined faces does not move. For the ids of new
-            elements, see ``subdivision::refine_faces``.
+            elements, see ``subdivision::refine_faces``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value
+            of ``meshwright.sel``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('CatmullClark', {'levels': levels, 'until': until, 'boundary': boundary, 'creasing': creasing, 'face_varying': face_varying, 'to_limit': to_limit, 'faces': faces}, None, id)
 
     def midpoint(
         self,
         *,
-        levels: int | Arg | Ron | None = None,
-        until: Choice | Arg | Ron | None = None,
-        into: Literal['Triangles', 'Quads'] | Arg | Ron | None = None,
-        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
+        levels: int | Ron | None = None,
+        until: Choice | Ron | None = None,
+        into: Literal['Triangles', 'Quads'] | Ron | None = None,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Split every face into smaller faces without moving vertices.
+        """Splits every face into smaller faces without moving vertices, for a number of levels.
 
-        Splits every face into smaller faces without moving vertices, for a number of levels.
-
-        ``into: Triangles`` requires a mesh of triangles. A level turns V vertices, E edges and F triangles into V + E
-        vertices, 2 E + 3 F edges and 4 F triangles. ``into: Quads`` accepts all polygons and creates a quad at each
+        ``into="Triangles"`` requires a mesh of triangles. A level turns V vertices, E edges and F triangles into V + E
+        vertices, 2 E + 3 F edges and 4 F triangles. ``into="Quads"`` accepts all polygons and creates a quad at each
         corner: V vertices, E edges and F faces with C corners in total become V + E + F vertices, 2 E + C edges and C
         quads. Old vertices keep their ids and positions, the vertex on edge e has the id V + e, and edge e becomes
         edges 2e and 2e + 1. Triangle f becomes faces 4f to 4f + 3. The ids of quads follow the order of the faces, and
@@ -3543,28 +3975,35 @@ class MeshOperations:
         Vertex attributes are interpolated. Corner values are interpolated within one old face. Parts of an edge or a
         face copy the values of the old edge or face, including sharpness. Normals are dropped.
 
-        In a recipe: ``Midpoint(levels: 2, into: Quads)``
+        Example: ``mesh.midpoint(levels=2, into="Quads")``
 
         :param levels: The number of levels. Each level multiplies the number of faces by about four. Defaults to 1.
             With ``until``, the maximum number of levels, which defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
-        :param into: How faces are split. Defaults to Triangles.
-        :param faces: The faces to refine. If omitted, all faces. With ``into: Triangles``, triangles next to the
-            refined faces are cut in two or four. With ``into: Quads``, faces next to the refined faces get the new
+            ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
+            ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
+                than ``below``.
+        :param into: How faces are split. Defaults to ``"Triangles"``.
+            ``"Triangles"``: Splits each triangle into four.
+            ``"Quads"``: Splits each face with n corners into n quads around its center.
+        :param faces: The faces to refine. If omitted, all faces. With ``into="Triangles"``, triangles next to the
+            refined faces are cut in two or four. With ``into="Quads"``, faces next to the refined faces get the new
             vertices on common edges as corners. For the ids of new elements, see ``subdivision::refine_faces``.
+            ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Midpoint', {'levels': levels, 'until': until, 'into': into, 'faces': faces}, None, id)
 
     def butterfly(
         self,
         *,
-        levels: int | Arg | Ron | None = None,
-        until: Choice | Arg | Ron | None = None,
+        levels: int | Ron | None = None,
+        until: Choice | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Split every triangle into four and smooth the surface without moving the old vertices.
-
-        Splits every triangle into four and smooths the surface without moving the old vertices, for a number of levels.
+        """Splits every triangle into four and smooths the surface without moving the old vertices, for a number of
+        levels.
 
         A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles, so V -
         E + F does not change. Old vertices keep their ids, the vertex on edge e has the id V + e, edge e becomes edges
@@ -3574,24 +4013,27 @@ class MeshOperations:
         linearly within one old triangle. Parts of an edge or a triangle copy the values of the old edge or triangle.
         Normals are dropped, because they would be wrong. Sharpness has no effect and is copied unchanged.
 
-        In a recipe: ``Butterfly(levels: 1)``
+        Example: ``mesh.butterfly(levels=1)``
 
         :param levels: The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With
             ``until``, the maximum number of levels, which defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
+            ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
+            ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
+                than ``below``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Butterfly', {'levels': levels, 'until': until}, None, id)
 
     def sqrt3(
         self,
         *,
-        levels: int | Arg | Ron | None = None,
-        until: Choice | Arg | Ron | None = None,
+        levels: int | Ron | None = None,
+        until: Choice | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Split every triangle into three, flip the old edges, and smooth the surface.
-
-        Splits every triangle into three, flips the old edges, and smooths the surface, for a number of levels.
+        """Splits every triangle into three, flips the old edges, and smooths the surface, for a number of levels.
 
         A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles. Every
         second level adds one more vertex and one more edge for each boundary edge. V - E + F does not change. Old
@@ -3605,24 +4047,27 @@ class MeshOperations:
         of their old triangle. Parts of a boundary edge copy the values of the edge; other edges have zero values (no
         crease, no tags). Normals are dropped, because they would be wrong.
 
-        In a recipe: ``Sqrt3(levels: 1)``
+        Example: ``mesh.sqrt3(levels=1)``
 
         :param levels: The number of levels. Each level multiplies the number of triangles by three. Defaults to 1. With
             ``until``, the maximum number of levels, which defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
+            ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
+            ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
+                than ``below``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Sqrt3', {'levels': levels, 'until': until}, None, id)
 
     def doo_sabin(
         self,
         *,
-        levels: int | Arg | Ron | None = None,
-        until: Choice | Arg | Ron | None = None,
+        levels: int | Ron | None = None,
+        until: Choice | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Replace every edge and every vertex with a face.
-
-        Replaces every edge and every vertex with a face and shrinks the old faces, for a number of levels.
+        """Replaces every edge and every vertex with a face and shrinks the old faces, for a number of levels.
 
         A level turns a closed mesh with V vertices, E edges and F faces into a mesh with 2 E vertices, 4 E edges and V
         + E + F faces. If the mesh has a boundary, a level creates additional elements along the boundary. V - E + F
@@ -3636,26 +4081,29 @@ class MeshOperations:
         values of an adjacent face. The two edges along an old edge copy its values; other edges have zero values (no
         crease, no tags). Normals are dropped, because they would be wrong.
 
-        In a recipe: ``DooSabin(levels: 1)``
+        Example: ``mesh.doo_sabin(levels=1)``
 
         :param levels: The number of levels. Each level multiplies the number of faces by about four. Defaults to 1.
             With ``until``, the maximum number of levels, which defaults to 16.
         :param until: The condition that ends the subdivision. If omitted, exactly ``levels`` levels are computed.
+            ``choice.EdgeLength(..)``: Stops as soon as all edges are shorter than ``below``.
+            ``choice.LimitDistance(..)``: Stops as soon as the distance of every vertex to its limit position is less
+                than ``below``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('DooSabin', {'levels': levels, 'until': until}, None, id)
 
     def bisect(
         self,
-        normal: Sequence[float] | NDArray[Any] | Arg | Ron,
+        normal: Sequence[float] | NDArray[Any] | Ron,
         *,
-        point: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
-        keep: Literal['Both', 'Front', 'Back'] | Arg | Ron | None = None,
-        tag: str | Arg | Ron | None = None,
+        point: Sequence[float] | NDArray[Any] | Ron | None = None,
+        keep: Literal['Both', 'Front', 'Back'] | Ron | None = None,
+        tag: str | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Cut meshes along a plane.
-
-        Cuts meshes along a plane.
+        """Cuts meshes along a plane.
 
         Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along it.
         A concave face can be cut several times. A vertex is on the plane if its distance from the plane is less than
@@ -3663,66 +4111,71 @@ class MeshOperations:
         id keeps the id of the edge. When a face is cut, the part with the first corner keeps the id of the face. New
         elements get the highest ids. Attributes are interpolated at the crossings, separately on each side of a seam.
 
-        With ``keep: Front`` or ``keep: Back``, the other side of the plane is removed. A face in the plane belongs to
+        With ``keep="Front"`` or ``keep="Back"``, the other side of the plane is removed. A face in the plane belongs to
         the back if its normal points to the front, because the face then closes the solid behind the plane. Vertices
         left without a face are removed. If the remaining faces around a vertex form several fans, each fan gets a
-        separate copy of the vertex. No faces are added to close the cut.
+        separate copy of the vertex. No faces are added to close the cut. ``fill_holes()`` adds them.
 
-        In a recipe: ``Bisect(normal: (0, 0, 1))``
+        Example: ``mesh.bisect(normal=(0, 0, 1))``
 
-        :param point: A point on the plane.
         :param normal: The normal of the plane, which points to the front. The length of the normal does not matter but
             must not be 0.
-        :param keep: The side to keep. Defaults to Both.
+        :param point: A point on the plane.
+        :param keep: The side to keep. Defaults to ``"Both"``.
+            ``"Both"``: Both sides.
+            ``"Front"``: The side that the normal points to.
+            ``"Back"``: The side that the normal points away from.
         :param tag: The name of a tag for the edges on the plane. Edges that already have the tag keep it. If omitted,
             no edges are tagged.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Bisect', {'point': point, 'normal': normal, 'keep': keep, 'tag': tag}, None, id)
 
     def symmetrize(
         self,
-        normal: Sequence[float] | NDArray[Any] | Arg | Ron,
+        normal: Sequence[float] | NDArray[Any] | Ron,
         *,
-        point: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
-        from_: Literal['Front', 'Back'] | Arg | Ron | None = None,
+        point: Sequence[float] | NDArray[Any] | Ron | None = None,
+        from_: Literal['Front', 'Back'] | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Replace one half of a mesh with the mirror image of the other half.
+        """Replaces one half of a mesh with the mirror image of the other half.
 
-        Replaces one half of a mesh with the mirror image of the other half.
-
-        The mesh is cut along a plane, as with ``Bisect``. The half on the side ``from`` is kept and mirrored, and the
-        halves are joined at the plane. Vertices near the plane (see ``Bisect``) are moved exactly onto it, so that the
-        result is symmetric. Faces in the plane are removed, because they would be walls inside the result. Where the
-        surface only touches the plane, the halves are not joined.
+        The mesh is cut along a plane, as with ``bisect()``. The half on the side ``from_`` is kept and mirrored, and
+        the halves are joined at the plane. Vertices near the plane (see ``bisect()``) are moved exactly onto it, so
+        that the result is symmetric. Faces in the plane are removed, because they would be walls inside the result.
+        Where the surface only touches the plane, the halves are not joined.
 
         The elements of the kept half come first, in their old order. The elements of the mirror image follow.
         Attributes are copied, so both halves have the same texture coordinates, tags and weights of joints. Normals and
         tangents are dropped.
 
-        In a recipe: ``Symmetrize(normal: (1, 0, 0))``
+        Example: ``mesh.symmetrize(normal=(1, 0, 0))``
 
-        :param point: A point on the plane.
         :param normal: The normal of the plane, which points to the front. Its length does not matter but must not be 0.
-        :param from_: The half that is kept and mirrored. Defaults to Front.
+        :param point: A point on the plane.
+        :param from_: The half that is kept and mirrored. Defaults to ``"Front"``.
+            ``"Front"``: The side that the normal points to.
+            ``"Back"``: The side that the normal points away from.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Symmetrize', {'point': point, 'normal': normal, 'from': from_}, None, id)
 
     def simplify(
         self,
         *,
-        faces: int | Arg | Ron | None = None,
-        ratio: float | Arg | Ron | None = None,
-        error: float | Arg | Ron | None = None,
-        features: Literal['All', 'Boundary'] | Choice | Arg | Ron | None = None,
-        pin: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
-        intersections: Literal['Allow', 'Refuse'] | Arg | Ron | None = None,
-        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        faces: int | Ron | None = None,
+        ratio: float | Ron | None = None,
+        error: float | Ron | None = None,
+        features: Literal['All', 'Boundary'] | Choice | Ron | None = None,
+        pin: Literal['All', 'Boundary', 'Isolated'] | Choice | Ron | None = None,
+        intersections: Literal['Allow', 'Refuse'] | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Remove triangles, and change the surface as little as possible.
-
-        Removes triangles from meshes, and changes the surface as little as possible.
+        """Removes triangles from meshes, and changes the surface as little as possible.
 
         Edges are collapsed, starting with the edges whose collapse changes the surface least. The change is the mean
         squared distance of the new vertex to the planes of the original triangles that it replaces (Garland, Heckbert,
@@ -3731,19 +4184,21 @@ class MeshOperations:
 
         The following properties are kept:
 
-        - Topology: holes, handles and separate parts stay. - Lines: the boundary, seams of texture coordinates and
-        normals, borders between face tags or materials, edges with a tag or a crease, and ``features``. A line can lose
-        vertices, but its ends, and the vertices where lines meet, keep their exact positions. - Attributes: texture
-        coordinates, normals, colors and other numbers are a part of the change that is kept small (Hoppe, 1999), and
-        new vertices get the values that fit best. Values are never mixed across a line, and no triangle is turned over
-        in the texture. Normals are kept, so that a simplified mesh is shaded like the original. - Vertex tags: vertices
-        with different tags or sharpness are not merged.
+        - Topology: holes, handles and separate parts stay.
+        - Lines: the boundary, seams of texture coordinates and normals, borders between face tags or materials, edges
+          with a tag or a crease, and ``features``. A line can lose vertices, but its ends, and the vertices where lines
+          meet, keep their exact positions.
+        - Attributes: texture coordinates, normals, colors and other numbers are a part of the change that is kept small
+          (Hoppe, 1999), and new vertices get the values that fit best. Values are never mixed across a line, and no
+          triangle is turned over in the texture. Normals are kept, so that a simplified mesh is shaded like the
+          original.
+        - Vertex tags: vertices with different tags or sharpness are not merged.
 
         No triangle is turned over. Remaining elements get new ids, in the order of their old ids. If the number of
         faces cannot be reached and ``error`` is not given, the step is refused as ``Unreached``, and the message states
-        the reasons. With ``on_refusal: Skip``, the result is kept.
+        the reasons. With ``on_refusal="Skip"``, the result is kept.
 
-        In a recipe: ``Simplify(ratio: 0.5)``
+        Example: ``mesh.simplify(ratio=0.5)``
 
         :param faces: The number of faces to reach, for each mesh. The result can have one face fewer. A mesh that
             already has at most this number of faces does not change.
@@ -3751,30 +4206,35 @@ class MeshOperations:
         :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. The
             limit is guaranteed, because the step adds up an upper bound for the distance by which each collapse moves
             the surface. The true distance is therefore usually much smaller. If omitted, there is no limit.
-        :param features: Edges that are treated as lines, for example ``Sharp(above: 30)``. If omitted, only the lines
-            that are always kept.
+        :param features: Edges that are treated as lines, for example ``sel.Sharp(above=30)``. If omitted, only the
+            lines that are always kept. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
         :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
+            ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
         :param intersections: Whether the step may create intersections of faces. They can occur where parts of the
-            surface are close together. Defaults to Allow.
-        :param on_refusal: What to do if the number of faces cannot be reached. Defaults to Error.
+            surface are close together. Defaults to ``"Allow"``.
+            ``"Allow"``: New intersections are allowed, and not detected.
+            ``"Refuse"``: No changed face intersects another face, so a mesh without self-intersections never gets any.
+        :param on_refusal: What to do if the number of faces cannot be reached. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Simplify', {'faces': faces, 'ratio': ratio, 'error': error, 'features': features, 'pin': pin, 'intersections': intersections, 'on_refusal': on_refusal}, None, id)
 
     def remesh(
         self,
         *,
-        length: float | Arg | Ron | None = None,
-        curvature: Mapping[str, Any] | Arg | Ron | None = None,
-        features: Literal['All', 'Boundary'] | Choice | Arg | Ron | None = None,
-        error: float | Arg | Ron | None = None,
-        pin: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
-        passes: int | Arg | Ron | None = None,
-        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        length: float | Ron | None = None,
+        curvature: Mapping[str, Any] | Ron | None = None,
+        features: Literal['All', 'Boundary'] | Choice | Ron | None = None,
+        error: float | Ron | None = None,
+        pin: Literal['All', 'Boundary', 'Isolated'] | Choice | Ron | None = None,
+        passes: int | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Replace all triangles with nearly equilateral triangles of a given size.
-
-        Replaces all triangles with nearly equilateral triangles of a given size, on the same surface.
+        """Replaces all triangles with nearly equilateral triangles of a given size, on the same surface.
 
         Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
         vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target
@@ -3784,90 +4244,108 @@ class MeshOperations:
 
         The following properties are kept:
 
-        - Topology: holes, handles and separate parts stay. - Lines: the boundary, seams of texture coordinates and
-        normals, borders between face tags or materials, edges with a tag or a crease, and ``features``. Vertices on a
-        line slide along it. The ends of lines, the vertices where lines meet, and corners where a line turns by more
-        than 40 degrees keep their exact positions. Other sharp edges are rounded. - Attributes: they come from the same
-        point of the original surface, and are never interpolated across a line. - Vertex tags: a new vertex has a tag
-        if all old vertices around its position had the tag. Tagged vertices without tagged neighbors and vertices with
-        sharpness keep their exact positions.
+        - Topology: holes, handles and separate parts stay.
+        - Lines: the boundary, seams of texture coordinates and normals, borders between face tags or materials, edges
+          with a tag or a crease, and ``features``. Vertices on a line slide along it. The ends of lines, the vertices
+          where lines meet, and corners where a line turns by more than 40 degrees keep their exact positions. Other
+          sharp edges are rounded.
+        - Attributes: they come from the same point of the original surface, and are never interpolated across a line.
+        - Vertex tags: a new vertex has a tag if all old vertices around its position had the tag. Tagged vertices
+          without tagged neighbors and vertices with sharpness keep their exact positions.
 
         Edits that would turn a triangle over are refused. All elements get new ids. If the distance between the result
-        and the original could exceed ``error``, the step is refused as ``Unreached``. With ``on_refusal: Skip``, the
+        and the original could exceed ``error``, the step is refused as ``Unreached``. With ``on_refusal="Skip"``, the
         mesh then does not change.
 
-        In a recipe: ``Remesh(length: 0.5)``
+        Example: ``mesh.remesh(length=0.5)``
 
         :param length: The target length of edges, in scene units.
         :param curvature: Target lengths that follow the curvature, instead of ``length``.
-        :param features: Edges that are treated as lines, for example ``Sharp(above: 30)``. If omitted, only the lines
-            that are always kept.
+            ``"error"``: The intended distance between the surface and the triangles, in scene units. It is not
+                guaranteed. To guarantee a distance, use the parameter ``error`` of the step.
+            ``"min"``: The smallest length, in scene units.
+            ``"max"``: The largest length, in scene units.
+        :param features: Edges that are treated as lines, for example ``sel.Sharp(above=30)``. If omitted, only the
+            lines that are always kept. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
         :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. Edges
             become shorter than the target length where this is necessary. The distance is measured at the end, in both
             directions and for all points. If omitted, there is no limit.
         :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
+            ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
         :param passes: The largest number of passes, from 1 to 1000. The step ends earlier if a pass changes almost
             nothing. Defaults to 10.
         :param on_refusal: What to do if the distance between the result and the original could exceed ``error``.
-            Defaults to Error.
+            Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Remesh', {'length': length, 'curvature': curvature, 'features': features, 'error': error, 'pin': pin, 'passes': passes, 'on_refusal': on_refusal}, None, id)
 
     def smooth(
         self,
-        by: Choice | Arg | Ron,
+        by: Choice | Ron,
         *,
-        passes: int | Arg | Ron | None = None,
-        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
-        pin: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
-        boundary: Literal['Fixed', 'Free'] | Arg | Ron | None = None,
-        keep_volume: bool | Arg | Ron | None = None,
+        passes: int | Ron | None = None,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Ron | None = None,
+        pin: Literal['All', 'Boundary', 'Isolated'] | Choice | Ron | None = None,
+        boundary: Literal['Fixed', 'Free'] | Ron | None = None,
+        keep_volume: bool | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Remove noise by moving vertices.
-
-        Moves vertices so that noise disappears.
+        """Moves vertices so that noise disappears.
 
         Only vertices in ``vertices`` that are not in ``pin`` and have a face move. All other vertices keep their exact
         positions. Faces can have any number of corners, and degenerate faces are allowed. All elements keep their ids.
         Attributes are kept, so textures stretch with the surface, but normals are dropped.
 
-        | ``by`` | use | size | | --- | --- | --- | | ``Laplacian`` | strong smoothing | shrinks | | ``Taubin`` |
-        removing noise | nearly the same | | ``Implicit`` | strong smoothing of dense meshes in one pass | shrinks | |
-        ``Denoise`` | scans of objects with flat sides and sharp edges | nearly the same |
+        - ``choice.Laplacian``: strong smoothing; shrinks.
+        - ``choice.Taubin``: removing noise; nearly the same.
+        - ``choice.Implicit``: strong smoothing of dense meshes in one pass; shrinks.
+        - ``choice.Denoise``: scans of objects with flat sides and sharp edges; nearly the same.
 
         If ``boundary`` is ``Fixed``, vertices on the boundary do not move, so that adjacent objects still fit together.
 
-        In a recipe: ``Smooth(by: Taubin())``
+        Example: ``mesh.smooth(by=choice.Taubin())``
 
         :param by: The method.
-        :param passes: The number of passes. If omitted, 1 for ``Implicit`` and 10 for the other methods. For
-            ``Denoise``, the number of passes over the normals. At most 10000.
-        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
-        :param pin: Vertices that do not move. If omitted, no vertices.
-        :param boundary: How vertices on the boundary move. Defaults to Fixed.
+            ``choice.Laplacian(..)``: Moves each vertex towards the mean of its neighbors.
+            ``choice.Taubin(..)``: Moves each vertex towards the mean of its neighbors, then back by slightly more.
+            ``choice.Implicit(..)``: Moves the surface by mean curvature flow for the given time, in one stable step.
+            ``choice.Denoise(..)``: Filters the normals of the faces, so that similar normals become equal, then moves
+                the vertices to fit the normals.
+        :param passes: The number of passes. If omitted, 1 for ``choice.Implicit`` and 10 for the other methods. For
+            ``choice.Denoise``, the number of passes over the normals. At most 10000.
+        :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
+            value of ``meshwright.sel``.
+        :param pin: Vertices that do not move. If omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
+            value of ``meshwright.sel``.
+        :param boundary: How vertices on the boundary move. Defaults to ``"Fixed"``.
+            ``"Fixed"``: The vertices do not move.
+            ``"Free"``: The boundary is smoothed as curves, so only neighbors along the boundary affect a vertex.
         :param keep_volume: Whether the moved vertices are finally shifted along their normals, all by the same
-            distance, until the mesh has its original volume. The mesh must be closed. Defaults to False.
+            distance, until the mesh has its original volume. The mesh must be closed. Defaults to ``False``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Smooth', {'by': by, 'passes': passes, 'vertices': vertices, 'pin': pin, 'boundary': boundary, 'keep_volume': keep_volume}, None, id)
 
     def transfer(
         self,
-        from_: "Mesh" | str | Arg | Ron,
-        attributes: Sequence[str] | NDArray[Any] | Arg | Ron,
+        from_: "Mesh" | str | Ron,
+        attributes: Sequence[str] | NDArray[Any] | Ron,
         *,
-        within: float | Arg | Ron | None = None,
+        within: float | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Copy attributes from the nearest points of another object.
+        """Copies attributes from the nearest points of another object.
 
-        Copies attributes from the nearest points of another object.
-
-        An attribute of vertices, corners or faces of the object ``from`` becomes an attribute of the same kind. Numbers
-        and vectors of vertices and corners are interpolated inside the face of the nearest point. Whole numbers, tags,
-        and attributes that edits do not interpolate are copied from the nearest corner of this face. Values of faces
-        are copied from this face. An existing attribute with the same type of values is overwritten. Without ``on``,
-        the step acts on all meshes except ``from``.
+        An attribute of vertices, corners or faces of the object ``from_`` becomes an attribute of the same kind.
+        Numbers and vectors of vertices and corners are interpolated inside the face of the nearest point. Whole
+        numbers, tags, and attributes that edits do not interpolate are copied from the nearest corner of this face.
+        Values of faces are copied from this face. An existing attribute with the same type of values is overwritten.
+        Without ``on``, the step acts on all meshes except ``from_``.
 
         All corners of a face take their values from one chart of the source, that is, from faces that are connected
         without crossing a seam of the attribute. The chart is the one nearest to the center of the face, so no triangle
@@ -3876,55 +4354,59 @@ class MeshOperations:
         Elements whose distance from the source exceeds ``within`` keep their values, or get zeros if the attribute is
         new, and are counted. If this applies to a corner of a face, it applies to all corners of the face.
 
-        In a recipe: ``Transfer(from: "scan", attributes: ["uv", "color"], within: 0.01)``
+        Example: ``mesh.transfer(from_=scan, attributes=["uv", "color"], within=0.01)``
 
-        :param from_: The name of the object with the attributes.
+        :param from_: The mesh with the attributes.
         :param attributes: The names of the attributes, for example ``["uv", "color"]``.
         :param within: The largest distance from the source, in scene units. If omitted, any distance.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Transfer', {'from': from_, 'attributes': attributes, 'within': within}, None, id)
 
     def move_vertices(
         self,
-        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron,
-        by: Choice | Arg | Ron,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Ron,
+        by: Choice | Ron,
         *,
-        falloff: float | Arg | Ron | None = None,
+        falloff: float | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Move vertices, and move nearby vertices by a smaller distance.
-
-        Moves vertices.
+        """Moves vertices.
 
         Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped.
 
-        With ``falloff: r``, vertices near the selected vertices also move. At the distance d from the nearest selected
+        With ``falloff="r"``, vertices near the selected vertices also move. At the distance d from the nearest selected
         vertex, the movement is multiplied by the weight (1 - (d/r)²)². The weight is 1 at selected vertices and falls
         smoothly to 0 at the distance r. Distances are measured along straight lines, not along the surface.
 
-        With ``by: Distance(..)``, each vertex moves along its own normal, which is the mean of the normals of its
+        With ``by=choice.Distance(..)``, each vertex moves along its own normal, which is the mean of the normals of its
         faces, weighted by their areas. Vertices without a normal do not move and are counted.
 
-        In a recipe: ``MoveVertices(vertices: Vertices([0]), by: Offset((0, 0, 0.5)))``
+        Example: ``mesh.move_vertices(vertices=sel.Vertices([0]), by=choice.Offset((0, 0, 0.5)))``
 
-        :param vertices: The vertices to move.
+        :param vertices: The vertices to move. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of
+            ``meshwright.sel``.
         :param by: How the vertices move.
+            ``choice.Offset(..)``: By this offset along x, y and z, in scene units.
+            ``choice.Distance(..)``: By this distance along the normal of each vertex, in scene units.
+            ``choice.To(..)``: By the offset that moves the mean of the selected vertices to this point.
         :param falloff: The distance from the selected vertices at which the movement has fallen to 0, in scene units.
             If omitted, only the selected vertices move.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('MoveVertices', {'vertices': vertices, 'by': by, 'falloff': falloff}, None, id)
 
     def displace(
         self,
-        by: Choice | Arg | Ron,
-        distance: float | Arg | Ron,
+        by: Choice | Ron,
+        distance: float | Ron,
         *,
-        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Move vertices along their normals by noise or by an attribute.
-
-        Moves vertices along their normals, by amounts that vary over the surface.
+        """Moves vertices along their normals, by amounts that vary over the surface.
 
         Each vertex moves along its normal by ``distance`` times the value of ``by``. The normal of a vertex is the mean
         of the normals of its faces, weighted by their areas. Vertices without a normal do not move and are counted.
@@ -3933,137 +4415,156 @@ class MeshOperations:
         The values are computed without functions that differ between machines, so the result is identical on all
         machines.
 
-        In a recipe: ``Displace(by: Noise(scale: 0.5, seed: 7), distance: 0.1)``
+        Example: ``mesh.displace(by=choice.Noise(scale=0.5, seed=7), distance=0.1)``
 
         :param by: The values by which ``distance`` is multiplied.
+            ``choice.Noise(..)``: Smooth noise from -1 to 1 (Perlin, "Improving Noise", 2002).
+            ``choice.Random(..)``: A random number from -1 to 1 for each vertex, which depends on the id of the vertex.
+            ``choice.Attribute(..)``: A vertex attribute that holds one number for each vertex.
         :param distance: The distance for the value 1, in scene units. A negative distance moves inwards.
-        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
+        :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
+            value of ``meshwright.sel``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Displace', {'by': by, 'distance': distance, 'vertices': vertices}, None, id)
 
     def bend(
         self,
-        axis: Literal['X', 'Y', 'Z'] | Arg | Ron,
-        angle: float | Arg | Ron,
+        axis: Literal['X', 'Y', 'Z'] | Ron,
+        angle: float | Ron,
         *,
-        towards: Literal['X', 'Y', 'Z'] | Arg | Ron | None = None,
-        about: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
-        from_: float | Arg | Ron | None = None,
-        to: float | Arg | Ron | None = None,
-        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        towards: Literal['X', 'Y', 'Z'] | Ron | None = None,
+        about: Sequence[float] | NDArray[Any] | Ron | None = None,
+        from_: float | Ron | None = None,
+        to: float | Ron | None = None,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Bend a mesh, so that an axis becomes an arc of a circle.
+        """Bends a mesh, so that an axis becomes an arc of a circle.
 
-        Bends a mesh, so that an axis becomes an arc of a circle.
-
-        The plane at ``from`` does not move. Between ``from`` and ``to``, the axis becomes an arc that keeps its length
-        and turns by ``angle`` in total. Vertices beyond ``to`` move rigidly. Vertices between the axis and the center
-        of the circle move closer together, and vertices on the other side of the axis move apart. The distance between
-        the center and the axis is (to - from) / angle, with the angle in radians. Parts of the mesh beyond the center
-        turn inside out. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
+        The plane at ``from_`` does not move. Between ``from_`` and ``to``, the axis becomes an arc that keeps its
+        length and turns by ``angle`` in total. Vertices beyond ``to`` move rigidly. Vertices between the axis and the
+        center of the circle move closer together, and vertices on the other side of the axis move apart. The distance
+        between the center and the axis is (to - from) / angle, with the angle in radians. Parts of the mesh beyond the
+        center turn inside out. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
 
         Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
         vertices move, so refine the mesh first if its faces are large.
 
-        In a recipe: ``Bend(axis: Z, angle: 90)``
+        Example: ``mesh.bend(axis="Z", angle=90)``
 
         :param axis: The axis that becomes an arc.
+            ``"X"``: The x axis.
+            ``"Y"``: The y axis.
+            ``"Z"``: The z axis.
         :param angle: The angle between the ends of the axis, in degrees. A negative angle bends to the other side.
         :param towards: The axis towards which the upper end bends. If omitted, the axis after ``axis`` in the order x,
             y, z, x.
+            ``"X"``: The x axis.
+            ``"Y"``: The y axis.
+            ``"Z"``: The z axis.
         :param about: A point on the axis. The coordinate of the point along the axis does not matter.
         :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
             of the mesh.
         :param to: The coordinate along the axis at which the deformation is complete. If omitted, the highest
-            coordinate of the mesh. Must not be less than ``from``.
-        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
+            coordinate of the mesh. Must not be less than ``from_``.
+        :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
+            value of ``meshwright.sel``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Bend', {'axis': axis, 'angle': angle, 'towards': towards, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, None, id)
 
     def twist(
         self,
-        axis: Literal['X', 'Y', 'Z'] | Arg | Ron,
-        angle: float | Arg | Ron,
+        axis: Literal['X', 'Y', 'Z'] | Ron,
+        angle: float | Ron,
         *,
-        about: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
-        from_: float | Arg | Ron | None = None,
-        to: float | Arg | Ron | None = None,
-        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        about: Sequence[float] | NDArray[Any] | Ron | None = None,
+        from_: float | Ron | None = None,
+        to: float | Ron | None = None,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Rotate vertices around an axis, by an angle that grows along the axis.
+        """Rotates vertices around an axis, by an angle that grows along the axis.
 
-        Rotates vertices around an axis, by an angle that grows along the axis.
-
-        The angle grows linearly from 0 at ``from`` to ``angle`` at ``to``. Below ``from`` and above ``to``, vertices
+        The angle grows linearly from 0 at ``from_`` to ``angle`` at ``to``. Below ``from_`` and above ``to``, vertices
         rotate by the angle of the nearer end. A twist does not change volumes, and a twist by the opposite angle undoes
         it. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
 
         Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
         vertices move, so refine the mesh first if its faces are large.
 
-        In a recipe: ``Twist(axis: Z, angle: 90)``
+        Example: ``mesh.twist(axis="Z", angle=90)``
 
         :param axis: The axis of the rotation.
+            ``"X"``: The x axis.
+            ``"Y"``: The y axis.
+            ``"Z"``: The z axis.
         :param angle: The angle at ``to``, in degrees, counter-clockwise if the axis points to the viewer.
         :param about: A point on the axis. The coordinate of the point along the axis does not matter.
         :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
             of the mesh.
         :param to: The coordinate along the axis at which the deformation is complete. If omitted, the highest
-            coordinate of the mesh. Must not be less than ``from``.
-        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
+            coordinate of the mesh. Must not be less than ``from_``.
+        :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
+            value of ``meshwright.sel``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Twist', {'axis': axis, 'angle': angle, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, None, id)
 
     def taper(
         self,
-        axis: Literal['X', 'Y', 'Z'] | Arg | Ron,
-        factor: float | Arg | Ron,
+        axis: Literal['X', 'Y', 'Z'] | Ron,
+        factor: float | Ron,
         *,
-        about: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
-        from_: float | Arg | Ron | None = None,
-        to: float | Arg | Ron | None = None,
-        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        about: Sequence[float] | NDArray[Any] | Ron | None = None,
+        from_: float | Ron | None = None,
+        to: float | Ron | None = None,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Scale vertices around an axis, by a factor that changes along the axis.
+        """Scales vertices towards or away from an axis, by a factor that changes along the axis.
 
-        Scales vertices towards or away from an axis, by a factor that changes along the axis.
-
-        The factor changes linearly from 1 at ``from`` to ``factor`` at ``to``. Below ``from`` and above ``to``, the
+        The factor changes linearly from 1 at ``from_`` to ``factor`` at ``to``. Below ``from_`` and above ``to``, the
         factor of the nearer end applies. Coordinates along the axis do not change. Source: Barr, "Global and Local
         Deformations of Solid Primitives", 1984.
 
         Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
         vertices move, so refine the mesh first if its faces are large.
 
-        In a recipe: ``Taper(axis: Z, factor: 0.5)``
+        Example: ``mesh.taper(axis="Z", factor=0.5)``
 
         :param axis: The axis. Points on the axis do not move.
+            ``"X"``: The x axis.
+            ``"Y"``: The y axis.
+            ``"Z"``: The z axis.
         :param factor: The factor at ``to``. More than 0. A factor below 1 makes the upper end narrower.
         :param about: A point on the axis. The coordinate of the point along the axis does not matter.
         :param from_: The coordinate along the axis at which the deformation starts. If omitted, the lowest coordinate
             of the mesh.
         :param to: The coordinate along the axis at which the deformation is complete. If omitted, the highest
-            coordinate of the mesh. Must not be less than ``from``.
-        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
+            coordinate of the mesh. Must not be less than ``from_``.
+        :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
+            value of ``meshwright.sel``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Taper', {'axis': axis, 'factor': factor, 'about': about, 'from': from_, 'to': to, 'vertices': vertices}, None, id)
 
     def lattice(
         self,
-        size: Sequence[int] | NDArray[Any] | Arg | Ron,
-        moves: Sequence[Sequence[Sequence[float] | NDArray[Any] | Sequence[int] | NDArray[Any]] | NDArray[Any]] | NDArray[Any] | Arg | Ron,
+        size: Sequence[int] | NDArray[Any] | Ron,
+        moves: Sequence[Sequence[Sequence[float] | NDArray[Any] | Sequence[int] | NDArray[Any]] | NDArray[Any]] | NDArray[Any] | Ron,
         *,
-        min: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
-        max: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
-        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
+        min: Sequence[float] | NDArray[Any] | Ron | None = None,
+        max: Sequence[float] | NDArray[Any] | Ron | None = None,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Deform vertices with a box of control points.
-
-        Deforms vertices with a box of control points.
+        """Deforms vertices with a box of control points.
 
         The box has a grid of ``size`` control points along x, y and z. ``moves`` moves some of them, and the space in
         the box follows smoothly. Each point becomes a sum of the control points with Bernstein polynomials as weights
@@ -4074,135 +4575,168 @@ class MeshOperations:
         Vertices outside the box do not move. Faces, element ids and attributes do not change, so textures stretch with
         the surface. Normals are dropped. Only vertices move, so refine the mesh first if its faces are large.
 
-        In a recipe: ``Lattice(size: (3, 3, 3), moves: [((2, 2, 2), (0.5, 0.5, 0.5))])``
+        Example: ``mesh.lattice(size=(3, 3, 3), moves=[((2, 2, 2), (0.5, 0.5, 0.5))])``
 
         :param size: The number of control points along x, y and z, from 2 to 16 each.
         :param moves: The control points that move: their indices along x, y and z, counted from 0, and the offset in
             scene units. A control point that is listed several times moves by the sum of its offsets.
         :param min: The lowest corner of the box. If omitted, the lowest corner of the bounding box of the mesh.
         :param max: The highest corner of the box. If omitted, the highest corner of the bounding box of the mesh.
-        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
+        :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
+            value of ``meshwright.sel``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Lattice', {'size': size, 'moves': moves, 'min': min, 'max': max, 'vertices': vertices}, None, id)
 
     def project(
         self,
-        onto: "Mesh" | str | Arg | Ron,
+        onto: "Mesh" | str | Ron,
         *,
-        along: Literal['Nearest', 'Normal'] | Choice | Arg | Ron | None = None,
-        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
-        pin: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | Ron | None = None,
-        distance: float | Arg | Ron | None = None,
+        along: Literal['Nearest', 'Normal'] | Choice | Ron | None = None,
+        vertices: Literal['All', 'Boundary', 'Isolated'] | Choice | Ron | None = None,
+        pin: Literal['All', 'Boundary', 'Isolated'] | Choice | Ron | None = None,
+        distance: float | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Move vertices onto the surface of another object.
-
-        Moves vertices onto the surface of another object (shrinkwrap).
+        """Moves vertices onto the surface of another object (shrinkwrap).
 
         Only vertices in ``vertices`` that are not in ``pin`` move. All others keep their exact positions. Without
         ``on``, the step acts on all meshes except the object ``onto``, which does not change. Faces, element ids and
         attributes do not change, so textures stretch with the surface. Normals are dropped.
 
-        Vertices that would move farther than ``distance`` do not move. With ``Normal`` and ``Direction``, vertices
-        whose line misses the surface do not move either. The report counts both kinds of vertices.
+        Vertices that would move farther than ``distance`` do not move. With ``Normal`` and ``choice.Direction``,
+        vertices whose line misses the surface do not move either. The report counts both kinds of vertices.
 
-        In a recipe: ``Project(onto: "scan", distance: 0.1)``
+        Example: ``mesh.project(onto=scan, distance=0.1)``
 
-        :param onto: The name of the object with the surface.
-        :param along: Where each vertex goes. Defaults to Nearest.
-        :param vertices: The vertices to move. If omitted, all vertices. Defaults to All.
-        :param pin: Vertices that do not move. If omitted, no vertices.
+        :param onto: The mesh with the surface.
+        :param along: Where each vertex goes. Defaults to ``"Nearest"``.
+            ``"Nearest"``: To the nearest point of the surface.
+            ``"Normal"``: To the nearest point of the surface on the line through the vertex along its normal, on either
+                side.
+            ``choice.Direction(..)``: To the first point of the surface in this direction.
+        :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
+            value of ``meshwright.sel``.
+        :param pin: Vertices that do not move. If omitted, no vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
+            value of ``meshwright.sel``.
         :param distance: The largest distance that a vertex moves, in scene units. If omitted, any distance.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Project', {'onto': onto, 'along': along, 'vertices': vertices, 'pin': pin, 'distance': distance}, None, id)
 
     def measure(
         self,
-        of: Literal['MeanCurvature', 'GaussianCurvature', 'Area', 'VertexArea', 'MinAngle', 'AspectRatio', 'Thickness'] | Choice | Arg | Ron,
+        of: Literal['MeanCurvature', 'GaussianCurvature', 'Area', 'VertexArea', 'MinAngle', 'AspectRatio', 'Thickness'] | Choice | Ron,
         *,
-        name: str | Arg | Ron | None = None,
-        missing: float | Arg | Ron | None = None,
+        name: str | Ron | None = None,
+        missing: float | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Store a quantity of vertices or faces, such as a curvature or a distance, as an attribute.
+        """Stores a quantity, such as a curvature or a distance, as an attribute of vertices or faces.
 
-        Stores a quantity, such as a curvature or a distance, as an attribute of vertices or faces.
-
-        Later steps can select elements by the attribute with ``Where``, ``Displace`` vertices by it, show it in a
-        ``Picture``, and save it to files. The attribute is not updated when the mesh changes. Positions and other
+        Later steps can select elements by the attribute with ``sel.Where``, ``displace()`` vertices by it, show it in a
+        ``picture()``, and save it to files. The attribute is not updated when the mesh changes. Positions and other
         attributes do not change. Quantities are computed in the space of the mesh, without the transforms of nodes. The
         report states the lowest, the mean and the highest value of each object.
 
         An attribute of the same name is replaced if it has one number for each element of the same kind. Otherwise the
         step fails.
 
-        In a recipe: ``Measure(of: MeanCurvature)``
+        Example: ``mesh.measure(of="MeanCurvature")``
 
         :param of: The quantity.
+            ``"MeanCurvature"``: The mean curvature at each vertex, in 1 / scene unit: 1 / r on a sphere of radius r, 1
+                / (2 r) on a cylinder, and negative where the surface is concave (Cohen-Steiner, Morvan, 2003).
+            ``"GaussianCurvature"``: The Gaussian curvature at each vertex, in 1 / scene unit²: the angle defect divided
+                by the area of the vertex (Meyer, Desbrun, Schröder, Barr, 2003).
+            ``choice.PrincipalCurvature(..)``: A principal curvature at each vertex, in 1 / scene unit: an eigenvalue of
+                the curvature tensor of Cohen-Steiner and Morvan, 2003.
+            ``"Area"``: The area of each face, in scene units².
+            ``"VertexArea"``: The area of each vertex, in scene units².
+            ``"MinAngle"``: The smallest angle of each face, in degrees.
+            ``"AspectRatio"``: The aspect ratio of each face: 1 for regular polygons, more for others.
+            ``choice.Distance(..)``: The distance from each vertex to the nearest point of another mesh of the scene, in
+                scene units.
+            ``choice.Geodesic(..)``: The distance along the surface from each vertex to the nearest selected vertex, in
+                scene units, by the heat method (Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013; Sharp, Crane,
+                2020).
+            ``"Thickness"``: The thickness of the solid at each vertex, in scene units.
+            ``choice.Occlusion(..)``: The ambient occlusion of each vertex, from 0 (open) to 1 (enclosed), which is the
+                fraction of the rays from the vertex that meet the mesh.
+            ``choice.Winding(..)``: The winding number of another mesh of the scene around each vertex: 1 inside, 0
+                outside, and numbers between 0 and 1 near gaps of the other mesh (Jacobson, Kavan, Sorkine-Hornung,
+                2013; Barill, Dickson, Schmidt, Levin, Jacobson, 2018).
         :param name: The name of the attribute. If omitted, the name of the quantity in lower case, such as
             ``mean_curvature``.
         :param missing: The value for elements at which the quantity is not defined, such as the curvature of a vertex
             without faces. These elements are counted. If omitted, 0 for quantities that can be negative, and -1 for all
             others.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change. Its ``attributes["mean_curvature"]``, or another name, has
+            the values as an array.
         """
         return self._apply('Measure', {'of': of, 'name': name, 'missing': missing}, None, id)
 
     def unwrap(
         self,
         *,
-        seams: Literal['All', 'Boundary'] | Choice | Arg | Ron | None = None,
-        max_angle: float | Arg | Ron | None = None,
-        max_stretch: float | Arg | Ron | None = None,
-        page: int | Arg | Ron | None = None,
-        padding: int | Arg | Ron | None = None,
-        uv: str | Arg | Ron | None = None,
-        on_refusal: Literal['Error', 'Skip'] | Arg | Ron | None = None,
+        seams: Literal['All', 'Boundary'] | Choice | Ron | None = None,
+        max_angle: float | Ron | None = None,
+        max_stretch: float | Ron | None = None,
+        page: int | Ron | None = None,
+        padding: int | Ron | None = None,
+        uv: str | Ron | None = None,
+        on_refusal: Literal['Error', 'Skip'] | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Compute texture coordinates without overlaps.
-
-        Computes texture coordinates without overlaps.
+        """Computes texture coordinates without overlaps.
 
         The surface is cut into charts, which are flattened and packed into a square page. Charts grow from flat regions
-        up to ``max_angle``. They are flattened by least squares conformal maps (Levy and others, 2002) and the as-
-        rigid-as-possible method (Liu and others, 2008), and are cut again where they would overlap themselves or exceed
-        ``max_stretch``. All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays in one
-        chart. Each mesh gets its own page.
+        up to ``max_angle``. They are flattened by least squares conformal maps (Levy and others, 2002) and the
+        as-rigid-as-possible method (Liu and others, 2008), and are cut again where they would overlap themselves or
+        exceed ``max_stretch``. All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays in
+        one chart. Each mesh gets its own page.
 
         The coordinates are written to the corner attribute ``uv``, which is replaced if it exists. Edges at which
         charts meet become its seams. Positions, faces and other attributes do not change, but tangents are removed.
         Zero-area faces have no area in the texture and are counted. A polygon that is bent so far that it overlaps
-        itself is refused as ``WrongPlace``, so triangulate it first. With ``on_refusal: Skip``, its triangles overlap
+        itself is refused as ``WrongPlace``, so triangulate it first. With ``on_refusal="Skip"``, its triangles overlap
         in the texture.
 
-        In a recipe: ``Unwrap(max_angle: 60)``
+        Example: ``mesh.unwrap(max_angle=60)``
 
-        :param seams: Edges that become borders of charts, for example ``Tagged("seam")`` or ``Sharp(above: 60)``. If
-            omitted, only edges that the algorithm chooses.
+        :param seams: Edges that become borders of charts, for example ``sel.Tagged("seam")`` or
+            ``sel.Sharp(above=60)``. If omitted, only edges that the algorithm chooses. ``"All"``, ``"Boundary"``, or a
+            value of ``meshwright.sel``.
         :param max_angle: The largest angle between the normal of a face and the mean normal of its chart, in degrees.
-            Smaller angles give more charts with less stretch. Defaults to 70.0.
+            Smaller angles give more charts with less stretch. Defaults to ``70.0``.
         :param max_stretch: The largest ratio between the area scale of a triangle and the area scale of its whole
-            chart. Defaults to 4.0.
+            chart. Defaults to ``4.0``.
         :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size;
-            the size determines how large the padding is. Defaults to 1024.
+            the size determines how large the padding is. Defaults to ``1024``.
         :param padding: The number of empty texels around each chart. The distance between two charts is at least twice
             this number. Defaults to 2.
         :param uv: The name of the texture coordinates. Defaults to ``uv``.
-        :param on_refusal: What to do if a polygon overlaps itself in the texture. Defaults to Error.
+        :param on_refusal: What to do if a polygon overlaps itself in the texture. Defaults to ``"Error"``.
+            ``"Error"``: Fail, and leave the mesh unchanged.
+            ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change. Its ``attributes["uv"]`` has the coordinates of each corner,
+            and ``corners`` its vertex.
         """
         return self._apply('Unwrap', {'seams': seams, 'max_angle': max_angle, 'max_stretch': max_stretch, 'page': page, 'padding': padding, 'uv': uv, 'on_refusal': on_refusal}, None, id)
 
     def pack_uvs(
         self,
         *,
-        uv: str | Arg | Ron | None = None,
-        page: int | Arg | Ron | None = None,
-        padding: int | Arg | Ron | None = None,
+        uv: str | Ron | None = None,
+        page: int | Ron | None = None,
+        padding: int | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Move and scale charts of texture coordinates into one page.
-
-        Moves, rotates and scales charts of texture coordinates so that they do not overlap and have the same scale.
+        """Moves, rotates and scales charts of texture coordinates so that they do not overlap and have the same scale.
 
         A chart is a set of faces that are connected without seams of the texture coordinates. Afterwards, the area of
         each chart in the texture is proportional to its area on the surface. The shape of each chart does not change,
@@ -4210,82 +4744,115 @@ class MeshOperations:
         chart becomes a point and is counted. Each mesh gets its own page. Tangents are removed, because charts are
         rotated.
 
-        In a recipe: ``PackUvs(page: 2048, padding: 4)``
+        Example: ``mesh.pack_uvs(page=2048, padding=4)``
 
         :param uv: The name of the texture coordinates. Defaults to ``uv``.
         :param page: The width and height of the texture, in texels. Texture coordinates are from 0 to 1 for any size;
-            the size determines how large the padding is. Defaults to 1024.
+            the size determines how large the padding is. Defaults to ``1024``.
         :param padding: The number of empty texels around each chart. The distance between two charts is at least twice
             this number. Defaults to 2.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('PackUvs', {'uv': uv, 'page': page, 'padding': padding}, None, id)
 
     def picture(
         self,
-        path: str | os.PathLike[str] | Arg | Ron,
+        path: str | os.PathLike[str] | Ron,
         *,
-        size: Sequence[int] | NDArray[Any] | Arg | Ron | None = None,
-        camera: Choice | Arg | Ron | None = None,
-        views: Sequence[Choice] | NDArray[Any] | Arg | Ron | None = None,
-        columns: int | Arg | Ron | None = None,
-        style: Mapping[str, Any] | Arg | Ron | None = None,
-        highlight: Literal['All', 'Boundary', 'Isolated', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
-        highlight_width: float | Arg | Ron | None = None,
-        marks: Sequence[Mapping[str, Any]] | NDArray[Any] | Arg | Ron | None = None,
-        color_by: Mapping[str, Any] | Arg | Ron | None = None,
-        turntable: Mapping[str, Any] | Arg | Ron | None = None,
-        images: str | Arg | Ron | None = None,
+        size: Sequence[int] | NDArray[Any] | Ron | None = None,
+        camera: Choice | Ron | None = None,
+        views: Sequence[Choice] | NDArray[Any] | Ron | None = None,
+        columns: int | Ron | None = None,
+        style: Mapping[str, Any] | Ron | None = None,
+        highlight: Literal['All', 'Boundary', 'Isolated', 'SelfIntersecting'] | Choice | Ron | None = None,
+        highlight_width: float | Ron | None = None,
+        marks: Sequence[Mapping[str, Any]] | NDArray[Any] | Ron | None = None,
+        color_by: Mapping[str, Any] | Ron | None = None,
+        turntable: Mapping[str, Any] | Ron | None = None,
+        images: str | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Draw the scene into an image file.
-
-        Draws the scene into an image file.
+        """Draws the scene into an image file.
 
         The extension of the file determines the format: ``.png`` for an image or, with ``turntable``, ``.gif`` for an
         animated GIF and ``.apng`` or ``.png`` for an animated PNG. The file is written only if the whole recipe
         succeeds. The scene does not change. Drawing needs no GPU and gives the same bytes on every machine.
 
-        In a recipe: ``Picture(path: "a.png", size: (64, 48), highlight: Edges(Sharp(above: 30)), color_by: (of:
-        Valence), style: (wireframe: ()))``
+        Example: ``mesh.picture(path="a.png", size=(64, 48), highlight=sel.Edges(sel.Sharp(above=30)), color_by={"of":
+        "Valence"}, style={"wireframe": {}})``
 
         :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
             without extension, of the file in the recipe parameter ``name``.
         :param size: The width and the height of each view in pixels.
         :param camera: The camera.
+            ``choice.Fit(..)``: Looks from a side, at the distance from which the picture shows the whole scene.
+            ``choice.LookAt(..)``: Looks from one point to another point.
         :param views: Several cameras, which replace ``camera``. The views of the cameras are placed side by side.
         :param columns: The number of views in a row. If omitted, the number of views, but at most 4.
         :param style: The style: shading, lines, background.
-        :param highlight: Elements to highlight in orange, as in ``Edges(Sharp(above: 30))`` or
-            ``Faces(Tagged("top"))``.
+            ``"shading"``: The lighting of surfaces.
+            ``"sharp"``: The minimum angle between the normals of two faces, in degrees, at which the edge between the
+                faces is shaded as sharp. Ignored if the mesh has normals.
+            ``"occlusion"``: The strength of ambient occlusion, which darkens hollows, from 0 (none) to 1.
+            ``"background"``: The background.
+            ``"color"``: The color of all surfaces. If omitted, the colors of the scene.
+            ``"back"``: The color of the back of faces. The back is visible where a mesh is open or inside out.
+            ``"wireframe"``: Draws the edges of meshes, and grids on Bezier patches. Lines that are only a few pixels
+                apart are thinner, so that they do not cover the surface.
+            ``"boundary"``: Draws the boundary edges of meshes.
+            ``"creases"``: Draws crease edges. The width grows with the sharpness, up to twice ``width``.
+            ``"normals"``: Draws vertex normals as short lines. The value is the length of the lines as a fraction of
+                the size of the scene.
+            ``"points"``: Draws dots at all vertices of meshes and all points of polylines. The value is the diameter of
+                the dots in pixels.
+            ``"control_nets"``: Draws the control nets of Bezier patches and the control polygons of curves.
+            ``"ids"``: Labels vertices or faces with their ids. Only small meshes can be labeled.
+            ``"curve_width"``: The width of curves and polylines in pixels.
+        :param highlight: Elements to highlight in orange, as in ``sel.Edges(sel.Sharp(above=30))`` or
+            ``sel.Faces(sel.Tagged("top"))``. ``"All"``, ``"Boundary"``, ``"Isolated"``, ``"SelfIntersecting"``, or a
+            value of ``meshwright.sel``.
         :param highlight_width: The width of highlighted edges and the diameter of highlighted vertices, in pixels. The
             defaults depend on the height of the picture: 2.8 and 7.5 for 240 pixels, 3.4 and 10 for 480, 4 and 13 for
             960, 8 and 26 for 1920. If there are many highlighted vertices, they are drawn smaller. Hidden edges are
             faint, and hidden vertices are rings.
         :param marks: More elements to highlight, each in its color.
+            ``"of"``: The elements.
+            ``"color"``: The color.
+            ``"width"``: The width of edges and the diameter of vertices, in pixels. If omitted, the defaults of
+                ``highlight_width``.
         :param color_by: The quantity to show as colors of the surface.
+            ``"of"``: The numbers.
+            ``"map"``: The color map. If omitted, ``Classes`` for valences, ``Diverging`` for curvatures, else
+                ``Viridis``.
+            ``"range"``: The numbers of the first and the last color, as in ``(0, 60)``. If omitted, the range is chosen
+                from the numbers; for curvatures, without the lowest and the highest 2 %.
+            ``"legend"``: Whether a legend in a corner explains the colors.
         :param turntable: If given, the picture is an animation in which the camera moves once around the scene.
+            ``"frames"``: The number of images.
+            ``"seconds"``: The duration of the turn.
         :param images: The folder of images that are not next to their model, relative to the folder of the recipe. If
             omitted, the folder of the recipe. Missing images are not drawn, and are reported.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('Picture', {'path': path, 'size': size, 'camera': camera, 'views': views, 'columns': columns, 'style': style, 'highlight': highlight, 'highlight_width': highlight_width, 'marks': marks, 'color_by': color_by, 'turntable': turntable, 'images': images}, None, id)
 
     def curve_figure(
         self,
-        path: str | os.PathLike[str] | Arg | Ron,
+        path: str | os.PathLike[str] | Ron,
         *,
-        t: Sequence[float] | NDArray[Any] | Arg | Ron | None = None,
-        by_level: bool | Arg | Ron | None = None,
-        before: str | Arg | Ron | None = None,
-        width: int | Arg | Ron | None = None,
-        columns: int | Arg | Ron | None = None,
-        scale: int | Arg | Ron | None = None,
-        labels: bool | Arg | Ron | None = None,
-        legend: bool | Arg | Ron | None = None,
+        t: Sequence[float] | NDArray[Any] | Ron | None = None,
+        by_level: bool | Ron | None = None,
+        before: str | Ron | None = None,
+        width: int | Ron | None = None,
+        columns: int | Ron | None = None,
+        scale: int | Ron | None = None,
+        labels: bool | Ron | None = None,
+        legend: bool | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Draw de Casteljau's construction of Bezier curves.
-
-        Draws Bezier curves, and de Casteljau's construction of their points, into an image file.
+        """Draws Bezier curves, and de Casteljau's construction of their points, into an image file.
 
         The figure has a panel for each curve and each ``t``. With ``by_level``, it instead has a panel for each curve,
         each ``t`` and each level. A panel shows the control polygon, every level of de Casteljau's algorithm in a
@@ -4293,85 +4860,91 @@ class MeshOperations:
         determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene
         does not change.
 
-        In a recipe: ``CurveFigure(path: "figure.svg", t: [0.25, 0.5])``
+        Example: ``mesh.curve_figure(path="figure.svg", t=[0.25, 0.5])``
 
         :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
             without extension, of the file in the recipe parameter ``name``.
         :param t: The parameters of the constructed points, from 0 (start) to 1 (end). If empty, only the curves and
             their control polygons are drawn.
         :param by_level: Whether each level of the algorithm has its own panel. If false, one panel shows all levels.
-            Defaults to False.
+            Defaults to ``False``.
         :param before: The name of a curve that shows an earlier state of the other curves. This curve is drawn faintly
             behind the other curves, with arrows to the control points that moved.
-        :param width: The width of the figure in SVG pixels. The font size is 12 to 19 pixels. Defaults to 640.
+        :param width: The width of the figure in SVG pixels. The font size is 12 to 19 pixels. Defaults to ``640``.
         :param columns: The number of panels in a row. If omitted, the number of values of ``t`` (with ``by_level``, the
             number of levels), but at most 4.
-        :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to 2.
-        :param labels: Whether points are labeled with their names. Defaults to True.
-        :param legend: Whether there is a legend below the panels. Defaults to True.
+        :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to ``2``.
+        :param labels: Whether points are labeled with their names. Defaults to ``True``.
+        :param legend: Whether there is a legend below the panels. Defaults to ``True``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('CurveFigure', {'path': path, 't': t, 'by_level': by_level, 'before': before, 'width': width, 'columns': columns, 'scale': scale, 'labels': labels, 'legend': legend}, None, id)
 
     def half_edge_figure(
         self,
-        path: str | os.PathLike[str] | Arg | Ron,
+        path: str | os.PathLike[str] | Ron,
         *,
-        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Arg | Ron | None = None,
-        width: int | Arg | Ron | None = None,
-        scale: int | Arg | Ron | None = None,
+        faces: Literal['All', 'Boundary', 'SelfIntersecting'] | Choice | Ron | None = None,
+        width: int | Ron | None = None,
+        scale: int | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Draw the half-edges of faces.
-
-        Draws the half-edges of some faces of a mesh into an image file.
+        """Draws the half-edges of some faces of a mesh into an image file.
 
         Each half-edge is an arrow beside its edge, inside its face, with its name. A thin curve leads from the head of
-        the arrow to the next half-edge of the face. The twin of a half-edge is on the other side of the edge. Half-
-        edges on the boundary have no face and are gray. The faces are seen along their mean normal. Faces that face
-        away from the viewer are left out and reported. The extension of the file determines the format: ``.svg`` or
-        ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
+        the arrow to the next half-edge of the face. The twin of a half-edge is on the other side of the edge.
+        Half-edges on the boundary have no face and are gray. The faces are seen along their mean normal. Faces that
+        face away from the viewer are left out and reported. The extension of the file determines the format: ``.svg``
+        or ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
 
-        A name is a letter and the id of the element: ``v`` for vertices, ``h`` for half-edges, ``f`` for faces. Half-
-        edges ``2e`` and ``2e + 1`` belong to edge ``e``.
+        A name is a letter and the id of the element: ``v`` for vertices, ``h`` for half-edges, ``f`` for faces.
+        Half-edges ``2e`` and ``2e + 1`` belong to edge ``e``.
 
-        In a recipe: ``HalfEdgeFigure(path: "figure.svg")``
+        Example: ``mesh.half_edge_figure(path="figure.svg")``
 
         :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
             without extension, of the file in the recipe parameter ``name``.
-        :param faces: The faces to draw, at most 200. Defaults to All.
-        :param width: The width of the figure in SVG pixels. Defaults to 640.
-        :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to 2.
+        :param faces: The faces to draw, at most 200. Defaults to ``"All"``. ``"All"``, ``"Boundary"``,
+            ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
+        :param width: The width of the figure in SVG pixels. Defaults to ``640``.
+        :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to ``2``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('HalfEdgeFigure', {'path': path, 'faces': faces, 'width': width, 'scale': scale}, None, id)
 
     def uv_picture(
         self,
-        path: str | os.PathLike[str] | Arg | Ron,
+        path: str | os.PathLike[str] | Ron,
         *,
-        uv: str | Arg | Ron | None = None,
-        fill: Literal['None', 'Charts', 'Stretch'] | Arg | Ron | None = None,
-        edges: bool | Arg | Ron | None = None,
-        width: int | Arg | Ron | None = None,
-        scale: int | Arg | Ron | None = None,
+        uv: str | Ron | None = None,
+        fill: Literal['None', 'Charts', 'Stretch'] | Ron | None = None,
+        edges: bool | Ron | None = None,
+        width: int | Ron | None = None,
+        scale: int | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Draw the UV layout (the UV charts of a mesh).
-
-        Draws the charts of the texture coordinates of a mesh into an image file.
+        """Draws the charts of the texture coordinates of a mesh into an image file.
 
         The frame is the page of the texture, with u and v from 0 to 1 and v upwards. Thick lines are the borders of
         charts, and thin lines are the other edges. Coordinates outside the page are also drawn. They make the figure
         higher or its scale smaller. The extension of the file determines the format: ``.svg`` or ``.png``. The file is
         written only if the whole recipe succeeds. The scene does not change.
 
-        In a recipe: ``UvPicture(path: "uv.svg")``
+        Example: ``mesh.uv_picture(path="uv.svg")``
 
         :param path: The file. The path is relative to the output folder. ``{name.stem}`` is replaced by the name,
             without extension, of the file in the recipe parameter ``name``.
         :param uv: The name of the texture coordinates. Defaults to ``uv``.
-        :param fill: What the colors inside charts show. Defaults to Charts.
-        :param edges: Whether edges inside charts are drawn. Defaults to True.
-        :param width: The width of the figure in SVG pixels. Defaults to 640.
-        :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to 2.
+        :param fill: What the colors inside charts show. Defaults to ``"Charts"``.
+            ``"None"``: Nothing.
+            ``"Charts"``: The charts, in eight colors that repeat.
+            ``"Stretch"``: The stretch of angles.
+        :param edges: Whether edges inside charts are drawn. Defaults to ``True``.
+        :param width: The width of the figure in SVG pixels. Defaults to ``640``.
+        :param scale: The number of PNG pixels per SVG pixel. Has no effect on ``.svg`` files. Defaults to ``2``.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
         """
         return self._apply('UvPicture', {'path': path, 'uv': uv, 'fill': fill, 'edges': edges, 'width': width, 'scale': scale}, None, id)

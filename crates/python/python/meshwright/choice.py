@@ -54,19 +54,25 @@ def Direction(value: Sequence[float] | NDArray[Any] | Arg | Ron, /) -> Choice:
 
 
 
-def Distance(*, to: str | Arg | Ron, signed: bool | Arg | Ron | None = None) -> Choice:
+def Distance(
+    value: float | Arg | Ron | None = None,
+    /,
+    *,
+    to: str | Arg | Ron | None = None,
+    signed: bool | Arg | Ron | None = None,
+) -> Choice:
     """The distance along the normal of each region, in scene units.
 
     A negative distance moves the faces inwards. The normal is the mean of the face normals, weighted by area. By this
     distance along the normal of each vertex, in scene units. A negative distance moves inwards. The distance from each
-    vertex to the nearest point of another mesh of the scene, in scene units. Unless ````on```` names objects, all
-    meshes but the other mesh are measured.
+    vertex to the nearest point of another mesh of the scene, in scene units. Unless ``on`` names objects, all meshes
+    but the other mesh are measured.
 
     :param to: The name of the object with the other mesh.
     :param signed: Whether distances are negative inside the other mesh: where its winding number is more than 1/2 or
-        less than -1/2. Defaults to False.
+        less than -1/2. Defaults to ``False``.
     """
-    return Choice('Distance', to=to, signed=signed)
+    return Choice('Distance', *(() if value is None else (value,)), to=to, signed=signed)
 
 
 
@@ -98,11 +104,25 @@ def Fit(
 ) -> Choice:
     """Looks from a side, at the distance from which the picture shows the whole scene.
 
-    :param from_: The side from which the camera looks. Defaults to ThreeQuarter.
-    :param up: The axis that points upwards. Defaults to Y.
+    :param from_: The side from which the camera looks. Defaults to ``"ThreeQuarter"``.
+        ``"Front"``: From the front.
+        ``"Back"``: From the back.
+        ``"Left"``: From the side of small x.
+        ``"Right"``: From the side of large x.
+        ``"Top"``: From above.
+        ``"Bottom"``: From below.
+        ``"Isometric"``: From the front, right and above, so that the three axes are equally long in the picture.
+        ``"ThreeQuarter"``: From the front, 30 degrees to the right and 22 degrees above.
+        ``choice.Angles(..)``: From any direction.
+    :param up: The axis that points upwards. Defaults to ``"Y"``.
+        ``"Y"``: The y axis, as in glTF.
+        ``"Z"``: The z axis, as in most CAD programs.
+        ``"Auto"``: The z axis if the scene stands on the plane z = 0 but not on the plane y = 0; else the y axis.
     :param projection: The projection.
-    :param margin: The empty margin at each border, as a fraction of the picture. Defaults to 0.05.
-    :param steady: Whether the scale is the same from every direction, as needed for a turntable. Defaults to False.
+        ``"Orthographic"``: Parallel projection: the size of an object does not depend on its distance.
+        ``choice.Perspective(..)``: Perspective projection, as in a photograph.
+    :param margin: The empty margin at each border, as a fraction of the picture. Defaults to ``0.05``.
+    :param steady: Whether the scale is the same from every direction, as needed for a turntable. Defaults to ``False``.
     """
     return Choice('Fit', from_=from_, up=up, projection=projection, margin=margin, steady=steady)
 
@@ -115,7 +135,8 @@ def Geodesic(*, from_: Literal['All', 'Boundary', 'Isolated'] | Choice | Arg | R
     On fine meshes of smooth surfaces, the mean error is below 1 %. A vertex that no path of edges joins to a selected
     vertex has no distance.
 
-    :param from_: The vertices to start from.
+    :param from_: The vertices to start from. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of
+        ``meshwright.sel``.
     """
     return Choice('Geodesic', from_=from_)
 
@@ -139,7 +160,9 @@ def Laplacian(
 ) -> Choice:
     """Moves each vertex towards the mean of its neighbors.
 
-    :param weights: The weights of the neighbors. Defaults to Uniform.
+    :param weights: The weights of the neighbors. Defaults to ``"Uniform"``.
+        ``"Uniform"``: All vertices that share an edge with the vertex have the same weight.
+        ``"Cotangent"``: The weights follow the shape of the faces.
     :param factor: The distance of the movement, as a fraction of the distance to the mean. From 0 to 1. Defaults to
         0.5.
     """
@@ -169,9 +192,14 @@ def LookAt(
 
     :param from_: The position of the camera, ``(x, y, z)``, in scene units.
     :param to: The point in the middle of the picture, ``(x, y, z)``, in scene units.
-    :param up: The axis that points upwards. Defaults to Y.
+    :param up: The axis that points upwards. Defaults to ``"Y"``.
+        ``"Y"``: The y axis, as in glTF.
+        ``"Z"``: The z axis, as in most CAD programs.
+        ``"Auto"``: The z axis if the scene stands on the plane z = 0 but not on the plane y = 0; else the y axis.
     :param projection: The projection. With ``Orthographic``, the picture is as high, in scene units, as a perspective
         picture of 30 degrees at the distance of ``to``.
+        ``"Orthographic"``: Parallel projection: the size of an object does not depend on its distance.
+        ``choice.Perspective(..)``: Perspective projection, as in a photograph.
     """
     return Choice('LookAt', from_=from_, to=to, up=up, projection=projection)
 
@@ -270,7 +298,9 @@ def Taubin(
 
     Removes noise, and keeps larger shapes and the volume nearly unchanged. One pass consists of both steps.
 
-    :param weights: The weights of the neighbors. Defaults to Uniform.
+    :param weights: The weights of the neighbors. Defaults to ``"Uniform"``.
+        ``"Uniform"``: All vertices that share an edge with the vertex have the same weight.
+        ``"Cotangent"``: The weights follow the shape of the faces.
     :param factor: The distance of the first step, as a fraction of the distance to the mean. From 0 to 1, exclusive.
         Above about 0.65, the step back amplifies noise. Defaults to 0.33.
     :param pass_band: The frequency below which shapes are kept. A lower value smooths more. From 0 to 1, exclusive.
@@ -294,7 +324,7 @@ def Winding(*, of: str | Arg | Ron) -> Choice:
     and 1 near gaps of the other mesh (Jacobson, Kavan, Sorkine-Hornung, 2013; Barill, Dickson, Schmidt, Levin,
     Jacobson, 2018).
 
-    The error is usually below 0.001. Unless ````on```` names objects, all meshes but the other mesh are measured.
+    The error is usually below 0.001. Unless ``on`` names objects, all meshes but the other mesh are measured.
 
     :param of: The name of the object with the other mesh.
     """

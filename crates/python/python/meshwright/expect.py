@@ -26,7 +26,7 @@ def Area(
     :param eq: This value, within the tolerance.
     :param min: At least this value.
     :param max: At most this value.
-    :param tolerance: The allowed deviation from ``eq``. Defaults to 1e-09.
+    :param tolerance: The allowed deviation from ``eq``. Defaults to ``1e-09``.
     """
     return Choice('Area', eq=eq, min=min, max=max, tolerance=tolerance)
 
@@ -40,13 +40,14 @@ def Attribute(
     min: float | Arg | Ron | None = None,
     max: float | Arg | Ron | None = None,
 ) -> Choice:
-    """The values of an attribute, for example one that ``Measure`` stored.
+    """The values of an attribute, for example one that ``measure()`` stored.
 
     Every mesh must have the attribute. Fails if no element has a value.
 
     :param name: The name of the attribute.
     :param of: Which elements. If omitted, all elements of one kind: the first of vertices, faces, corners and edges
-        that has an attribute of this name.
+        that has an attribute of this name. ``"All"``, ``"Boundary"``, ``"Isolated"``, ``"SelfIntersecting"``, or a
+        value of ``meshwright.sel``.
     :param component: The component of a vector, from 0. Required for vectors.
     :param min: Every value is at least this number.
     :param max: Every value is at most this number.
@@ -84,7 +85,7 @@ def Bounds(
 
     :param min: The lowest coordinates.
     :param max: The highest coordinates.
-    :param tolerance: The allowed deviation of each coordinate. Defaults to 1e-09.
+    :param tolerance: The allowed deviation of each coordinate. Defaults to ``1e-09``.
     """
     return Choice('Bounds', min=min, max=max, tolerance=tolerance)
 
@@ -118,7 +119,8 @@ def Count(
 ) -> Choice:
     """The number of elements that a selection matches.
 
-    :param of: Which elements.
+    :param of: Which elements. ``"All"``, ``"Boundary"``, ``"Isolated"``, ``"SelfIntersecting"``, or a value of
+        ``meshwright.sel``.
     :param eq: Exactly this number.
     :param min: At least this number.
     :param max: At most this number.
@@ -151,7 +153,7 @@ def DihedralAngle(
 
     Edges beside a zero-area face are skipped. Fails if no selected edge has an angle.
 
-    :param of: Which edges. Defaults to All.
+    :param of: Which edges. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
     :param min: The smallest angle is at least this value.
     :param max: The largest angle is at most this value.
     :param reaches: The largest angle is at least this value.
@@ -167,6 +169,8 @@ def DistanceTo(*, other: Choice | Arg | Ron, below: float | Arg | Ron) -> Choice
     Fails unless the distance is proven to be below the limit.
 
     :param other: The mesh to compare with.
+        ``choice.Object(..)``: The name of an object of the scene.
+        ``choice.File(..)``: The first mesh in a file.
     :param below: The limit, in scene units: the distance must be below it.
     """
     return Choice('DistanceTo', other=other, below=below)
@@ -183,7 +187,7 @@ def EdgeLength(
 
     Fails if the selection is empty.
 
-    :param of: Which edges. Defaults to All.
+    :param of: Which edges. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
     :param min: The shortest edge has at least this length.
     :param max: The longest edge has at most this length.
     """
@@ -268,6 +272,10 @@ def HasAttribute(*, domain: Literal['Vertex', 'Corner', 'Edge', 'Face'] | Arg | 
     """There is at least one mesh, and every mesh has this attribute.
 
     :param domain: The domain of the attribute.
+        ``"Vertex"``: Vertices.
+        ``"Corner"``: Corners.
+        ``"Edge"``: Edges.
+        ``"Face"``: Faces.
     :param name: The name of the attribute.
     """
     return Choice('HasAttribute', domain=domain, name=name)
@@ -288,7 +296,7 @@ def MeanFaceArea(
 
     Fails if the selection is empty.
 
-    :param of: Which faces.
+    :param of: Which faces. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of ``meshwright.sel``.
     :param min: The ratio is at least this value.
     :param max: The ratio is at most this value.
     """
@@ -306,7 +314,8 @@ def MeanMinAngle(
 
     Fails if the selection is empty.
 
-    :param of: Which faces. Defaults to All.
+    :param of: Which faces. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
+        ``meshwright.sel``.
     :param min: At least this value.
     :param max: At most this value.
     """
@@ -324,7 +333,8 @@ def MinAngle(
 
     Fails if the selection is empty.
 
-    :param of: Which faces. Defaults to All.
+    :param of: Which faces. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
+        ``meshwright.sel``.
     :param min: At least this value.
     :param max: At most this value.
     """
@@ -365,9 +375,10 @@ def Objects(
 
 def Output(*, path: str | Arg | Ron, as_: str | Arg | Ron, tolerance: int | Arg | Ron | None = None) -> Choice:
     """A file that a step writes equals a reference file, which ``meshwright test --update`` creates and updates.
-
     Pictures (.png, .apng) are compared by their pixels, mesh files by the objects that are read from them, and other
-    files by their bytes. Recorded provenance is ignored.
+    files by their bytes.
+
+    Recorded provenance is ignored.
 
     :param path: The written file: the path relative to the output folder, as in the step that writes the file.
     :param as_: The reference file: a path relative to the recipe's folder, and inside it.
@@ -388,8 +399,8 @@ def Point(
 
     :param index: The index of the point in the polyline, counted from 0.
     :param is_: The expected position.
-    :param line: The index of the polyline in its object, counted from 0. Defaults to 0.
-    :param tolerance: The allowed distance from the expected position. Defaults to 1e-09.
+    :param line: The index of the polyline in its object, counted from 0. Defaults to ``0``.
+    :param tolerance: The allowed distance from the expected position. Defaults to ``1e-09``.
     """
     return Choice('Point', index=index, is_=is_, line=line, tolerance=tolerance)
 
@@ -403,9 +414,10 @@ def Position(
 ) -> Choice:
     """The position of one vertex.
 
-    :param of: Which vertex. The selection must match exactly one.
+    :param of: Which vertex. The selection must match exactly one. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value
+        of ``meshwright.sel``.
     :param is_: The expected position.
-    :param tolerance: The allowed distance from the expected position. Defaults to 1e-09.
+    :param tolerance: The allowed distance from the expected position. Defaults to ``1e-09``.
     """
     return Choice('Position', of=of, is_=is_, tolerance=tolerance)
 
@@ -420,8 +432,10 @@ def Same(
     """The mesh has the same vertices and faces as another mesh, in any order.
 
     :param as_: The mesh to compare with.
-    :param tolerance: The allowed distance between two matching vertices. Defaults to 0.0.
-    :param connectivity: Whether the faces must also be the same. Defaults to True.
+        ``choice.Object(..)``: The name of an object of the scene.
+        ``choice.File(..)``: The first mesh in a file.
+    :param tolerance: The allowed distance between two matching vertices. Defaults to ``0.0``.
+    :param connectivity: Whether the faces must also be the same. Defaults to ``True``.
     """
     return Choice('Same', as_=as_, tolerance=tolerance, connectivity=connectivity)
 
@@ -456,15 +470,18 @@ def SymmetricUnder(
 ) -> Choice:
     """How many motions of a symmetry group about the origin map the mesh onto itself.
 
-    If ````eq````, ````min```` and ````max```` are omitted, all motions of the group must map the mesh onto itself.
+    If ``eq``, ``min`` and ``max`` are omitted, all motions of the group must map the mesh onto itself.
 
     :param group: The symmetry group.
+        ``"CubeRotations"``: The 24 rotations of an axis-aligned cube.
+        ``"CubeMotions"``: The 48 symmetries of an axis-aligned cube: its rotations and reflections.
+        ``"AxisMirrors"``: The 8 combinations of the reflections in the three coordinate planes.
     :param eq: Exactly this number of motions, including the identity.
     :param min: At least this number of motions.
     :param max: At most this number of motions.
     :param tolerance: The allowed distance between a moved vertex and the vertex that it is mapped onto. Defaults to
-        1e-09.
-    :param connectivity: Whether every face must also be mapped onto a face. Defaults to True.
+        ``1e-09``.
+    :param connectivity: Whether every face must also be mapped onto a face. Defaults to ``True``.
     """
     return Choice('SymmetricUnder', group=group, eq=eq, min=min, max=max, tolerance=tolerance, connectivity=connectivity)
 
@@ -476,12 +493,13 @@ def Thickness(
     min: float | Arg | Ron | None = None,
     max: float | Arg | Ron | None = None,
 ) -> Choice:
-    """The thickness of the solid at each selected vertex, in scene units, as ``Measure(of: Thickness, ..)`` measures
-    it.
+    """The thickness of the solid at each selected vertex, in scene units, as ``measure(of="Thickness", ..)`` measures
+    it. Infinite where the surface is a sheet.
 
-    Infinite where the surface is a sheet. Fails if the selection is empty.
+    Fails if the selection is empty.
 
-    :param of: Which vertices. Defaults to All.
+    :param of: Which vertices. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of
+        ``meshwright.sel``.
     :param min: At least this value.
     :param max: At most this value.
     """
@@ -533,7 +551,8 @@ def Valence(
 
     Fails if the selection is empty.
 
-    :param of: Which vertices. Defaults to All.
+    :param of: Which vertices. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of
+        ``meshwright.sel``.
     :param min: The lowest valence is at least this number.
     :param max: The highest valence is at most this number.
     """
@@ -569,6 +588,6 @@ def Volume(
     :param eq: This value, within the tolerance.
     :param min: At least this value.
     :param max: At most this value.
-    :param tolerance: The allowed deviation from ``eq``. Defaults to 1e-09.
+    :param tolerance: The allowed deviation from ``eq``. Defaults to ``1e-09``.
     """
     return Choice('Volume', eq=eq, min=min, max=max, tolerance=tolerance)

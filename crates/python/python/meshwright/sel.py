@@ -140,7 +140,8 @@ def Expand(
     faces differ by at most the angle ``to_angle``.
 
     :param to_angle: The largest angle between the normals of two neighboring faces, in degrees, from 0 (flat) to 180.
-    :param of: The faces to start from.
+    :param of: The faces to start from. ``"All"``, ``"Boundary"``, ``"SelfIntersecting"``, or a value of
+        ``meshwright.sel``.
     """
     return Choice('Expand', to_angle=to_angle, of=of)
 
@@ -153,10 +154,10 @@ def Expect(
 ) -> Choice:
     """All elements of the selection ``of``.
 
-    Refused unless the number of these elements is exactly ````count````.
+    Refused unless the number of these elements is exactly ``count``.
 
     :param count: The expected number of vertices.
-    :param of: The selection to count.
+    :param of: The selection to count. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
     """
     return Choice('Expect', count=count, of=of)
 
@@ -276,8 +277,9 @@ def Longest(
 
     If edges are equally long, those with the lower ids are selected.
 
-    :param count: The number of edges. If fewer are available, all are selected. Defaults to 1.
-    :param of: The selection to choose from. Defaults to All.
+    :param count: The number of edges. If fewer are available, all are selected. Defaults to ``1``.
+    :param of: The selection to choose from. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, or a value of
+        ``meshwright.sel``.
     """
     return Choice('Longest', count=count, of=of)
 
@@ -305,8 +307,9 @@ def Nearest(
     vertices) are nearest to a point. If faces are equally near, those with the lower ids are selected.
 
     :param to: The point.
-    :param count: The number of vertices. If fewer are available, all are selected. Defaults to 1.
-    :param of: The selection to choose from. Defaults to All.
+    :param count: The number of vertices. If fewer are available, all are selected. Defaults to ``1``.
+    :param of: The selection to choose from. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
+        value of ``meshwright.sel``.
     """
     return Choice('Nearest', to=to, count=count, of=of)
 
@@ -361,7 +364,8 @@ def Random(
 
     :param count: The number of vertices. If fewer are available, all are selected.
     :param seed: The seed. A different seed gives a different choice.
-    :param of: The selection to choose from. Defaults to All.
+    :param of: The selection to choose from. Defaults to ``"All"``. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
+        value of ``meshwright.sel``.
     """
     return Choice('Random', count=count, seed=seed, of=of)
 

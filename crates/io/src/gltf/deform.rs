@@ -52,10 +52,8 @@ pub(super) fn joints(
     };
     let mut sets = Vec::new();
     for set in 0.. {
-        let (Some((joints, joints_at)), Some((weights, weights_at))) = (
-            accessor(Semantic::Joints(set)),
-            accessor(Semantic::Weights(set)),
-        ) else {
+        let found = [Semantic::Joints(set), Semantic::Weights(set)].map(accessor);
+        let [Some((joints, joints_at)), Some((weights, weights_at))] = found else {
             break;
         };
         let integers = [ComponentType::U8, ComponentType::U16];

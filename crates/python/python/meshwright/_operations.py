@@ -44,12 +44,12 @@ class SceneOperations:
         Formats: ``.obj``, ``.gltf``, ``.glb``, ``.ply``, ``.stl``, ``.off``, ``.dae``, ``.bez`` (Bezier patches),
         ``.bzc`` (a Bezier curve) and ``.mws`` (a complete scene). A file compressed with gzip has ``.gz`` after its
         extension, as in ``.obj.gz``; ``.glb`` and ``.mws`` files cannot be compressed this way. An OBJ file becomes one
-        object, and its objects (``o``) and groups (``g``) become face tags. A glTF file gives an object for each mesh.
-        The object is named after the node if only one node references the mesh. The nodes, cameras, lights, skins,
-        morph targets and animations of the file are kept. A COLLADA file gives an object for each node with a mesh.
-        Content that the scene cannot hold is counted and listed. Images of materials are read from files next to the
-        model. A corner that repeats the previous corner is removed, and a face that still contains a vertex twice is
-        left out.
+        object, and its objects (``o a``) and groups (``g a``) become the face tags ``o="a"`` and ``a``. A glTF file
+        gives an object for each mesh that a node references. The object is named after the node if only one node
+        references the mesh. Unless ``placements`` is ``Bake``, the nodes, cameras, lights, skins, morph targets and
+        animations of the file are kept. A COLLADA file gives an object for each node with a mesh. Content that the
+        scene cannot hold is counted and listed. Images of materials are read from files next to the model. A corner
+        that repeats the previous corner is removed, and a face that still contains a vertex twice is left out.
 
         Example: ``scene.load(path="teapot.bez")``, in a recipe ``Load(path: "teapot.bez")``
 
@@ -74,8 +74,8 @@ class SceneOperations:
         :param isolated: What to do with vertices without a face. Defaults to ``"Keep"``.
             ``"Keep"``: Keep them.
             ``"Drop"``: Leave them out, and list them.
-        :param placements: What to do with the nodes of a glTF file. If the nodes are kept, steps change a mesh in its
-            own space, once for all nodes that reference the mesh. Defaults to ``"Keep"``.
+        :param placements: What to do with the nodes of a glTF or ``.mws`` file. If the nodes are kept, steps change a
+            mesh in its own space, once for all nodes that reference the mesh. Defaults to ``"Keep"``.
             ``"Keep"``: Keep the nodes.
             ``"Bake"``: Apply the transforms of nodes to the points.
         :param strict: If true, the step fails if anything in the file would be left out. Defaults to ``False``.
@@ -101,8 +101,8 @@ class SceneOperations:
         ``.bez`` for Bezier patches, ``.bzc`` for a curve, and ``.mws`` for a complete scene without any loss. ``.csv``
         is a table of the positions and attributes of vertices, faces or corners, and ``.npz`` has the arrays of a mesh
         for ``NumPy``. These two formats cannot be read. If the name ends with ``.gz``, as in ``a.obj.gz``, the file is
-        compressed with gzip. Content that the format cannot store is reported. The file is only created when the whole
-        recipe has succeeded.
+        compressed with gzip, which is not possible for ``.glb``, ``.mws`` and ``.npz``. Content that the format cannot
+        store is reported. The file is only created when the whole recipe has succeeded.
 
         Example: ``scene.save(path="a.obj")``, in a recipe ``Save(path: "a.obj")``
 
@@ -119,10 +119,10 @@ class SceneOperations:
             ``"Meshopt"``: The extension ``EXT_meshopt_compression``.
         :param quantize: The number of bits for each attribute of the geometry in ``.glb`` and ``.gltf`` files. If
             omitted, numbers are stored as 32-bit floats. ``quantize={}`` uses the default of each attribute. The report
-            lists the largest errors.
+            states the largest errors of positions, of normals and tangents, and of texture coordinates.
             ``"position"``: The bits of each coordinate of a position. Positions are rounded to a grid that covers the
                 bounding box of the object and has the same step along all axes. The longest side of the box has 2^bits
-                - 1 steps. Defaults to 16.
+                - 1 steps. Positions of objects with joints or morph targets are not quantized. Defaults to 16.
             ``"normal"``: The bits of each of the two numbers that represent a normal or a tangent as a point of an
                 octahedron. Defaults to 8.
             ``"uv"``: The bits of each texture coordinate. A set with coordinates outside the range from 0 to 1 is not
@@ -152,9 +152,9 @@ class SceneOperations:
 
         Point i becomes vertex i, and polygon i becomes face i. If connected faces have different orientations, the
         faces in the minority are reversed, provided that all orientations then agree. If the faces do not form a
-        manifold, they are split. An edge keeps two faces with consistent orientations, and a vertex keeps one fan of
-        faces. The other faces get copies of the vertices, which get the highest ids. Both the report and the check of
-        the recipe list the reversed and split elements.
+        manifold, edges and vertices are split: an edge keeps two faces with consistent orientations, and a vertex keeps
+        one fan of faces. The other faces get copies of the vertices. The copies get the highest ids. Both the report
+        and the check of the recipe list the reversed and split elements.
 
         Example: ``scene.polygons(name="new", points=[(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces=[[0, 1, 2]])``, in a
         recipe ``Polygons(name: "new", points: [(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces: [[0, 1, 2]])``
@@ -425,7 +425,7 @@ class SceneOperations:
         """Replaces curves with polylines through their points.
 
         Each curve becomes one polyline with ``segments`` + 1 points in the plane z = 0, at the parameters 0, 1 /
-        segments, ... 1. The first and the last point are exactly the end control points.
+        segments, 2 / segments and so on, up to 1. The first and the last point are exactly the end control points.
 
         Example: ``scene.sample_curve(segments=1)``, in a recipe ``SampleCurve(segments: 1)``
 
@@ -466,9 +466,8 @@ class SceneOperations:
     ) -> Self:
         """Moves one control point of curves.
 
-        The other control points do not move. The point of the curve at a parameter t moves in the same direction as the
-        control point. Its distance is the distance of the control point times the value at t of the Bernstein
-        polynomial of the control point.
+        The other control points do not move. The point of the curve at a parameter t moves by the offset of the control
+        point, multiplied by the value at t of the Bernstein polynomial of the control point.
 
         Example: ``scene.move_control_point(index=1, to=(2, -3.5))``, in a recipe ``MoveControlPoint(index: 1, to: (2,
         -3.5))``
@@ -510,7 +509,7 @@ class SceneOperations:
         """Deletes objects.
 
         The remaining objects keep their order. A node that places a deleted object is also removed, unless it has
-        children, a camera or a light.
+        children, a camera or a light, or is a joint of a skin.
 
         Example: ``scene.delete(objects=["mesh"])``, in a recipe ``Delete(objects: ["mesh"])``
 
@@ -528,7 +527,8 @@ class SceneOperations:
     ) -> Self:
         """Renames an object.
 
-        The order of the objects does not change. A node or mesh that has the name of the object also gets the new name.
+        The order of the objects does not change. A node or mesh of the object that has the same name also gets the new
+        name.
 
         Example: ``scene.rename(from_="mesh", to="new")``, in a recipe ``Rename(from: "mesh", to: "new")``
 
@@ -551,7 +551,9 @@ class SceneOperations:
         Each mesh becomes a part of the result. The ids of vertices, edges and faces follow the parts, in the order of
         the list. The parts are not connected, even where they touch. The result replaces the first mesh of the list in
         the scene; the other meshes are removed. If nodes place a part, the result contains a copy of the part for each
-        node, with the transform of the node applied to its points. The result has no node.
+        node, with the transform of the node applied to its points. The result has no node, unless it keeps a skin: if
+        all skinned parts have the same skin and one node each, the result keeps this skin, and the parts without a skin
+        follow its first joint.
 
         If a part lacks an attribute that another part has, the elements of this part get the value zero, or -1 (no
         material) for material indices. Normals are dropped and reported as lost unless all parts have them. If an
@@ -618,16 +620,18 @@ class SceneOperations:
         """Scales, rotates and moves objects.
 
         Points are first scaled, then rotated, then moved. The step changes the points of meshes, patches, curves and
-        polylines. If nodes of a glTF file place an object, the step changes the placements of these nodes instead, and
-        everything below the nodes also moves. A skinned mesh moves with its joints. A node whose placement is animated
-        gets a parent, which is moved instead. Without ``on:``, root nodes with cameras and lights also move, unless
-        ``about`` is ``Center``. A curve must stay in the plane z = 0.
+        polylines. If nodes place an object and ``space`` is ``Scene``, the step changes the placements of these nodes
+        instead, and everything below the nodes also moves. A skinned mesh then moves with its joints. A node whose
+        placement is animated gets a parent, which is moved instead. With ``space="Scene"`` and without ``on:``, all
+        other root nodes also move, for example those of cameras and lights, unless ``about`` is ``Center``. A curve
+        must stay in the plane z = 0.
 
-        Ids do not change. Normals and the deltas of morph targets are transformed; other attributes do not change. A
-        mirror (one or three negative factors in ``scale``) also reverses the faces, so that they are counter-clockwise
-        seen from outside. The first corner of a face stays first, and the other corners follow in reverse order. In
-        mirrored patches, u and v are exchanged, so that the outside stays the outside. A mirror drops attributes with
-        the rule ``Drop``, as does any step that changes the connectivity.
+        Ids do not change. If the points of a mesh change, its normals, tangents and deltas of morph targets are also
+        transformed; other attributes do not change. If the points are mirrored (one or three negative factors in
+        ``scale``), the faces are also reversed, so that they stay counter-clockwise seen from outside. The first corner
+        of a face stays first, and the other corners follow in reverse order. In mirrored patches, u and v are
+        exchanged, so that the outside stays the outside. Mirroring the points drops attributes with the rule ``Drop``,
+        such as tangents of corners, as does any step that changes the connectivity.
 
         Example: ``scene.transform(scale=(2, 1, 1), rotate=[{"axis": "Z", "angle": 90}], move=(3, 1, 0))``, in a recipe
         ``Transform(scale: (2, 1, 1), rotate: [(axis: Z, angle: 90)], move: (3, 1, 0))``
@@ -640,7 +644,7 @@ class SceneOperations:
         :param move: The distances to move along x, y and z, in scene units.
         :param about: The fixed point of scaling and rotation. Defaults to ``"Origin"``.
             ``"Origin"``: The origin.
-            ``"Center"``: The center of the bounding box of each object with all its instances.
+            ``"Center"``: The center of the bounding box of each object.
             ``choice.Point(..)``: A point with the coordinates x, y, z.
         :param space: The coordinates in which objects move. Defaults to ``"Scene"``.
             ``"Scene"``: The space of the scene.
@@ -665,9 +669,9 @@ class SceneOperations:
 
         Exactly ``count`` points are chosen so that they keep their distance from each other (Yuksel, "Sample
         Elimination for Generating Poisson Disk Sample Sets", 2015). Each copy is a node that references the object (an
-        instance), so copies need almost no memory or file space. The node moves the origin of the object to the point.
-        To make one mesh of all copies, use ``join()`` afterwards. If no node placed the object before, it then appears
-        only at the points.
+        instance), so copies need almost no memory, and almost no space in ``.gltf``, ``.glb`` and ``.mws`` files. The
+        node moves the origin of the object to the point. To make one mesh of all copies, use ``join()`` afterwards. If
+        no node placed the object before, it then appears only at the points.
 
         Without ``object``, the result is a mesh of the points without faces. Its normals are those of the surface.
 
@@ -683,7 +687,7 @@ class SceneOperations:
             ``"X"``: The x axis.
             ``"Y"``: The y axis.
             ``"Z"``: The z axis.
-        :param name: The name of the mesh of points, without ``object``. Defaults to ``points``.
+        :param name: Without ``object``, the name of the mesh of points. Defaults to ``points``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
         return self._apply('Scatter', {'object': object, 'surface': surface, 'count': count, 'seed': seed, 'align': align, 'name': name}, None, id)
@@ -705,10 +709,10 @@ class SceneOperations:
 
         If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
         corners left or would contain a vertex twice. If joined faces have opposite orientations, the smaller group is
-        reversed, provided that all orientations then agree. Reversed faces are counted, and the normals of vertices and
-        corners are dropped. Where the result would still not be manifold, vertices and edges are copied, and the copies
-        are counted. For example, a third face at an edge gets a copy of the edge. If no vertices merge, the mesh does
-        not change.
+        reversed, provided that all orientations then agree. If faces are reversed, they are counted, and the normals of
+        vertices and corners are dropped. Where the result would still not be manifold, vertices and edges are copied,
+        and the copies are counted. For example, a third face at an edge gets a copy of the edge. If no vertices merge,
+        the mesh does not change.
 
         Example: ``scene.weld(distance=0)``, in a recipe ``Weld(distance: 0)``
 
@@ -731,7 +735,8 @@ class SceneOperations:
         Adjacent faces must have the same orientation, so only whole connected components can be reversed. If a selected
         face shares an edge with a face that is not selected, the step is refused. No vertex moves, and all elements
         keep their ids. The first corner of a face stays first, and the other corners follow in reverse order. Normals
-        are negated. Other attributes stay with their elements, and corner values stay with their vertex and face.
+        are negated. Attributes with the rule ``Drop``, such as tangents of corners, are dropped. Other attributes stay
+        with their elements, and corner values stay with their vertex and face.
 
         Example: ``scene.reverse()``, in a recipe ``Reverse()``
 
@@ -760,7 +765,8 @@ class SceneOperations:
 
         A face with more corners is projected along its normal, cut by ear clipping, and improved by flipping diagonals
         until it is a constrained Delaunay triangulation. A face that cannot be triangulated in this way, because it has
-        zero area or its sides cross, becomes a triangle fan around its vertex with the lowest id, and is counted.
+        zero area, its sides cross, or it has more than ten million corners, becomes a triangle fan around its vertex
+        with the lowest id, and is counted.
 
         The triangles replace their face in the order of the faces and have the values of the face. Vertices and edges
         keep their ids. The corners of the triangles have the values of the corners of the face at the same vertices.
@@ -785,7 +791,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Replaces the edge between two triangles with the other diagonal of the two triangles.
+        """Replaces the edge between two triangles with the other diagonal of the quadrilateral that they form.
 
         Edges are flipped in order of their ids. Each flip is checked against the mesh as edited so far. A flip is
         refused if the edge is on the boundary, if a face beside it is not a triangle, or if the opposite corners of the
@@ -795,11 +801,11 @@ class SceneOperations:
         same vertex; all other corners keep their values.
 
         With ``until="Delaunay"`` or ``until="Valence"``, an edge is flipped only if the flip improves the mesh. Edges
-        are checked again, pass after pass, until no edge is flipped. Flips with ``until="Delaunay"`` or
-        ``until="Valence"`` neither fold the surface nor create zero-area triangles. If a flip that would improve the
-        mesh is refused, the step does not fail. The edge is left unchanged, and the report counts the refusals by
-        reason. The report also contains the number of passes, and whether the step stopped because ``passes`` was
-        reached.
+        are checked again, pass after pass, until a pass flips no edge or ``passes`` is reached. Flips with
+        ``until="Delaunay"`` or ``until="Valence"`` neither fold the surface nor create zero-area triangles. If a flip
+        that would improve the mesh is refused, the step does not fail. The edge is left unchanged, and the report
+        counts the refusals by reason. The report also contains the number of passes, and whether the step stopped
+        because ``passes`` was reached.
 
         On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from
         ``edges``, for example with ``sel.Flat(below=30)`` or ``sel.Not(sel.Tagged("keep"))``.
@@ -879,8 +885,9 @@ class SceneOperations:
           tube with three sides or at a hole with three edges.
         - ``DuplicateEdge``: a second edge joins the ends.
         - ``RepeatedVertex``: both ends are also corners of a face that is not beside the edge.
-        - ``Vanishes``: the mesh around the edge is a tetrahedron or a single triangle.
-        - ``SameFace``: the same face is on both sides of the edge.
+        - ``Vanishes``: no face would remain around the edge, as for a single triangle, or only two faces back to back,
+          as for a tetrahedron.
+        - ``SameFace``: the same face is on both sides of the edge, or would be on both sides of another edge.
         - ``SameOpposite``: the two triangles beside the edge share another edge.
 
         Values at the remaining vertex and its corners are interpolated between the ends, on each side of a seam
@@ -949,10 +956,11 @@ class SceneOperations:
         """Replaces edges with faces of constant width.
 
         A selected edge and both of its ends are removed, and a new face replaces the edge. In both faces beside the
-        edge, the new face ends at the distance ``width`` from the old edge. Each other edge at an end is cut at this
-        distance. Between two selected edges, the new vertex lies in the face. If three or more new vertices surround an
-        old vertex, another new face joins them. All edges are beveled together, so a cube that is beveled at all edges
-        keeps all of its symmetries.
+        edge, the new face ends at the distance ``width`` from the old edge. Each other edge at an end is cut where it
+        reaches this distance, but at most four times ``width`` from the end. An edge that is not next to a selected
+        edge is cut at ``width`` from the end. Between two selected edges, the new vertex lies in the face. If three or
+        more new vertices surround an old vertex, another new face joins them. All edges are beveled together, so a cube
+        that is beveled at all edges keeps all of its symmetries.
 
         The ends of the edges are removed, so the ids of later vertices change. New vertices get the highest ids. Faces
         keep their ids. New faces get the highest ids: first the faces of edges, in order of the edges, then the faces
@@ -963,15 +971,17 @@ class SceneOperations:
         run. New edges have zero values (no crease, no tags). Normals are dropped.
 
         An edge is refused if it is on the boundary, if one of its ends has only one other edge and this edge is not
-        selected, or if the bevels at both ends of an edge would overlap.
+        selected, or if the bevels at both ends of an edge would overlap. If the result would not be manifold, all edges
+        are refused.
 
         Example: ``scene.bevel_edges(edges=sel.Between(0, 2), width=0.25)``, in a recipe ``BevelEdges(edges: Between(0,
         2), width: 0.25)``
 
         :param edges: The edges to bevel. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
         :param width: The distance between the beveled edge and the new edges in each of its two faces, in scene units.
+            Either ``width`` or ``fraction`` must be given.
         :param fraction: The width as a fraction of the length of the shortest edge at the ends of the selected edges.
-            Replaces ``width``. From 0 to 1, exclusive.
+            From 0 to 1, exclusive.
         :param on_refusal: What to do when an edge is refused. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
@@ -1028,12 +1038,12 @@ class SceneOperations:
         A face with n corners becomes n triangles. Each poked face adds 1 vertex, n edges and n - 1 faces. The first
         triangle keeps the id of the face; the other triangles and the new vertices and edges get the highest ids, in
         order of the faces. The new vertex is at the mean of the corners, moved along the normal of the face by
-        ``distance``. The vertex and corner attributes of the new vertex are also means, if the type of the attribute
-        allows means. The triangles have the values of their face, and the new edges have zero values (no crease, no
-        tags). If ``distance`` is not 0, normals are dropped.
+        ``distance``. Vertex and corner attributes that edits interpolate are also means at the new vertex. The
+        triangles have the values of their face, and the new edges have zero values (no crease, no tags). If
+        ``distance`` is not 0, normals are dropped.
 
-        A face is refused only if the position of the new vertex would not be finite, or if the mesh already has the
-        largest supported number of elements.
+        A face is refused only if it contains a vertex twice, if the position of the new vertex would not be finite, or
+        if the mesh already has the largest supported number of elements.
 
         Example: ``scene.poke_faces()``, in a recipe ``PokeFaces()``
 
@@ -1131,7 +1141,8 @@ class SceneOperations:
         first scaled, then rotated, both about the mean of its vertices, and then moved. Side faces with four corners
         are added along the rim of the region, which consists of the edges with a face of the region on one side only.
         If all faces of an open sheet are extruded, the result is a box that is open where the sheet was. A closed
-        region has no rim and no normal, so its faces only move, and ``by`` must be an ``choice.Offset``.
+        region has no rim, so its faces only move. If the area vectors of the faces cancel each other out, as in a
+        closed region, the region has no normal, and ``by`` must be an ``choice.Offset``.
 
         The faces keep their ids, so the same selection can be extruded again in later steps, for example to grow an arm
         out of a body. Vertices and edges inside a region also keep their ids. The vertices and edges of the old rim do
@@ -1182,9 +1193,9 @@ class SceneOperations:
         New vertices and faces get the highest ids: in order of the selected faces, and counter-clockwise around each
         face from its first corner.
 
-        Values at the new corners and vertices are interpolated between the outer corner and the mean of the face, so
-        textures do not change. The ring has the values of the face (material, tags), and the inner edges have the
-        values of the outer edges. Normals are dropped.
+        Values at the new corners and vertices are interpolated between the values of the outer corner and the mean of
+        all corners of the face, so textures do not change. The ring has the values of the face (material, tags), and
+        the inner edges have the values of the outer edges. Normals are dropped.
 
         A face is refused if it is on both sides of one of its edges.
 
@@ -1221,9 +1232,9 @@ class SceneOperations:
         highest ids: in order of the selected faces, and counter-clockwise around each face from its first corner. A
         zero-area face has no normal, so its inner face is not raised.
 
-        Values at the new corners and vertices are interpolated between the outer corner and the mean of the face. The
-        ring has the values of the face (material, tags), and the inner edges have the values of the outer edges.
-        Normals are dropped.
+        Values at the new corners and vertices are interpolated between the values of the outer corner and the mean of
+        all corners of the face. The ring has the values of the face (material, tags), and the inner edges have the
+        values of the outer edges. Normals are dropped.
 
         A face is refused if it is on both sides of one of its edges.
 
@@ -1333,8 +1344,8 @@ class SceneOperations:
         """Computes a unit normal for every vertex, from the faces around it.
 
         The normals are written to the vertex attribute ``normal``, which is replaced if it exists. Corner normals are
-        removed, because they would contradict the vertex normals. A vertex that has no faces, or whose face normals
-        cancel each other out, gets the zero vector and is counted.
+        removed, because they would contradict the vertex normals. A vertex that has no faces or only zero-area faces,
+        or whose face normals cancel each other out, gets the zero vector and is counted.
 
         Example: ``scene.vertex_normals()``, in a recipe ``VertexNormals()``
 
@@ -1360,8 +1371,9 @@ class SceneOperations:
         tangents are written to the corner attribute ``tangent``, which is replaced if it exists. A tangent is a unit
         vector perpendicular to the normal, followed by the sign of the bitangent as the fourth number. ``.glb`` and
         ``.gltf`` files store the attribute as ``TANGENT``. Polygons are triangulated in the same way as for ``.glb``
-        and ``.gltf`` files. Steps that change the shape or the faces remove the tangents. Corners at which the texture
-        coordinates define no direction get an arbitrary tangent and are counted.
+        and ``.gltf`` files. Steps that change the shape or the faces remove the tangents, except a ``transform()`` that
+        does not mirror the points. Corners at which the texture coordinates define no direction get an arbitrary
+        tangent and are counted.
 
         Example: ``scene.tangents()``, in a recipe ``Tangents()``
 
@@ -1388,10 +1400,10 @@ class SceneOperations:
         keep their ids. A hole with n edges gets 1 face with n corners, or n - 2 triangles and n - 3 edges.
 
         For holes with up to 500 edges, the triangles have the smallest total area. Larger holes are filled by cutting
-        off one corner after the other, in each case the corner whose two neighbors are closest to each other. If the
-        hole is far from convex, the triangles may overlap. Two vertices that are already joined by an edge are not
-        joined again. If a hole cannot be filled without a second edge between them, it is refused (``DuplicateEdge``).
-        A hole with two edges is also refused (``WrongPlace``); ``stitch()`` closes it.
+        off one corner after the other, in each case the corner whose two neighbors are closest to each other; straight
+        and reflex corners come last. If the hole is far from convex, the triangles may overlap. Two vertices that are
+        already joined by an edge are not joined again. If no triangles without such a second edge are found, the hole
+        is refused (``DuplicateEdge``). A hole with two edges is also refused (``WrongPlace``); ``stitch()`` closes it.
 
         New faces have the values of a face beside the hole. New corners have the values of the corner at the same
         vertex in the adjacent face. Normals are dropped if a hole was filled.
@@ -1402,7 +1414,7 @@ class SceneOperations:
             ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
         :param max_edges: Fill only holes with at most this number of edges. If omitted, holes of any size.
         :param with_: The faces that cover a hole. Defaults to ``"Triangles"``.
-            ``"Triangles"``: Triangles with the smallest total area.
+            ``"Triangles"``: Triangles.
             ``"Face"``: One face with all vertices of the hole as corners.
         :param on_refusal: What to do when a hole is refused. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
@@ -1489,7 +1501,7 @@ class SceneOperations:
     ) -> Self:
         """Opens the mesh along edges.
 
-        The edges may form paths, loops and trees. A loop cuts out a piece. Each edge becomes two edges, one for each
+        The edges may form paths, loops and trees. A loop can cut out a piece. Each edge becomes two edges, one for each
         side. If the cuts separate the faces around a vertex into several parts, each part gets a separate copy of the
         vertex. The part with the lowest face id keeps the id of the vertex, and new vertices get the highest ids. Faces
         keep their ids, and no vertex moves. Copies have the values of the originals, and corners keep their values.
@@ -1521,9 +1533,10 @@ class SceneOperations:
         """Tags the selected vertices and removes the tag from all other vertices. In later steps, ``sel.Tagged("rim")``
         selects the vertices with the tag ``rim``.
 
-        New vertices of later edits are not tagged. An existing tag of the same name is replaced. If an attribute of
-        another type has this name, the step fails. The geometry does not change. The report counts the vertices that
-        gained or lost the tag.
+        In later steps, a copy of a tagged vertex is also tagged, as in ``extrude_faces()``, but a new vertex on an edge
+        is not, as in ``split_edges()``. An existing tag of the same name is replaced. If an attribute of another type
+        has this name, the step fails. The geometry does not change. The report counts the vertices that gained or lost
+        the tag.
 
         Example: ``scene.tag_vertices(name="some", vertices="Boundary")``, in a recipe ``TagVertices(name: "some",
         vertices: Boundary)``
@@ -1635,8 +1648,9 @@ class SceneOperations:
                 decreases by 1.
         :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to ``"All"``.
             ``"None"``: Values are smoothed everywhere.
-            ``"CornersOnly"``: Like ``None_``, but values do not change at a vertex where a piece has a single face.
-            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change where three or more pieces meet.
+            ``"CornersOnly"``: Like ``None_``, but the value of a piece with a single face does not change.
+            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change where three or more pieces meet, or
+                where two pieces meet and one of them has a sharp edge inside or is not contiguous.
             ``"CornersPlus2"``: Like ``CornersPlus1``, but values also do not change at the ends of seams.
             ``"Boundaries"``: Values are interpolated linearly along seams and boundaries, and smoothed elsewhere.
             ``"All"``: Values are interpolated linearly everywhere: each new value is a mean of values of one old face.
@@ -1695,8 +1709,9 @@ class SceneOperations:
                 decreases by 1.
         :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to ``"All"``.
             ``"None"``: Values are smoothed everywhere.
-            ``"CornersOnly"``: Like ``None_``, but values do not change at a vertex where a piece has a single face.
-            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change where three or more pieces meet.
+            ``"CornersOnly"``: Like ``None_``, but the value of a piece with a single face does not change.
+            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change where three or more pieces meet, or
+                where two pieces meet and one of them has a sharp edge inside or is not contiguous.
             ``"CornersPlus2"``: Like ``CornersPlus1``, but values also do not change at the ends of seams.
             ``"Boundaries"``: Values are interpolated linearly along seams and boundaries, and smoothed elsewhere.
             ``"All"``: Values are interpolated linearly everywhere: each new value is a mean of values of one old face.
@@ -1868,10 +1883,11 @@ class SceneOperations:
         """Cuts meshes along a plane.
 
         Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along it.
-        A concave face can be cut several times. A vertex is on the plane if its distance from the plane is less than
-        1e-9 of the largest extent of the mesh; it is not moved. When an edge is cut, the part at the end with the lower
-        id keeps the id of the edge. When a face is cut, the part with the first corner keeps the id of the face. New
-        elements get the highest ids. Attributes are interpolated at the crossings, separately on each side of a seam.
+        A concave face can be cut several times. A vertex is on the plane if its distance from the plane is at most 1e-9
+        of the largest extent of the mesh or 1e-14 of the largest coordinate; it is not moved. When edge e is cut, the
+        part at the start of half-edge 2e keeps the id of the edge. When a face is cut, the part with the first corner
+        keeps the id of the face. New elements get the highest ids. Attributes are interpolated at the crossings,
+        separately on each side of a seam.
 
         With ``keep="Front"`` or ``keep="Back"``, the other side of the plane is removed. A face in the plane belongs to
         the back if its normal points to the front, because the face then closes the solid behind the plane. Vertices
@@ -1943,8 +1959,9 @@ class SceneOperations:
 
         Edges are collapsed, starting with the edges whose collapse changes the surface least. The change is the mean
         squared distance of the new vertex to the planes of the original triangles that it replaces (Garland, Heckbert,
-        1997). The step ends when ``faces`` or ``ratio`` is reached, or when every remaining collapse could exceed
-        ``error``. At least one of ``faces``, ``ratio`` and ``error`` must be given. All faces must be triangles.
+        1997). The step ends when ``faces`` or ``ratio`` is reached, or when every remaining collapse is refused or
+        could exceed ``error``. At least one of ``faces``, ``ratio`` and ``error`` must be given, but not both ``faces``
+        and ``ratio``. All faces must be triangles.
 
         The following properties are kept:
 
@@ -1956,11 +1973,11 @@ class SceneOperations:
           (Hoppe, 1999), and new vertices get the values that fit best. Values are never mixed across a line, and no
           triangle is turned over in the texture. Normals are kept, so that a simplified mesh is shaded like the
           original.
-        - Vertex tags: vertices with different tags or sharpness are not merged.
+        - Vertex tags: vertices with different tags, whole numbers or sharpness are not merged.
 
         No triangle is turned over. Remaining elements get new ids, in the order of their old ids. If the number of
         faces cannot be reached and ``error`` is not given, the step is refused as ``Unreached``, and the message states
-        the reasons. With ``on_refusal="Skip"``, the result is kept.
+        the reasons. With ``on_refusal="Skip"``, the step keeps the mesh with the fewest faces that it reached.
 
         Example: ``scene.simplify(ratio=0.5)``, in a recipe ``Simplify(ratio: 0.5)``
 
@@ -1969,7 +1986,8 @@ class SceneOperations:
         :param ratio: The number of faces to reach, as a fraction of the number of faces of each mesh.
         :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. The
             limit is guaranteed, because the step adds up an upper bound for the distance by which each collapse moves
-            the surface. The true distance is therefore usually much smaller. If omitted, there is no limit.
+            the surface. The true distance is usually between a third of the limit and the limit. If omitted, there is
+            no limit.
         :param features: Edges that are treated as lines, for example ``sel.Sharp(above=30)``. If omitted, only the
             lines that are always kept. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
         :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
@@ -2038,7 +2056,7 @@ class SceneOperations:
         vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target
         length. All vertices lie on the original surface. The target length is either ``length``, or it follows
         ``curvature``: edges are short where the surface is curved, and long where it is flat (Dunyach and others,
-        2013). One of the two must be given. All faces must be triangles.
+        2013). Exactly one of the two must be given. All faces must be triangles.
 
         The following properties are kept:
 
@@ -2048,8 +2066,9 @@ class SceneOperations:
           where lines meet, and corners where a line turns by more than 40 degrees keep their exact positions. Other
           sharp edges are rounded.
         - Attributes: they come from the same point of the original surface, and are never interpolated across a line.
-        - Vertex tags: a new vertex has a tag if all old vertices around its position had the tag. Tagged vertices
-          without tagged neighbors and vertices with sharpness keep their exact positions.
+        - Vertex tags: a new vertex has a tag if all old vertices around its position had the tag. A tagged vertex keeps
+          its exact position unless all corners of one of its triangles, or both of its neighbors on a line, also have
+          the tag. Vertices with sharpness also keep their exact positions.
 
         Edits that would turn a triangle over are refused. All elements get new ids. If the distance between the result
         and the original could exceed ``error``, the step is refused as ``Unreached``. With ``on_refusal="Skip"``, the
@@ -2122,7 +2141,8 @@ class SceneOperations:
             value of ``meshwright.sel``.
         :param boundary: How vertices on the boundary move. Defaults to ``"Fixed"``.
             ``"Fixed"``: The vertices do not move.
-            ``"Free"``: The boundary is smoothed as curves, so only neighbors along the boundary affect a vertex.
+            ``"Free"``: The boundary is smoothed as curves, so a vertex on the boundary depends only on its neighbors
+                along the boundary.
         :param keep_volume: Whether the moved vertices are finally shifted along their normals, all by the same
             distance, until the mesh has its original volume. The mesh must be closed. Defaults to ``False``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
@@ -2141,18 +2161,20 @@ class SceneOperations:
     ) -> Self:
         """Copies attributes from the nearest points of another object.
 
-        An attribute of vertices, corners or faces of the object ``from_`` becomes an attribute of the same kind.
-        Numbers and vectors of vertices and corners are interpolated inside the face of the nearest point. Whole
-        numbers, tags, and attributes that edits do not interpolate are copied from the nearest corner of this face.
-        Values of faces are copied from this face. An existing attribute with the same type of values is overwritten.
-        Without ``on``, the step acts on all meshes except ``from_``.
+        An attribute of vertices, corners or faces of the object ``from_`` becomes an attribute of the same kind of
+        elements. Numbers and vectors of vertices and corners are interpolated inside the face of the nearest point.
+        Whole numbers, tags, and attributes that edits do not interpolate are copied from the nearest corner of this
+        face. Values of faces are copied from this face. An existing attribute with the same type of values is
+        overwritten; with a different type, the step fails. Without ``on``, the step acts on all meshes except
+        ``from_``.
 
         All corners of a face take their values from one chart of the source, that is, from faces that are connected
         without crossing a seam of the attribute. The chart is the one nearest to the center of the face, so no triangle
         is stretched across a seam of texture coordinates.
 
         Elements whose distance from the source exceeds ``within`` keep their values, or get zeros if the attribute is
-        new, and are counted. If this applies to a corner of a face, it applies to all corners of the face.
+        new, and are counted. If a corner or the center of a face is that far away, this applies to all corners of the
+        face.
 
         Example: ``scene.transfer(from_="scan", attributes=["uv", "color"], within=0.01)``, in a recipe ``Transfer(from:
         "scan", attributes: ["uv", "color"], within: 0.01)``
@@ -2176,7 +2198,8 @@ class SceneOperations:
     ) -> Self:
         """Moves vertices.
 
-        Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped.
+        Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
+        with the surface.
 
         With ``falloff="r"``, vertices near the selected vertices also move. At the distance d from the nearest selected
         vertex, the movement is multiplied by the weight (1 - (d/r)²)². The weight is 1 at selected vertices and falls
@@ -2193,7 +2216,7 @@ class SceneOperations:
         :param by: How the vertices move.
             ``choice.Offset(..)``: By this offset along x, y and z, in scene units.
             ``choice.Distance(..)``: By this distance along the normal of each vertex, in scene units.
-            ``choice.To(..)``: By the offset that moves the mean of the selected vertices to this point.
+            ``choice.To(..)``: By the same offset for all selected vertices, which moves their mean to this point.
         :param falloff: The distance from the selected vertices at which the movement has fallen to 0, in scene units.
             If omitted, only the selected vertices move.
         :param on: The objects that the step acts on. If omitted, all that it supports.
@@ -2214,7 +2237,7 @@ class SceneOperations:
 
         Each vertex moves along its normal by ``distance`` times the value of ``by``. The normal of a vertex is the mean
         of the normals of its faces, weighted by their areas. Vertices without a normal do not move and are counted.
-        Faces, element ids and attributes do not change. Normals are dropped.
+        Normals and tangents are dropped. Faces, element ids and other attributes do not change.
 
         The values are computed without functions that differ between machines, so the result is identical on all
         machines.
@@ -2249,14 +2272,14 @@ class SceneOperations:
     ) -> Self:
         """Bends a mesh, so that an axis becomes an arc of a circle.
 
-        The plane at ``from_`` does not move. Between ``from_`` and ``to``, the axis becomes an arc that keeps its
-        length and turns by ``angle`` in total. Vertices beyond ``to`` move rigidly. Vertices between the axis and the
+        Vertices at or below ``from_`` do not move. Between ``from_`` and ``to``, the axis becomes an arc that keeps its
+        length and turns by ``angle`` in total. Vertices above ``to`` move rigidly. Vertices between the axis and the
         center of the circle move closer together, and vertices on the other side of the axis move apart. The distance
         between the center and the axis is (to - from) / angle, with the angle in radians. Parts of the mesh beyond the
         center turn inside out. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
 
-        Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
-        vertices move, so refine the mesh first if its faces are large.
+        Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
+        with the surface. Only vertices move, so refine the mesh first if its faces are large.
 
         Example: ``scene.bend(axis="Z", angle=90)``, in a recipe ``Bend(axis: Z, angle: 90)``
 
@@ -2297,11 +2320,12 @@ class SceneOperations:
         """Rotates vertices around an axis, by an angle that grows along the axis.
 
         The angle grows linearly from 0 at ``from_`` to ``angle`` at ``to``. Below ``from_`` and above ``to``, vertices
-        rotate by the angle of the nearer end. A twist does not change volumes, and a twist by the opposite angle undoes
-        it. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
+        rotate by the angle of the nearer end. The volume changes only because edges stay straight, so hardly on a fine
+        mesh. A twist by the opposite angle undoes a twist. Source: Barr, "Global and Local Deformations of Solid
+        Primitives", 1984.
 
-        Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
-        vertices move, so refine the mesh first if its faces are large.
+        Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
+        with the surface. Only vertices move, so refine the mesh first if its faces are large.
 
         Example: ``scene.twist(axis="Z", angle=90)``, in a recipe ``Twist(axis: Z, angle: 90)``
 
@@ -2340,8 +2364,8 @@ class SceneOperations:
         factor of the nearer end applies. Coordinates along the axis do not change. Source: Barr, "Global and Local
         Deformations of Solid Primitives", 1984.
 
-        Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
-        vertices move, so refine the mesh first if its faces are large.
+        Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
+        with the surface. Only vertices move, so refine the mesh first if its faces are large.
 
         Example: ``scene.taper(axis="Z", factor=0.5)``, in a recipe ``Taper(axis: Z, factor: 0.5)``
 
@@ -2381,8 +2405,9 @@ class SceneOperations:
         same offset, the whole box moves by this offset. A control point attracts the surface, but the surface usually
         does not reach it, except at the corners of the box.
 
-        Vertices outside the box do not move. Faces, element ids and attributes do not change, so textures stretch with
-        the surface. Normals are dropped. Only vertices move, so refine the mesh first if its faces are large.
+        Vertices outside the box do not move. Normals and tangents are dropped. Faces, element ids and other attributes
+        do not change, so textures stretch with the surface. Only vertices move, so refine the mesh first if its faces
+        are large.
 
         Example: ``scene.lattice(size=(3, 3, 3), moves=[((2, 2, 2), (0.5, 0.5, 0.5))])``, in a recipe ``Lattice(size:
         (3, 3, 3), moves: [((2, 2, 2), (0.5, 0.5, 0.5))])``
@@ -2413,8 +2438,8 @@ class SceneOperations:
         """Moves vertices onto the surface of another object (shrinkwrap).
 
         Only vertices in ``vertices`` that are not in ``pin`` move. All others keep their exact positions. Without
-        ``on``, the step acts on all meshes except the object ``onto``, which does not change. Faces, element ids and
-        attributes do not change, so textures stretch with the surface. Normals are dropped.
+        ``on``, the step acts on all meshes except the object ``onto``, which does not change. Normals and tangents are
+        dropped. Faces, element ids and other attributes do not change, so textures stretch with the surface.
 
         Vertices that would move farther than ``distance`` do not move. With ``Normal`` and ``choice.Direction``,
         vertices whose line misses the surface do not move either. The report counts both kinds of vertices.
@@ -2453,8 +2478,8 @@ class SceneOperations:
         attributes do not change. Quantities are computed in the space of the mesh, without the transforms of nodes. The
         report states the lowest, the mean and the highest value of each object.
 
-        An attribute of the same name is replaced if it has one number for each element of the same kind. Otherwise the
-        step fails.
+        An attribute of the same name is replaced if it belongs to the same elements (vertices or faces) and has one
+        floating-point number for each. Otherwise the step fails.
 
         Example: ``scene.measure(of="MeanCurvature")``, in a recipe ``Measure(of: MeanCurvature)``
 
@@ -2481,7 +2506,7 @@ class SceneOperations:
                 outside, and numbers between 0 and 1 near gaps of the other mesh (Jacobson, Kavan, Sorkine-Hornung,
                 2013; Barill, Dickson, Schmidt, Levin, Jacobson, 2018).
         :param name: The name of the attribute. If omitted, the name of the quantity in lower case, such as
-            ``mean_curvature``.
+            ``mean_curvature``, or ``largest_curvature`` or ``smallest_curvature`` for a principal curvature.
         :param missing: The value for elements at which the quantity is not defined, such as the curvature of a vertex
             without faces. These elements are counted. If omitted, 0 for quantities that can be negative, and -1 for all
             others.
@@ -2512,7 +2537,7 @@ class SceneOperations:
         one chart. Each mesh gets its own page.
 
         The coordinates are written to the corner attribute ``uv``, which is replaced if it exists. Edges at which
-        charts meet become its seams. Positions, faces and other attributes do not change, but tangents are removed.
+        charts meet become seams. Positions, faces and other attributes do not change, but tangents are removed.
         Zero-area faces have no area in the texture and are counted. A polygon that is bent so far that it overlaps
         itself is refused as ``WrongPlace``, so triangulate it first. With ``on_refusal="Skip"``, its triangles overlap
         in the texture.
@@ -2627,7 +2652,7 @@ class SceneOperations:
             ``sel.Faces(sel.Tagged("top"))``. ``"All"``, ``"Boundary"``, ``"Isolated"``, ``"SelfIntersecting"``, or a
             value of ``meshwright.sel``.
         :param highlight_width: The width of highlighted edges and the diameter of highlighted vertices, in pixels. The
-            defaults depend on the height of the picture: 2.8 and 7.5 for 240 pixels, 3.4 and 10 for 480, 4 and 13 for
+            defaults depend on the shorter side of a view: 2.8 and 7.5 for 240 pixels, 3.4 and 10 for 480, 4 and 13 for
             960, 8 and 26 for 1920. If there are many highlighted vertices, they are drawn smaller. Hidden edges are
             faint, and hidden vertices are rings.
         :param marks: More elements to highlight, each in its color.
@@ -2671,9 +2696,10 @@ class SceneOperations:
 
         The figure has a panel for each curve and each ``t``. With ``by_level``, it instead has a panel for each curve,
         each ``t`` and each level. A panel shows the control polygon, every level of de Casteljau's algorithm in a
-        different color, the point, and the curve, with the same scale in both axes. The extension of the file
-        determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene
-        does not change.
+        different color, the point, and the curve, with the same scale in both axes. With ``by_level``, each panel of a
+        ``t`` shows one level more than the panel before it, and only the last one shows the point. The extension of the
+        file determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The
+        scene does not change.
 
         Example: ``scene.curve_figure(path="figure.svg", t=[0.25, 0.5])``, in a recipe ``CurveFigure(path: "figure.svg",
         t: [0.25, 0.5])``
@@ -2712,8 +2738,9 @@ class SceneOperations:
         Each half-edge is an arrow beside its edge, inside its face, with its name. A thin curve leads from the head of
         the arrow to the next half-edge of the face. The twin of a half-edge is on the other side of the edge.
         Half-edges on the boundary have no face and are gray. The faces are seen along their mean normal. Faces that
-        face away from the viewer are left out and reported. The extension of the file determines the format: ``.svg``
-        or ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
+        face away from the viewer or are seen nearly edge-on are left out and reported. The extension of the file
+        determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene
+        does not change.
 
         A name is a letter and the id of the element: ``v`` for vertices, ``h`` for half-edges, ``f`` for faces.
         Half-edges ``2e`` and ``2e + 1`` belong to edge ``e``.
@@ -2745,10 +2772,10 @@ class SceneOperations:
     ) -> Self:
         """Draws the charts of the texture coordinates of a mesh into an image file.
 
-        The frame is the page of the texture, with u and v from 0 to 1 and v upwards. Thick lines are the borders of
-        charts, and thin lines are the other edges. Coordinates outside the page are also drawn. They make the figure
-        higher or its scale smaller. The extension of the file determines the format: ``.svg`` or ``.png``. The file is
-        written only if the whole recipe succeeds. The scene does not change.
+        A gray frame shows the page of the texture, where u and v are from 0 to 1; v points upwards. Thick lines are the
+        borders of charts, and thin lines are the other edges. Coordinates outside the page are also drawn. They make
+        the figure higher or its scale smaller. The extension of the file determines the format: ``.svg`` or ``.png``.
+        The file is written only if the whole recipe succeeds. The scene does not change.
 
         Example: ``scene.uv_picture(path="uv.svg")``, in a recipe ``UvPicture(path: "uv.svg")``
 
@@ -2793,8 +2820,8 @@ class MeshOperations:
         ``.bez`` for Bezier patches, ``.bzc`` for a curve, and ``.mws`` for a complete scene without any loss. ``.csv``
         is a table of the positions and attributes of vertices, faces or corners, and ``.npz`` has the arrays of a mesh
         for ``NumPy``. These two formats cannot be read. If the name ends with ``.gz``, as in ``a.obj.gz``, the file is
-        compressed with gzip. Content that the format cannot store is reported. The file is only created when the whole
-        recipe has succeeded.
+        compressed with gzip, which is not possible for ``.glb``, ``.mws`` and ``.npz``. Content that the format cannot
+        store is reported. The file is only created when the whole recipe has succeeded.
 
         Example: ``mesh.save(path="a.obj")``
 
@@ -2811,10 +2838,10 @@ class MeshOperations:
             ``"Meshopt"``: The extension ``EXT_meshopt_compression``.
         :param quantize: The number of bits for each attribute of the geometry in ``.glb`` and ``.gltf`` files. If
             omitted, numbers are stored as 32-bit floats. ``quantize={}`` uses the default of each attribute. The report
-            lists the largest errors.
+            states the largest errors of positions, of normals and tangents, and of texture coordinates.
             ``"position"``: The bits of each coordinate of a position. Positions are rounded to a grid that covers the
                 bounding box of the object and has the same step along all axes. The longest side of the box has 2^bits
-                - 1 steps. Defaults to 16.
+                - 1 steps. Positions of objects with joints or morph targets are not quantized. Defaults to 16.
             ``"normal"``: The bits of each of the two numbers that represent a normal or a tangent as a point of an
                 octahedron. Defaults to 8.
             ``"uv"``: The bits of each texture coordinate. A set with coordinates outside the range from 0 to 1 is not
@@ -2873,7 +2900,7 @@ class MeshOperations:
         """Replaces curves with polylines through their points.
 
         Each curve becomes one polyline with ``segments`` + 1 points in the plane z = 0, at the parameters 0, 1 /
-        segments, ... 1. The first and the last point are exactly the end control points.
+        segments, 2 / segments and so on, up to 1. The first and the last point are exactly the end control points.
 
         Example: ``mesh.sample_curve(segments=1)``
 
@@ -2912,9 +2939,8 @@ class MeshOperations:
     ) -> Self:
         """Moves one control point of curves.
 
-        The other control points do not move. The point of the curve at a parameter t moves in the same direction as the
-        control point. Its distance is the distance of the control point times the value at t of the Bernstein
-        polynomial of the control point.
+        The other control points do not move. The point of the curve at a parameter t moves by the offset of the control
+        point, multiplied by the value at t of the Bernstein polynomial of the control point.
 
         Example: ``mesh.move_control_point(index=1, to=(2, -3.5))``
 
@@ -2939,16 +2965,18 @@ class MeshOperations:
         """Scales, rotates and moves objects.
 
         Points are first scaled, then rotated, then moved. The step changes the points of meshes, patches, curves and
-        polylines. If nodes of a glTF file place an object, the step changes the placements of these nodes instead, and
-        everything below the nodes also moves. A skinned mesh moves with its joints. A node whose placement is animated
-        gets a parent, which is moved instead. Without ``on:``, root nodes with cameras and lights also move, unless
-        ``about`` is ``Center``. A curve must stay in the plane z = 0.
+        polylines. If nodes place an object and ``space`` is ``Scene``, the step changes the placements of these nodes
+        instead, and everything below the nodes also moves. A skinned mesh then moves with its joints. A node whose
+        placement is animated gets a parent, which is moved instead. With ``space="Scene"`` and without ``on:``, all
+        other root nodes also move, for example those of cameras and lights, unless ``about`` is ``Center``. A curve
+        must stay in the plane z = 0.
 
-        Ids do not change. Normals and the deltas of morph targets are transformed; other attributes do not change. A
-        mirror (one or three negative factors in ``scale``) also reverses the faces, so that they are counter-clockwise
-        seen from outside. The first corner of a face stays first, and the other corners follow in reverse order. In
-        mirrored patches, u and v are exchanged, so that the outside stays the outside. A mirror drops attributes with
-        the rule ``Drop``, as does any step that changes the connectivity.
+        Ids do not change. If the points of a mesh change, its normals, tangents and deltas of morph targets are also
+        transformed; other attributes do not change. If the points are mirrored (one or three negative factors in
+        ``scale``), the faces are also reversed, so that they stay counter-clockwise seen from outside. The first corner
+        of a face stays first, and the other corners follow in reverse order. In mirrored patches, u and v are
+        exchanged, so that the outside stays the outside. Mirroring the points drops attributes with the rule ``Drop``,
+        such as tangents of corners, as does any step that changes the connectivity.
 
         Example: ``mesh.transform(scale=(2, 1, 1), rotate=[{"axis": "Z", "angle": 90}], move=(3, 1, 0))``
 
@@ -2960,7 +2988,7 @@ class MeshOperations:
         :param move: The distances to move along x, y and z, in scene units.
         :param about: The fixed point of scaling and rotation. Defaults to ``"Origin"``.
             ``"Origin"``: The origin.
-            ``"Center"``: The center of the bounding box of each object with all its instances.
+            ``"Center"``: The center of the bounding box of each object.
             ``choice.Point(..)``: A point with the coordinates x, y, z.
         :param space: The coordinates in which objects move. Defaults to ``"Scene"``.
             ``"Scene"``: The space of the scene.
@@ -2986,10 +3014,10 @@ class MeshOperations:
 
         If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
         corners left or would contain a vertex twice. If joined faces have opposite orientations, the smaller group is
-        reversed, provided that all orientations then agree. Reversed faces are counted, and the normals of vertices and
-        corners are dropped. Where the result would still not be manifold, vertices and edges are copied, and the copies
-        are counted. For example, a third face at an edge gets a copy of the edge. If no vertices merge, the mesh does
-        not change.
+        reversed, provided that all orientations then agree. If faces are reversed, they are counted, and the normals of
+        vertices and corners are dropped. Where the result would still not be manifold, vertices and edges are copied,
+        and the copies are counted. For example, a third face at an edge gets a copy of the edge. If no vertices merge,
+        the mesh does not change.
 
         Example: ``mesh.weld(distance=0)``
 
@@ -3011,7 +3039,8 @@ class MeshOperations:
         Adjacent faces must have the same orientation, so only whole connected components can be reversed. If a selected
         face shares an edge with a face that is not selected, the step is refused. No vertex moves, and all elements
         keep their ids. The first corner of a face stays first, and the other corners follow in reverse order. Normals
-        are negated. Other attributes stay with their elements, and corner values stay with their vertex and face.
+        are negated. Attributes with the rule ``Drop``, such as tangents of corners, are dropped. Other attributes stay
+        with their elements, and corner values stay with their vertex and face.
 
         Example: ``mesh.reverse()``
 
@@ -3039,7 +3068,8 @@ class MeshOperations:
 
         A face with more corners is projected along its normal, cut by ear clipping, and improved by flipping diagonals
         until it is a constrained Delaunay triangulation. A face that cannot be triangulated in this way, because it has
-        zero area or its sides cross, becomes a triangle fan around its vertex with the lowest id, and is counted.
+        zero area, its sides cross, or it has more than ten million corners, becomes a triangle fan around its vertex
+        with the lowest id, and is counted.
 
         The triangles replace their face in the order of the faces and have the values of the face. Vertices and edges
         keep their ids. The corners of the triangles have the values of the corners of the face at the same vertices.
@@ -3063,7 +3093,7 @@ class MeshOperations:
         seams: Literal['Refuse', 'Drop'] | Ron | None = None,
         id: str | None = None,
     ) -> Self:
-        """Replaces the edge between two triangles with the other diagonal of the two triangles.
+        """Replaces the edge between two triangles with the other diagonal of the quadrilateral that they form.
 
         Edges are flipped in order of their ids. Each flip is checked against the mesh as edited so far. A flip is
         refused if the edge is on the boundary, if a face beside it is not a triangle, or if the opposite corners of the
@@ -3073,11 +3103,11 @@ class MeshOperations:
         same vertex; all other corners keep their values.
 
         With ``until="Delaunay"`` or ``until="Valence"``, an edge is flipped only if the flip improves the mesh. Edges
-        are checked again, pass after pass, until no edge is flipped. Flips with ``until="Delaunay"`` or
-        ``until="Valence"`` neither fold the surface nor create zero-area triangles. If a flip that would improve the
-        mesh is refused, the step does not fail. The edge is left unchanged, and the report counts the refusals by
-        reason. The report also contains the number of passes, and whether the step stopped because ``passes`` was
-        reached.
+        are checked again, pass after pass, until a pass flips no edge or ``passes`` is reached. Flips with
+        ``until="Delaunay"`` or ``until="Valence"`` neither fold the surface nor create zero-area triangles. If a flip
+        that would improve the mesh is refused, the step does not fail. The edge is left unchanged, and the report
+        counts the refusals by reason. The report also contains the number of passes, and whether the step stopped
+        because ``passes`` was reached.
 
         On a surface that is not flat, a flip changes the shape. To keep creases and other edges, exclude them from
         ``edges``, for example with ``sel.Flat(below=30)`` or ``sel.Not(sel.Tagged("keep"))``.
@@ -3155,8 +3185,9 @@ class MeshOperations:
           tube with three sides or at a hole with three edges.
         - ``DuplicateEdge``: a second edge joins the ends.
         - ``RepeatedVertex``: both ends are also corners of a face that is not beside the edge.
-        - ``Vanishes``: the mesh around the edge is a tetrahedron or a single triangle.
-        - ``SameFace``: the same face is on both sides of the edge.
+        - ``Vanishes``: no face would remain around the edge, as for a single triangle, or only two faces back to back,
+          as for a tetrahedron.
+        - ``SameFace``: the same face is on both sides of the edge, or would be on both sides of another edge.
         - ``SameOpposite``: the two triangles beside the edge share another edge.
 
         Values at the remaining vertex and its corners are interpolated between the ends, on each side of a seam
@@ -3222,10 +3253,11 @@ class MeshOperations:
         """Replaces edges with faces of constant width.
 
         A selected edge and both of its ends are removed, and a new face replaces the edge. In both faces beside the
-        edge, the new face ends at the distance ``width`` from the old edge. Each other edge at an end is cut at this
-        distance. Between two selected edges, the new vertex lies in the face. If three or more new vertices surround an
-        old vertex, another new face joins them. All edges are beveled together, so a cube that is beveled at all edges
-        keeps all of its symmetries.
+        edge, the new face ends at the distance ``width`` from the old edge. Each other edge at an end is cut where it
+        reaches this distance, but at most four times ``width`` from the end. An edge that is not next to a selected
+        edge is cut at ``width`` from the end. Between two selected edges, the new vertex lies in the face. If three or
+        more new vertices surround an old vertex, another new face joins them. All edges are beveled together, so a cube
+        that is beveled at all edges keeps all of its symmetries.
 
         The ends of the edges are removed, so the ids of later vertices change. New vertices get the highest ids. Faces
         keep their ids. New faces get the highest ids: first the faces of edges, in order of the edges, then the faces
@@ -3236,14 +3268,16 @@ class MeshOperations:
         run. New edges have zero values (no crease, no tags). Normals are dropped.
 
         An edge is refused if it is on the boundary, if one of its ends has only one other edge and this edge is not
-        selected, or if the bevels at both ends of an edge would overlap.
+        selected, or if the bevels at both ends of an edge would overlap. If the result would not be manifold, all edges
+        are refused.
 
         Example: ``mesh.bevel_edges(edges=sel.Between(0, 2), width=0.25)``
 
         :param edges: The edges to bevel. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
         :param width: The distance between the beveled edge and the new edges in each of its two faces, in scene units.
+            Either ``width`` or ``fraction`` must be given.
         :param fraction: The width as a fraction of the length of the shortest edge at the ends of the selected edges.
-            Replaces ``width``. From 0 to 1, exclusive.
+            From 0 to 1, exclusive.
         :param on_refusal: What to do when an edge is refused. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
@@ -3297,12 +3331,12 @@ class MeshOperations:
         A face with n corners becomes n triangles. Each poked face adds 1 vertex, n edges and n - 1 faces. The first
         triangle keeps the id of the face; the other triangles and the new vertices and edges get the highest ids, in
         order of the faces. The new vertex is at the mean of the corners, moved along the normal of the face by
-        ``distance``. The vertex and corner attributes of the new vertex are also means, if the type of the attribute
-        allows means. The triangles have the values of their face, and the new edges have zero values (no crease, no
-        tags). If ``distance`` is not 0, normals are dropped.
+        ``distance``. Vertex and corner attributes that edits interpolate are also means at the new vertex. The
+        triangles have the values of their face, and the new edges have zero values (no crease, no tags). If
+        ``distance`` is not 0, normals are dropped.
 
-        A face is refused only if the position of the new vertex would not be finite, or if the mesh already has the
-        largest supported number of elements.
+        A face is refused only if it contains a vertex twice, if the position of the new vertex would not be finite, or
+        if the mesh already has the largest supported number of elements.
 
         Example: ``mesh.poke_faces()``
 
@@ -3397,7 +3431,8 @@ class MeshOperations:
         first scaled, then rotated, both about the mean of its vertices, and then moved. Side faces with four corners
         are added along the rim of the region, which consists of the edges with a face of the region on one side only.
         If all faces of an open sheet are extruded, the result is a box that is open where the sheet was. A closed
-        region has no rim and no normal, so its faces only move, and ``by`` must be an ``choice.Offset``.
+        region has no rim, so its faces only move. If the area vectors of the faces cancel each other out, as in a
+        closed region, the region has no normal, and ``by`` must be an ``choice.Offset``.
 
         The faces keep their ids, so the same selection can be extruded again in later steps, for example to grow an arm
         out of a body. Vertices and edges inside a region also keep their ids. The vertices and edges of the old rim do
@@ -3446,9 +3481,9 @@ class MeshOperations:
         New vertices and faces get the highest ids: in order of the selected faces, and counter-clockwise around each
         face from its first corner.
 
-        Values at the new corners and vertices are interpolated between the outer corner and the mean of the face, so
-        textures do not change. The ring has the values of the face (material, tags), and the inner edges have the
-        values of the outer edges. Normals are dropped.
+        Values at the new corners and vertices are interpolated between the values of the outer corner and the mean of
+        all corners of the face, so textures do not change. The ring has the values of the face (material, tags), and
+        the inner edges have the values of the outer edges. Normals are dropped.
 
         A face is refused if it is on both sides of one of its edges.
 
@@ -3483,9 +3518,9 @@ class MeshOperations:
         highest ids: in order of the selected faces, and counter-clockwise around each face from its first corner. A
         zero-area face has no normal, so its inner face is not raised.
 
-        Values at the new corners and vertices are interpolated between the outer corner and the mean of the face. The
-        ring has the values of the face (material, tags), and the inner edges have the values of the outer edges.
-        Normals are dropped.
+        Values at the new corners and vertices are interpolated between the values of the outer corner and the mean of
+        all corners of the face. The ring has the values of the face (material, tags), and the inner edges have the
+        values of the outer edges. Normals are dropped.
 
         A face is refused if it is on both sides of one of its edges.
 
@@ -3589,8 +3624,8 @@ class MeshOperations:
         """Computes a unit normal for every vertex, from the faces around it.
 
         The normals are written to the vertex attribute ``normal``, which is replaced if it exists. Corner normals are
-        removed, because they would contradict the vertex normals. A vertex that has no faces, or whose face normals
-        cancel each other out, gets the zero vector and is counted.
+        removed, because they would contradict the vertex normals. A vertex that has no faces or only zero-area faces,
+        or whose face normals cancel each other out, gets the zero vector and is counted.
 
         Example: ``mesh.vertex_normals()``
 
@@ -3615,8 +3650,9 @@ class MeshOperations:
         tangents are written to the corner attribute ``tangent``, which is replaced if it exists. A tangent is a unit
         vector perpendicular to the normal, followed by the sign of the bitangent as the fourth number. ``.glb`` and
         ``.gltf`` files store the attribute as ``TANGENT``. Polygons are triangulated in the same way as for ``.glb``
-        and ``.gltf`` files. Steps that change the shape or the faces remove the tangents. Corners at which the texture
-        coordinates define no direction get an arbitrary tangent and are counted.
+        and ``.gltf`` files. Steps that change the shape or the faces remove the tangents, except a ``transform()`` that
+        does not mirror the points. Corners at which the texture coordinates define no direction get an arbitrary
+        tangent and are counted.
 
         Example: ``mesh.tangents()``
 
@@ -3642,10 +3678,10 @@ class MeshOperations:
         keep their ids. A hole with n edges gets 1 face with n corners, or n - 2 triangles and n - 3 edges.
 
         For holes with up to 500 edges, the triangles have the smallest total area. Larger holes are filled by cutting
-        off one corner after the other, in each case the corner whose two neighbors are closest to each other. If the
-        hole is far from convex, the triangles may overlap. Two vertices that are already joined by an edge are not
-        joined again. If a hole cannot be filled without a second edge between them, it is refused (``DuplicateEdge``).
-        A hole with two edges is also refused (``WrongPlace``); ``stitch()`` closes it.
+        off one corner after the other, in each case the corner whose two neighbors are closest to each other; straight
+        and reflex corners come last. If the hole is far from convex, the triangles may overlap. Two vertices that are
+        already joined by an edge are not joined again. If no triangles without such a second edge are found, the hole
+        is refused (``DuplicateEdge``). A hole with two edges is also refused (``WrongPlace``); ``stitch()`` closes it.
 
         New faces have the values of a face beside the hole. New corners have the values of the corner at the same
         vertex in the adjacent face. Normals are dropped if a hole was filled.
@@ -3656,7 +3692,7 @@ class MeshOperations:
             ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
         :param max_edges: Fill only holes with at most this number of edges. If omitted, holes of any size.
         :param with_: The faces that cover a hole. Defaults to ``"Triangles"``.
-            ``"Triangles"``: Triangles with the smallest total area.
+            ``"Triangles"``: Triangles.
             ``"Face"``: One face with all vertices of the hole as corners.
         :param on_refusal: What to do when a hole is refused. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
@@ -3740,7 +3776,7 @@ class MeshOperations:
     ) -> Self:
         """Opens the mesh along edges.
 
-        The edges may form paths, loops and trees. A loop cuts out a piece. Each edge becomes two edges, one for each
+        The edges may form paths, loops and trees. A loop can cut out a piece. Each edge becomes two edges, one for each
         side. If the cuts separate the faces around a vertex into several parts, each part gets a separate copy of the
         vertex. The part with the lowest face id keeps the id of the vertex, and new vertices get the highest ids. Faces
         keep their ids, and no vertex moves. Copies have the values of the originals, and corners keep their values.
@@ -3771,9 +3807,10 @@ class MeshOperations:
         """Tags the selected vertices and removes the tag from all other vertices. In later steps, ``sel.Tagged("rim")``
         selects the vertices with the tag ``rim``.
 
-        New vertices of later edits are not tagged. An existing tag of the same name is replaced. If an attribute of
-        another type has this name, the step fails. The geometry does not change. The report counts the vertices that
-        gained or lost the tag.
+        In later steps, a copy of a tagged vertex is also tagged, as in ``extrude_faces()``, but a new vertex on an edge
+        is not, as in ``split_edges()``. An existing tag of the same name is replaced. If an attribute of another type
+        has this name, the step fails. The geometry does not change. The report counts the vertices that gained or lost
+        the tag.
 
         Example: ``mesh.tag_vertices(name="some", vertices="Boundary")``
 
@@ -3879,8 +3916,9 @@ class MeshOperations:
                 decreases by 1.
         :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to ``"All"``.
             ``"None"``: Values are smoothed everywhere.
-            ``"CornersOnly"``: Like ``None_``, but values do not change at a vertex where a piece has a single face.
-            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change where three or more pieces meet.
+            ``"CornersOnly"``: Like ``None_``, but the value of a piece with a single face does not change.
+            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change where three or more pieces meet, or
+                where two pieces meet and one of them has a sharp edge inside or is not contiguous.
             ``"CornersPlus2"``: Like ``CornersPlus1``, but values also do not change at the ends of seams.
             ``"Boundaries"``: Values are interpolated linearly along seams and boundaries, and smoothed elsewhere.
             ``"All"``: Values are interpolated linearly everywhere: each new value is a mean of values of one old face.
@@ -3938,8 +3976,9 @@ class MeshOperations:
                 decreases by 1.
         :param face_varying: How texture coordinates and other corner values are smoothed. Defaults to ``"All"``.
             ``"None"``: Values are smoothed everywhere.
-            ``"CornersOnly"``: Like ``None_``, but values do not change at a vertex where a piece has a single face.
-            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change where three or more pieces meet.
+            ``"CornersOnly"``: Like ``None_``, but the value of a piece with a single face does not change.
+            ``"CornersPlus1"``: Like ``CornersOnly``, but values also do not change where three or more pieces meet, or
+                where two pieces meet and one of them has a sharp edge inside or is not contiguous.
             ``"CornersPlus2"``: Like ``CornersPlus1``, but values also do not change at the ends of seams.
             ``"Boundaries"``: Values are interpolated linearly along seams and boundaries, and smoothed elsewhere.
             ``"All"``: Values are interpolated linearly everywhere: each new value is a mean of values of one old face.
@@ -4106,10 +4145,11 @@ class MeshOperations:
         """Cuts meshes along a plane.
 
         Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along it.
-        A concave face can be cut several times. A vertex is on the plane if its distance from the plane is less than
-        1e-9 of the largest extent of the mesh; it is not moved. When an edge is cut, the part at the end with the lower
-        id keeps the id of the edge. When a face is cut, the part with the first corner keeps the id of the face. New
-        elements get the highest ids. Attributes are interpolated at the crossings, separately on each side of a seam.
+        A concave face can be cut several times. A vertex is on the plane if its distance from the plane is at most 1e-9
+        of the largest extent of the mesh or 1e-14 of the largest coordinate; it is not moved. When edge e is cut, the
+        part at the start of half-edge 2e keeps the id of the edge. When a face is cut, the part with the first corner
+        keeps the id of the face. New elements get the highest ids. Attributes are interpolated at the crossings,
+        separately on each side of a seam.
 
         With ``keep="Front"`` or ``keep="Back"``, the other side of the plane is removed. A face in the plane belongs to
         the back if its normal points to the front, because the face then closes the solid behind the plane. Vertices
@@ -4179,8 +4219,9 @@ class MeshOperations:
 
         Edges are collapsed, starting with the edges whose collapse changes the surface least. The change is the mean
         squared distance of the new vertex to the planes of the original triangles that it replaces (Garland, Heckbert,
-        1997). The step ends when ``faces`` or ``ratio`` is reached, or when every remaining collapse could exceed
-        ``error``. At least one of ``faces``, ``ratio`` and ``error`` must be given. All faces must be triangles.
+        1997). The step ends when ``faces`` or ``ratio`` is reached, or when every remaining collapse is refused or
+        could exceed ``error``. At least one of ``faces``, ``ratio`` and ``error`` must be given, but not both ``faces``
+        and ``ratio``. All faces must be triangles.
 
         The following properties are kept:
 
@@ -4192,11 +4233,11 @@ class MeshOperations:
           (Hoppe, 1999), and new vertices get the values that fit best. Values are never mixed across a line, and no
           triangle is turned over in the texture. Normals are kept, so that a simplified mesh is shaded like the
           original.
-        - Vertex tags: vertices with different tags or sharpness are not merged.
+        - Vertex tags: vertices with different tags, whole numbers or sharpness are not merged.
 
         No triangle is turned over. Remaining elements get new ids, in the order of their old ids. If the number of
         faces cannot be reached and ``error`` is not given, the step is refused as ``Unreached``, and the message states
-        the reasons. With ``on_refusal="Skip"``, the result is kept.
+        the reasons. With ``on_refusal="Skip"``, the step keeps the mesh with the fewest faces that it reached.
 
         Example: ``mesh.simplify(ratio=0.5)``
 
@@ -4205,7 +4246,8 @@ class MeshOperations:
         :param ratio: The number of faces to reach, as a fraction of the number of faces of each mesh.
         :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. The
             limit is guaranteed, because the step adds up an upper bound for the distance by which each collapse moves
-            the surface. The true distance is therefore usually much smaller. If omitted, there is no limit.
+            the surface. The true distance is usually between a third of the limit and the limit. If omitted, there is
+            no limit.
         :param features: Edges that are treated as lines, for example ``sel.Sharp(above=30)``. If omitted, only the
             lines that are always kept. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
         :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
@@ -4240,7 +4282,7 @@ class MeshOperations:
         vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target
         length. All vertices lie on the original surface. The target length is either ``length``, or it follows
         ``curvature``: edges are short where the surface is curved, and long where it is flat (Dunyach and others,
-        2013). One of the two must be given. All faces must be triangles.
+        2013). Exactly one of the two must be given. All faces must be triangles.
 
         The following properties are kept:
 
@@ -4250,8 +4292,9 @@ class MeshOperations:
           where lines meet, and corners where a line turns by more than 40 degrees keep their exact positions. Other
           sharp edges are rounded.
         - Attributes: they come from the same point of the original surface, and are never interpolated across a line.
-        - Vertex tags: a new vertex has a tag if all old vertices around its position had the tag. Tagged vertices
-          without tagged neighbors and vertices with sharpness keep their exact positions.
+        - Vertex tags: a new vertex has a tag if all old vertices around its position had the tag. A tagged vertex keeps
+          its exact position unless all corners of one of its triangles, or both of its neighbors on a line, also have
+          the tag. Vertices with sharpness also keep their exact positions.
 
         Edits that would turn a triangle over are refused. All elements get new ids. If the distance between the result
         and the original could exceed ``error``, the step is refused as ``Unreached``. With ``on_refusal="Skip"``, the
@@ -4323,7 +4366,8 @@ class MeshOperations:
             value of ``meshwright.sel``.
         :param boundary: How vertices on the boundary move. Defaults to ``"Fixed"``.
             ``"Fixed"``: The vertices do not move.
-            ``"Free"``: The boundary is smoothed as curves, so only neighbors along the boundary affect a vertex.
+            ``"Free"``: The boundary is smoothed as curves, so a vertex on the boundary depends only on its neighbors
+                along the boundary.
         :param keep_volume: Whether the moved vertices are finally shifted along their normals, all by the same
             distance, until the mesh has its original volume. The mesh must be closed. Defaults to ``False``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
@@ -4341,18 +4385,20 @@ class MeshOperations:
     ) -> Self:
         """Copies attributes from the nearest points of another object.
 
-        An attribute of vertices, corners or faces of the object ``from_`` becomes an attribute of the same kind.
-        Numbers and vectors of vertices and corners are interpolated inside the face of the nearest point. Whole
-        numbers, tags, and attributes that edits do not interpolate are copied from the nearest corner of this face.
-        Values of faces are copied from this face. An existing attribute with the same type of values is overwritten.
-        Without ``on``, the step acts on all meshes except ``from_``.
+        An attribute of vertices, corners or faces of the object ``from_`` becomes an attribute of the same kind of
+        elements. Numbers and vectors of vertices and corners are interpolated inside the face of the nearest point.
+        Whole numbers, tags, and attributes that edits do not interpolate are copied from the nearest corner of this
+        face. Values of faces are copied from this face. An existing attribute with the same type of values is
+        overwritten; with a different type, the step fails. Without ``on``, the step acts on all meshes except
+        ``from_``.
 
         All corners of a face take their values from one chart of the source, that is, from faces that are connected
         without crossing a seam of the attribute. The chart is the one nearest to the center of the face, so no triangle
         is stretched across a seam of texture coordinates.
 
         Elements whose distance from the source exceeds ``within`` keep their values, or get zeros if the attribute is
-        new, and are counted. If this applies to a corner of a face, it applies to all corners of the face.
+        new, and are counted. If a corner or the center of a face is that far away, this applies to all corners of the
+        face.
 
         Example: ``mesh.transfer(from_=scan, attributes=["uv", "color"], within=0.01)``
 
@@ -4374,7 +4420,8 @@ class MeshOperations:
     ) -> Self:
         """Moves vertices.
 
-        Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped.
+        Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
+        with the surface.
 
         With ``falloff="r"``, vertices near the selected vertices also move. At the distance d from the nearest selected
         vertex, the movement is multiplied by the weight (1 - (d/r)²)². The weight is 1 at selected vertices and falls
@@ -4390,7 +4437,7 @@ class MeshOperations:
         :param by: How the vertices move.
             ``choice.Offset(..)``: By this offset along x, y and z, in scene units.
             ``choice.Distance(..)``: By this distance along the normal of each vertex, in scene units.
-            ``choice.To(..)``: By the offset that moves the mean of the selected vertices to this point.
+            ``choice.To(..)``: By the same offset for all selected vertices, which moves their mean to this point.
         :param falloff: The distance from the selected vertices at which the movement has fallen to 0, in scene units.
             If omitted, only the selected vertices move.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
@@ -4410,7 +4457,7 @@ class MeshOperations:
 
         Each vertex moves along its normal by ``distance`` times the value of ``by``. The normal of a vertex is the mean
         of the normals of its faces, weighted by their areas. Vertices without a normal do not move and are counted.
-        Faces, element ids and attributes do not change. Normals are dropped.
+        Normals and tangents are dropped. Faces, element ids and other attributes do not change.
 
         The values are computed without functions that differ between machines, so the result is identical on all
         machines.
@@ -4443,14 +4490,14 @@ class MeshOperations:
     ) -> Self:
         """Bends a mesh, so that an axis becomes an arc of a circle.
 
-        The plane at ``from_`` does not move. Between ``from_`` and ``to``, the axis becomes an arc that keeps its
-        length and turns by ``angle`` in total. Vertices beyond ``to`` move rigidly. Vertices between the axis and the
+        Vertices at or below ``from_`` do not move. Between ``from_`` and ``to``, the axis becomes an arc that keeps its
+        length and turns by ``angle`` in total. Vertices above ``to`` move rigidly. Vertices between the axis and the
         center of the circle move closer together, and vertices on the other side of the axis move apart. The distance
         between the center and the axis is (to - from) / angle, with the angle in radians. Parts of the mesh beyond the
         center turn inside out. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
 
-        Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
-        vertices move, so refine the mesh first if its faces are large.
+        Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
+        with the surface. Only vertices move, so refine the mesh first if its faces are large.
 
         Example: ``mesh.bend(axis="Z", angle=90)``
 
@@ -4490,11 +4537,12 @@ class MeshOperations:
         """Rotates vertices around an axis, by an angle that grows along the axis.
 
         The angle grows linearly from 0 at ``from_`` to ``angle`` at ``to``. Below ``from_`` and above ``to``, vertices
-        rotate by the angle of the nearer end. A twist does not change volumes, and a twist by the opposite angle undoes
-        it. Source: Barr, "Global and Local Deformations of Solid Primitives", 1984.
+        rotate by the angle of the nearer end. The volume changes only because edges stay straight, so hardly on a fine
+        mesh. A twist by the opposite angle undoes a twist. Source: Barr, "Global and Local Deformations of Solid
+        Primitives", 1984.
 
-        Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
-        vertices move, so refine the mesh first if its faces are large.
+        Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
+        with the surface. Only vertices move, so refine the mesh first if its faces are large.
 
         Example: ``mesh.twist(axis="Z", angle=90)``
 
@@ -4532,8 +4580,8 @@ class MeshOperations:
         factor of the nearer end applies. Coordinates along the axis do not change. Source: Barr, "Global and Local
         Deformations of Solid Primitives", 1984.
 
-        Faces, element ids and attributes do not change, so textures stretch with the surface. Normals are dropped. Only
-        vertices move, so refine the mesh first if its faces are large.
+        Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
+        with the surface. Only vertices move, so refine the mesh first if its faces are large.
 
         Example: ``mesh.taper(axis="Z", factor=0.5)``
 
@@ -4572,8 +4620,9 @@ class MeshOperations:
         same offset, the whole box moves by this offset. A control point attracts the surface, but the surface usually
         does not reach it, except at the corners of the box.
 
-        Vertices outside the box do not move. Faces, element ids and attributes do not change, so textures stretch with
-        the surface. Normals are dropped. Only vertices move, so refine the mesh first if its faces are large.
+        Vertices outside the box do not move. Normals and tangents are dropped. Faces, element ids and other attributes
+        do not change, so textures stretch with the surface. Only vertices move, so refine the mesh first if its faces
+        are large.
 
         Example: ``mesh.lattice(size=(3, 3, 3), moves=[((2, 2, 2), (0.5, 0.5, 0.5))])``
 
@@ -4602,8 +4651,8 @@ class MeshOperations:
         """Moves vertices onto the surface of another object (shrinkwrap).
 
         Only vertices in ``vertices`` that are not in ``pin`` move. All others keep their exact positions. Without
-        ``on``, the step acts on all meshes except the object ``onto``, which does not change. Faces, element ids and
-        attributes do not change, so textures stretch with the surface. Normals are dropped.
+        ``on``, the step acts on all meshes except the object ``onto``, which does not change. Normals and tangents are
+        dropped. Faces, element ids and other attributes do not change, so textures stretch with the surface.
 
         Vertices that would move farther than ``distance`` do not move. With ``Normal`` and ``choice.Direction``,
         vertices whose line misses the surface do not move either. The report counts both kinds of vertices.
@@ -4641,8 +4690,8 @@ class MeshOperations:
         attributes do not change. Quantities are computed in the space of the mesh, without the transforms of nodes. The
         report states the lowest, the mean and the highest value of each object.
 
-        An attribute of the same name is replaced if it has one number for each element of the same kind. Otherwise the
-        step fails.
+        An attribute of the same name is replaced if it belongs to the same elements (vertices or faces) and has one
+        floating-point number for each. Otherwise the step fails.
 
         Example: ``mesh.measure(of="MeanCurvature")``
 
@@ -4669,7 +4718,7 @@ class MeshOperations:
                 outside, and numbers between 0 and 1 near gaps of the other mesh (Jacobson, Kavan, Sorkine-Hornung,
                 2013; Barill, Dickson, Schmidt, Levin, Jacobson, 2018).
         :param name: The name of the attribute. If omitted, the name of the quantity in lower case, such as
-            ``mean_curvature``.
+            ``mean_curvature``, or ``largest_curvature`` or ``smallest_curvature`` for a principal curvature.
         :param missing: The value for elements at which the quantity is not defined, such as the curvature of a vertex
             without faces. These elements are counted. If omitted, 0 for quantities that can be negative, and -1 for all
             others.
@@ -4700,7 +4749,7 @@ class MeshOperations:
         one chart. Each mesh gets its own page.
 
         The coordinates are written to the corner attribute ``uv``, which is replaced if it exists. Edges at which
-        charts meet become its seams. Positions, faces and other attributes do not change, but tangents are removed.
+        charts meet become seams. Positions, faces and other attributes do not change, but tangents are removed.
         Zero-area faces have no area in the texture and are counted. A polygon that is bent so far that it overlaps
         itself is refused as ``WrongPlace``, so triangulate it first. With ``on_refusal="Skip"``, its triangles overlap
         in the texture.
@@ -4813,7 +4862,7 @@ class MeshOperations:
             ``sel.Faces(sel.Tagged("top"))``. ``"All"``, ``"Boundary"``, ``"Isolated"``, ``"SelfIntersecting"``, or a
             value of ``meshwright.sel``.
         :param highlight_width: The width of highlighted edges and the diameter of highlighted vertices, in pixels. The
-            defaults depend on the height of the picture: 2.8 and 7.5 for 240 pixels, 3.4 and 10 for 480, 4 and 13 for
+            defaults depend on the shorter side of a view: 2.8 and 7.5 for 240 pixels, 3.4 and 10 for 480, 4 and 13 for
             960, 8 and 26 for 1920. If there are many highlighted vertices, they are drawn smaller. Hidden edges are
             faint, and hidden vertices are rings.
         :param marks: More elements to highlight, each in its color.
@@ -4856,9 +4905,10 @@ class MeshOperations:
 
         The figure has a panel for each curve and each ``t``. With ``by_level``, it instead has a panel for each curve,
         each ``t`` and each level. A panel shows the control polygon, every level of de Casteljau's algorithm in a
-        different color, the point, and the curve, with the same scale in both axes. The extension of the file
-        determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene
-        does not change.
+        different color, the point, and the curve, with the same scale in both axes. With ``by_level``, each panel of a
+        ``t`` shows one level more than the panel before it, and only the last one shows the point. The extension of the
+        file determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The
+        scene does not change.
 
         Example: ``mesh.curve_figure(path="figure.svg", t=[0.25, 0.5])``
 
@@ -4895,8 +4945,9 @@ class MeshOperations:
         Each half-edge is an arrow beside its edge, inside its face, with its name. A thin curve leads from the head of
         the arrow to the next half-edge of the face. The twin of a half-edge is on the other side of the edge.
         Half-edges on the boundary have no face and are gray. The faces are seen along their mean normal. Faces that
-        face away from the viewer are left out and reported. The extension of the file determines the format: ``.svg``
-        or ``.png``. The file is written only if the whole recipe succeeds. The scene does not change.
+        face away from the viewer or are seen nearly edge-on are left out and reported. The extension of the file
+        determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene
+        does not change.
 
         A name is a letter and the id of the element: ``v`` for vertices, ``h`` for half-edges, ``f`` for faces.
         Half-edges ``2e`` and ``2e + 1`` belong to edge ``e``.
@@ -4927,10 +4978,10 @@ class MeshOperations:
     ) -> Self:
         """Draws the charts of the texture coordinates of a mesh into an image file.
 
-        The frame is the page of the texture, with u and v from 0 to 1 and v upwards. Thick lines are the borders of
-        charts, and thin lines are the other edges. Coordinates outside the page are also drawn. They make the figure
-        higher or its scale smaller. The extension of the file determines the format: ``.svg`` or ``.png``. The file is
-        written only if the whole recipe succeeds. The scene does not change.
+        A gray frame shows the page of the texture, where u and v are from 0 to 1; v points upwards. Thick lines are the
+        borders of charts, and thin lines are the other edges. Coordinates outside the page are also drawn. They make
+        the figure higher or its scale smaller. The extension of the file determines the format: ``.svg`` or ``.png``.
+        The file is written only if the whole recipe succeeds. The scene does not change.
 
         Example: ``mesh.uv_picture(path="uv.svg")``
 

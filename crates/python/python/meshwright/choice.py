@@ -283,7 +283,10 @@ def Random(*, seed: int | Arg | Ron | None = None) -> Choice:
 
 
 def Tag(value: str | Arg | Ron, /) -> Choice:
-    """The first part has the faces with the tag of this name, and the second part all other faces."""
+    """The first part has the faces with the tag of this name, and the second part all other faces.
+
+    A part without faces is left out.
+    """
     return Choice('Tag', value)
 
 
@@ -302,7 +305,8 @@ def Taubin(
         ``"Uniform"``: All vertices that share an edge with the vertex have the same weight.
         ``"Cotangent"``: The weights follow the shape of the faces.
     :param factor: The distance of the first step, as a fraction of the distance to the mean. From 0 to 1, exclusive.
-        Above about 0.65, the step back amplifies noise. Defaults to 0.33.
+        Factors that would amplify noise are refused: with the default ``pass_band``, those of more than about 0.7.
+        Defaults to 0.33.
     :param pass_band: The frequency below which shapes are kept. A lower value smooths more. From 0 to 1, exclusive.
         Defaults to 0.05.
     """
@@ -311,10 +315,7 @@ def Taubin(
 
 
 def To(value: Sequence[float] | NDArray[Any] | Arg | Ron, /) -> Choice:
-    """By the offset that moves the mean of the selected vertices to this point.
-
-    It is the same for all vertices.
-    """
+    """By the same offset for all selected vertices, which moves their mean to this point."""
     return Choice('To', value)
 
 

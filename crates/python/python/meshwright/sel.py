@@ -244,7 +244,7 @@ def Inside(value: Choice | Arg | Ron, /) -> Choice:
 
 
 def InsideOf(value: str | Arg | Ron, /) -> Choice:
-    """The vertices whose vertices are all inside the mesh of another object, given by its name.
+    """The vertices inside the mesh of another object, given by its name.
 
     A point is inside if the winding number of the mesh around the point is above 1/2 in magnitude. The mesh can have
     small gaps. The edges whose vertices are all inside the mesh of another object, given by its name. A point is inside
@@ -420,8 +420,8 @@ def Sphere(*, center: Sequence[float] | NDArray[Any] | Arg | Ron, radius: float 
 def Tagged(value: str | Arg | Ron, /) -> Choice:
     """The vertices with the tag of this name.
 
-    Refused if no tag has this name. The edges with the tag of this name. Refused if no tag has this name. The faces
-    with the tag of this name. Refused if no tag has this name.
+    Refused if no tag of vertices has this name. The edges with the tag of this name. Refused if no tag of edges has
+    this name. The faces with the tag of this name. Refused if no tag of faces has this name.
     """
     return Choice('Tagged', value)
 

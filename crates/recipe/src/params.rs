@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use store::Store;
 
-use crate::source::rebase_path;
+use crate::source::{below, rebase_path};
 use ron_tree::{Number, Span, Value, ValueKind, parse};
 
 /// How to rewrite a relative path: a path relative to `from` becomes a path to the same file relative to `to`.
@@ -167,7 +167,11 @@ impl Param {
                 Ok(value(ValueKind::String(text.clone())))
             }
             (Self::Path { .. }, ValueKind::String(text)) => {
-                let rebased = |f: Rebase| rebase_path(f.store, text, f.from, f.to);
+                // The same file has the same path, however it is given.
+                let rebased = |f: Rebase| {
+                    let path = rebase_path(f.store, text, f.from, f.to);
+                    below(&path, f.to).unwrap_or(path)
+                };
                 let path = folders.map_or_else(|| (&**text).into(), rebased);
                 Ok(value(ValueKind::String(path.to_string_lossy().into())))
             }
@@ -353,5 +357,7 @@ mod tests {
         let folders = Some(Rebase { from, to, store });
         let value = param("Path(default: \"a.obj\")").value_of("b.obj", folders);
         assert_eq!(value.unwrap().as_str(), Some("../b.obj"));
+        let value = param("Path(default: \"a.obj\")").value_of("/work/scenes/b.obj", folders);
+        assert_eq!(value.unwrap().as_str(), Some("b.obj"));
     }
 }

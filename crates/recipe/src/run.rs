@@ -100,14 +100,15 @@ pub fn run_from(
             }
             runner.files = recipe.files(&files);
             runner.run(listener);
-            if runner.failures.is_empty() && !runner.cancelled && settings.keep_outputs {
-                let delivered = stage.as_ref().map_or(Ok(Vec::new()), |stage| {
-                    deliver(stage.path(), settings.files)
-                });
-                match delivered {
-                    Ok(paths) => written = paths,
-                    Err(message) => runner.failures.push(Diagnostic::without_place(message)),
-                }
+            if runner.failures.is_empty()
+                && !runner.cancelled
+                && settings.keep_outputs
+                && let Some(stage) = &stage
+            {
+                let result;
+                (written, result) = deliver(stage.path(), settings.files);
+                let error = result.err().map(Diagnostic::without_place);
+                runner.failures.extend(error);
             }
         }
         Err(message) => runner.failures.push(Diagnostic::without_place(message)),

@@ -96,6 +96,17 @@ pub(crate) fn rebase_path(store: &dyn Store, text: &str, from: &Path, to: &Path)
     }
 }
 
+/// Returns an absolute path relative to a folder; `None` if the path does not begin with the path of the folder.
+pub(crate) fn below(path: &Path, folder: &Path) -> Option<PathBuf> {
+    let absolute = if folder.has_root() {
+        folder.to_owned()
+    } else {
+        // The folder of a file that is given by its bare name is "".
+        std::path::absolute(Path::new(".").join(folder)).ok()?
+    };
+    path.strip_prefix(absolute).ok().map(Path::to_owned)
+}
+
 /// Removes `..` from a path, assuming that no folder is a link: `a/../b` becomes `b`.
 fn normalized(path: &Path) -> PathBuf {
     let mut normalized = PathBuf::new();

@@ -5,8 +5,8 @@
 //! ```
 //!
 //! The digest of the recipe comes before the details of the run, so that formats that store only a short text keep it.
-//! An input is given by its path relative to the recipe's folder, or only by its file name if its path is absolute and
-//! leads out of this folder.
+//! The stamp contains no absolute paths. A file is given by its path relative to the recipe's folder, or only by its
+//! name if its path is absolute and leads out of this folder.
 
 use std::fmt;
 use std::path::Path;
@@ -14,7 +14,9 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use store::{Store, StoreError};
 
+use crate::params::Param;
 use crate::recipe::{Origin, Recipe};
+use crate::source::below;
 
 /// The content of a stamp.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,10 +37,10 @@ pub struct Run {
     /// The preset that was chosen.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub preset: Option<String>,
-    /// The parameters that were set, and their values as text. Relative paths are relative to the recipe's folder.
+    /// The parameters that were set, and their values as text. Paths are shown as in [`inputs`](Self::inputs).
     #[serde(default, skip_serializing_if = "Pairs::is_empty")]
     pub set: Pairs,
-    /// The files that were read, and their digests.
+    /// The files that were read, by their paths relative to the recipe's folder, and their digests. See [`shown`].
     #[serde(default, skip_serializing_if = "Pairs::is_empty")]
     pub inputs: Pairs,
 }
@@ -64,8 +66,14 @@ impl Stamp {
             match &parameter.origin {
                 Origin::Preset(name) => run.preset = Some(name.clone()),
                 Origin::Set => {
-                    run.set
-                        .insert(parameter.name.clone(), parameter.plain_text());
+                    let text = parameter.plain_text();
+                    let text = match (&parameter.param, recipe.sources.first()) {
+                        (Param::Path { .. }, Some(source)) if Path::new(&text).has_root() => {
+                            shown(Path::new(&text), source.folder())
+                        }
+                        _ => text,
+                    };
+                    run.set.insert(parameter.name.clone(), text);
                 }
                 Origin::Default | Origin::Call => {}
             }
@@ -112,14 +120,16 @@ pub fn digest(store: &dyn Store, path: &Path) -> Result<String, StoreError> {
     Ok(digest.to_hex()[..32].to_owned())
 }
 
-/// Returns the name of an input file in a stamp. `folder` is the recipe's folder.
-pub fn shown(input: &Path, folder: &Path) -> String {
-    let relative = match input.strip_prefix(folder) {
-        Ok(below) => below.to_owned(),
-        Err(_) if input.is_relative() => {
-            pathdiff::diff_paths(input, folder).unwrap_or_else(|| input.to_owned())
-        }
-        Err(_) => input.file_name().unwrap_or_default().into(),
+/// Returns the path of a file as a stamp records it: relative to `folder`, the recipe's folder, or only the name of the
+/// file if the path is absolute and leads out of the folder. Relative paths are relative to the working directory.
+pub fn shown(path: &Path, folder: &Path) -> String {
+    let relative = if path.has_root() {
+        let name = || path.file_name().unwrap_or_default().into();
+        below(path, folder).unwrap_or_else(name)
+    } else if let Ok(below) = path.strip_prefix(folder) {
+        below.to_owned()
+    } else {
+        pathdiff::diff_paths(path, folder).unwrap_or_else(|| path.to_owned())
     };
     relative.to_string_lossy().replace('\\', "/")
 }
@@ -157,6 +167,39 @@ mod tests {
         );
         assert_eq!(run.set.into_iter().collect::<Vec<_>>(), set);
         assert_eq!(run.inputs.keys().collect::<Vec<_>>(), ["a.bez"]);
+    }
+
+    #[test]
+    fn a_stamp_contains_no_absolute_paths() {
+        let elsewhere = tempfile::tempdir().unwrap();
+        let input = elsewhere.path().join("a.bez");
+        std::fs::write(&input, "0").unwrap();
+        let here = std::path::absolute("sub/b.bez").unwrap();
+        // The folder of a recipe that is given by its bare name is "".
+        for folder in ["", ".", "sub", "/nowhere"].map(Path::new) {
+            assert_eq!(shown(&input, folder), "a.bez", "{folder:?}");
+        }
+        assert_eq!(shown(&here, Path::new("")), "sub/b.bez");
+        assert_eq!(shown(&here, Path::new("sub")), "b.bez");
+        assert_eq!(shown(Path::new("sub/b.bez"), Path::new("")), "sub/b.bez");
+        assert_eq!(
+            shown(Path::new("sub/b.bez"), Path::new("other")),
+            "../sub/b.bez"
+        );
+
+        let text =
+            r#"(recipe: 1, params: {"a": Path(default: ""), "b": Path(default: "")}, steps: [])"#;
+        let set = [("a", &input), ("b", &here)];
+        let set = set.map(|(name, path)| (name.to_owned(), path.to_string_lossy().into_owned()));
+        let values = Values {
+            set: &set,
+            ..Values::default()
+        };
+        let source = Source::new("k.ron", text);
+        let recipe = crate::read(&source, &op::Registry::new(), values).recipe;
+        let run = Stamp::new(&recipe, &[&input], &store::Disk).run.unwrap();
+        assert_eq!(run.inputs.keys().collect::<Vec<_>>(), ["a.bez"]);
+        assert_eq!(run.set.values().collect::<Vec<_>>(), ["a.bez", "sub/b.bez"]);
     }
 
     #[test]

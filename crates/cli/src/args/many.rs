@@ -38,8 +38,8 @@ impl ManyArgs {
     after_help = "Example: meshwright test scenes --filter cube --junit tests.xml
 
 Folders are searched recursively, except hidden folders and folders named `assets`. Recipes without
-expectations, and recipes called by other recipes, are checked for syntax and listed, but not run and not
-counted as passed. A recipe given by its own path is run even if other recipes call it."
+expectations, and recipes called by other tested recipes, are checked for syntax and listed, but not run
+and not counted as passed. A recipe given by its own path is run even if other recipes call it."
 )]
 pub(crate) struct TestArgs {
     /// Recipes, or folders of recipes

@@ -139,7 +139,11 @@ pub(crate) fn print_outcome(
     } else if outcome.cancelled {
         print_error("interrupted, no files were written\n");
     } else {
-        print_error(&format!("{} failed, no files were written\n", loaded.path));
+        let written = match outcome.written.len() {
+            0 => ", no files were written".to_owned(),
+            n => format!(" after writing {}", counted(n, "file")),
+        };
+        print_error(&format!("{} failed{written}\n", loaded.path));
         let parameters = loaded.recipe.parameters();
         let is_set = parameters.iter().any(recipe::Parameter::is_set);
         if is_set && outcome.steps.len() == loaded.recipe.steps.len() {

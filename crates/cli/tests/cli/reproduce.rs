@@ -56,6 +56,31 @@ fn parameters_that_were_set_are_set_again() {
 }
 
 #[test]
+fn absolute_paths_are_not_recorded() {
+    let folder = folder().with("other/b.obj", TRIANGLE);
+    let root = folder.path("scenes").canonicalize().unwrap();
+    let root = root.parent().unwrap().to_string_lossy().into_owned();
+    folder
+        .shell(&format!(
+            "cd scenes && \"$0\" run r.ron --out ../out --set input={root}/other/b.obj"
+        ))
+        .with_code(0);
+    for name in ["out/b.obj", "out/deep/a.glb", "out/a.ply", "out/a.off"] {
+        let bytes = folder.read(name);
+        let has = |text: &str| bytes.windows(text.len()).any(|w| w == text.as_bytes());
+        assert!(has("\"b.obj\"") || has("\\\"b.obj\\\""), "{name}");
+        assert!(!has(&root) && !has("other"), "{name}");
+    }
+    // A file in the recipe's folder is recorded by its relative path.
+    folder
+        .shell(&format!(
+            "cd scenes && \"$0\" run r.ron --out ../out --set input={root}/scenes/a.obj"
+        ))
+        .with_code(0);
+    folder.run("reproduce out/a.obj").with_code(0);
+}
+
+#[test]
 fn changes_since_the_run_are_reported() {
     let folder = folder();
     folder.run("run scenes/r.ron").with_code(0);

@@ -228,6 +228,26 @@ fn a_recipe_that_others_call_is_run_only_if_given_by_path() {
 }
 
 #[test]
+fn a_called_recipe_is_run_if_the_filter_leaves_out_its_callers() {
+    let folder = Folder::new().with("scenes/lib/part.ron", GOOD).with(
+        "scenes/caller.ron",
+        "(recipe: 1, steps: [Call(recipe: \"lib/part.ron\")], expect: [Manifold])",
+    );
+    folder.run("test").with_code(0).prints(&[
+        "-      scenes/lib/part.ron (called by other recipes, not run)\n",
+        "1 passed, 0 failed, 1 called by other recipes\n",
+    ]);
+    folder.run("test --filter part").with_code(0).prints(&[
+        "ok     scenes/lib/part.ron (1 expectation, ",
+        "1 passed, 0 failed\n",
+    ]);
+    folder
+        .run("test --filter r")
+        .with_code(0)
+        .prints(&["1 passed, 0 failed, 1 called by other recipes\n"]);
+}
+
+#[test]
 fn a_filter_selects_by_path() {
     let folder = Folder::new()
         .with("scenes/cube.ron", GOOD)

@@ -67,7 +67,8 @@ impl Expectation {
         match self {
             Self::Not(inner) => match inner.check(subject) {
                 Ok(()) => Err(Violation::unmet(format!(
-                    "expected {inner} not to hold, but it does"
+                    "expected {} not to hold, but it does",
+                    inner.as_written()
                 ))),
                 Err(violation) if violation.is_unknown => Err(violation.message.into()),
                 Err(_) => Ok(()),
@@ -179,15 +180,11 @@ impl Expectation {
             }
             Self::MeanMinAngle { of, min, max } => {
                 let (mut sum, mut n) = (0.0, 0.0);
-                for (object, mesh) in subject.meshes()? {
-                    for f in selected(of, object, mesh, subject)? {
-                        sum += smallest_corner_angle(mesh, f);
-                        n += 1.0;
-                    }
-                }
-                if n == 0.0 {
-                    return Err(Violation::unmet("the selection is empty".to_owned()));
-                }
+                subject.each_selected(of, |mesh, f| {
+                    sum += smallest_corner_angle(mesh, f);
+                    n += 1.0;
+                    Ok(())
+                })?;
                 check_number("a mean smallest corner angle", sum / n, [None, *min, *max], 0.0)
             }
             Self::Thickness { of, min, max } => subject.thickness(of, [None, *min, *max]),

@@ -8,6 +8,7 @@ mod places;
 mod same;
 mod subject;
 mod symmetry;
+mod text;
 mod textures;
 
 use std::fmt;
@@ -251,7 +252,7 @@ pub enum Expectation {
         #[schemars(range(min = 0.0))]
         tolerance: f64,
     },
-    /// The position of one point of a polyline.
+    /// The position of one point of a polyline. Nodes do not place polylines.
     Point {
         /// The index of the polyline in its object, counted from 0.
         #[serde(default)]
@@ -369,7 +370,7 @@ pub enum Expectation {
     /// The digest of the scene, as `meshwright run` prints it.
     Digest(String),
     /// The inner expectation does not hold. Also fails if the inner expectation cannot be checked, for example
-    /// because a file cannot be read.
+    /// because a file cannot be read or a selection is empty.
     Not(Box<Self>),
 }
 
@@ -466,6 +467,16 @@ impl Expectation {
         match self {
             Self::Output { path, r#as, .. } => Some((path, r#as)),
             Self::Not(inner) => inner.output(),
+            _ => None,
+        }
+    }
+
+    /// Returns the name of the expectation if it is not about objects, so that it cannot be checked for some objects only.
+    pub(crate) fn without_objects(&self) -> Option<&'static str> {
+        match self {
+            Self::Digest(_) => Some("Digest"),
+            Self::Output { .. } => Some("Output"),
+            Self::Not(inner) => inner.without_objects(),
             _ => None,
         }
     }

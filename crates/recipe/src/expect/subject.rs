@@ -323,7 +323,7 @@ impl<'a> Subject<'a> {
             }
         }
         if is_empty {
-            return Err(Violation::unmet("the selection is empty".to_owned()));
+            return Err("the selection contains no vertices".into());
         }
         Ok(())
     }

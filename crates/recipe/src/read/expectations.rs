@@ -5,7 +5,7 @@ use crate::expect::Expectation;
 use crate::recipe::RecipeExpectation;
 use crate::schema;
 use crate::shape::{check_shape, did_you_mean};
-use ron_tree::{Value, ValueKind};
+use ron_tree::{Span, Value, ValueKind};
 
 impl Reader<'_, '_> {
     /// Reads `Name(..)` or `(after: "id", on: [..], that: Name(..) or a list of them)`. Returns the id of the step
@@ -32,9 +32,9 @@ impl Reader<'_, '_> {
             self.error(span, format!("no step has the id \"{id}\""), help);
             return (None, Vec::new());
         }
-        let on = value.field("on").and_then(Value::items).map(|items| {
-            let names = items.iter().filter_map(Value::as_str);
-            names.map(str::to_owned).collect::<Vec<_>>()
+        let on = value.field("on").and_then(|on| {
+            let names = on.items()?.iter().filter_map(Value::as_str);
+            Some((on.span, names.map(str::to_owned).collect::<Vec<_>>()))
         });
         let Some(that) = value.field("that") else {
             return (None, Vec::new());
@@ -47,7 +47,11 @@ impl Reader<'_, '_> {
         (after.map(|(_, id)| id.to_owned()), placed)
     }
 
-    fn placed(&mut self, value: &Value, on: Option<Vec<String>>) -> Option<RecipeExpectation> {
+    fn placed(
+        &mut self,
+        value: &Value,
+        on: Option<(Span, Vec<String>)>,
+    ) -> Option<RecipeExpectation> {
         let that: Expectation = self.typed(value, schema::expectation())?;
         if let Some(problem) = that.problem() {
             let help = match that.output() {
@@ -57,9 +61,18 @@ impl Reader<'_, '_> {
             self.error(value.span, problem, help);
             return None;
         }
+        if let (Some((span, _)), Some(name)) = (&on, that.without_objects()) {
+            let message = format!("{name} does not take `on`");
+            self.error(
+                *span,
+                message,
+                "the expectation is not about single objects",
+            );
+            return None;
+        }
         Some(RecipeExpectation {
             after: None,
-            on,
+            on: on.map(|(_, names)| names),
             that,
             scope: self.scope,
             span: value.span,

@@ -28,7 +28,8 @@ pub struct Outcome {
     pub scene: Option<Scene>,
     /// The digest of the scene at the end.
     pub digest: Digest,
-    /// The files that were written.
+    /// The files that were written. If a file cannot be moved to the output folder, the run fails and this list has the
+    /// files that were moved before it.
     pub written: Vec<PathBuf>,
     /// The problem that prevents the cache from storing anything, if any.
     pub cache_problem: Option<String>,

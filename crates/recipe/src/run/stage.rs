@@ -26,12 +26,26 @@ pub(super) fn staging<'a>(settings: &Settings<'a>) -> Result<Option<TemporaryFol
     }
 }
 
-/// Moves all files from the stage to the output folder, and returns their paths.
-pub(super) fn deliver(stage: &Path, files: &Files) -> Result<Vec<PathBuf>, String> {
+/// Moves all files from the stage to the output folder. Returns the paths of the files that were written, and the first
+/// error. If the error is found before the first file is moved, no files are written.
+pub(super) fn deliver(stage: &Path, files: &Files) -> (Vec<PathBuf>, Result<(), String>) {
+    let mut written = Vec::new();
+    let result = moves(stage, files).and_then(|moves| {
+        moves.into_iter().try_for_each(|(from, to)| {
+            let renamed = files.store.rename(&from, &to);
+            renamed.map_err(|error| error.to_string())?;
+            written.push(to);
+            Ok(())
+        })
+    });
+    (written, result)
+}
+
+/// Returns the path of each file of the stage and its path in the output folder. Creates the folders of these paths.
+fn moves(stage: &Path, files: &Files) -> Result<Vec<(PathBuf, PathBuf)>, String> {
     let store = &*files.store;
-    let message = |error: store::StoreError| error.to_string();
     let mut moves = Vec::new();
-    for from in files_below(store, stage).map_err(message)? {
+    for from in files_below(store, stage).map_err(|error| error.to_string())? {
         let relative = from.strip_prefix(stage).expect("found below the stage");
         let to = files.output.join(relative);
         files.check_links(relative).map_err(|e| e.to_string())?;
@@ -47,10 +61,7 @@ pub(super) fn deliver(stage: &Path, files: &Files) -> Result<Vec<PathBuf>, Strin
         }
         moves.push((from, to));
     }
-    for (from, to) in &moves {
-        store.rename(from, to).map_err(message)?;
-    }
-    Ok(moves.into_iter().map(|(_, to)| to).collect())
+    Ok(moves)
 }
 
 /// The files of a stage, each with the metadata that changes when the file is written.
@@ -71,4 +82,84 @@ pub(super) fn written(before: &Listing, after: &Listing) -> Vec<PathBuf> {
     let is_new = |(path, state): &(&PathBuf, &_)| before.get(*path) != Some(state);
     let new = after.iter().filter(is_new);
     new.map(|(path, _)| path.clone()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use store::{Memory, NewFile, Store, StoreError};
+
+    use super::*;
+
+    /// Files in memory. No file can be renamed to a path that ends with `bad.obj`.
+    #[derive(Debug, Default)]
+    struct Faulty(Memory);
+
+    impl Store for Faulty {
+        fn read_up_to(&self, path: &Path, limit: u64) -> Result<Vec<u8>, StoreError> {
+            self.0.read_up_to(path, limit)
+        }
+
+        fn entry(&self, path: &Path) -> Option<Entry> {
+            self.0.entry(path)
+        }
+
+        fn is_link(&self, path: &Path) -> bool {
+            self.0.is_link(path)
+        }
+
+        fn canonical(&self, path: &Path) -> Result<PathBuf, StoreError> {
+            self.0.canonical(path)
+        }
+
+        fn list(&self, folder: &Path) -> Result<Vec<PathBuf>, StoreError> {
+            self.0.list(folder)
+        }
+
+        fn make_folder(&self, folder: &Path) -> Result<(), StoreError> {
+            self.0.make_folder(folder)
+        }
+
+        fn make_temporary(&self, folder: Option<&Path>) -> Result<PathBuf, StoreError> {
+            self.0.make_temporary(folder)
+        }
+
+        fn remove_folder(&self, folder: &Path) -> Result<(), StoreError> {
+            self.0.remove_folder(folder)
+        }
+
+        fn create(&self, path: &Path) -> Result<Box<dyn NewFile + '_>, StoreError> {
+            self.0.create(path)
+        }
+
+        fn rename(&self, from: &Path, to: &Path) -> Result<(), StoreError> {
+            if to.ends_with("bad.obj") {
+                let full = std::io::Error::other("the disk is full");
+                return Err(StoreError::new("write", to, full));
+            }
+            self.0.rename(from, to)
+        }
+    }
+
+    #[test]
+    fn a_failed_delivery_names_the_files_that_were_written() {
+        let files = Files {
+            store: Arc::new(Faulty::default()),
+            output: "out".into(),
+            ..Files::default()
+        };
+        let stage = Path::new("out/stage");
+        for name in ["a.obj", "bad.obj", "c.obj"] {
+            files.store.write(&stage.join(name), b"").unwrap();
+        }
+        let (written, result) = deliver(stage, &files);
+        assert_eq!(written, [Path::new("out/a.obj")]);
+        assert_eq!(
+            result.unwrap_err(),
+            "cannot write out/bad.obj: the disk is full"
+        );
+        assert!(files.store.is_file("out/a.obj".as_ref()));
+        assert!(!files.store.exists("out/c.obj".as_ref()));
+    }
 }

@@ -305,6 +305,30 @@ fn an_expectation_after_a_step_names_its_id() {
 }
 
 #[test]
+fn on_is_only_for_expectations_about_objects() {
+    for that in [
+        "Digest(\"0a\")",
+        "Not(Digest(\"0a\"))",
+        "[Closed, Output(path: \"a.obj\", as: \"b.obj\")]",
+    ] {
+        let text = format!(
+            r#"(recipe: 1, steps: [Sheet(columns: 1)], expect: [(on: ["sheet"], that: {that})])"#
+        );
+        let name = if that.contains("Digest") {
+            "Digest"
+        } else {
+            "Output"
+        };
+        has_one_error(
+            &text,
+            "[\"sheet\"]",
+            &format!("{name} does not take `on`"),
+            "the expectation is not about single objects",
+        );
+    }
+}
+
+#[test]
 fn a_step_that_could_not_be_read_keeps_its_id() {
     let text = r#"(recipe: 1, steps: [(id: "up", run: Lift(by: arg("x")))],
         expect: [(after: "up", that: Manifold)])"#;

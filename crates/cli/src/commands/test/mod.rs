@@ -7,7 +7,7 @@
 //!   "succeeded": true,            at least one passed, none failed, Ctrl-C was not pressed
 //!   "passed": 1, "failed": 0,
 //!   "no_expectations": 1,         checked, but not run
-//!   "called_by_others": 0,        called by other recipes, and not run by themselves
+//!   "called_by_others": 0,        called by other tested recipes, and not run by themselves
 //!   "not_run": 0,                 because of Ctrl-C
 //!   "recipes": [{
 //!     "recipe": "scenes/a.ron",
@@ -124,6 +124,14 @@ fn tests<'a>(
     })?;
     let made = recipes.iter().zip(loaded);
     let mut tests: Vec<Test> = made.map(|(found, end)| Test::new(found, end)).collect();
+    if let Some(filter) = &args.filter {
+        tests.retain(|test| test.found.path.to_string_lossy().contains(filter));
+        let found = counted(recipes.len(), "recipe");
+        ensure!(
+            !tests.is_empty(),
+            "no recipe with \"{filter}\" in its path, of {found} found"
+        );
+    }
     let place = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
     let read = tests.iter().filter_map(|test| test.loaded.as_ref().ok());
     let called: HashSet<PathBuf> = read
@@ -132,14 +140,6 @@ fn tests<'a>(
         .collect();
     for test in &mut tests {
         test.is_called = !test.found.is_named && called.contains(&place(&test.found.path));
-    }
-    if let Some(filter) = &args.filter {
-        tests.retain(|test| test.found.path.to_string_lossy().contains(filter));
-        let found = counted(recipes.len(), "recipe");
-        ensure!(
-            !tests.is_empty(),
-            "no recipe with \"{filter}\" in its path, of {found} found"
-        );
     }
     if let Some(out) = &args.out {
         let mut owners = HashMap::new();
@@ -177,7 +177,7 @@ struct Test<'a> {
     found: &'a RecipeFile,
     /// The loaded recipe, or an error if it cannot be read.
     loaded: Result<Loaded, String>,
-    /// Whether another recipe that was found calls this recipe, so that this recipe is not run by itself.
+    /// Whether another recipe that is tested calls this recipe, so that this recipe is not run by itself.
     is_called: bool,
 }
 

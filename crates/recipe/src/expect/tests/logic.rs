@@ -17,8 +17,47 @@ fn not_inverts_an_expectation() {
         &cube(),
         "Not(Not(Faces(min: 6)))",
         "Not(Faces(min: 6))",
-        "expected Faces(eq:None,min:Some(6),max:None) not to hold, but it does",
+        "expected Faces(min: 6) not to hold, but it does",
     );
+}
+
+#[test]
+fn not_shows_the_expectation_as_a_recipe_writes_it() {
+    for text in [
+        "Closed",
+        "EdgeLength(max: 5.0)",
+        "Not(Faces(eq: 7))",
+        "Count(of: Vertices(Boundary), max: 3)",
+        "Bounds(min: (-0.5, -0.5, -0.5), max: (0.5, 0.5, 0.5))",
+        "Position(of: Vertices([0]), is: (-0.5, -0.5, -0.5), tolerance: 1.0)",
+        "Area(eq: 6.0, tolerance: 0.5)",
+        "Not(Digest(\"0a\"))",
+    ] {
+        assert_eq!(expectation(text).as_written(), text);
+    }
+}
+
+#[test]
+fn an_expectation_about_no_elements_is_unknown() {
+    let empty = "And([Boundary, Not(Boundary)])";
+    for (text, word) in [
+        ("EdgeLength(of: EMPTY, max: 1)", "edges"),
+        ("DihedralAngle(of: EMPTY, max: 1)", "edges"),
+        ("Valence(of: EMPTY, max: 1)", "vertices"),
+        ("Thickness(of: EMPTY, max: 1)", "vertices"),
+        ("MinAngle(of: EMPTY, max: 1)", "faces"),
+        ("MeanMinAngle(of: EMPTY, max: 1)", "faces"),
+        ("MeanFaceArea(of: EMPTY, max: 1)", "faces"),
+    ] {
+        let text = text.replace("EMPTY", if word == "faces" { "Faces([])" } else { empty });
+        let message = format!("the selection contains no {word}");
+        assert_eq!(check(&cube(), &text), Err(message.clone()), "{text}");
+        assert_eq!(
+            check(&cube(), &format!("Not({text})")),
+            Err(message),
+            "{text}"
+        );
+    }
 }
 
 #[test]

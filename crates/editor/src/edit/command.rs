@@ -109,7 +109,7 @@ impl Editor {
     /// Returns the selection that means the picked elements, for a command.
     pub fn selection(&mut self) -> Option<SelectionText> {
         let proposal = self.proposal()?.clone();
-        let picked = self.picked()?;
+        let picked = self.picked.as_ref()?;
         Some(SelectionText {
             kind: picked.kind(),
             text: proposal.text,
@@ -120,7 +120,7 @@ impl Editor {
 
     /// Returns the command of a key, with the selection of the picked elements. `None` for actions that are no operations.
     pub fn command_of(&mut self, action: Action) -> Option<Command> {
-        let kind = self.picked().map(crate::Picked::kind);
+        let kind = self.picked.as_ref().map(crate::Picked::kind);
         let command = match action {
             Action::Flip => Command::new("FlipEdges"),
             Action::Split => Command::new("SplitEdges"),
@@ -257,8 +257,12 @@ impl Editor {
     ///
     /// # Errors
     ///
-    /// [`CommandError`]. The text is then unchanged.
+    /// [`CommandError`]. The text is then unchanged. A command with a selection needs the scene at the cursor, because the
+    /// selection is about this scene.
     pub fn apply(&mut self, command: &Command) -> Result<(), CommandError> {
+        if command.selection.is_some() && self.preview.is_none() && !self.view().is_current {
+            return Err(CommandError::NoScene);
+        }
         let steps = self.steps_of(command)?;
         let cursor = self.cursor() + steps.len();
         let edits = text::insert_steps(self.text(), &self.outline, self.cursor(), &steps)?;

@@ -77,6 +77,8 @@ pub struct Editor {
     /// The scene that is shown until the scene at the cursor is known.
     shown: Arc<Scene>,
     picked: Option<Picked>,
+    /// Whether the scene that is shown has all picked elements. A preview may lack some of them for a while.
+    has_picked: bool,
     /// The selections that mean the picked elements, once they were asked for.
     proposals: Option<Vec<Proposal>>,
     proposal: usize,
@@ -136,6 +138,7 @@ impl Editor {
             cursor: usize::MAX,
             shown: Arc::default(),
             picked: None,
+            has_picked: true,
             proposals: None,
             proposal: 0,
             indexes: Indexes::new(),
@@ -350,11 +353,21 @@ impl Editor {
     /// Keeps the scene at the cursor as the scene that is shown.
     fn keep_shown(&mut self) {
         let (last, is_known) = self.run.result_after(self.cursor);
-        match last {
-            Some(snapshot) => self.shown = snapshot.scene.clone(),
+        let shown = match last {
+            Some(snapshot) => snapshot.scene.clone(),
             // Without a step before the cursor, the scene is empty.
-            None if is_known && self.is_checked => self.shown = Arc::default(),
-            None => {}
+            None if is_known && self.is_checked => Arc::default(),
+            None => return,
+        };
+        if !Arc::ptr_eq(&self.shown, &shown) {
+            self.shown = shown;
+            // In another scene, the same elements may need another selection, or do not exist. A preview keeps the picked
+            // elements and the selection that it is about.
+            if self.preview.is_none() {
+                self.keep_picked();
+            } else {
+                self.has_picked = self.existing() == self.picked;
+            }
         }
     }
 

@@ -5,14 +5,15 @@ use crate::select::{Picked, Proposal, propose};
 use super::Editor;
 
 impl Editor {
-    /// Returns the picked elements.
+    /// Returns the picked elements, which exist in the scene that the view shows. `None` while a preview lacks some of them.
     pub fn picked(&self) -> Option<&Picked> {
-        self.picked.as_ref()
+        self.picked.as_ref().filter(|_| self.has_picked)
     }
 
     /// Sets the picked elements of the scene that the view shows.
     pub fn set_picked(&mut self, picked: Option<Picked>) {
         self.picked = picked.filter(|picked| !picked.is_empty());
+        self.has_picked = true;
         (self.proposals, self.proposal) = (None, 0);
     }
 
@@ -42,11 +43,14 @@ impl Editor {
 
     /// Drops picked elements that the scene at the cursor does not have.
     pub(super) fn keep_picked(&mut self) {
-        let mesh = |picked: &Picked| self.shown.object(&picked.object)?.as_mesh().cloned();
-        let kept = self
-            .picked
-            .as_ref()
-            .and_then(|picked| Some(picked.existing(&*mesh(picked)?)));
-        self.set_picked(kept);
+        let existing = self.existing();
+        self.set_picked(existing);
+    }
+
+    /// Returns the picked elements that the scene at the cursor has.
+    pub(super) fn existing(&self) -> Option<Picked> {
+        let picked = self.picked.as_ref()?;
+        let mesh = self.shown.object(&picked.object)?.as_mesh()?;
+        Some(picked.existing(mesh)).filter(|picked| !picked.is_empty())
     }
 }

@@ -42,6 +42,56 @@ fn press(editor: &mut Editor, action: Action) {
 }
 
 #[test]
+fn a_split_after_a_flip_splits_the_edge_where_it_is_now() {
+    let (mut editor, _) = opened(CUBE);
+    let mesh = editor.view().scene.objects()[0].as_mesh().unwrap().clone();
+    let diagonal = mesh
+        .edges()
+        .find(|&e| mesh.dihedral_angle(e) == Some(0.0))
+        .unwrap();
+    editor.set_picked(Some(Picked::one("cube", Element::Edge(diagonal))));
+    let before = editor.proposal().unwrap().text.clone();
+    let flip = editor.command_of(Action::Flip).unwrap();
+    editor.apply(&flip).unwrap();
+    // A window shows the selection in every frame, also before the run has ended.
+    editor.proposal();
+    let split = editor.command_of(Action::Split).unwrap();
+    if !editor.view().is_current {
+        assert_eq!(editor.apply(&split), Err(CommandError::NoScene));
+    }
+    settled(&mut editor);
+    assert_ne!(editor.proposal().unwrap().text, before);
+    press(&mut editor, Action::Split);
+    assert_eq!(counts(&editor), [9, 21, 14]);
+}
+
+#[test]
+fn picked_elements_that_a_new_scene_does_not_have_are_dropped() {
+    let (mut editor, _) = opened(CUBE);
+    let last = mesh::EdgeId::new(17);
+    editor.set_picked(Some(Picked::one("cube", Element::Edge(last))));
+    let tetrahedron = CUBE.replace(
+        "Cube(name: \"cube\", size: 2, triangles: true)",
+        "Tetrahedron(name: \"cube\")",
+    );
+    editor.set_text(&tetrahedron);
+    settled(&mut editor);
+    assert_eq!(counts(&editor), [4, 6, 4]);
+    assert_eq!(editor.picked(), None);
+    // A preview without the elements only hides them.
+    let (mut editor, _) = opened(CUBE);
+    let picked = Picked::one("cube", Element::Edge(last));
+    editor.set_picked(Some(picked.clone()));
+    let remesh = Command::new("CollapseEdges").with("edges", "Random(count: 5, seed: 1)");
+    editor.preview(&remesh).unwrap();
+    settle(&mut editor);
+    assert!(counts(&editor)[1] < 17 && editor.picked().is_none());
+    editor.end_preview();
+    settled(&mut editor);
+    assert_eq!(editor.picked(), Some(&picked));
+}
+
+#[test]
 fn a_session_gives_a_recipe_that_replays_to_the_same_digest() {
     let (mut editor, store) = opened(CUBE);
     assert_eq!(counts(&editor), [8, 18, 12]);

@@ -56,6 +56,8 @@ pub enum Action {
     Open,
     /// Start a new recipe.
     New,
+    /// Close the window.
+    Quit,
     /// Cancel the run, or close what is open.
     Cancel,
     /// Show the next selection that means the picked elements.
@@ -167,6 +169,7 @@ const TABLE: &[(Action, &[&str], &str)] = &[
     ),
     (Action::Open, &["Ctrl+O"], "open a file"),
     (Action::New, &["Ctrl+N"], "start a new recipe"),
+    (Action::Quit, &["Ctrl+Q"], "close the window"),
     (
         Action::Cancel,
         &["Escape"],

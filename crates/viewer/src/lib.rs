@@ -5,9 +5,10 @@
 //! - [`gpu`]: draws scenes with the graphics card.
 
 mod app;
-mod bars;
+mod banners;
 pub mod camera;
 mod code;
+mod controls;
 mod field;
 mod files;
 pub mod gpu;
@@ -19,7 +20,9 @@ mod palette;
 mod steps_pane;
 mod text_pane;
 pub mod theme;
+mod top_bar;
 mod view_pane;
+mod widgets;
 
 use std::path::PathBuf;
 use std::process::ExitCode;

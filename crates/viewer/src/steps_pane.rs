@@ -7,8 +7,8 @@ use eframe::egui::{
 };
 
 use crate::app::Parts;
-use crate::bars::{dot, duration, grouped};
 use crate::theme::Colors;
+use crate::widgets::{dot, duration, grouped};
 
 /// Something to do with a step.
 enum Edit {

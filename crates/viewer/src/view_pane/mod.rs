@@ -1,21 +1,22 @@
 //! The view: draws the scene, turns the camera, and finds what is under the cursor.
 
+mod decorations;
+mod input;
+
 use std::sync::Arc;
 
-use editor::{Area, Hit, Indexes, PickMode, Picked, Projection, pick, pick_area};
+use editor::{Hit, Indexes, PickMode, Picked};
 use eframe::egui::{
-    self, Align2, Color32, FontId, PointerButton, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Ui,
-    Vec2, WidgetInfo,
+    self, Align2, Color32, FontId, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo,
 };
 use eframe::{egui_wgpu, wgpu};
 use glam::DVec2;
 use mesh::{DVec3, Element};
-use op::ElementKind;
 use render::ColorMap;
 use scene::{ErrorLocation, Scene};
 
 use crate::camera::{Camera, Side};
-use crate::gpu::{Look, Overlay, Painter, axis_color};
+use crate::gpu::{Look, Overlay, Painter};
 use crate::overlay;
 use crate::theme::Colors;
 
@@ -214,111 +215,6 @@ impl ViewPane {
         }
     }
 
-    /// Turns, moves and zooms.
-    fn navigate(&mut self, ui: &Ui, rect: Rect, response: &egui::Response) {
-        let delta = response.drag_delta();
-        let pixels = DVec2::new(f64::from(delta.x), f64::from(delta.y));
-        let shift = ui.input(|input| input.modifiers.shift);
-        if response.dragged_by(PointerButton::Primary) && self.box_start.is_none() && !shift {
-            self.camera.orbit(pixels);
-        }
-        if response.dragged_by(PointerButton::Secondary)
-            || response.dragged_by(PointerButton::Middle)
-        {
-            self.camera.pan(pixels, self.size);
-        }
-        if response.contains_pointer() {
-            let (scroll, pinch, at) = ui.input(|input| {
-                (
-                    input.smooth_scroll_delta().y,
-                    input.zoom_delta(),
-                    input.pointer.hover_pos(),
-                )
-            });
-            let factor = libm::exp(-0.0035 * f64::from(scroll)) / f64::from(pinch);
-            if let Some(at) = at.filter(|_| factor != 1.0) {
-                self.camera.zoom(factor, place(rect, at), self.size);
-            }
-        }
-    }
-
-    /// Finds the element under the cursor, and handles clicks and boxes.
-    fn pick(
-        &mut self,
-        ui: &Ui,
-        rect: Rect,
-        response: &egui::Response,
-        shown: &Shown,
-        events: &mut Vec<ViewEvent>,
-    ) {
-        let Some(scene) = shown.scene else { return };
-        let (shift, pointer) = ui.input(|input| (input.modifiers.shift, input.pointer.hover_pos()));
-        if response.drag_started_by(PointerButton::Primary) && shift {
-            self.box_start = ui.input(|input| input.pointer.press_origin());
-        }
-        if let (Some(start), true) = (
-            self.box_start,
-            response.drag_stopped_by(PointerButton::Primary),
-        ) {
-            self.box_start = None;
-            if let Some(end) = pointer {
-                let area = Area::Box(place(rect, start), place(rect, end));
-                let kind = match self.mode {
-                    PickMode::Vertex => ElementKind::Vertices,
-                    PickMode::Edge | PickMode::HalfEdge => ElementKind::Edges,
-                    PickMode::Any | PickMode::Face => ElementKind::Faces,
-                };
-                let picked = pick_area(scene, &self.projection(), &area, kind);
-                events.push(ViewEvent::Box {
-                    picked,
-                    extends: true,
-                });
-            }
-        }
-        // While a button is down, nothing is picked, so that turning a large scene stays fast.
-        let is_down = ui.input(|input| input.pointer.any_down());
-        if response.contains_pointer() && !is_down {
-            self.hovered = pointer.and_then(|at| {
-                pick(
-                    scene,
-                    shown.indexes,
-                    &self.projection(),
-                    place(rect, at),
-                    self.mode,
-                )
-            });
-        } else if !response.contains_pointer() {
-            self.hovered = None;
-        }
-        if response.clicked_by(PointerButton::Primary)
-            && let Some(at) = response.interact_pointer_pos()
-        {
-            let hit = pick(
-                scene,
-                shown.indexes,
-                &self.projection(),
-                place(rect, at),
-                self.mode,
-            );
-            response.request_focus();
-            events.push(ViewEvent::Click {
-                hit,
-                extends: shift,
-                is_double: response.double_clicked(),
-            });
-        }
-    }
-
-    /// Returns the map from the scene to points of the view.
-    fn projection(&self) -> Projection {
-        let extent = self.gpu.as_ref().and_then(|gpu| gpu.painter.extent());
-        let (center, radius) = extent.unwrap_or((self.camera.target, self.camera.distance));
-        Projection::new(
-            self.camera.clip_matrix(self.size, center, radius * 1.01),
-            self.size,
-        )
-    }
-
     fn paint(&mut self, ui: &Ui, rect: Rect, shown: &Shown) {
         let colors = Colors::current(ui);
         let scale = ui.pixels_per_point();
@@ -389,9 +285,9 @@ impl ViewPane {
                 StrokeKind::Inside,
             );
         }
-        self.paint_axes(ui, rect);
+        decorations::axes(ui, rect, &self.camera);
         if let Some((title, map, range)) = &self.legend {
-            paint_legend(ui, rect, title, *map, *range, &colors);
+            decorations::legend(ui, rect, title, *map, *range, &colors);
         }
     }
 
@@ -421,111 +317,6 @@ impl ViewPane {
             self.overlay_number += 1;
         }
     }
-
-    /// Draws the directions of the axes in the lower left corner.
-    fn paint_axes(&self, ui: &Ui, rect: Rect) {
-        let center = rect.left_bottom() + Vec2::new(46.0, -46.0);
-        let [right, up, back] = self.camera.axes();
-        let mut axes = [(DVec3::X, "x"), (DVec3::Y, "y"), (DVec3::Z, "z")].map(|(axis, name)| {
-            let [r, g, b] = axis_color(axis);
-            (axis.dot(back), axis, name, Color32::from_rgb(r, g, b))
-        });
-        // Axes that point towards the viewer are drawn last.
-        axes.sort_by(|a, b| a.0.total_cmp(&b.0));
-        for (_, axis, name, color) in axes {
-            let direction = Vec2::new(narrow(axis.dot(right)), -narrow(axis.dot(up)));
-            ui.painter()
-                .line_segment([center, center + direction * 26.0], Stroke::new(2.2, color));
-            ui.painter().text(
-                center + direction * 35.0,
-                Align2::CENTER_CENTER,
-                name,
-                FontId::proportional(12.0),
-                color,
-            );
-        }
-    }
-}
-
-fn paint_legend(
-    ui: &Ui,
-    rect: Rect,
-    title: &str,
-    map: ColorMap,
-    [low, high]: [f64; 2],
-    colors: &Colors,
-) {
-    const WIDTH: f32 = 190.0;
-    let font = FontId::proportional(12.0);
-    let corner = rect.right_bottom() - Vec2::new(WIDTH + 16.0, 62.0);
-    let frame = Rect::from_min_size(corner, Vec2::new(WIDTH, 50.0));
-    ui.painter()
-        .rect_filled(frame, 6.0, colors.panel.gamma_multiply(0.88));
-    ui.painter().text(
-        frame.left_top() + Vec2::new(10.0, 5.0),
-        Align2::LEFT_TOP,
-        title,
-        font.clone(),
-        colors.text,
-    );
-    let bar = Rect::from_min_size(
-        frame.left_top() + Vec2::new(10.0, 22.0),
-        Vec2::new(WIDTH - 20.0, 8.0),
-    );
-    let n = if map == ColorMap::Classes { 8_u8 } else { 48 };
-    for i in 0..n {
-        let [r, g, b] = if map == ColorMap::Classes {
-            map.class(low + f64::from(i))
-        } else {
-            map.srgb((f64::from(i) + 0.5) / f64::from(n))
-        };
-        let left = bar.left() + bar.width() * f32::from(i) / f32::from(n);
-        let part = Rect::from_min_size(
-            Pos2::new(left, bar.top()),
-            Vec2::new(bar.width() / f32::from(n) + 0.5, bar.height()),
-        );
-        ui.painter()
-            .rect_filled(part.intersect(bar), 0.0, Color32::from_rgb(r, g, b));
-    }
-    let high = if map == ColorMap::Classes {
-        low + 7.0
-    } else {
-        high
-    };
-    for (at, align, value) in [
-        (bar.left_bottom(), Align2::LEFT_TOP, low),
-        (bar.right_bottom(), Align2::RIGHT_TOP, high),
-    ] {
-        ui.painter().text(
-            at + Vec2::new(0.0, 3.0),
-            align,
-            short(value),
-            font.clone(),
-            colors.weak,
-        );
-    }
-}
-
-/// Writes a number with about four digits.
-fn short(x: f64) -> String {
-    if x != 0.0 && !(1e-3..1e5).contains(&x.abs()) {
-        return format!("{x:.2e}");
-    }
-    let text = format!("{x:.3}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
-/// Returns a position in the view, from its upper left corner.
-fn place(rect: Rect, at: Pos2) -> DVec2 {
-    DVec2::new(f64::from(at.x - rect.left()), f64::from(at.y - rect.top()))
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the number is from -1 to 1"
-)]
-fn narrow(x: f64) -> f32 {
-    x as f32
 }
 
 #[expect(

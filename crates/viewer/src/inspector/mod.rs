@@ -1,14 +1,16 @@
 //! The panel at the right: the picked elements, the parameters of a step, and the parameters of the recipe.
 
-use editor::{Action, Command, FieldKind, HalfEdgeInfo, Panel, SelectionText};
-use eframe::egui::{self, Align, Button, Grid, Label, Layout, Margin, RichText, ScrollArea, Ui};
+mod picked;
+
+use editor::{Command, FieldKind, Panel, SelectionText};
+use eframe::egui::{self, Align, Button, Label, Layout, Margin, RichText, ScrollArea, Ui};
 use recipe::Param;
 
 use crate::app::Parts;
-use crate::bars::{counts, grouped};
 use crate::field::{self, Change, Field};
 use crate::steps_pane::heading;
 use crate::theme::Colors;
+use crate::widgets::{counts, grouped};
 
 /// An operation whose parameters are being chosen.
 #[derive(Clone, Debug)]
@@ -59,7 +61,7 @@ pub(crate) fn ui(ui: &mut Ui, parts: &mut Parts) {
                         draft(ui, parts);
                         ui.add_space(12.0);
                     }
-                    picked(ui, parts);
+                    picked::picked(ui, parts);
                     ui.add_space(12.0);
                     recipe_parameters(ui, parts);
                     step(ui, parts);
@@ -74,141 +76,6 @@ pub(crate) fn ui(ui: &mut Ui, parts: &mut Parts) {
 fn weak(ui: &mut Ui, text: &str) {
     let color = Colors::current(ui).weak;
     ui.add(Label::new(RichText::new(text).size(12.0).color(color)).wrap());
-}
-
-/// The picked elements.
-fn picked(ui: &mut Ui, parts: &mut Parts) {
-    heading(ui, "Picked", |_| {});
-    let (Some(picked), Some(mesh)) = (parts.editor.picked().cloned(), parts.picked_mesh()) else {
-        weak(
-            ui,
-            "Click a vertex, an edge or a face in the view. Shift+drag picks a box, a double click an edge loop.",
-        );
-        return;
-    };
-    let colors = Colors::current(ui);
-    ui.label(RichText::new(parts.description()).color(colors.picked));
-    let n = parts.editor.proposals().len();
-    if let Some(proposal) = parts.editor.proposal().cloned() {
-        ui.horizontal_wrapped(|ui| {
-            let text = RichText::new(&proposal.text).monospace().size(11.5);
-            ui.add(Label::new(text).wrap())
-                .on_hover_text("The selection that the next step uses for the picked elements");
-            if n > 1
-                && ui
-                    .small_button("Other")
-                    .on_hover_text("Another selection that means the same elements")
-                    .clicked()
-            {
-                parts.editor.next_proposal();
-            }
-        });
-    }
-    let ctx = ui.ctx().clone();
-    ui.horizontal_wrapped(|ui| {
-        let actions: &[(&str, Action)] = match picked.elements {
-            op::Selected::Edges(_) => &[
-                ("Flip", Action::Flip),
-                ("Split", Action::Split),
-                ("Collapse", Action::Collapse),
-                ("Dissolve", Action::Dissolve),
-                ("Loop", Action::EdgeLoop),
-                ("Ring", Action::EdgeRing),
-            ],
-            op::Selected::Vertices(_) => &[("Dissolve", Action::Dissolve), ("Grow", Action::Grow)],
-            op::Selected::Faces(_) => &[
-                ("Extrude", Action::Extrude),
-                ("Grow", Action::Grow),
-                ("Shrink", Action::Shrink),
-            ],
-        };
-        for &(name, action) in actions {
-            let key = parts.editor_key(action);
-            if ui
-                .button(name)
-                .on_hover_text(format!("{} ({key})", action.doc()))
-                .clicked()
-            {
-                parts.act(action, &ctx);
-            }
-        }
-    });
-    if let Some(info) = picked.half_edge.and_then(|h| HalfEdgeInfo::of(&mesh, h)) {
-        ui.add_space(4.0);
-        half_edge(ui, parts, &info);
-    }
-}
-
-/// The half-edge and its neighbors.
-fn half_edge(ui: &mut Ui, parts: &mut Parts, info: &HalfEdgeInfo) {
-    let colors = Colors::current(ui);
-    ui.label(
-        RichText::new("Half-edge")
-            .strong()
-            .size(12.0)
-            .color(colors.weak),
-    );
-    let ctx = ui.ctx().clone();
-    Grid::new("half-edge")
-        .num_columns(3)
-        .spacing([14.0, 3.0])
-        .show(ui, |ui| {
-            let mut row = |name: &str, value: String, walk: Option<(Action, &str)>| {
-                ui.label(RichText::new(name).size(12.0).color(colors.weak));
-                ui.label(RichText::new(value).monospace().size(12.0));
-                if let Some((action, key)) = walk
-                    && ui
-                        .add(Button::new(RichText::new(key).monospace().size(11.0)).small())
-                        .on_hover_text(action.doc())
-                        .clicked()
-                {
-                    parts.act(action, &ctx);
-                }
-                ui.end_row();
-            };
-            row("id", info.id.index().to_string(), None);
-            row(
-                "next",
-                info.next.index().to_string(),
-                Some((Action::Next, "N")),
-            );
-            row(
-                "twin",
-                info.twin.index().to_string(),
-                Some((Action::Twin, "T")),
-            );
-            row(
-                "previous",
-                info.previous.index().to_string(),
-                Some((Action::Previous, "P")),
-            );
-            row(
-                "origin",
-                format!("{} (valence {})", info.origin.index(), info.valence),
-                Some((Action::AroundVertex, "V")),
-            );
-            row("target", info.target.index().to_string(), None);
-            let face = info
-                .face
-                .map_or_else(|| "none (boundary)".to_owned(), |f| f.index().to_string());
-            row("face", face, None);
-            row("edge", info.edge.index().to_string(), None);
-            row("length", format!("{:.5}", info.length), None);
-            let angle = info
-                .dihedral_angle
-                .map_or_else(|| "boundary".to_owned(), |angle| format!("{angle:.2}°"));
-            row("dihedral angle", angle, None);
-            for attribute in &info.attributes {
-                let values: Vec<String> =
-                    attribute.value.iter().map(|x| format!("{x:.4}")).collect();
-                let value = if attribute.is_tag {
-                    (attribute.value == [1.0]).to_string()
-                } else {
-                    values.join(" ")
-                };
-                row(&attribute.name, value, None);
-            }
-        });
 }
 
 /// The parameters of a new step.

@@ -1,0 +1,268 @@
+//! The application: an editor, a view, and the panels around it.
+
+mod actions;
+mod documents;
+mod layout;
+mod picks;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+use editor::{Action, Editor, FileChange, Keys, Settings};
+use eframe::egui::{self, Ui};
+use eframe::egui_wgpu;
+use egui_tiles::Tree;
+use mesh::Mesh;
+use scene::ErrorLocation;
+
+use crate::inspector::Draft;
+use crate::palette::Palette;
+use crate::text_pane::TextPane;
+use crate::view_pane::{Shown, ViewPane};
+use crate::{controls, files, help, keyboard, overlay, theme, top_bar};
+pub(crate) use documents::Pending;
+use layout::Pane;
+
+/// A message at the top of the view.
+#[derive(Clone, Debug)]
+pub(crate) struct Notice {
+    pub(crate) text: String,
+    pub(crate) is_error: bool,
+}
+
+/// What to open at the start.
+#[derive(Clone, Debug, Default)]
+pub struct Start {
+    /// A model or a recipe.
+    pub path: Option<PathBuf>,
+    /// The folder for the list of recent files and the recovery of texts. If omitted, nothing is stored.
+    pub state_folder: Option<PathBuf>,
+}
+
+/// The window of the editor.
+pub struct App {
+    pub(crate) parts: Parts,
+    tree: Tree<Pane>,
+}
+
+/// Everything except for the layout of the tiles.
+pub(crate) struct Parts {
+    pub(crate) editor: Editor,
+    pub(crate) view: ViewPane,
+    pub(crate) text: TextPane,
+    pub(crate) keys: Keys,
+    pub(crate) palette: Option<Palette>,
+    /// An operation whose parameters are being chosen.
+    pub(crate) draft: Option<Draft>,
+    /// The value of a parameter while its slider is dragged: the step or none for the recipe, the name, and the value.
+    pub(crate) dragged: Option<(Option<usize>, String, String)>,
+    pub(crate) shows_help: bool,
+    pub(crate) shows_information: bool,
+    pub(crate) notice: Option<Notice>,
+    pub(crate) files: files::Files,
+    /// What the user wants to do although the recipe has unsaved changes.
+    pub(crate) pending: Option<Pending>,
+    /// The places of errors that are shown in the view.
+    places: Vec<ErrorLocation>,
+    description: String,
+    is_closing: bool,
+}
+
+impl App {
+    /// Creates the window's contents. Opens the file of `start`, if there is one.
+    pub fn new(ctx: &egui::Context, gpu: Option<&egui_wgpu::RenderState>, start: &Start) -> Self {
+        theme::apply(ctx);
+        let registry = Arc::new(ops_all::registry());
+        // Before this editor has a journal of its own.
+        let files = files::Files::new(start.state_folder.clone());
+        let settings = Settings {
+            journals: files::journals(start.state_folder.as_deref()),
+            ..Settings::default()
+        };
+        let editor = Editor::new(registry, Arc::new(engine::Disk), settings);
+        let wake = ctx.clone();
+        editor.on_wake(Arc::new(move || wake.request_repaint()));
+        let mut parts = Parts {
+            editor,
+            view: ViewPane::new(gpu),
+            text: TextPane::default(),
+            keys: Keys::default(),
+            palette: None,
+            draft: None,
+            dragged: None,
+            shows_help: false,
+            shows_information: false,
+            notice: None,
+            files,
+            pending: None,
+            places: Vec::new(),
+            description: String::new(),
+            is_closing: false,
+        };
+        parts.read_keys();
+        if let Some(path) = &start.path {
+            parts.open(path);
+        }
+        Self {
+            parts,
+            tree: layout::initial(),
+        }
+    }
+
+    /// Returns the editor.
+    pub fn editor(&self) -> &Editor {
+        &self.parts.editor
+    }
+
+    /// Returns the editor, mutably.
+    pub fn editor_mut(&mut self) -> &mut Editor {
+        &mut self.parts.editor
+    }
+
+    /// Returns the position of a point of the scene in the view, in points from the upper left corner of the view. `None` if
+    /// the point is behind the camera.
+    pub fn pixel_of(&self, point: mesh::DVec3) -> Option<[f64; 2]> {
+        self.parts.view.pixel_of(point).map(|at| at.to_array())
+    }
+
+    /// Sets how the scene is drawn.
+    pub fn look_mut(&mut self) -> &mut crate::gpu::Look {
+        &mut self.parts.view.look
+    }
+}
+
+impl eframe::App for App {
+    fn logic(&mut self, ctx: &egui::Context, _: &mut eframe::Frame) {
+        self.parts.poll(ctx);
+    }
+
+    fn ui(&mut self, ui: &mut Ui, _: &mut eframe::Frame) {
+        let ctx = ui.ctx().clone();
+        self.parts.dropped_files(&ctx);
+        for action in keyboard::actions(&ctx, &self.parts.keys, self.parts.is_modal()) {
+            self.parts.act(action, &ctx);
+        }
+        top_bar::top(ui, &mut self.parts);
+        top_bar::status(ui, &mut self.parts);
+        let frame = egui::Frame::new().fill(theme::Colors::current(ui).line);
+        egui::CentralPanel::no_frame().frame(frame).show(ui, |ui| {
+            self.tree.ui(&mut self.parts, ui);
+        });
+        self.parts.windows(&ctx);
+        self.parts.closing(&ctx);
+    }
+}
+
+impl Parts {
+    /// Takes the results of the engine.
+    fn poll(&mut self, ctx: &egui::Context) {
+        if let Some(update) = self.editor.poll() {
+            match update.file {
+                Some(FileChange::Reloaded) => {
+                    self.inform("The file was changed by another program, and was read again.");
+                }
+                Some(FileChange::Removed) => {
+                    self.inform("The file of the recipe was removed. Save to write it again.");
+                }
+                Some(FileChange::Unreadable(message)) => self.warn(message),
+                Some(FileChange::Conflict) | None => {}
+            }
+            self.places = self.places_of_errors();
+            ctx.request_repaint();
+        }
+        if self.editor.is_running() {
+            // Progress has no event of its own.
+            ctx.request_repaint_after(Duration::from_millis(100));
+        }
+    }
+
+    /// Returns the places of failures in the scene at the cursor.
+    fn places_of_errors(&self) -> Vec<ErrorLocation> {
+        let failures = self.editor.run().failures.iter();
+        failures
+            .flat_map(|failure| failure.places.clone())
+            .collect()
+    }
+
+    /// Returns the first key of an action, for hints.
+    pub(crate) fn editor_key(&self, action: Action) -> String {
+        self.keys.of(action).first().cloned().unwrap_or_default()
+    }
+
+    /// Whether a dialog has the keyboard.
+    fn is_modal(&self) -> bool {
+        self.palette.is_some() || self.pending.is_some() || self.shows_help
+    }
+
+    pub(crate) fn inform(&mut self, text: impl Into<String>) {
+        self.notice = Some(Notice {
+            text: text.into(),
+            is_error: false,
+        });
+    }
+
+    pub(crate) fn warn(&mut self, text: impl Into<String>) {
+        self.notice = Some(Notice {
+            text: text.into(),
+            is_error: true,
+        });
+    }
+
+    /// Shows the error of an edit, if there is one.
+    pub(crate) fn report<E: std::fmt::Display>(&mut self, result: Result<(), E>) {
+        match result {
+            Ok(()) => self.notice = None,
+            Err(error) => self.warn(error.to_string()),
+        }
+    }
+
+    fn read_keys(&mut self) {
+        match self.files.read_keys() {
+            Some(Ok(keys)) => self.keys = keys,
+            Some(Err(message)) => self.warn(message),
+            None => {}
+        }
+    }
+
+    fn windows(&mut self, ctx: &egui::Context) {
+        help::ui(ctx, self);
+        crate::palette::ui(ctx, self);
+        files::question(ctx, self);
+    }
+
+    /// Returns the mesh with the picked elements.
+    pub(crate) fn picked_mesh(&self) -> Option<Arc<Mesh>> {
+        let picked = self.editor.picked()?;
+        let scene = self.editor.view().scene;
+        scene.object(&picked.object)?.as_mesh().cloned()
+    }
+
+    fn view_ui(&mut self, ui: &mut Ui) {
+        let view = self.editor.view();
+        let picked = self.editor.picked().cloned();
+        self.description = match (&picked, self.picked_mesh()) {
+            (Some(picked), Some(mesh)) => overlay::describe(&mesh, picked),
+            _ => String::new(),
+        };
+        let rect = ui.max_rect();
+        let shown = Shown {
+            scene: Some(&view.scene),
+            picked: picked.as_ref(),
+            places: &self.places,
+            indexes: self.editor.indexes(),
+            description: &self.description,
+            is_stale: !view.is_current && !self.editor.is_running(),
+        };
+        let events = self.view.ui(ui, &shown);
+        for event in events {
+            self.view_event(event, &view.scene);
+        }
+        controls::over_view(ui, rect, self);
+    }
+
+    /// Returns what is said about the picked elements.
+    pub(crate) fn description(&self) -> &str {
+        &self.description
+    }
+}

@@ -1,0 +1,125 @@
+//! Turns the camera, and finds what is under the cursor.
+
+use editor::{Area, PickMode, Projection, pick, pick_area};
+use eframe::egui::{self, PointerButton, Pos2, Rect, Ui};
+use glam::DVec2;
+use op::ElementKind;
+
+use super::{Shown, ViewEvent, ViewPane};
+
+impl ViewPane {
+    /// Turns, moves and zooms.
+    pub(super) fn navigate(&mut self, ui: &Ui, rect: Rect, response: &egui::Response) {
+        let delta = response.drag_delta();
+        let pixels = DVec2::new(f64::from(delta.x), f64::from(delta.y));
+        let shift = ui.input(|input| input.modifiers.shift);
+        if response.dragged_by(PointerButton::Primary) && self.box_start.is_none() && !shift {
+            self.camera.orbit(pixels);
+        }
+        if response.dragged_by(PointerButton::Secondary)
+            || response.dragged_by(PointerButton::Middle)
+        {
+            self.camera.pan(pixels, self.size);
+        }
+        if response.contains_pointer() {
+            let (scroll, pinch, at) = ui.input(|input| {
+                (
+                    input.smooth_scroll_delta().y,
+                    input.zoom_delta(),
+                    input.pointer.hover_pos(),
+                )
+            });
+            let factor = libm::exp(-0.0035 * f64::from(scroll)) / f64::from(pinch);
+            if let Some(at) = at.filter(|_| factor != 1.0) {
+                self.camera.zoom(factor, place(rect, at), self.size);
+            }
+        }
+    }
+
+    /// Finds the element under the cursor, and handles clicks and boxes.
+    pub(super) fn pick(
+        &mut self,
+        ui: &Ui,
+        rect: Rect,
+        response: &egui::Response,
+        shown: &Shown,
+        events: &mut Vec<ViewEvent>,
+    ) {
+        let Some(scene) = shown.scene else { return };
+        let (shift, pointer) = ui.input(|input| (input.modifiers.shift, input.pointer.hover_pos()));
+        if response.drag_started_by(PointerButton::Primary) && shift {
+            self.box_start = ui.input(|input| input.pointer.press_origin());
+        }
+        if let (Some(start), true) = (
+            self.box_start,
+            response.drag_stopped_by(PointerButton::Primary),
+        ) {
+            self.box_start = None;
+            if let Some(end) = pointer {
+                let area = Area::Box(place(rect, start), place(rect, end));
+                let kind = match self.mode {
+                    PickMode::Vertex => ElementKind::Vertices,
+                    PickMode::Edge | PickMode::HalfEdge => ElementKind::Edges,
+                    PickMode::Any | PickMode::Face => ElementKind::Faces,
+                };
+                let picked = pick_area(scene, &self.projection(), &area, kind);
+                events.push(ViewEvent::Box {
+                    picked,
+                    extends: true,
+                });
+            }
+        }
+        // While a button is down, nothing is picked, so that turning a large scene stays fast.
+        let is_down = ui.input(|input| input.pointer.any_down());
+        if response.contains_pointer() && !is_down {
+            let hovered = pointer.and_then(|at| {
+                pick(
+                    scene,
+                    shown.indexes,
+                    &self.projection(),
+                    place(rect, at),
+                    self.mode,
+                )
+            });
+            if hovered != self.hovered {
+                self.hovered = hovered;
+                // The status is drawn before the view.
+                ui.ctx().request_repaint();
+            }
+        } else if !response.contains_pointer() {
+            self.hovered = None;
+        }
+        if response.clicked_by(PointerButton::Primary)
+            && let Some(at) = response.interact_pointer_pos()
+        {
+            let hit = pick(
+                scene,
+                shown.indexes,
+                &self.projection(),
+                place(rect, at),
+                self.mode,
+            );
+            response.request_focus();
+            events.push(ViewEvent::Click {
+                hit,
+                extends: shift,
+                is_double: response.double_clicked(),
+            });
+        }
+    }
+
+    /// Returns the map from the scene to points of the view.
+    fn projection(&self) -> Projection {
+        let extent = self.gpu.as_ref().and_then(|gpu| gpu.painter.extent());
+        let (center, radius) = extent.unwrap_or((self.camera.target, self.camera.distance));
+        Projection::new(
+            self.camera.clip_matrix(self.size, center, radius * 1.01),
+            self.size,
+        )
+    }
+}
+
+/// Returns a position in the view, from its upper left corner.
+fn place(rect: Rect, at: Pos2) -> DVec2 {
+    DVec2::new(f64::from(at.x - rect.left()), f64::from(at.y - rect.top()))
+}

@@ -3,11 +3,15 @@
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 use mesh::{FaceId, Mesh};
+use rayon::prelude::*;
 use render::{Channel, Drawing, Part, to_srgb};
 
-/// The largest number of triangles that are drawn from one set of buffers. With this number, no buffer exceeds 128 MiB,
-/// which every graphics card supports.
-pub(super) const CHUNK: usize = 1 << 20;
+/// The largest number of triangles that are drawn by one command.
+const CHUNK: usize = 1 << 20;
+
+/// The largest number of points with shared buffers. With this number, no buffer exceeds 128 MiB, which every graphics
+/// card supports.
+const MAX_POINTS: usize = (128 << 20) / size_of::<[f32; 3]>();
 
 /// The bit of a corner in [`Chunk::triangles`] that says that the side from this corner to the next is an edge of the
 /// mesh.
@@ -16,15 +20,24 @@ const EDGE: u32 = 1 << 31;
 /// Stands for "no normal".
 const NO_NORMAL: u32 = 0x8000_8000;
 
-/// Triangles with their own numbering of points.
-pub(super) struct Chunk {
-    /// Three coordinates for each point, relative to the center of the object.
-    pub(super) points: Vec<f32>,
-    /// Three points for each triangle, with [`EDGE`].
-    pub(super) triangles: Vec<u32>,
-    /// Unit vectors in 4 bytes.
+/// Chunks of triangles that share their points.
+pub(super) struct Surface {
+    /// The positions of the points, relative to the center of the object.
+    pub(super) points: Vec<[f32; 3]>,
+    /// Unit vectors in 4 bytes, one for each point. Empty if normals are not per point.
     pub(super) normals: Vec<u32>,
-    /// sRGB colors.
+    /// sRGB colors, one for each point. Empty if colors are not per point.
+    pub(super) colors: Vec<u32>,
+    pub(super) chunks: Vec<Chunk>,
+}
+
+/// Triangles that are drawn together.
+pub(super) struct Chunk {
+    /// Three points for each triangle, with [`EDGE`].
+    pub(super) triangles: Vec<[u32; 3]>,
+    /// Unit vectors in 4 bytes. Empty if the normals are those of the points.
+    pub(super) normals: Vec<u32>,
+    /// sRGB colors. Empty if the colors are those of the points.
     pub(super) colors: Vec<u32>,
     /// The appearance, with the fields of the uniform `Object` of the shader except for `offset`.
     pub(super) look: SurfaceLook,
@@ -91,68 +104,125 @@ fn byte(x: f32) -> u8 {
     (x.clamp(0.0, 1.0) * 255.0).round() as u8
 }
 
-/// Splits a part into chunks. If the part is the surface of a mesh, `mesh` is the mesh, so that the sides of triangles
-/// inside of polygons are not drawn as edges.
-pub(super) fn chunks(part: &Part, mesh: Option<&Mesh>, center: DVec3) -> Vec<Chunk> {
+/// Converts a part. If the part is the surface of a mesh, `mesh` is the mesh, so that the sides of triangles inside of
+/// polygons are not drawn as edges.
+pub(super) fn surfaces(part: &Part, mesh: Option<&Mesh>, center: DVec3) -> Vec<Surface> {
+    split(part, mesh, center, [CHUNK, MAX_POINTS])
+}
+
+fn split(
+    part: &Part,
+    mesh: Option<&Mesh>,
+    center: DVec3,
+    [most_triangles, most_points]: [usize; 2],
+) -> Vec<Surface> {
     let all: Vec<u32> = (0..u32::try_from(part.triangles.len()).unwrap_or(u32::MAX)).collect();
-    let mut chunks = Vec::new();
-    // Maps points of the part to points of the chunk. `owner` is the chunk for which an entry is valid.
-    let mut local = vec![0_u32; part.points.len()];
-    let mut owner = vec![0_u32; part.points.len()];
-    let mut number = 0;
-    for (material, triangles) in by_material(part, all) {
-        for triangles in triangles.chunks(CHUNK) {
-            number += 1;
-            let surface = part.materials.get(material);
-            let mut chunk = Chunk {
-                points: Vec::with_capacity(triangles.len() * 2),
-                triangles: Vec::with_capacity(triangles.len() * 3),
-                normals: Vec::new(),
-                colors: Vec::new(),
-                look: look(part, surface),
-            };
-            let mut points = Vec::new();
-            for &t in triangles {
-                let corners = part.triangles[t as usize];
-                let edges = edges(part, mesh, t as usize);
-                for (corner, is_edge) in corners.into_iter().zip(edges) {
-                    let i = corner as usize;
-                    if owner[i] != number {
-                        owner[i] = number;
-                        local[i] = u32::try_from(points.len()).unwrap_or(u32::MAX);
-                        points.push(corner);
-                        chunk.points.extend(narrow(part.points[i] - center));
-                    }
-                    chunk
-                        .triangles
-                        .push(local[i] | if is_edge { EDGE } else { 0 });
-                }
-            }
-            let values = |channel: &Channel, encode: fn([f32; 3]) -> u32| -> Vec<u32> {
-                match channel {
-                    Channel::All(value) => vec![encode(*value)],
-                    Channel::Face(values) => {
-                        let face = |&t: &u32| encode(values[part.face(t as usize)]);
-                        triangles.iter().map(face).collect()
-                    }
-                    Channel::Point(values) => {
-                        points.iter().map(|&p| encode(values[p as usize])).collect()
-                    }
-                    Channel::Corner(values) => {
-                        let corners = triangles.iter().flat_map(|&t| part.corners[t as usize]);
-                        corners.map(|c| encode(values[c as usize])).collect()
-                    }
-                }
-            };
-            chunk.normals = values(&part.normals, encode_normal);
-            chunk.colors = match &part.colors {
-                Channel::All(_) => vec![0],
-                colors => values(colors, encode_color),
-            };
-            chunks.push(chunk);
+    let groups = by_material(part, all);
+    let chunks = groups.iter().flat_map(|(material, triangles)| {
+        let chunks = triangles.chunks(most_triangles);
+        chunks.map(|chunk| chunk_of(part, mesh, *material, chunk))
+    });
+    if part.points.len() <= most_points {
+        return vec![Surface {
+            points: map(part.points.len(), |i| narrow(part.points[i] - center)),
+            normals: of_points(&part.normals, encode_normal),
+            colors: of_points(&part.colors, encode_color),
+            chunks: chunks.collect(),
+        }];
+    }
+    let normals = of_points(&part.normals, encode_normal);
+    let colors = of_points(&part.colors, encode_color);
+    let mut renumbering = Renumbering::new(part.points.len());
+    let renumbered = chunks.map(|mut chunk| {
+        let used = renumbering.renumber(&mut chunk.triangles);
+        let take = |values: &[u32]| -> Vec<u32> {
+            let value = |&p: &u32| values.get(p as usize).copied();
+            used.iter().filter_map(value).collect()
+        };
+        Surface {
+            points: map(used.len(), |i| {
+                narrow(part.points[used[i] as usize] - center)
+            }),
+            normals: take(&normals),
+            colors: take(&colors),
+            chunks: vec![chunk],
+        }
+    });
+    renumbered.collect()
+}
+
+/// Maps points of a part to points of a chunk.
+struct Renumbering {
+    local: Vec<u32>,
+    /// The chunk for which an entry of `local` is valid.
+    owner: Vec<u32>,
+    chunk: u32,
+}
+
+impl Renumbering {
+    fn new(n_points: usize) -> Self {
+        Self {
+            local: vec![0; n_points],
+            owner: vec![0; n_points],
+            chunk: 0,
         }
     }
-    chunks
+
+    /// Gives the points of a chunk new numbers, in the order of their first use. Returns the old numbers.
+    fn renumber(&mut self, triangles: &mut [[u32; 3]]) -> Vec<u32> {
+        self.chunk += 1;
+        let mut used = Vec::new();
+        for corner in triangles.as_flattened_mut() {
+            let (point, flag) = (*corner & !EDGE, *corner & EDGE);
+            let i = point as usize;
+            if self.owner[i] != self.chunk {
+                self.owner[i] = self.chunk;
+                self.local[i] = u32::try_from(used.len()).unwrap_or(!EDGE);
+                used.push(point);
+            }
+            *corner = self.local[i] | flag;
+        }
+        used
+    }
+}
+
+fn chunk_of(part: &Part, mesh: Option<&Mesh>, material: usize, triangles: &[u32]) -> Chunk {
+    let values = |channel: &Channel, encode: fn([f32; 3]) -> u32| -> Vec<u32> {
+        match channel {
+            Channel::All(value) => vec![encode(*value)],
+            Channel::Face(values) => map(triangles.len(), |i| {
+                encode(values[part.face(triangles[i] as usize)])
+            }),
+            Channel::Point(_) => Vec::new(),
+            Channel::Corner(values) => map(3 * triangles.len(), |i| {
+                let corner = part.corners[triangles[i / 3] as usize][i % 3];
+                encode(values[corner as usize])
+            }),
+        }
+    };
+    Chunk {
+        triangles: map(triangles.len(), |i| {
+            let t = triangles[i] as usize;
+            let (corners, edges) = (part.triangles[t], edges(part, mesh, t));
+            std::array::from_fn(|k| corners[k] | if edges[k] { EDGE } else { 0 })
+        }),
+        normals: values(&part.normals, encode_normal),
+        colors: values(&part.colors, encode_color),
+        look: look(part, part.materials.get(material)),
+    }
+}
+
+/// Encodes the values of points. Empty if the values are not per point.
+fn of_points(channel: &Channel, encode: fn([f32; 3]) -> u32) -> Vec<u32> {
+    match channel {
+        Channel::Point(values) => map(values.len(), |i| encode(values[i])),
+        _ => Vec::new(),
+    }
+}
+
+/// Computes `n` values on all processors.
+fn map<T: Send>(n: usize, of: impl Fn(usize) -> T + Send + Sync) -> Vec<T> {
+    (0..n).into_par_iter().map(of).collect()
 }
 
 /// Returns the triangles of each material.
@@ -303,15 +373,45 @@ mod tests {
         let style = render::Style::default();
         let overlays = render::Overlays::default();
         let (drawing, _) = render::build(&scene, &style, &overlays, &mut |_| None).unwrap();
-        let chunks = chunks(&drawing.parts[0], Some(&cube), DVec3::ZERO);
-        assert_eq!(chunks.len(), 1);
-        assert_eq!(chunks[0].points.len(), 24);
-        let n_edges = chunks[0]
-            .triangles
-            .iter()
-            .filter(|&&t| t & EDGE != 0)
-            .count();
+        let surfaces = surfaces(&drawing.parts[0], Some(&cube), DVec3::ZERO);
+        let [surface] = &surfaces[..] else { panic!() };
+        assert_eq!((surface.points.len(), surface.chunks.len()), (8, 1));
+        let corners = surface.chunks[0].triangles.as_flattened();
+        let n_edges = corners.iter().filter(|&&t| t & EDGE != 0).count();
         // Each of the 12 edges is the side of two triangles.
-        assert_eq!((chunks[0].triangles.len(), n_edges), (36, 24));
+        assert_eq!((corners.len(), n_edges), (36, 24));
+    }
+
+    #[test]
+    fn triangles_stay_the_same_if_there_are_more_points_than_fit_into_a_buffer() {
+        let torus = geometry::shapes::torus(12, 8, 1.0, 0.4);
+        let mut scene = scene::Scene::new();
+        scene
+            .insert(scene::Object::mesh("torus", torus.clone()))
+            .unwrap();
+        let (style, overlays) = (render::Style::default(), render::Overlays::default());
+        let (drawing, _) = render::build(&scene, &style, &overlays, &mut |_| None).unwrap();
+        let part = &drawing.parts[0];
+        // The position, the normal and the flag of each corner, in the order in which they are drawn.
+        let drawn = |surfaces: &[Surface]| -> Vec<([f32; 3], u32, u32)> {
+            let mut corners = Vec::new();
+            for surface in surfaces {
+                for chunk in &surface.chunks {
+                    for &corner in chunk.triangles.as_flattened() {
+                        let i = (corner & !EDGE) as usize;
+                        corners.push((surface.points[i], surface.normals[i], corner & EDGE));
+                    }
+                }
+            }
+            corners
+        };
+        let one = split(part, Some(&torus), DVec3::ZERO, [CHUNK, MAX_POINTS]);
+        let shared = split(part, Some(&torus), DVec3::ZERO, [50, MAX_POINTS]);
+        let many = split(part, Some(&torus), DVec3::ZERO, [50, 95]);
+        assert_eq!((one.len(), shared.len(), many.len()), (1, 1, 4));
+        assert_eq!(shared[0].chunks.len(), 4);
+        assert_eq!(drawn(&one).len(), 3 * 2 * 96);
+        assert_eq!(drawn(&one), drawn(&shared));
+        assert_eq!(drawn(&one), drawn(&many));
     }
 }

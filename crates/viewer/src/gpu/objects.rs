@@ -213,8 +213,8 @@ pub(super) fn upload(
     }
     let mut chunks = Vec::new();
     for part in &drawing.parts {
-        for chunk in geometry::chunks(part, mesh, center) {
-            chunks.push(buffers(device, pipelines, &chunk));
+        for surface in geometry::surfaces(part, mesh, center) {
+            chunks.extend(buffers(device, pipelines, &surface));
         }
     }
     let uploaded = Uploaded {
@@ -241,7 +241,12 @@ fn alone(object: &Object, color: Color) -> Scene {
     scene
 }
 
-fn buffers(device: &wgpu::Device, pipelines: &Pipelines, chunk: &geometry::Chunk) -> ChunkBuffers {
+/// Uploads the chunks of a surface.
+fn buffers(
+    device: &wgpu::Device,
+    pipelines: &Pipelines,
+    surface: &geometry::Surface,
+) -> Vec<ChunkBuffers> {
     let storage = |label, contents: &[u8]| {
         // A binding must not be empty.
         let contents = if contents.is_empty() {
@@ -255,26 +260,39 @@ fn buffers(device: &wgpu::Device, pipelines: &Pipelines, chunk: &geometry::Chunk
             usage: wgpu::BufferUsages::STORAGE,
         })
     };
-    let all = [
-        storage("points", bytemuck::cast_slice(&chunk.points)),
-        storage("triangles", bytemuck::cast_slice(&chunk.triangles)),
-        storage("normals", bytemuck::cast_slice(&chunk.normals)),
-        storage("colors", bytemuck::cast_slice(&chunk.colors)),
-    ];
-    let entries: Vec<wgpu::BindGroupEntry> = (0..)
-        .zip(&all)
-        .map(|(binding, buffer)| wgpu::BindGroupEntry {
-            binding,
-            resource: buffer.as_entire_binding(),
-        })
-        .collect();
-    ChunkBuffers {
-        group: device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("chunk"),
-            layout: &pipelines.chunk_layout,
-            entries: &entries,
-        }),
-        n_corners: u32::try_from(chunk.triangles.len()).unwrap_or(0),
-        look: chunk.look,
-    }
+    let points = storage("points", bytemuck::cast_slice(&surface.points));
+    let normals = storage("normals", bytemuck::cast_slice(&surface.normals));
+    let colors = storage("colors", bytemuck::cast_slice(&surface.colors));
+    let own = |label, values: &[u32], shared: &wgpu::Buffer| {
+        if values.is_empty() {
+            shared.clone()
+        } else {
+            storage(label, bytemuck::cast_slice(values))
+        }
+    };
+    let chunk = |chunk: &geometry::Chunk| {
+        let all = [
+            points.clone(),
+            storage("triangles", bytemuck::cast_slice(&chunk.triangles)),
+            own("normals", &chunk.normals, &normals),
+            own("colors", &chunk.colors, &colors),
+        ];
+        let entries: Vec<wgpu::BindGroupEntry> = (0..)
+            .zip(&all)
+            .map(|(binding, buffer)| wgpu::BindGroupEntry {
+                binding,
+                resource: buffer.as_entire_binding(),
+            })
+            .collect();
+        ChunkBuffers {
+            group: device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("chunk"),
+                layout: &pipelines.chunk_layout,
+                entries: &entries,
+            }),
+            n_corners: u32::try_from(3 * chunk.triangles.len()).unwrap_or(0),
+            look: chunk.look,
+        }
+    };
+    surface.chunks.iter().map(chunk).collect()
 }

@@ -281,7 +281,9 @@ impl Editor {
     pub fn preview(&mut self, command: &Command) -> Result<(), CommandError> {
         let steps = self.steps_of(command)?;
         let edits = text::insert_steps(self.text(), &self.outline, self.cursor(), &steps)?;
-        self.preview_edits(edits)
+        self.preview_edits(edits)?;
+        self.preview_steps = steps.len();
+        Ok(())
     }
 }
 

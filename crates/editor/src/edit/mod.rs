@@ -2,6 +2,7 @@
 
 mod command;
 mod files;
+mod moves;
 mod picks;
 mod record;
 mod steps;
@@ -72,6 +73,8 @@ pub struct Editor {
     is_canceled: bool,
     /// The text that runs in place of the document's text.
     preview: Option<Arc<str>>,
+    /// The number of steps that the preview inserts at the cursor.
+    preview_steps: usize,
     /// The number of steps of the text before the cursor.
     cursor: usize,
     /// The scene that is shown until the scene at the cursor is known.
@@ -135,6 +138,7 @@ impl Editor {
             is_checked: false,
             is_canceled: false,
             preview: None,
+            preview_steps: 0,
             cursor: usize::MAX,
             shown: Arc::default(),
             picked: None,
@@ -343,7 +347,7 @@ impl Editor {
 
     /// Returns the scene that the view shows.
     pub fn view(&self) -> View {
-        let (_, is_known) = self.run.result_after(self.cursor);
+        let (_, is_known) = self.run.result_after(self.cursor + self.preview_steps);
         View {
             scene: self.shown.clone(),
             is_current: self.is_checked && is_known,
@@ -352,7 +356,7 @@ impl Editor {
 
     /// Keeps the scene at the cursor as the scene that is shown.
     fn keep_shown(&mut self) {
-        let (last, is_known) = self.run.result_after(self.cursor);
+        let (last, is_known) = self.run.result_after(self.cursor + self.preview_steps);
         let shown = match last {
             Some(snapshot) => snapshot.scene.clone(),
             // Without a step before the cursor, the scene is empty.
@@ -398,6 +402,7 @@ impl Editor {
     /// Runs the document's text or a preview.
     fn show(&mut self, preview: Option<Arc<str>>) {
         self.preview = preview;
+        self.preview_steps = 0;
         self.cursor = self.cursor.min(self.outline.steps.len());
         self.request(false);
     }

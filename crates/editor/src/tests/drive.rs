@@ -82,13 +82,58 @@ fn picked_elements_that_a_new_scene_does_not_have_are_dropped() {
     let (mut editor, _) = opened(CUBE);
     let picked = Picked::one("cube", Element::Edge(last));
     editor.set_picked(Some(picked.clone()));
-    let remesh = Command::new("CollapseEdges").with("edges", "Random(count: 5, seed: 1)");
-    editor.preview(&remesh).unwrap();
+    let collapse = Command::new("CollapseEdges")
+        .with("edges", "Random(count: 5, seed: 1)")
+        .with("on_refusal", "Skip");
+    editor.preview(&collapse).unwrap();
     settle(&mut editor);
     assert!(counts(&editor)[1] < 17 && editor.picked().is_none());
     editor.end_preview();
     settled(&mut editor);
     assert_eq!(editor.picked(), Some(&picked));
+}
+
+#[test]
+fn dragging_the_same_elements_twice_gives_one_step() {
+    let (mut editor, _) = opened(CUBE);
+    let digest = editor.run().digest;
+    let face = mesh::FaceId::new(0);
+    editor.set_picked(Some(Picked::one("cube", Element::Face(face))));
+    let start = editor.picked_center().unwrap();
+    for x in [0.1, 0.2, 0.3] {
+        editor
+            .move_picked(mesh::DVec3::new(x, 0.0, 0.0), true)
+            .unwrap();
+    }
+    settled(&mut editor);
+    assert_eq!(editor.text(), CUBE);
+    assert!((editor.picked_center().unwrap().x - start.x - 0.3).abs() < 1e-12);
+    for offset in [
+        mesh::DVec3::X * 0.3,
+        mesh::DVec3::Y * 0.7,
+        mesh::DVec3::X * -0.1,
+    ] {
+        editor.move_picked(offset, true).unwrap();
+        editor.move_picked(offset, false).unwrap();
+        settled(&mut editor);
+    }
+    assert!(
+        editor.text().contains("by: Offset((0.2, 0.7, 0)))"),
+        "{}",
+        editor.text()
+    );
+    assert_eq!(editor.outline().steps.len(), 2);
+    let moved = editor.picked_center().unwrap() - start;
+    assert!(moved.distance(mesh::DVec3::new(0.2, 0.7, 0.0)) < 1e-12);
+    // A drag that ends where it began changes nothing.
+    let text = editor.text().to_owned();
+    editor.move_picked(mesh::DVec3::X, true).unwrap();
+    editor.move_picked(mesh::DVec3::ZERO, false).unwrap();
+    settled(&mut editor);
+    assert_eq!(editor.text(), text);
+    while editor.undo() {}
+    settled(&mut editor);
+    assert_eq!(editor.run().digest, digest);
 }
 
 #[test]

@@ -26,6 +26,8 @@ pub enum Action {
     Extrude,
     /// Dissolve the picked vertices or edges.
     Dissolve,
+    /// Show or hide arrows that move the picked elements.
+    Move,
     /// One level of Loop subdivision.
     Loop,
     /// One level of Catmull-Clark subdivision.
@@ -133,6 +135,11 @@ const TABLE: &[(Action, &[&str], &str)] = &[
         Action::Dissolve,
         &["D"],
         "dissolve the picked vertices or edges",
+    ),
+    (
+        Action::Move,
+        &["G"],
+        "show or hide arrows that move the picked elements",
     ),
     (Action::Loop, &["L"], "one level of Loop subdivision"),
     (

@@ -1,10 +1,14 @@
 //! Plays the local edits of a step one by one, forwards and backwards, with the pointers that each edit changes.
 
+use std::sync::Arc;
+
 use mesh::{Change, EdgeId, EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 use op::{EdgeSelection, Elements, Selected};
 use recipe::{read_selection, resolve};
 use ron_tree::{Value, ValueKind};
 use scene::{Object, Scene};
+
+use crate::edit::Editor;
 
 /// The maximum number of edits that are played.
 const MAX_EDITS: usize = 10_000;
@@ -91,6 +95,11 @@ impl Play {
         Some(play)
     }
 
+    /// Whether the edits of an operation can be played.
+    pub fn plays(operation: &str) -> bool {
+        Edit::of(operation).is_some()
+    }
+
     /// Does an edit and records it.
     fn record(&mut self, edit: Edit, edge: EdgeId, place: f64) {
         let mesh = &mut self.mesh;
@@ -169,6 +178,39 @@ impl Play {
         if let Some(change) = self.changes[edit].take() {
             self.changes[edit] = Some(self.mesh.revert(change));
         }
+    }
+}
+
+impl Editor {
+    /// Returns the scene before a step of the text. `None` if it is not known.
+    pub fn scene_before(&self, step: usize) -> Option<Arc<Scene>> {
+        match self.run().result_after(step) {
+            (Some(snapshot), true) => Some(snapshot.scene.clone()),
+            _ => None,
+        }
+    }
+
+    /// Returns the edits of a step of the text, and the name of the object that they change: the object of `on`, or else the
+    /// picked object, or else the first mesh. `None` if the scene before the step is not known, and in the cases of
+    /// [`Play::of_step`].
+    pub fn play(&self, step: usize) -> Option<(String, Play)> {
+        let text = self.outline().steps.get(step)?;
+        if !text.enabled || !self.is_run_current() {
+            return None;
+        }
+        let scene = self.scene_before(step)?;
+        let mut steps = self.run().steps.iter().filter(|state| state.item == step);
+        let label = &steps.next()?.label;
+        let is_mesh = |name: &&str| scene.object(name).is_some_and(|o| o.as_mesh().is_some());
+        let named = text.on.iter().flatten().map(String::as_str);
+        let picked = self.picked().map(|picked| picked.object.as_str());
+        let all = scene.objects().iter().map(|object| object.name.as_str());
+        let object = match &text.on {
+            Some(_) => named.into_iter().find(is_mesh)?,
+            None => picked.into_iter().chain(all).find(is_mesh)?,
+        };
+        let play = Play::of_step(&scene, object, self.outline().run_of(step)?, label)?;
+        Some((object.to_owned(), play))
     }
 }
 

@@ -71,7 +71,7 @@ impl Files {
     }
 
     /// Writes a file of the state folder. The state is a convenience: an error is not worth a message.
-    fn write(&self, name: &str, text: &str) {
+    pub(crate) fn write(&self, name: &str, text: &str) {
         if let Some(folder) = &self.folder {
             let new = folder.join(format!("{name}.new"));
             let written = std::fs::create_dir_all(folder).and_then(|()| std::fs::write(&new, text));

@@ -7,7 +7,7 @@ use crate::app::Parts;
 use crate::theme::Colors;
 
 /// How the mouse is used.
-const MOUSE: [(&str, &str); 7] = [
+const MOUSE: [(&str, &str); 8] = [
     ("Drag", "turn the view"),
     ("Right or middle drag", "move the view"),
     ("Wheel", "zoom to the cursor"),
@@ -17,6 +17,7 @@ const MOUSE: [(&str, &str); 7] = [
         "add to the picked elements, or remove from them",
     ),
     ("Shift+Drag", "pick all elements in a box"),
+    ("Ctrl+Drag", "pick all elements in a lasso"),
     ("Double click", "pick an edge loop"),
 ];
 

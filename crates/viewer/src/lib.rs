@@ -17,6 +17,7 @@ mod inspector;
 mod keyboard;
 mod overlay;
 mod palette;
+mod player;
 mod steps_pane;
 mod text_pane;
 pub mod theme;
@@ -67,11 +68,13 @@ pub fn run(arguments: &[String]) -> ExitCode {
         path,
         state_folder: state_folder(),
     };
+    let remembered = app::Remembered::read(start.state_folder.as_deref());
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title("Meshwright")
             .with_app_id("meshwright")
-            .with_inner_size([1440.0, 900.0])
+            .with_inner_size(remembered.size.unwrap_or([1440.0, 900.0]))
+            .with_maximized(remembered.is_maximized)
             .with_min_inner_size([720.0, 480.0])
             .with_drag_and_drop(true),
         renderer: eframe::Renderer::Wgpu,

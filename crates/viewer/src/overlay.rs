@@ -46,11 +46,11 @@ const WRONG: Pen = Pen {
 };
 const ARROW: [u8; 4] = [64, 196, 255, 255];
 
-/// Returns the overlay of a scene.
+/// Returns the overlay of a scene, with the element under the cursor and an element that is drawn like a picked one.
 pub(crate) fn overlay(
     scene: &Scene,
     picked: Option<&Picked>,
-    hovered: Option<(&str, Element)>,
+    [hovered, marked]: &[Option<(String, Element)>; 2],
     places: &[ErrorLocation],
 ) -> Overlay {
     let mut overlay = Overlay::default();
@@ -68,8 +68,10 @@ pub(crate) fn overlay(
         if let Some(picked) = picked.filter(|picked| picked.object == *name) {
             draw.picked(picked);
         }
-        if let Some((_, element)) = hovered.filter(|(object, _)| object == name) {
-            draw.element(element, HOVERED);
+        for (element, pen) in [(marked, PICKED), (hovered, HOVERED)] {
+            if let Some((_, element)) = element.as_ref().filter(|(object, _)| object == name) {
+                draw.element(*element, pen);
+            }
         }
     }
     for place in places.iter().take(MAX_ELEMENTS) {

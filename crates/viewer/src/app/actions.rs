@@ -36,6 +36,7 @@ impl Parts {
                     Shading::Flat
                 };
             }
+            Action::Move => self.view.shows_arrows = !self.view.shows_arrows,
             Action::Information => self.shows_information = !self.shows_information,
             Action::Help => self.shows_help = !self.shows_help,
             Action::ResetView => self.view.reset(),

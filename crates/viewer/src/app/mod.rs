@@ -4,6 +4,7 @@ mod actions;
 mod documents;
 mod layout;
 mod picks;
+mod remembered;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -18,11 +19,13 @@ use scene::ErrorLocation;
 
 use crate::inspector::Draft;
 use crate::palette::Palette;
+use crate::player::Player;
 use crate::text_pane::TextPane;
 use crate::view_pane::{Shown, ViewPane};
 use crate::{controls, files, help, keyboard, overlay, theme, top_bar};
 pub(crate) use documents::Pending;
 use layout::Pane;
+pub(crate) use remembered::Remembered;
 
 /// A message at the top of the view.
 #[derive(Clone, Debug)]
@@ -44,6 +47,8 @@ pub struct Start {
 pub struct App {
     pub(crate) parts: Parts,
     tree: Tree<Pane>,
+    /// The layout in the state folder.
+    remembered: Remembered,
 }
 
 /// Everything except for the layout of the tiles.
@@ -55,6 +60,8 @@ pub(crate) struct Parts {
     pub(crate) palette: Option<Palette>,
     /// An operation whose parameters are being chosen.
     pub(crate) draft: Option<Draft>,
+    /// The edits of a step that are played in the view.
+    pub(crate) player: Option<Player>,
     /// The value of a parameter while its slider is dragged: the step or none for the recipe, the name, and the value.
     pub(crate) dragged: Option<(Option<usize>, String, String)>,
     pub(crate) shows_help: bool,
@@ -90,6 +97,7 @@ impl App {
             keys: Keys::default(),
             palette: None,
             draft: None,
+            player: None,
             dragged: None,
             shows_help: false,
             shows_information: false,
@@ -104,9 +112,13 @@ impl App {
         if let Some(path) = &start.path {
             parts.open(path);
         }
+        let mut tree = layout::initial();
+        let remembered = Remembered::read(start.state_folder.as_deref());
+        remembered.apply(ctx, &mut tree);
         Self {
             parts,
-            tree: layout::initial(),
+            tree,
+            remembered,
         }
     }
 
@@ -151,6 +163,7 @@ impl eframe::App for App {
         });
         self.parts.windows(&ctx);
         self.parts.closing(&ctx);
+        self.remember(&ctx);
     }
 }
 
@@ -239,6 +252,7 @@ impl Parts {
     }
 
     fn view_ui(&mut self, ui: &mut Ui) {
+        self.advance_player(ui);
         let view = self.editor.view();
         let picked = self.editor.picked().cloned();
         self.description = match (&picked, self.picked_mesh()) {
@@ -246,9 +260,14 @@ impl Parts {
             _ => String::new(),
         };
         let rect = ui.max_rect();
+        let base = self.base();
+        let player = self.player.as_ref();
         let shown = Shown {
-            scene: Some(&view.scene),
-            picked: picked.as_ref(),
+            scene: Some(player.map_or(&view.scene, Player::scene)),
+            picked: picked.as_ref().filter(|_| player.is_none()),
+            edge: player.and_then(Player::edge),
+            base,
+            can_pick: player.is_none(),
             places: &self.places,
             indexes: self.editor.indexes(),
             description: &self.description,

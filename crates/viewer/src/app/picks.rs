@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use editor::Picked;
-use mesh::{Element, HalfEdgeId, Mesh};
+use mesh::{DVec3, Element, HalfEdgeId, Mesh};
 use op::Selected;
 use scene::Scene;
 
@@ -43,7 +43,7 @@ impl Parts {
                 };
                 self.editor.set_picked(Some(picked));
             }
-            ViewEvent::Box { picked, extends } => {
+            ViewEvent::Area { picked, extends } => {
                 let mut all = self.editor.picked().cloned().filter(|_| extends);
                 for new in &picked {
                     match &mut all {
@@ -53,7 +53,19 @@ impl Parts {
                 }
                 self.editor.set_picked(all);
             }
+            ViewEvent::Move { offset, is_done } => {
+                let result = self.editor.move_picked(offset, !is_done);
+                self.report(result);
+            }
         }
+    }
+
+    /// Returns where the arrows that move the picked elements are shown: at the mean of their vertices, in scene units.
+    pub(super) fn base(&self) -> Option<DVec3> {
+        if !self.view.shows_arrows || self.player.is_some() {
+            return None;
+        }
+        self.editor.picked_center()
     }
 
     fn pick_edge_loop(&mut self, mesh: &Mesh, object: &str, half_edge: Option<HalfEdgeId>) {

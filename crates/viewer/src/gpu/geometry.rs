@@ -384,7 +384,7 @@ mod tests {
 
     #[test]
     fn triangles_stay_the_same_if_there_are_more_points_than_fit_into_a_buffer() {
-        let torus = geometry::shapes::torus(12, 8, 1.0, 0.4);
+        let torus = geometry::shapes::torus(40, 24, 1.0, 0.4);
         let mut scene = scene::Scene::new();
         scene
             .insert(scene::Object::mesh("torus", torus.clone()))
@@ -406,11 +406,11 @@ mod tests {
             corners
         };
         let one = split(part, Some(&torus), DVec3::ZERO, [CHUNK, MAX_POINTS]);
-        let shared = split(part, Some(&torus), DVec3::ZERO, [50, MAX_POINTS]);
-        let many = split(part, Some(&torus), DVec3::ZERO, [50, 95]);
+        let shared = split(part, Some(&torus), DVec3::ZERO, [500, MAX_POINTS]);
+        let many = split(part, Some(&torus), DVec3::ZERO, [500, 959]);
         assert_eq!((one.len(), shared.len(), many.len()), (1, 1, 4));
         assert_eq!(shared[0].chunks.len(), 4);
-        assert_eq!(drawn(&one).len(), 3 * 2 * 96);
+        assert_eq!(drawn(&one).len(), 3 * 2 * 960);
         assert_eq!(drawn(&one), drawn(&shared));
         assert_eq!(drawn(&one), drawn(&many));
     }

@@ -2,12 +2,13 @@
 
 mod picked;
 
-use editor::{Command, FieldKind, Panel, SelectionText};
+use editor::{Command, FieldKind, Panel, Play, SelectionText};
 use eframe::egui::{self, Align, Button, Label, Layout, Margin, RichText, ScrollArea, Ui};
 use recipe::Param;
 
 use crate::app::Parts;
 use crate::field::{self, Change, Field};
+use crate::player;
 use crate::steps_pane::heading;
 use crate::theme::Colors;
 use crate::widgets::{counts, grouped};
@@ -61,6 +62,7 @@ pub(crate) fn ui(ui: &mut Ui, parts: &mut Parts) {
                         draft(ui, parts);
                         ui.add_space(12.0);
                     }
+                    player::ui(ui, parts);
                     picked::picked(ui, parts);
                     ui.add_space(12.0);
                     recipe_parameters(ui, parts);
@@ -170,6 +172,18 @@ fn step(ui: &mut Ui, parts: &mut Parts) {
         );
     });
     weak(ui, &panel.summary);
+    let play = Button::new("Play the edits").small();
+    if Play::plays(&panel.operation)
+        && parts.player.is_none()
+        && ui
+            .add(play)
+            .on_hover_text(
+                "Shows the edits of this step one by one, with the pointers that they change",
+            )
+            .clicked()
+    {
+        parts.play(step);
+    }
     let problems = panel.problems();
     let selection = parts.editor.selection();
     for of in &panel.fields {

@@ -1,9 +1,10 @@
 //! What is drawn over the picture: the axes and the legend of colors.
 
-use eframe::egui::{Align2, Color32, FontId, Pos2, Rect, Stroke, Ui, Vec2};
+use eframe::egui::{Align2, Color32, FontId, Pos2, Rect, Shape, Stroke, StrokeKind, Ui, Vec2};
 use mesh::DVec3;
 use render::ColorMap;
 
+use super::input::Outline;
 use crate::camera::Camera;
 use crate::gpu::axis_color;
 use crate::theme::Colors;
@@ -29,6 +30,22 @@ pub(super) fn axes(ui: &Ui, rect: Rect, camera: &Camera) {
             FontId::proportional(12.0),
             color,
         );
+    }
+}
+
+/// Draws an area that is being drawn with the mouse.
+pub(super) fn outline(ui: &Ui, area: &Outline, colors: &Colors) {
+    let stroke = Stroke::new(1.0, colors.accent);
+    let fill = colors.accent.gamma_multiply(0.12);
+    match area {
+        Outline::Box(start, end) => {
+            let area = Rect::from_two_pos(*start, *end);
+            ui.painter()
+                .rect(area, 0.0, fill, stroke, StrokeKind::Inside);
+        }
+        Outline::Lasso(points) => {
+            ui.painter().add(Shape::closed_line(points.clone(), stroke));
+        }
     }
 }
 

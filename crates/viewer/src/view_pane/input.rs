@@ -7,13 +7,42 @@ use op::ElementKind;
 
 use super::{Shown, ViewEvent, ViewPane};
 
+/// An area that is drawn with the mouse, in points of the screen.
+#[derive(Clone, Debug)]
+pub(super) enum Outline {
+    /// A box, given by two opposite corners.
+    Box(Pos2, Pos2),
+    /// The points of a curve around the area.
+    Lasso(Vec<Pos2>),
+}
+
+impl Outline {
+    fn extend(&mut self, at: Pos2) {
+        match self {
+            Self::Box(_, end) => *end = at,
+            Self::Lasso(points) => {
+                if points.last().is_none_or(|last| last.distance(at) > 2.0) {
+                    points.push(at);
+                }
+            }
+        }
+    }
+
+    /// Returns the area in the view at `rect`.
+    fn area(&self, rect: Rect) -> Area {
+        match self {
+            Self::Box(start, end) => Area::Box(place(rect, *start), place(rect, *end)),
+            Self::Lasso(points) => Area::Lasso(points.iter().map(|&p| place(rect, p)).collect()),
+        }
+    }
+}
+
 impl ViewPane {
     /// Turns, moves and zooms.
     pub(super) fn navigate(&mut self, ui: &Ui, rect: Rect, response: &egui::Response) {
         let delta = response.drag_delta();
         let pixels = DVec2::new(f64::from(delta.x), f64::from(delta.y));
-        let shift = ui.input(|input| input.modifiers.shift);
-        if response.dragged_by(PointerButton::Primary) && self.box_start.is_none() && !shift {
+        if response.dragged_by(PointerButton::Primary) && self.area.is_none() {
             self.camera.orbit(pixels);
         }
         if response.dragged_by(PointerButton::Secondary)
@@ -45,29 +74,35 @@ impl ViewPane {
         shown: &Shown,
         events: &mut Vec<ViewEvent>,
     ) {
-        let Some(scene) = shown.scene else { return };
-        let (shift, pointer) = ui.input(|input| (input.modifiers.shift, input.pointer.hover_pos()));
-        if response.drag_started_by(PointerButton::Primary) && shift {
-            self.box_start = ui.input(|input| input.pointer.press_origin());
+        let Some(scene) = shown.scene.filter(|_| shown.can_pick) else {
+            self.hovered = None;
+            return;
+        };
+        let (modifiers, pointer) = ui.input(|input| (input.modifiers, input.pointer.hover_pos()));
+        if response.drag_started_by(PointerButton::Primary)
+            && let Some(start) = ui.input(|input| input.pointer.press_origin())
+        {
+            self.area = if modifiers.command {
+                Some(Outline::Lasso(vec![start]))
+            } else {
+                modifiers.shift.then_some(Outline::Box(start, start))
+            };
         }
-        if let (Some(start), true) = (
-            self.box_start,
-            response.drag_stopped_by(PointerButton::Primary),
-        ) {
-            self.box_start = None;
-            if let Some(end) = pointer {
-                let area = Area::Box(place(rect, start), place(rect, end));
-                let kind = match self.mode {
-                    PickMode::Vertex => ElementKind::Vertices,
-                    PickMode::Edge | PickMode::HalfEdge => ElementKind::Edges,
-                    PickMode::Any | PickMode::Face => ElementKind::Faces,
-                };
-                let picked = pick_area(scene, &self.projection(), &area, kind);
-                events.push(ViewEvent::Box {
-                    picked,
-                    extends: true,
-                });
-            }
+        if let (Some(area), Some(at)) = (&mut self.area, pointer) {
+            area.extend(at);
+        }
+        if response.drag_stopped_by(PointerButton::Primary)
+            && let Some(area) = self.area.take()
+        {
+            let kind = match self.mode {
+                PickMode::Vertex => ElementKind::Vertices,
+                PickMode::Edge | PickMode::HalfEdge => ElementKind::Edges,
+                PickMode::Any | PickMode::Face => ElementKind::Faces,
+            };
+            events.push(ViewEvent::Area {
+                picked: pick_area(scene, &self.projection(), &area.area(rect), kind),
+                extends: true,
+            });
         }
         // While a button is down, nothing is picked, so that turning a large scene stays fast.
         let is_down = ui.input(|input| input.pointer.any_down());
@@ -102,7 +137,7 @@ impl ViewPane {
             response.request_focus();
             events.push(ViewEvent::Click {
                 hit,
-                extends: shift,
+                extends: modifiers.shift,
                 is_double: response.double_clicked(),
             });
         }
@@ -120,6 +155,6 @@ impl ViewPane {
 }
 
 /// Returns a position in the view, from its upper left corner.
-fn place(rect: Rect, at: Pos2) -> DVec2 {
+pub(super) fn place(rect: Rect, at: Pos2) -> DVec2 {
     DVec2::new(f64::from(at.x - rect.left()), f64::from(at.y - rect.top()))
 }

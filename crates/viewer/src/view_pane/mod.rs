@@ -1,17 +1,16 @@
 //! The view: draws the scene, turns the camera, and finds what is under the cursor.
 
 mod decorations;
+mod gizmo;
 mod input;
 
 use std::sync::Arc;
 
 use editor::{Hit, Indexes, PickMode, Picked};
-use eframe::egui::{
-    self, Align2, Color32, FontId, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo,
-};
+use eframe::egui::{self, Align2, Color32, FontId, Pos2, Rect, Role, Sense, Ui, WidgetInfo};
 use eframe::{egui_wgpu, wgpu};
 use glam::DVec2;
-use mesh::{DVec3, Element};
+use mesh::{DVec3, EdgeId, Element};
 use render::ColorMap;
 use scene::{ErrorLocation, Scene};
 
@@ -19,6 +18,8 @@ use crate::camera::{Camera, Side};
 use crate::gpu::{Look, Overlay, Painter};
 use crate::overlay;
 use crate::theme::Colors;
+use gizmo::Drag;
+use input::Outline;
 
 /// Something that the user did in the view.
 #[derive(Clone, Debug)]
@@ -32,12 +33,19 @@ pub(crate) enum ViewEvent {
         /// Whether it was a double click.
         is_double: bool,
     },
-    /// A box around elements.
-    Box {
+    /// A box or a lasso around elements.
+    Area {
         /// The elements of each object.
         picked: Vec<Picked>,
         /// Whether the elements are added to those that are picked.
         extends: bool,
+    },
+    /// A drag of an arrow at the picked elements.
+    Move {
+        /// How far the elements have moved since the start of the drag, in scene units.
+        offset: DVec3,
+        /// Whether the drag has ended.
+        is_done: bool,
     },
 }
 
@@ -45,6 +53,12 @@ pub(crate) enum ViewEvent {
 pub(crate) struct Shown<'a> {
     pub(crate) scene: Option<&'a Arc<Scene>>,
     pub(crate) picked: Option<&'a Picked>,
+    /// An edge that is drawn like a picked edge, with its object.
+    pub(crate) edge: Option<(&'a str, EdgeId)>,
+    /// Where arrows that move the picked elements are shown.
+    pub(crate) base: Option<DVec3>,
+    /// Whether clicks pick elements.
+    pub(crate) can_pick: bool,
     pub(crate) places: &'a [ErrorLocation],
     pub(crate) indexes: &'a Indexes,
     /// What is said about the picked elements, for people who do not see the picture.
@@ -73,6 +87,8 @@ pub(crate) struct ViewPane {
     pub(crate) look: Look,
     /// What a click picks.
     pub(crate) mode: PickMode,
+    /// Whether arrows that move the picked elements are shown.
+    pub(crate) shows_arrows: bool,
     /// The element under the cursor.
     pub(crate) hovered: Option<Hit>,
     /// The device. `None` if there is no graphics adapter.
@@ -86,7 +102,10 @@ pub(crate) struct ViewPane {
     is_fitted: bool,
     /// The scene has been fitted with this size of the view.
     fit_requested: bool,
-    box_start: Option<Pos2>,
+    /// The area that is being drawn with the mouse.
+    area: Option<Outline>,
+    /// The arrow that is being dragged.
+    drag: Option<Drag>,
     size: DVec2,
     legend: Option<(String, ColorMap, [f64; 2])>,
     /// The places of the shown overlay.
@@ -99,7 +118,7 @@ pub(crate) struct ViewPane {
 type OverlayKey = (
     usize,
     Option<Picked>,
-    Option<(String, Element)>,
+    [Option<(String, Element)>; 2],
     Vec<ErrorLocation>,
 );
 
@@ -115,6 +134,7 @@ impl ViewPane {
             camera: Camera::default(),
             look: Look::default(),
             mode: PickMode::Any,
+            shows_arrows: false,
             hovered: None,
             gpu: state.map(|state| Gpu {
                 state: state.clone(),
@@ -126,7 +146,8 @@ impl ViewPane {
             messages: Vec::new(),
             is_fitted: false,
             fit_requested: false,
-            box_start: None,
+            area: None,
+            drag: None,
             size: DVec2::new(640.0, 480.0),
             legend: None,
             overlay_key: None,
@@ -184,8 +205,11 @@ impl ViewPane {
         );
         self.upload(shown);
         let mut events = Vec::new();
-        self.navigate(ui, rect, &response);
-        self.pick(ui, rect, &response, shown, &mut events);
+        let is_moving = self.gizmo(ui, rect, &response, shown.base, &mut events);
+        if !is_moving {
+            self.pick(ui, rect, &response, shown, &mut events);
+            self.navigate(ui, rect, &response);
+        }
         self.paint(ui, rect, shown);
         events
     }
@@ -273,18 +297,10 @@ impl ViewPane {
             };
             ui.painter().image(id, rect, uv, tint);
         }
-        if let (Some(start), Some(end)) =
-            (self.box_start, ui.input(|input| input.pointer.hover_pos()))
-        {
-            let area = Rect::from_two_pos(start, end);
-            ui.painter().rect(
-                area,
-                0.0,
-                colors.accent.gamma_multiply(0.12),
-                Stroke::new(1.0, colors.accent),
-                StrokeKind::Inside,
-            );
+        if let Some(area) = &self.area {
+            decorations::outline(ui, area, &colors);
         }
+        self.paint_gizmo(ui, rect, shown.base);
         decorations::axes(ui, rect, &self.camera);
         if let Some((title, map, range)) = &self.legend {
             decorations::legend(ui, rect, title, *map, *range, &colors);
@@ -297,22 +313,19 @@ impl ViewPane {
             self.overlay_key = None;
             return;
         };
-        let hovered = self
-            .hovered
-            .as_ref()
-            .map(|hit| (hit.object.clone(), hit.element));
+        let hovered = self.hovered.as_ref();
+        let marked = [
+            hovered.map(|hit| (hit.object.clone(), hit.element)),
+            shown.edge.map(|(object, e)| (object.to_owned(), e.into())),
+        ];
         let key = (
             Arc::as_ptr(scene).addr(),
             shown.picked.cloned(),
-            hovered,
+            marked,
             shown.places.to_vec(),
         );
         if self.overlay_key.as_ref() != Some(&key) {
-            let hovered = key
-                .2
-                .as_ref()
-                .map(|(object, element)| (object.as_str(), *element));
-            self.overlay = overlay::overlay(scene, shown.picked, hovered, shown.places);
+            self.overlay = overlay::overlay(scene, shown.picked, &key.2, shown.places);
             self.overlay_key = Some(key);
             self.overlay_number += 1;
         }

@@ -16,7 +16,7 @@ use crate::adapter::device;
 
 const SIZE: [u32; 2] = [320, 240];
 
-fn scene(mesh: Mesh) -> Scene {
+pub(crate) fn scene(mesh: Mesh) -> Scene {
     let mut scene = Scene::new();
     scene.insert(Object::mesh("a", mesh)).unwrap();
     scene
@@ -32,13 +32,13 @@ fn bare() -> Look {
     }
 }
 
-struct Stage {
-    painter: Painter,
-    camera: Camera,
+pub(crate) struct Stage {
+    pub(crate) painter: Painter,
+    pub(crate) camera: Camera,
 }
 
 impl Stage {
-    fn new(state: &RenderState, scene: &Scene, look: &Look) -> Self {
+    pub(crate) fn new(state: &RenderState, scene: &Scene, look: &Look) -> Self {
         let mut painter = Painter::new(&state.device, &state.queue);
         let messages = painter.set_scene(scene, look);
         assert!(messages.is_empty(), "{messages:?}");
@@ -52,7 +52,7 @@ impl Stage {
         Self { painter, camera }
     }
 
-    fn draw(&mut self, look: &Look, overlay: &Overlay) -> Image {
+    pub(crate) fn draw(&mut self, look: &Look, overlay: &Overlay) -> Image {
         self.painter.draw(&self.camera, look, overlay, SIZE, 1.0);
         self.painter.read().unwrap()
     }
@@ -289,32 +289,5 @@ fn views_from_opposite_sides_and_both_upward_axes_differ() {
             assert!(images.iter().all(|other| n_different(&image, other) > 500));
             images.push(image);
         }
-    }
-}
-
-/// Prints the times of conversion and drawing for growing meshes: `cargo test -p meshwright-viewer times -- --ignored`.
-#[test]
-#[ignore = "a measurement"]
-fn times_of_growing_meshes() {
-    let Some(state) = device() else { return };
-    for rings in [50, 160, 500, 1000] {
-        let ball = scene(shapes::uv_sphere(2 * rings, rings));
-        let look = Look {
-            grid: false,
-            ..Look::default()
-        };
-        let begin = std::time::Instant::now();
-        let mut stage = Stage::new(&state, &ball, &look);
-        let upload = begin.elapsed();
-        stage.draw(&look, &Overlay::default());
-        let begin = std::time::Instant::now();
-        let n = 5;
-        for _ in 0..n {
-            stage.camera.orbit(DVec2::new(5.0, 0.0));
-            stage.draw(&look, &Overlay::default());
-        }
-        let frame = begin.elapsed() / n;
-        let triangles = stage.painter.n_triangles();
-        eprintln!("{triangles} triangles: uploaded in {upload:.0?}, frame in {frame:.0?}");
     }
 }

@@ -2,4 +2,7 @@
 
 mod adapter;
 mod drawing;
+mod editing;
+mod times;
+mod tools;
 mod window;

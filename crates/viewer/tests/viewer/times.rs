@@ -1,0 +1,169 @@
+//! Measurements: `cargo test -p meshwright-viewer times -- --ignored --nocapture --test-threads 1`.
+
+use std::time::{Duration, Instant};
+
+use editor::{PickMode, Picked};
+use eframe::egui::Key;
+use geometry::shapes;
+use glam::DVec2;
+use mesh::{EdgeId, Element};
+use viewer::gpu::{Look, Overlay};
+
+use crate::adapter::device;
+use crate::drawing::{Stage, scene};
+use crate::window::Window;
+
+/// A recipe with a mesh of one million triangles.
+const MILLION: &str =
+    "(recipe: 1, steps: [Torus(name: \"torus\", around: 1000, across: 500), Triangulate()])";
+
+/// Conversion, upload and drawing of growing meshes.
+#[test]
+#[ignore = "a measurement"]
+fn times_of_growing_meshes() {
+    let Some(state) = device() else { return };
+    for rings in [50, 160, 500, 1000] {
+        let ball = scene(shapes::uv_sphere(2 * rings, rings));
+        let look = Look {
+            grid: false,
+            ..Look::default()
+        };
+        let begin = Instant::now();
+        let mut stage = Stage::new(&state, &ball, &look);
+        let upload = begin.elapsed();
+        stage.draw(&look, &Overlay::default());
+        let begin = Instant::now();
+        let n = 5;
+        for _ in 0..n {
+            stage.camera.orbit(DVec2::new(5.0, 0.0));
+            stage.draw(&look, &Overlay::default());
+        }
+        let frame = begin.elapsed() / n;
+        let triangles = stage.painter.n_triangles();
+        eprintln!("{triangles} triangles: uploaded in {upload:.0?}, frame in {frame:.0?}");
+    }
+}
+
+/// The time from a key press to the command that draws the changed mesh.
+#[test]
+#[ignore = "a measurement"]
+fn times_of_an_edit_of_a_million_triangles() {
+    let Some(mut window) = Window::open("a.ron", MILLION) else {
+        return;
+    };
+    for (key, name) in [
+        (Key::F, "flip"),
+        (Key::S, "split"),
+        (Key::F, "flip"),
+        (Key::S, "split"),
+    ] {
+        let picked = Picked::one("torus", Element::Edge(EdgeId::new(4321)));
+        let editor = window.harness.state_mut().editor_mut();
+        editor.set_picked(Some(picked));
+        window.settle();
+        let before = window.harness.state().editor().view().scene;
+        let begin = Instant::now();
+        window.harness.key_press(key);
+        window.harness.run_steps(1);
+        let mut frame = Duration::ZERO;
+        loop {
+            let editor = window.harness.state_mut().editor_mut();
+            editor.poll();
+            let view = editor.view();
+            if view.is_current && !std::sync::Arc::ptr_eq(&view.scene, &before) {
+                let engine = begin.elapsed();
+                let start = Instant::now();
+                window.harness.run_steps(1);
+                frame = start.elapsed();
+                eprintln!(
+                    "{name}: engine {engine:.0?}, frame {frame:.0?}, together {:.0?}",
+                    begin.elapsed()
+                );
+            }
+            if frame > Duration::ZERO {
+                break;
+            }
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        window.settle();
+    }
+}
+
+/// The time of a pick on a million triangles.
+#[test]
+#[ignore = "a measurement"]
+fn times_of_picks_on_a_million_triangles() {
+    let scene = scene(shapes::torus(1000, 500, 1.0, 0.4));
+    let indexes = editor::Indexes::new();
+    let mesh = scene.objects()[0].as_mesh().unwrap();
+    let begin = Instant::now();
+    indexes.wait_for(mesh);
+    eprintln!("index of {} faces: {:.0?}", mesh.n_faces(), begin.elapsed());
+    let size = DVec2::new(1280.0, 800.0);
+    let mut camera = viewer::camera::Camera::default();
+    camera.fit(mesh::DVec3::ZERO, 1.5, size);
+    let view = editor::Projection::new(camera.clip_matrix(size, mesh::DVec3::ZERO, 1.5), size);
+    let mut times: Vec<Duration> = (0..10_000_u32)
+        .map(|i| {
+            let at = DVec2::new(f64::from(i * 7919 % 1280), f64::from(i * 104_729 % 800));
+            let begin = Instant::now();
+            std::hint::black_box(editor::pick(&scene, &indexes, &view, at, PickMode::Any));
+            begin.elapsed()
+        })
+        .collect();
+    times.sort_unstable();
+    eprintln!(
+        "pick: median {:.0?}, 99 % below {:.0?}",
+        times[5000], times[9900]
+    );
+}
+
+/// The time and the memory to open a file with a million triangles, until the first frame.
+#[test]
+#[ignore = "a measurement"]
+fn times_of_opening_a_file_of_a_million_triangles() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("torus.glb");
+    let scene = scene(shapes::torus(1000, 500, 1.0, 0.4));
+    let bytes = scene.objects()[0].as_mesh().unwrap().bytes();
+    mesh_io::write(
+        &engine::Disk,
+        &path,
+        &scene,
+        &mesh_io::WriteOptions::default(),
+    )
+    .unwrap();
+    drop(scene);
+    let before = resident();
+    let begin = Instant::now();
+    let Some(window) = Window::open_file(path.clone(), folder) else {
+        return;
+    };
+    let opened = begin.elapsed();
+    let memory = resident() - before;
+    eprintln!("opened in {opened:.0?}, mesh {bytes} bytes, memory {memory} bytes");
+    let program = std::env::current_exe().unwrap();
+    let program = program
+        .parent()
+        .unwrap()
+        .parent()
+        .unwrap()
+        .join("meshwright");
+    let begin = Instant::now();
+    let info = std::process::Command::new(program)
+        .arg("info")
+        .arg(&path)
+        .output();
+    if info.is_ok_and(|info| info.status.success()) {
+        eprintln!("meshwright info: {:.0?}", begin.elapsed());
+    }
+    drop(window);
+}
+
+/// Returns the memory of this process in bytes, where it is known.
+fn resident() -> usize {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"));
+    let number = line.and_then(|line| line.split_whitespace().next()?.parse::<usize>().ok());
+    number.unwrap_or(0) * 1024
+}

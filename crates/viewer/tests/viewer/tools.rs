@@ -1,0 +1,208 @@
+//! Tools of the view and the panels: arrows, lasso, player, labels, layout, and a window without graphics.
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Key, Modifiers, Pos2, Vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT, Queryable};
+use viewer::{App, Start};
+
+use crate::adapter::setup;
+use crate::window::{CUBE, Window};
+
+#[test]
+fn dragging_an_arrow_moves_the_picked_face() {
+    let Some(mut window) = Window::open("cube.ron", CUBE) else {
+        return;
+    };
+    let scene = window.harness.state().editor().view().scene;
+    let mesh = scene.objects()[0].as_mesh().unwrap().clone();
+    let face = mesh.faces().find(|&f| mesh.face_normal(f).z > 0.9).unwrap();
+    let center = mesh.face_center(face);
+    let at = window.at(center);
+    window.click(at, Modifiers::NONE);
+    window.press(Key::G);
+    // From a point on the arrow of the y axis upwards.
+    let [base, above] = [0.0, 0.1].map(|y| window.at(center + mesh::DVec3::Y * y));
+    let up = (above - base).normalized();
+    let points: Vec<Pos2> = [50.0, 55.0, 70.0, 90.0].map(|t| base + up * t).into();
+    window.drag(&points, Modifiers::NONE);
+    let text = window.text();
+    assert!(
+        text.contains("MoveVertices(vertices: ") && text.contains("by: Offset((0, 0."),
+        "{text}"
+    );
+    let scene = window.harness.state().editor().view().scene;
+    let moved = scene.objects()[0].as_mesh().unwrap().face_center(face) - center;
+    // The picture of the offset is as long as the drag.
+    let pixels = window.at(center + moved).distance(window.at(center));
+    assert!((pixels - 40.0).abs() < 2.0, "{pixels} {moved}");
+    assert!(moved.x == 0.0 && moved.z == 0.0);
+    // A drag beside the arrows turns the view, and the text stays.
+    let beside = base + Vec2::new(150.0, 120.0);
+    window.drag(&[beside, beside + Vec2::splat(30.0)], Modifiers::NONE);
+    assert_eq!(window.text(), text);
+}
+
+#[test]
+fn a_lasso_picks_the_vertices_inside() {
+    let Some(mut window) = Window::open("cube.ron", CUBE) else {
+        return;
+    };
+    window.press_with(Modifiers::ALT, Key::Num1);
+    let scene = window.harness.state().editor().view().scene;
+    let mesh = scene.objects()[0].as_mesh().unwrap().clone();
+    let v = mesh.vertices().next().unwrap();
+    let at = window.at(mesh.position(v));
+    let corners = [(-12.0, -12.0), (14.0, -10.0), (12.0, 12.0), (-12.0, 10.0)];
+    let points = corners.map(|(x, y)| at + Vec2::new(x, y));
+    window.drag(&points, Modifiers::COMMAND);
+    let picked = window.harness.state().editor().picked().cloned().unwrap();
+    assert_eq!(picked.elements, op::Selected::Vertices(vec![v]));
+}
+
+#[test]
+fn the_edits_of_a_step_are_played_forwards_and_backwards() {
+    let text = CUBE.replace(
+        "\n    ],\n    expect",
+        "\n        FlipEdges(edges: Random(count: 5, seed: 3), on_refusal: Skip),\n    ],\n    expect",
+    );
+    let Some(mut window) = Window::open("cube.ron", &text) else {
+        return;
+    };
+    window.harness.get_by_label("Play the edits").click();
+    window.settle();
+    let shows =
+        |window: &Window, text: &str| window.harness.query_all_by_label_contains(text).count() > 0;
+    assert!(shows(&window, "Next: flip e"));
+    window.harness.get_by_label("Next").click();
+    window.settle();
+    assert!(shows(&window, "Done: flip e"));
+    window.check_picture("playing");
+    window
+        .harness
+        .get_by_role_and_label(Role::Slider, "edits done")
+        .set_value_accesskit(5.0);
+    window.settle();
+    window.harness.get_by_label("Play").click();
+    // From the end, playing starts again, and ends at the end.
+    for _ in 0..80 {
+        window.harness.run_steps(8);
+    }
+    assert!(shows(&window, "Done: flip e"));
+    assert_eq!(window.text(), text);
+    // Any change of the recipe ends the player.
+    window.press(Key::L);
+    assert!(!shows(&window, "Edits of the step"));
+}
+
+#[test]
+fn every_widget_of_the_window_has_a_label() {
+    let Some(mut window) = Window::open("cube.ron", CUBE) else {
+        return;
+    };
+    let [v, w] = window.visible_edge();
+    let at = window.at(window.edge_middle(v, w));
+    window.click(at, Modifiers::NONE);
+    let unnamed = |window: &Window| -> Vec<String> {
+        let has_no_name = |node: &egui_kittest::Node<'_>| -> Option<bool> {
+            let node = node.accesskit_node();
+            let is_widget = matches!(
+                node.role(),
+                Role::Button
+                    | Role::CheckBox
+                    | Role::ComboBox
+                    | Role::ListBoxOption
+                    | Role::MultilineTextInput
+                    | Role::RadioButton
+                    | Role::Slider
+                    | Role::SpinButton
+                    | Role::Switch
+                    | Role::TextInput
+            );
+            is_widget.then(|| node.label().is_none_or(|label| label.trim().is_empty()))
+        };
+        let all: Vec<_> = window.harness.root().children_recursive().collect();
+        assert!(all.iter().filter_map(has_no_name).count() > 25);
+        let all = all.iter();
+        all.filter(|node| has_no_name(node) == Some(true))
+            .map(|node| format!("{node:?}"))
+            .collect()
+    };
+    assert_eq!(unnamed(&window), [""; 0]);
+    // The panels of steps with many kinds of parameters, and the dialogs.
+    for key in [Key::F, Key::L, Key::I, Key::H] {
+        window.press(key);
+        assert_eq!(unnamed(&window), [""; 0], "after {key:?}");
+    }
+    window.press(Key::Escape);
+    window.press_with(Modifiers::COMMAND, Key::K);
+    assert_eq!(unnamed(&window), [""; 0], "operations");
+}
+
+#[test]
+fn without_a_graphics_adapter_the_recipe_can_be_edited_and_saved() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("cube.ron");
+    std::fs::write(&path, CUBE).unwrap();
+    let start = Start {
+        path: Some(path.clone()),
+        state_folder: Some(folder.path().join("state")),
+    };
+    let harness = Harness::builder()
+        .with_size(Vec2::new(1280.0, 800.0))
+        .with_max_steps(60)
+        .build_eframe(|cc| App::new(&cc.egui_ctx, None, &start));
+    let mut window = Window { harness, folder };
+    window.settle();
+    window.press(Key::L);
+    window.press_with(Modifiers::COMMAND, Key::S);
+    let saved = std::fs::read_to_string(path).unwrap();
+    assert!(saved.contains("LoopSubdivide(levels: 1)"), "{saved}");
+}
+
+#[test]
+fn the_layout_of_the_window_is_remembered() {
+    let Some(setup) = setup() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let start = Start {
+        path: None,
+        state_folder: Some(folder.path().to_owned()),
+    };
+    let open = |setup| {
+        let start = start.clone();
+        Harness::builder()
+            .with_size(Vec2::new(1280.0, 800.0))
+            .with_max_steps(60)
+            .wgpu_setup(setup)
+            .build_eframe(move |cc| App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), &start))
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = Window {
+        harness: open(setup.clone()),
+        folder,
+    };
+    window.settle();
+    let width = |window: &Window| {
+        let view = window.harness.get_by(|node| {
+            node.label()
+                .is_some_and(|label| label.starts_with("3D view"))
+        });
+        view.rect()
+    };
+    let before = width(&window);
+    let border = Pos2::new(before.left() - 0.5, 600.0);
+    window.drag(&[border, border + Vec2::new(-60.0, 0.0)], Modifiers::NONE);
+    let after = width(&window);
+    assert!(
+        (before.left() - after.left() - 60.0).abs() < 3.0,
+        "{before} {after}"
+    );
+    let Window { harness, folder } = window;
+    drop(harness);
+    let mut window = Window {
+        harness: open(setup),
+        folder,
+    };
+    window.settle();
+    assert!((width(&window).left() - after.left()).abs() < 3.0);
+}

@@ -84,6 +84,8 @@ pub struct Editor {
     has_picked: bool,
     /// The selections that mean the picked elements, once they were asked for.
     proposals: Option<Vec<Proposal>>,
+    /// The selection that means one picked element, until all selections are asked for.
+    first_proposal: Option<Proposal>,
     proposal: usize,
     indexes: Indexes,
     journal: Option<Journal>,
@@ -144,6 +146,7 @@ impl Editor {
             picked: None,
             has_picked: true,
             proposals: None,
+            first_proposal: None,
             proposal: 0,
             indexes: Indexes::new(),
             journal: settings.journals.as_deref().map(Journal::new),
@@ -426,6 +429,13 @@ impl Editor {
             budget: self.settings.budget,
             memory: self.settings.memory,
         });
+    }
+
+    /// Writes the unsaved text to the journal, and keeps it there when the editor is dropped, so that the next start offers the
+    /// text. For a program that must end although the text is not saved.
+    pub fn leave_journal(&mut self) {
+        self.keep_journal();
+        self.journal = None;
     }
 
     /// Watches the file of the recipe, the recipes that it calls, and its inputs.

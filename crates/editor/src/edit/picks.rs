@@ -1,6 +1,6 @@
 //! The picked elements of an editor, and the selections that mean them.
 
-use crate::select::{Picked, Proposal, propose};
+use crate::select::{Picked, Proposal, propose, propose_one};
 
 use super::Editor;
 
@@ -14,7 +14,7 @@ impl Editor {
     pub fn set_picked(&mut self, picked: Option<Picked>) {
         self.picked = picked.filter(|picked| !picked.is_empty());
         self.has_picked = true;
-        (self.proposals, self.proposal) = (None, 0);
+        (self.proposals, self.first_proposal, self.proposal) = (None, None, 0);
     }
 
     /// Returns the selections that mean the picked elements, the best first. The list is computed once for each pick.
@@ -32,7 +32,25 @@ impl Editor {
     /// Returns the selection that commands use for the picked elements.
     pub fn proposal(&mut self) -> Option<&Proposal> {
         let at = self.proposal;
+        if self.proposals.is_none() && at == 0 {
+            if self.first_proposal.is_none() {
+                let picked = self.picked.as_ref()?;
+                self.first_proposal = propose_one(&self.shown, picked);
+            }
+            if self.first_proposal.is_some() {
+                return self.first_proposal.as_ref();
+            }
+        }
         self.proposals().get(at)
+    }
+
+    /// Whether another selection may mean the picked elements. All selections are computed only when they are asked for,
+    /// because this takes long for a large mesh.
+    pub fn may_have_other_proposal(&self) -> bool {
+        match &self.proposals {
+            Some(proposals) => proposals.len() > 1,
+            None => self.picked.is_some(),
+        }
     }
 
     /// Chooses the next selection that means the picked elements, or the first after the last.

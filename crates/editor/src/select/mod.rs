@@ -5,4 +5,5 @@ mod picked;
 mod propose;
 
 pub use picked::Picked;
+pub(crate) use propose::propose_one;
 pub use propose::{Proposal, propose};

@@ -38,7 +38,6 @@ pub fn propose(scene: &Scene, picked: &Picked, stream: &str) -> Vec<Proposal> {
     if picked.is_empty() || picked.existing(mesh).len() != picked.len() {
         return Vec::new();
     }
-    let kind = picked.kind();
     let mut proposals: Vec<Proposal> = Vec::new();
     for Candidate { text, is_closed } in candidates(object, mesh, &picked.elements) {
         let text = if is_closed {
@@ -46,12 +45,8 @@ pub fn propose(scene: &Scene, picked: &Picked, stream: &str) -> Vec<Proposal> {
         } else {
             format!("Expect(count: {}, of: {text})", picked.len())
         };
-        let Ok(elements) = read_selection(&text, Some(kind)) else {
-            continue;
-        };
-        let found = resolve(&elements, scene, object, mesh, stream);
-        if found.is_ok_and(|found| found == picked.elements)
-            && proposals.iter().all(|known| known.text != text)
+        if proposals.iter().all(|known| known.text != text)
+            && means(&text, scene, object, picked, stream)
         {
             proposals.push(Proposal { text, before: None });
         }
@@ -60,6 +55,28 @@ pub fn propose(scene: &Scene, picked: &Picked, stream: &str) -> Vec<Proposal> {
         proposals.push(by_new_tag(mesh, picked));
     }
     proposals
+}
+
+/// Returns the first of the selections that [`propose`] returns for one picked element, without a look at the other elements
+/// of the mesh, which takes long for a large mesh. `None` if several elements are picked.
+pub(crate) fn propose_one(scene: &Scene, picked: &Picked) -> Option<Proposal> {
+    let object = scene.object(&picked.object)?;
+    let mesh = object.as_mesh()?;
+    if picked.len() != 1 || picked.existing(mesh).len() != 1 {
+        return None;
+    }
+    let text = by_number(mesh, &picked.elements);
+    means(&text, scene, object, picked, "").then_some(Proposal { text, before: None })
+}
+
+/// Whether a selection means exactly the picked elements.
+fn means(text: &str, scene: &Scene, object: &Object, picked: &Picked, stream: &str) -> bool {
+    let (Ok(elements), Some(mesh)) = (read_selection(text, Some(picked.kind())), object.as_mesh())
+    else {
+        return false;
+    };
+    let found = resolve(&elements, scene, object, mesh, stream);
+    found.is_ok_and(|found| found == picked.elements)
 }
 
 /// A selection that may mean the elements.

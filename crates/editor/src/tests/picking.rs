@@ -3,6 +3,7 @@ use mesh::{DVec2, DVec3, DVec4, Element};
 use op::ElementKind;
 use scene::{Object, Scene};
 
+use crate::select::propose_one;
 use crate::{Area, Indexes, PickMode, Picked, Projection, pick, pick_area, propose};
 
 /// Looks from z = 5 at the square from (-1, -1) to (1, 1), which is 800 pixels wide.
@@ -124,4 +125,28 @@ fn picks_become_selections_that_mean_exactly_them() {
         "{top:?}"
     );
     assert!(propose(&scene, &Picked::one("other", Element::Edge(edge)), "").is_empty());
+}
+
+#[test]
+fn one_element_is_meant_by_the_first_selection_of_the_list() {
+    let mut scene = cube();
+    scene
+        .insert(Object::mesh("b", geometry::shapes::icosahedron()))
+        .unwrap();
+    for object in scene.objects() {
+        let mesh = object.as_mesh().unwrap();
+        let vertices = mesh.vertices().map(Element::Vertex);
+        let edges = mesh.edges().map(Element::Edge);
+        let faces = mesh.faces().map(Element::Face);
+        for element in vertices.chain(edges).chain(faces) {
+            let picked = Picked::one(&object.name, element);
+            let all = propose(&scene, &picked, "");
+            assert_eq!(propose_one(&scene, &picked).as_ref(), all.first());
+        }
+    }
+    let two = Picked::new(
+        "b",
+        op::Selected::Faces(vec![mesh::FaceId::new(0), mesh::FaceId::new(1)]),
+    );
+    assert_eq!(propose_one(&scene, &two), None);
 }

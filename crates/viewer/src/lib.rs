@@ -27,8 +27,10 @@ mod widgets;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::{Arc, OnceLock};
 
 use eframe::egui;
+use view_pane::Loss;
 
 pub use app::{App, Start};
 
@@ -80,17 +82,24 @@ pub fn run(arguments: &[String]) -> ExitCode {
         renderer: eframe::Renderer::Wgpu,
         ..eframe::NativeOptions::default()
     };
+    let loss = Arc::new(OnceLock::new());
+    let to_loss = loss.clone();
     let result = eframe::run_native(
         "Meshwright",
         options,
         Box::new(move |cc| {
-            Ok(Box::new(App::new(
-                &cc.egui_ctx,
-                cc.wgpu_render_state.as_ref(),
-                &start,
-            )))
+            let app = App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), &start);
+            to_loss.get_or_init(|| app.loss());
+            Ok(Box::new(app))
         }),
     );
+    if let Some(reason) = loss.get().and_then(Loss::reason) {
+        eprintln!(
+            "error: the graphics adapter was lost: {reason}\n\
+             help: start the editor again; it offers the text of the recipe if it was not saved"
+        );
+        return ExitCode::FAILURE;
+    }
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {

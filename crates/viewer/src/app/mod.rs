@@ -21,7 +21,7 @@ use crate::inspector::Draft;
 use crate::palette::Palette;
 use crate::player::Player;
 use crate::text_pane::TextPane;
-use crate::view_pane::{Shown, ViewPane};
+use crate::view_pane::{Loss, Shown, ViewPane};
 use crate::{controls, files, help, keyboard, overlay, theme, top_bar};
 pub(crate) use documents::Pending;
 use layout::Pane;
@@ -127,6 +127,11 @@ impl App {
         &self.parts.editor
     }
 
+    /// Returns what goes wrong with the graphics device.
+    pub(crate) fn loss(&self) -> Loss {
+        self.parts.view.loss.clone()
+    }
+
     /// Returns the editor, mutably.
     pub fn editor_mut(&mut self) -> &mut Editor {
         &mut self.parts.editor
@@ -168,8 +173,22 @@ impl eframe::App for App {
 }
 
 impl Parts {
+    /// Closes the window if the graphics device is lost, because nothing can be drawn any more.
+    fn check_device(&mut self, ctx: &egui::Context) {
+        if self.view.loss.reason().is_some() {
+            if !self.is_closing {
+                self.editor.leave_journal();
+                self.is_closing = true;
+                ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+            }
+        } else if let Some(error) = self.view.loss.take_error() {
+            self.warn(format!("The graphics adapter reports an error: {error}"));
+        }
+    }
+
     /// Takes the results of the engine.
     fn poll(&mut self, ctx: &egui::Context) {
+        self.check_device(ctx);
         if let Some(update) = self.editor.poll() {
             match update.file {
                 Some(FileChange::Reloaded) => {

@@ -20,13 +20,13 @@ pub(super) fn picked(ui: &mut Ui, parts: &mut Parts) {
     };
     let colors = Colors::current(ui);
     ui.label(RichText::new(parts.description()).color(colors.picked));
-    let n = parts.editor.proposals().len();
     if let Some(proposal) = parts.editor.proposal().cloned() {
+        let has_other = parts.editor.may_have_other_proposal();
         ui.horizontal_wrapped(|ui| {
             let text = RichText::new(&proposal.text).monospace().size(11.5);
             ui.add(Label::new(text).wrap())
                 .on_hover_text("The selection that the next step uses for the picked elements");
-            if n > 1
+            if has_other
                 && ui
                     .small_button("Other")
                     .on_hover_text("Another selection that means the same elements")

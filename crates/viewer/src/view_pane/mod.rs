@@ -3,6 +3,7 @@
 mod decorations;
 mod gizmo;
 mod input;
+mod loss;
 
 use std::sync::Arc;
 
@@ -20,6 +21,7 @@ use crate::overlay;
 use crate::theme::Colors;
 use gizmo::Drag;
 use input::Outline;
+pub(crate) use loss::Loss;
 
 /// Something that the user did in the view.
 #[derive(Clone, Debug)]
@@ -93,6 +95,8 @@ pub(crate) struct ViewPane {
     pub(crate) hovered: Option<Hit>,
     /// The device. `None` if there is no graphics adapter.
     gpu: Option<Gpu>,
+    /// What goes wrong with the device.
+    pub(crate) loss: Loss,
     /// The scene that is uploaded, with its look.
     uploaded: Option<(Arc<Scene>, Look)>,
     drawn: Option<Drawn>,
@@ -141,6 +145,7 @@ impl ViewPane {
                 painter: Painter::new(&state.device, &state.queue),
                 texture: None,
             }),
+            loss: Loss::watch(state.map(|state| &state.device)),
             uploaded: None,
             drawn: None,
             messages: Vec::new(),
@@ -203,6 +208,9 @@ impl ViewPane {
             f64::from(rect.width().max(1.0)),
             f64::from(rect.height().max(1.0)),
         );
+        if self.loss.reason().is_some() {
+            self.gpu = None;
+        }
         self.upload(shown);
         let mut events = Vec::new();
         let is_moving = self.gizmo(ui, rect, &response, shown.base, &mut events);

@@ -132,6 +132,7 @@ fn a_file_that_changes_on_disk_is_followed() {
         std::thread::sleep(Duration::from_millis(20));
         window.settle();
     }
+    window.settle();
     assert_eq!(
         window.harness.state().editor().view().scene.objects()[0]
             .as_mesh()

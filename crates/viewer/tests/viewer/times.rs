@@ -44,48 +44,86 @@ fn times_of_growing_meshes() {
     }
 }
 
-/// The time from a key press to the command that draws the changed mesh.
+/// The time from a key press to the command that draws the changed mesh, and its parts.
 #[test]
 #[ignore = "a measurement"]
 fn times_of_an_edit_of_a_million_triangles() {
     let Some(mut window) = Window::open("a.ron", MILLION) else {
         return;
     };
-    for (key, name) in [
-        (Key::F, "flip"),
-        (Key::S, "split"),
-        (Key::F, "flip"),
-        (Key::S, "split"),
-    ] {
+    for (key, name) in [(Key::F, "flip"), (Key::S, "split"), (Key::F, "flip")] {
         let picked = Picked::one("torus", Element::Edge(EdgeId::new(4321)));
-        let editor = window.harness.state_mut().editor_mut();
-        editor.set_picked(Some(picked));
+        window
+            .harness
+            .state_mut()
+            .editor_mut()
+            .set_picked(Some(picked));
         window.settle();
         let before = window.harness.state().editor().view().scene;
         let begin = Instant::now();
         window.harness.key_press(key);
         window.harness.run_steps(1);
-        let mut frame = Duration::ZERO;
-        loop {
-            let editor = window.harness.state_mut().editor_mut();
-            editor.poll();
-            let view = editor.view();
-            if view.is_current && !std::sync::Arc::ptr_eq(&view.scene, &before) {
-                let engine = begin.elapsed();
-                let start = Instant::now();
-                window.harness.run_steps(1);
-                frame = start.elapsed();
-                eprintln!(
-                    "{name}: engine {engine:.0?}, frame {frame:.0?}, together {:.0?}",
-                    begin.elapsed()
-                );
-            }
-            if frame > Duration::ZERO {
-                break;
-            }
+        let pressed = begin.elapsed();
+        while {
+            let view = window.harness.state().editor().view();
+            !view.is_current || std::sync::Arc::ptr_eq(&view.scene, &before)
+        } {
+            window.harness.run_steps(1);
             std::thread::sleep(Duration::from_millis(1));
         }
+        let all = begin.elapsed();
+        eprintln!("{name}: key {pressed:.0?}, frame after {all:.0?}");
+        let run = window.harness.state().editor().run();
+        let step = run.steps.last().and_then(|step| step.result.as_ref());
+        eprintln!(
+            "  the step alone {:.0?}",
+            step.map(|result| result.done.time)
+        );
         window.settle();
+    }
+}
+
+/// The time of the engine for an edit, without a window.
+#[test]
+#[ignore = "a measurement"]
+fn times_of_the_engine_for_an_edit_of_a_million_triangles() {
+    let registry = std::sync::Arc::new(ops_all::registry());
+    let settings = editor::Settings::default();
+    let store = std::sync::Arc::new(engine::Disk);
+    let mut editor = editor::Editor::new(registry, store, settings);
+    editor.set_text(MILLION);
+    editor.wait(Duration::from_mins(1));
+    let state = device();
+    for name in ["FlipEdges", "SplitEdges", "FlipEdges"] {
+        let picked = Picked::one("torus", Element::Edge(EdgeId::new(4321)));
+        editor.set_picked(Some(picked));
+        let before = editor.view().scene;
+        let begin = Instant::now();
+        let selection = editor.selection();
+        let selected = begin.elapsed();
+        let command = editor::Command {
+            selection,
+            ..editor::Command::new(name)
+        };
+        editor.apply(&command).unwrap();
+        let applied = begin.elapsed();
+        while std::sync::Arc::ptr_eq(&editor.view().scene, &before) {
+            editor.poll();
+            std::thread::sleep(Duration::from_micros(200));
+        }
+        let shown = begin.elapsed();
+        editor.wait(Duration::from_mins(1));
+        eprintln!(
+            "{name}: selection {selected:.0?}, text {applied:.0?}, scene {shown:.0?}, end {:.0?}",
+            begin.elapsed()
+        );
+        if let Some(state) = &state {
+            let look = Look::default();
+            let mut stage = Stage::new(state, &before, &look);
+            let begin = Instant::now();
+            stage.painter.set_scene(&editor.view().scene, &look);
+            eprintln!("  conversion and upload {:.0?}", begin.elapsed());
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Tools of the view and the panels: arrows, lasso, player, labels, layout, and a window without graphics.
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Key, Modifiers, Pos2, Vec2};
+use eframe::egui::{Key, Modifiers, Pos2, Vec2, ViewportCommand};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use viewer::{App, Start};
@@ -158,6 +158,66 @@ fn without_a_graphics_adapter_the_recipe_can_be_edited_and_saved() {
     window.press_with(Modifiers::COMMAND, Key::S);
     let saved = std::fs::read_to_string(path).unwrap();
     assert!(saved.contains("LoopSubdivide(levels: 1)"), "{saved}");
+}
+
+#[test]
+fn a_lost_graphics_device_closes_the_window_and_the_next_start_offers_the_text() {
+    let Some(setup) = setup() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("cube.ron");
+    std::fs::write(&path, CUBE).unwrap();
+    let start = Start {
+        path: Some(path),
+        state_folder: Some(folder.path().join("state")),
+    };
+    let device = std::sync::Arc::new(std::sync::OnceLock::new());
+    let to_device = device.clone();
+    let state_folder = start.state_folder.clone();
+    let harness = Harness::builder()
+        .with_size(Vec2::new(1280.0, 800.0))
+        .with_max_steps(60)
+        .wgpu_setup(setup.clone())
+        .build_eframe(move |cc| {
+            let state = cc.wgpu_render_state.as_ref();
+            to_device.get_or_init(|| state.unwrap().device.clone());
+            App::new(&cc.egui_ctx, state, &start)
+        });
+    let mut window = Window { harness, folder };
+    window.settle();
+    window.press(Key::L);
+    let unsaved = window.text();
+    let device = device.get().unwrap();
+    device.destroy();
+    // The loss is noticed with the next commands for the device.
+    device.poll(eframe::wgpu::PollType::Poll).ok();
+    let mut closes = false;
+    for _ in 0..3 {
+        window.harness.run_steps(1);
+        let output = window.harness.output();
+        let mut commands = output
+            .viewport_output
+            .values()
+            .flat_map(|out| &out.commands);
+        closes |= commands.any(|command| *command == ViewportCommand::Close);
+    }
+    assert!(closes);
+    assert_eq!(window.text(), unsaved);
+    let Window { harness, folder } = window;
+    drop(harness);
+    let start = Start {
+        path: None,
+        state_folder,
+    };
+    let harness = Harness::builder()
+        .with_size(Vec2::new(1280.0, 800.0))
+        .with_max_steps(60)
+        .wgpu_setup(setup)
+        .build_eframe(move |cc| App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), &start));
+    let mut window = Window { harness, folder };
+    window.settle();
+    window.harness.get_by_label("Recover").click();
+    window.settle();
+    assert_eq!(window.text(), unsaved);
 }
 
 #[test]

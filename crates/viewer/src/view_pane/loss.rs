@@ -1,0 +1,44 @@
+//! Errors of the graphics device, which would end the program without this.
+
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use eframe::wgpu;
+
+/// What goes wrong with a graphics device.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Loss {
+    /// Why the device is lost.
+    reason: Arc<OnceLock<String>>,
+    /// Errors of a device that still works, such as too little memory.
+    errors: Arc<Mutex<Vec<String>>>,
+}
+
+impl Loss {
+    /// Watches a device.
+    pub(super) fn watch(device: Option<&wgpu::Device>) -> Self {
+        let loss = Self::default();
+        if let Some(device) = device {
+            let reason = loss.reason.clone();
+            device.set_device_lost_callback(move |_, message| {
+                reason.get_or_init(|| message);
+            });
+            let errors = loss.errors.clone();
+            device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+                let mut errors = errors.lock().unwrap_or_else(PoisonError::into_inner);
+                errors.push(error.to_string());
+            }));
+        }
+        loss
+    }
+
+    /// Returns why the device is lost, if it is.
+    pub(crate) fn reason(&self) -> Option<&str> {
+        self.reason.get().map(String::as_str)
+    }
+
+    /// Takes the first of the errors since the last call.
+    pub(crate) fn take_error(&self) -> Option<String> {
+        let mut errors = self.errors.lock().unwrap_or_else(PoisonError::into_inner);
+        std::mem::take(&mut *errors).into_iter().next()
+    }
+}

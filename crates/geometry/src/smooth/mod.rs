@@ -289,7 +289,7 @@ impl<'a> Smoother<'a> {
             }
         }
         match volume_before {
-            Some(before) => self.restore_volume(mesh, before),
+            Some(before) => self.restore_volume(mesh, before, exponent),
             None => Ok(()),
         }
     }
@@ -307,8 +307,14 @@ impl<'a> Smoother<'a> {
     }
 
     /// Moves the free vertices along their normals until the mesh has the volume `target`. The first step is
-    /// computed from the derivative of the volume, which is the area of the free vertices.
-    fn restore_volume(&self, mesh: &mut Mesh, target: f64) -> Result<(), SmoothError> {
+    /// computed from the derivative of the volume, which is the area of the free vertices. `target` is a volume of the
+    /// mesh whose coordinates were divided by two to the power of `exponent`.
+    fn restore_volume(
+        &self,
+        mesh: &mut Mesh,
+        target: f64,
+        exponent: i32,
+    ) -> Result<(), SmoothError> {
         const STEPS: usize = 50;
         let area_vector = |v: VertexId| {
             let faces = mesh.vertex_faces(v).map(|f| mesh.area_vector(f));
@@ -352,7 +358,8 @@ impl<'a> Smoother<'a> {
         if (target - best).abs() <= 1e-9 * target.abs() {
             Ok(())
         } else {
-            let [before, after] = [target, best];
+            // Converts the volumes to scene units.
+            let [before, after] = [target, best].map(|v| libm::scalbn(v, 3 * exponent));
             Err(SmoothError::Volume { before, after })
         }
     }

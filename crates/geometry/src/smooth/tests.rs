@@ -340,6 +340,26 @@ fn the_volume_is_kept_with_and_without_pins() {
 }
 
 #[test]
+fn volumes_that_cannot_be_restored_are_reported_in_scene_units() {
+    // All vertices move to one point, so no movement along normals changes the volume.
+    let mut mesh = shapes::tetrahedron();
+    for p in mesh.positions_mut() {
+        *p *= 100.0;
+    }
+    let method = Method::Laplacian {
+        weights: Weights::Uniform,
+        factor: 0.75,
+    };
+    let smoothing = Smoothing {
+        keep_volume: true,
+        ..smoothing(method, 50, &[true; 4])
+    };
+    let refused = smooth(&mut mesh.clone(), &smoothing, &NoProgress);
+    let before = volume(&mesh);
+    assert_eq!(refused, Err(SmoothError::Volume { before, after: 0.0 }));
+}
+
+#[test]
 fn a_free_boundary_is_smoothed_as_a_curve() {
     // The inner vertices have arbitrary heights. The boundary is flat and stays flat, but its corners become
     // round.

@@ -1,6 +1,6 @@
 //! Makes a mesh symmetric by replacing one half by the mirror image of the other half.
 
-use mesh::{BuildReport, Column, DVec3, Domain, EditError, Mesh, Value, morph_of};
+use mesh::{BuildReport, Column, DVec3, Domain, EditError, FaceId, Mesh, Value, morph_of};
 
 use super::{bisect, direction, heights};
 use crate::merge::MergeError;
@@ -9,8 +9,8 @@ use crate::{merge_clusters, parts};
 /// The result of [`symmetrize`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Symmetrized {
-    /// The number of faces of the mesh before, minus the number of faces in front of the plane after the cut; 0 if
-    /// negative.
+    /// The number of faces of the mesh before of which no part is in front of the plane. Faces in the plane and faces
+    /// that only touch the plane are counted; faces that cross the plane are not.
     pub removed: usize,
     /// The number of vertices on the plane at which the two halves are joined.
     pub joined: usize,
@@ -54,6 +54,9 @@ pub fn symmetrize(
     normal: DVec3,
 ) -> Result<Symmetrized, SymmetrizeError> {
     let normal = direction(normal)?;
+    let level = heights(mesh, point, normal)?;
+    let is_behind = |&f: &FaceId| mesh.face_vertices(f).all(|v| level[v.index()] <= 0.0);
+    let removed = mesh.faces().filter(is_behind).count();
     let mut cut = mesh.clone();
     let sides = bisect(&mut cut, point, normal)?;
     let level = heights(&cut, point, normal)?;
@@ -65,7 +68,6 @@ pub fn symmetrize(
         }
     }
     let Some(mut half) = parts(&cut, &part_of_face).pop() else {
-        let removed = mesh.n_faces();
         let faces: Vec<_> = cut.faces().collect();
         cut.delete_faces(&faces)?;
         cut.delete_isolated_vertices();
@@ -109,7 +111,6 @@ pub fn symmetrize(
     }
     let mut whole = both(&half, &image);
     let merged = merge_clusters(&mut whole, &lowest).map_err(MergeError::from)?;
-    let removed = mesh.n_faces().saturating_sub(half.n_faces());
     mesh.replace(whole);
     Ok(Symmetrized {
         removed,
@@ -189,6 +190,32 @@ mod tests {
             let distances = mesh.positions().iter().map(|q| q.distance(image));
             assert!(distances.fold(f64::MAX, f64::min) < 1e-12);
         }
+    }
+
+    #[test]
+    fn removed_faces_are_those_without_a_part_in_front() {
+        // A comb with three teeth, and a triangle in the plane. The comb is cut into three front parts.
+        let points = [
+            [-1.0, 0.0],
+            [1.0, 0.0],
+            [1.0, 2.0],
+            [0.8, 2.0],
+            [0.6, 0.5],
+            [0.2, 2.0],
+            [-0.2, 2.0],
+            [-0.6, 0.5],
+            [-0.8, 2.0],
+            [-1.0, 2.0],
+        ];
+        let comb = points.map(|[x, y]| DVec3::new(x, y, 0.0));
+        let behind = comb.map(|p| DVec3::new(p.x + 5.0, p.y - 3.0, 0.0));
+        let in_plane = [[9.0, 0.0], [10.0, 0.0], [9.0, 1.0]];
+        let in_plane = in_plane.map(|[x, z]| DVec3::new(x, 1.0, z));
+        let positions = [&comb[..], &behind[..], &in_plane[..]].concat();
+        let faces: [Vec<u32>; 3] = [(0..10).collect(), (10..20).collect(), (20..23).collect()];
+        let (mut mesh, _) = Mesh::from_polygons(positions, &faces).unwrap();
+        let done = symmetrize(&mut mesh, DVec3::Y, DVec3::Y).unwrap();
+        assert_eq!((mesh.n_faces(), done.removed), (6, 2));
     }
 
     #[test]

@@ -10,8 +10,8 @@
 //!
 //! Vertices at most `distance` apart are linked, and vertices that are connected by links merge into one. Two
 //! vertices that are 0.9 times `distance` apart therefore always merge. Two vertices that are 1.1 times `distance`
-//! apart merge only if a chain of other vertices links them. The result depends neither on the order of the vertices
-//! nor on the number of threads.
+//! apart merge only if a chain of other vertices links them. Which vertices merge does not depend on the order of the
+//! vertices. The result does not depend on the number of threads.
 
 use mesh::VERTEX_NORMAL;
 use op::prelude::*;

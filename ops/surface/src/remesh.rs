@@ -20,9 +20,10 @@ use crate::simplify::triangles_problem;
 ///
 /// Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
 /// vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target length.
-/// All vertices lie on the original surface. The target length is either `length`, or it follows `curvature`: edges are
-/// short where the surface is curved, and long where it is flat (Dunyach and others, 2013). Exactly one of the two must
-/// be given. All faces must be triangles.
+/// All vertices lie on the original surface, except a new vertex that cannot move there without turning a triangle or
+/// moving the surface too far. The target length is either `length`, or it follows `curvature`: edges are short where
+/// the surface is curved, and long where it is flat (Dunyach and others, 2013). Exactly one of the two must be given.
+/// All faces must be triangles.
 ///
 /// The following properties are kept:
 ///
@@ -36,9 +37,9 @@ use crate::simplify::triangles_problem;
 ///   exact position unless all corners of one of its triangles, or both of its neighbors on a line, also have the tag.
 ///   Vertices with sharpness also keep their exact positions.
 ///
-/// Edits that would turn a triangle over are refused. All elements get new ids. If the distance between the result and
-/// the original could exceed `error`, the step is refused as `Unreached`. With `on_refusal: Skip`, the mesh then does
-/// not change.
+/// Edits that would turn a triangle by more than 60 degrees are refused. All elements get new ids. If the distance
+/// between the result and the original could exceed `error`, the step is refused as `Unreached`. With
+/// `on_refusal: Skip`, the mesh then does not change.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Remesh {

@@ -156,7 +156,7 @@ impl std::fmt::Display for Refused {
         f.write_str(match self {
             Self::Lines => "would merge or move lines",
             Self::Long => "would make long edges",
-            Self::Turned => "would turn a triangle over",
+            Self::Turned => "would turn a triangle by more than 60°",
             Self::Thin => "would make a thin triangle",
             Self::Topology => "would change the topology",
             Self::Far => "would move the surface too far",

@@ -41,7 +41,7 @@ pub enum Refusal {
     JoinsBoundaries,
     /// Corner attributes differ between the two sides of an edge.
     Seam,
-    /// A position on an edge is not strictly between its ends.
+    /// A position on an edge is not strictly between its ends, or two bevels of an edge would overlap.
     OutsideEdge,
     /// A coordinate or length is not finite or outside its range.
     BadNumber,

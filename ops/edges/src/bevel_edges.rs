@@ -10,8 +10,8 @@
 
 use geometry::bevel::{BevelRefusal, Beveled, bevel_edges, shortest_edge_at};
 use mesh::{EdgeId, VertexId};
-use op::Refusal;
 use op::prelude::*;
+use op::{Refusal, readable};
 
 /// Replaces edges with faces of constant width.
 ///
@@ -30,9 +30,9 @@ use op::prelude::*;
 /// values (material, tags) of one of the faces beside it. Which one is not specified, but it is the same in
 /// every run. New edges have zero values (no crease, no tags). Normals are dropped.
 ///
-/// An edge is refused if it is on the boundary, if one of its ends has only one other edge and this edge is not
-/// selected, or if the bevels at both ends of an edge would overlap. If the result would not be manifold, all edges are
-/// refused.
+/// An edge is refused if it is on the boundary (`Boundary`), if one of its ends has only one other edge and this edge
+/// is not selected (`FewEdges`), or if the bevels at both ends of an edge would overlap (`OutsideEdge`). If the result
+/// would not be manifold, all edges are refused (`NonManifold`).
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct BevelEdges {
@@ -116,12 +116,12 @@ fn refused(mesh: &Mesh, e: EdgeId, refusal: BevelRefusal, width: f64) -> OpError
             (Refusal::FewEdges, why)
         }
         BevelRefusal::TooWide => {
-            let why = format!("leaves no space for a bevel of width {width}");
+            let why = format!("leaves no space for a bevel of width {}", readable(width));
             (Refusal::OutsideEdge, why)
         }
         BevelRefusal::NonManifold => {
             let why = "cannot be beveled, because the result would not be manifold".to_owned();
-            (Refusal::Pinch, why)
+            (Refusal::NonManifold, why)
         }
     };
     let message = format!("Between({}, {}) {why}", v.min(w), v.max(w));
@@ -132,7 +132,7 @@ fn refused(mesh: &Mesh, e: EdgeId, refusal: BevelRefusal, width: f64) -> OpError
 mod tests {
     use super::*;
     use geometry::shapes;
-    use mesh::FaceId;
+    use mesh::{DVec3, FaceId};
 
     use op::test::{applied, planned, try_applied};
 
@@ -203,6 +203,22 @@ mod tests {
         let (mesh, report) = try_applied(&step, shapes::cube()).unwrap();
         assert_eq!((report.changed, report.refused[0].count), (0, 12));
         assert_eq!(mesh.n_faces(), 6);
+    }
+
+    #[test]
+    fn results_that_are_not_manifold_are_refused_as_such() {
+        // Two hexagons back to back. The cut adds the edge from 0 to 3 to both, so two edges join the same vertices.
+        // Such a mesh cannot be built from polygons.
+        let points = [(2, 0), (1, 2), (-1, 2), (-2, 0), (-1, -2), (1, -2)];
+        let points = points.map(|(x, y)| DVec3::new(f64::from(x), f64::from(y), 0.0));
+        let faces = [[0_u32, 1, 2, 3, 4, 5], [5, 4, 3, 2, 1, 0]];
+        let (mut mesh, _) = Mesh::from_polygons(points.to_vec(), &faces).unwrap();
+        geometry::bisect(&mut mesh, DVec3::ZERO, DVec3::Y).unwrap();
+        let face = mesh.vertex_faces(VertexId::new(4)).next().unwrap();
+        mesh.poke_face(face).unwrap();
+        assert!(mesh.is_valid());
+        let step = parse("(edges: Between(4, 6), width: 0.01)");
+        assert_eq!(op::test::refused(&step, mesh), Refusal::NonManifold);
     }
 
     #[test]

@@ -213,7 +213,7 @@ impl<T: Operation> Step for T {
         if lost > 0 {
             let noun = if lost == 1 { "channel" } else { "channels" };
             report.losses.push(Loss {
-                object: "the scene".to_owned(),
+                object: String::new(),
                 name: "animations".to_owned(),
                 what: format!("{lost} animation {noun}"),
                 reason: "the animated nodes were removed".to_owned(),

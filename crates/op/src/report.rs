@@ -60,8 +60,8 @@ pub struct Refused {
 /// Data that a step or a file format could not preserve.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub struct Loss {
-    /// The object or the file that lost the data. The name is empty or `the scene` if the loss concerns the whole
-    /// scene, such as its cameras.
+    /// The object or the file that lost the data. The name is empty if the loss concerns the whole scene, such as its
+    /// animations.
     pub object: String,
     /// The name of the lost data, such as the name of an attribute. Recipes use this name to allow the loss.
     pub name: String,

@@ -50,24 +50,24 @@ pub(crate) fn peek(
 ) -> Result<Vec<PeekObject>, Fault> {
     let scene = scene_of(bytes, name, placements)?;
     *rig = PeekRig::of(scene.graph());
-    let mut instances: BTreeMap<&str, u64> = BTreeMap::new();
-    for instance in scene.instances() {
-        *instances.entry(&instance.object.name).or_default() += 1;
-    }
-    let graph = scene.graph();
-    let mut skins: BTreeMap<&str, Option<u64>> = BTreeMap::new();
-    for node in graph.nodes() {
+    // For each object, the number of its nodes, and the skin of the first one.
+    let mut nodes: BTreeMap<&str, (u64, Option<u64>)> = BTreeMap::new();
+    for node in scene.graph().nodes() {
         if let Some(object) = &node.object {
             let skin = node.skin.map(|skin| skin as u64);
-            skins.entry(object.as_str()).or_insert(skin);
+            nodes.entry(object.as_str()).or_insert((0, skin)).0 += 1;
         }
     }
-    let objects = scene.objects().iter().map(|object| PeekObject {
-        materials: Some(object.materials.iter().map(|m| m.name.clone()).collect()),
-        name: object.name.clone(),
-        geometry: PeekGeometry::of(&object.geometry),
-        instances: instances[object.name.as_str()],
-        skin: skins.get(object.name.as_str()).copied().flatten(),
+    let objects = scene.objects().iter().map(|object| {
+        let of_object = nodes.get(object.name.as_str()).copied();
+        let (nodes, skin) = of_object.unwrap_or_default();
+        PeekObject {
+            materials: Some(object.materials.iter().map(|m| m.name.clone()).collect()),
+            name: object.name.clone(),
+            geometry: PeekGeometry::of(&object.geometry),
+            nodes,
+            skin,
+        }
     });
     Ok(objects.collect())
 }

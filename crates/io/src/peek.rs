@@ -45,8 +45,8 @@ pub struct PeekObject {
     pub name: String,
     /// The kind and the counts of its geometry.
     pub geometry: PeekGeometry,
-    /// The number of nodes that reference the object, or 1 if no node does.
-    pub instances: u64,
+    /// The number of nodes that reference the object. 0 if no node does, as in a file without nodes.
+    pub nodes: u64,
     /// The index of the skin of the first node that references the object.
     pub skin: Option<u64>,
     /// The names of the materials of the object. `None` if the names are known only after reading.
@@ -54,12 +54,12 @@ pub struct PeekObject {
 }
 
 impl PeekObject {
-    /// Creates an object with one instance.
+    /// Creates an object that no node references.
     pub(crate) fn new(name: String, geometry: PeekGeometry) -> Self {
         Self {
             name,
             geometry,
-            instances: 1,
+            nodes: 0,
             skin: None,
             materials: None,
         }

@@ -303,15 +303,15 @@ fn missing_element_message(number: u64, count: Range, nouns: [&str; 2]) -> Optio
     (number >= n).then(message)
 }
 
-/// The size of one value of an attribute, in bytes.
+/// Returns the size of one value of an attribute, in bytes. The lowest size is 0 if the attribute may not exist.
 fn value_bytes(attribute: &PlannedAttribute) -> Range {
     let name = &attribute.name;
+    let exactly = |bytes: usize| Range::exactly(bytes as u64);
     let size = match attribute.domain {
-        Domain::Vertex if joint_of(name).is_some() => size_of::<f64>(),
-        Domain::Vertex if morph_of(name).is_some() => size_of::<DVec3>(),
-        _ => return ATTRIBUTE_VALUE_BYTES,
+        Domain::Vertex if joint_of(name).is_some() => exactly(size_of::<f64>()),
+        Domain::Vertex if morph_of(name).is_some() => exactly(size_of::<DVec3>()),
+        _ => ATTRIBUTE_VALUE_BYTES,
     };
-    let size = Range::exactly(size as u64);
     if attribute.certain {
         size
     } else {
@@ -358,18 +358,23 @@ pub struct PlannedObject {
 /// The plan of the nodes that reference an object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PlannedNodes {
-    /// The number of nodes; 1 if no node references the object.
-    pub instances: u64,
+    /// The number of nodes.
+    pub nodes: u64,
     /// The index of the skin of the first node, counted over all loaded files.
     pub skin: Option<u64>,
 }
 
 impl PlannedNodes {
-    /// One node without a skin, or no node.
-    pub const ONE: Self = Self {
-        instances: 1,
+    /// No node.
+    pub const NONE: Self = Self {
+        nodes: 0,
         skin: None,
     };
+
+    /// Returns the number of instances of the object. An object that no node references has one instance.
+    pub fn instances(self) -> u64 {
+        self.nodes.max(1)
+    }
 }
 
 /// The plan of a scene at one point of a recipe. Each step changes the plan as it will change the scene.
@@ -409,10 +414,10 @@ impl Plan {
                 continue;
             };
             let first = PlannedNodes {
-                instances: 0,
+                nodes: 0,
                 skin: node.skin.map(|skin| skin as u64),
             };
-            shown.entry(object).or_insert(first).instances += 1;
+            shown.entry(object).or_insert(first).nodes += 1;
         }
         for object in scene.objects() {
             let geometry = match &object.geometry {
@@ -430,7 +435,7 @@ impl Plan {
             };
             plan.insert(&object.name, geometry);
             let shown = shown.get(object.name.as_str());
-            plan.set_nodes_of_last(shown.copied().unwrap_or(PlannedNodes::ONE));
+            plan.set_nodes_of_last(shown.copied().unwrap_or(PlannedNodes::NONE));
         }
         plan
     }
@@ -477,7 +482,7 @@ impl Plan {
             self.objects.push(PlannedObject {
                 name: name.to_owned(),
                 geometry,
-                shown: PlannedNodes::ONE,
+                shown: PlannedNodes::NONE,
             });
         }
         taken
@@ -595,3 +600,6 @@ impl Problem {
         self
     }
 }
+
+#[cfg(test)]
+mod tests;

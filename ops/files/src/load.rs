@@ -155,7 +155,7 @@ impl Load {
             if taken.is_none() {
                 let skin = object.skin.map(|skin| first_skin.saturating_add(skin));
                 plan.set_nodes_of_last(PlannedNodes {
-                    instances: object.instances,
+                    nodes: object.nodes,
                     skin,
                 });
             }
@@ -317,6 +317,8 @@ mod tests {
         let mut twice = Scene::new();
         let object = scene::Object::mesh("wheel", geometry::shapes::tetrahedron());
         twice.insert(object).unwrap();
+        let plain = scene::Object::mesh("plain", geometry::shapes::square());
+        twice.insert(plain).unwrap();
         for name in ["left", "right"] {
             twice.graph_mut().push(scene::Node {
                 name: Some(name.to_owned()),
@@ -329,8 +331,11 @@ mod tests {
         mesh_io::write(&store::Disk, &path, &twice, &options).unwrap();
         let files = files(folder.path());
         for (text, expected) in [
-            ("(path: \"a.glb\")", &["wheel"][..]),
-            ("(path: \"a.glb\", placements: Bake)", &["left", "right"]),
+            ("(path: \"a.glb\")", &["wheel", "plain"][..]),
+            (
+                "(path: \"a.glb\", placements: Bake)",
+                &["left", "right", "plain"],
+            ),
         ] {
             let mut plan = Plan::default();
             let cx = PlanContext {
@@ -345,9 +350,13 @@ mod tests {
             let names: Vec<_> = scene.objects().iter().map(|o| o.name.as_str()).collect();
             let planned: Vec<_> = plan.objects().iter().map(|o| o.name.as_str()).collect();
             assert_eq!((&names[..], &planned[..]), (expected, expected));
-            let instances: u64 = plan.objects().iter().map(|o| o.shown.instances).sum();
-            assert_eq!(instances, 2);
-            assert_eq!(scene.instances().len(), 2);
+            let instances: u64 = plan.objects().iter().map(|o| o.shown.instances()).sum();
+            assert_eq!(instances, 3);
+            assert_eq!(scene.instances().len(), 3);
+            let actual = Plan::of(&scene);
+            for (planned, actual) in plan.objects().iter().zip(actual.objects()) {
+                assert_eq!(planned.shown, actual.shown, "{text} {}", planned.name);
+            }
         }
     }
 

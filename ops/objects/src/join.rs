@@ -64,7 +64,7 @@ impl Operation for Join {
             match plan.object(name).map(|o| &o.geometry) {
                 None => problems.extend(plan.missing(name, ["objects", &at])),
                 Some(PlannedGeometry::Mesh(mesh)) => {
-                    let shown = plan.object(name).map_or(PlannedNodes::ONE, |o| o.shown);
+                    let shown = plan.object(name).map_or(PlannedNodes::NONE, |o| o.shown);
                     parts.push((mesh.clone(), shown));
                 }
                 Some(other) => {
@@ -101,7 +101,7 @@ impl Operation for Join {
             name: self.name.clone(),
             geometry: PlannedGeometry::Mesh(joined),
             shown: PlannedNodes {
-                instances: 1,
+                nodes: u64::from(kept.is_some()),
                 skin: kept,
             },
         };
@@ -122,7 +122,8 @@ impl Operation for Join {
         };
         let parts: Vec<&Object> = self.objects.iter().map(part).collect::<Result<_, _>>()?;
         let kept = KeptSkin::of(scene, &parts);
-        let placed = placed(scene, &parts, kept.as_ref(), cx)?;
+        let skin = kept.as_ref().ok().and_then(Option::as_ref);
+        let placed = placed(scene, &parts, skin, cx)?;
         let (joined, mut report) = match &placed {
             Some(placed) => self.joined(&placed.iter().collect::<Vec<_>>(), cx)?,
             None => self.joined(&parts, cx)?,
@@ -131,13 +132,13 @@ impl Operation for Join {
             report = report.count("instances whose placements were applied", placed.len());
         }
         let mut joined = joined;
-        skin::report(scene, &parts, kept.as_ref(), &mut joined, &mut report);
+        skin::report(scene, &parts, &kept, &mut joined, &mut report);
 
         // After all checks, the result replaces the first part, and the other parts are removed.
         let (first, others) = self.objects.split_first().expect("at least one");
         let (geometry, materials) = scene.parts_mut(first).expect("found above");
         (*geometry, *materials) = (joined.geometry, joined.materials);
-        match kept {
+        match kept.ok().flatten() {
             Some(kept) if kept.part == *first => {}
             Some(kept) => {
                 scene.unplace(first);
@@ -199,7 +200,7 @@ impl Join {
         let none = Range::exactly(0);
         (joined.vertices, joined.edges, joined.faces) = (none, none, none);
         for (part, shown) in parts {
-            let instances = Range::exactly(shown.instances);
+            let instances = Range::exactly(shown.instances());
             let counts = [part.vertices, part.edges, part.faces].map(|n| n.times(instances));
             joined.grow(counts[0], counts[1], counts[2]);
             joined.has_unlisted_attributes |= part.has_unlisted_attributes;

@@ -218,6 +218,41 @@ fn parts_with_different_skins_are_joined_in_their_poses() {
 }
 
 #[test]
+fn a_first_joint_without_an_inverse_matters_only_to_parts_without_a_skin() {
+    let mut scene = scene();
+    let flat = Placement::Parts {
+        translation: [5.0, 0.0, 0.0],
+        rotation: [0.0, 0.0, 0.0, 1.0],
+        scale: [0.0, 1.0, 1.0],
+    };
+    scene.graph_mut().set_placement(0, flat);
+    let mut with_hat = scene.clone();
+    let report = run::<Join>(r#"(objects: ["body", "hat"], name: "all")"#, &mut with_hat);
+    let skins = report.losses.iter().filter(|loss| loss.name == "skins");
+    let reasons: Vec<&str> = skins.map(|loss| &*loss.reason).collect();
+    assert_eq!(reasons.len(), 1);
+    assert!(reasons[0].contains("first joint"), "{reasons:?}");
+
+    run::<Copy>(r#"(from: "body", to: "twin")"#, &mut scene);
+    let expected = [points(&scene, "body"), points(&scene, "twin")].concat();
+    let report = run::<Join>(r#"(objects: ["body", "twin"], name: "all")"#, &mut scene);
+    assert!(report.losses.iter().all(|loss| loss.name != "skins"));
+    assert_near(&points(&scene, "all"), &expected);
+    let graph = scene.graph();
+    assert_eq!(graph.nodes()[graph.nodes_of("all")[0]].skin, Some(0));
+}
+
+#[test]
+fn a_skin_without_weights_is_lost_for_this_reason() {
+    let mut scene = scene();
+    let (geometry, _) = scene.parts_mut("body").unwrap();
+    *geometry = scene::Geometry::Mesh(shapes::cube().into());
+    let report = run::<Join>(r#"(objects: ["body", "hat"], name: "all")"#, &mut scene);
+    let reasons: Vec<&str> = report.losses.iter().map(|loss| &*loss.reason).collect();
+    assert_eq!(reasons, ["no part has weights of joints"]);
+}
+
+#[test]
 fn a_deleted_object_keeps_joints_and_drops_channels() {
     let mut scene = scene();
     let registry = op::Registry::new().with::<Delete>();
@@ -226,6 +261,8 @@ fn a_deleted_object_keeps_joints_and_drops_channels() {
     let files = op::Files::default();
     let mut cx = op::Context::new(&op::NoProgress, &files);
     let report = step.apply(&mut scene, &mut cx).unwrap();
+    // A loss of the whole scene has no object.
+    assert_eq!(report.losses[0].object, "");
     let losses: Vec<String> = report.losses.iter().map(ToString::to_string).collect();
     assert_eq!(
         losses,
@@ -248,7 +285,7 @@ fn a_deleted_object_keeps_joints_and_drops_channels() {
 
 #[test]
 fn the_plan_of_a_join_names_the_loss_of_different_skins() {
-    let shown = |instances, skin| op::PlannedNodes { instances, skin };
+    let shown = |nodes, skin| op::PlannedNodes { nodes, skin };
     let [plain, skinned, other, twice] = [
         shown(1, None),
         shown(1, Some(0)),
@@ -283,6 +320,7 @@ fn the_plan_of_a_join_names_the_loss_of_different_skins() {
         let problems = step.plan(&mut plan, &cx);
         assert_eq!(problems, []);
         assert_eq!(plan.losses.len(), n_lost, "{parts:?}");
-        assert_eq!(plan.object("all").unwrap().shown, shown(1, kept));
+        let nodes = u64::from(kept.is_some());
+        assert_eq!(plan.object("all").unwrap().shown, shown(nodes, kept));
     }
 }

@@ -31,7 +31,8 @@ pub struct Scatter {
     pub surface: String,
     /// The number of points.
     pub count: Count<1, 1_000_000>,
-    /// The seed. A different seed gives different points.
+    /// The seed. A different seed gives different points. The same seed gives the same points on the same surface, in
+    /// every step.
     #[serde(default)]
     pub seed: u64,
     /// The axis of the object that is aligned with the normal of the surface. If omitted, the copies are not rotated.
@@ -77,11 +78,7 @@ impl Operation for Scatter {
         let object = plan.objects_mut().iter_mut().find(|o| o.name == *name);
         if let Some(object) = object {
             // An object without a node has one instance, which disappears.
-            object.shown.instances = if object.shown.instances > 1 {
-                object.shown.instances + n
-            } else {
-                n
-            };
+            object.shown.nodes = object.shown.nodes.saturating_add(n);
         }
         Vec::new()
     }
@@ -212,6 +209,44 @@ mod tests {
         for map in placed {
             let up = map.matrix3 * DVec3::Z;
             assert!((map.translation.dot(up) - 1.0).abs() < 1e-12, "{map}");
+        }
+    }
+
+    #[test]
+    fn the_plan_counts_copies_and_earlier_nodes() {
+        let files = op::Files::default();
+        let cx = PlanContext {
+            files: &files,
+            on: None,
+            budget: u64::MAX,
+        };
+        let nodes = |plan: &Plan| plan.object("tree").unwrap().shown;
+        for n_nodes in 0..3 {
+            let mut scene = scene();
+            for _ in 0..n_nodes {
+                scene.graph_mut().push(Node {
+                    object: Some("tree".to_owned()),
+                    ..Node::default()
+                });
+            }
+            let mut plan = Plan::of(&scene);
+            let text = r#"(object: "tree", surface: "ground", count: 4)"#;
+            let step: Scatter = op::test::read(text).unwrap();
+            assert_eq!(step.plan(&mut plan, &cx), []);
+            op::test::run(&step, &mut scene).unwrap();
+            assert_eq!(nodes(&plan), nodes(&Plan::of(&scene)));
+
+            let text = r#"(objects: ["tree"], name: "tree")"#;
+            let join: crate::Join = op::test::read(text).unwrap();
+            assert_eq!(join.plan(&mut plan, &cx), []);
+            op::test::run(&join, &mut scene).unwrap();
+            assert_eq!(nodes(&plan), nodes(&Plan::of(&scene)));
+            let PlannedGeometry::Mesh(planned) = &plan.object("tree").unwrap().geometry else {
+                panic!("a mesh");
+            };
+            assert_eq!(planned.faces, Range::exactly(4 * (4 + n_nodes)));
+            let joined = scene.object("tree").unwrap().as_mesh().unwrap();
+            assert_eq!(planned.faces, Range::exactly(joined.n_faces() as u64));
         }
     }
 

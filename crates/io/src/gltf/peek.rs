@@ -48,6 +48,7 @@ pub(crate) fn peek(
     let mut objects = Vec::new();
     let deformers = Deformers::of_meshes(&document);
     let placed = placed_meshes(&document, placements, name, &budget, notes)?;
+    let nodes = placed.graph.nodes_of_objects();
     for placed in placed.meshes {
         let (mesh, materials) = match meshes.entry(placed.mesh) {
             Entry::Occupied(known) => known.into_mut(),
@@ -63,8 +64,10 @@ pub(crate) fn peek(
         };
         let names = materials.iter().map(|&i| material_name(&document, i));
         objects.push(PeekObject {
+            nodes: nodes
+                .get(&*placed.name)
+                .map_or(0, |nodes| nodes.len() as u64),
             name: placed.name,
-            instances: placed.instances,
             skin: placed.skin.map(|skin| skin as u64),
             geometry: PeekGeometry::Mesh(*mesh),
             materials: Some(names.collect()),

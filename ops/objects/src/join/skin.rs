@@ -11,6 +11,17 @@ use mesh::{Attributes, Column, Domain, Mesh, Rule, Value, joint_name};
 use op::{Loss, PlannedNodes, Report};
 use scene::{Geometry, Instance, Object, Scene, transformed};
 
+/// Why a joined mesh loses the skins of its parts.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum LostSkin {
+    /// The parts have different skins, or a skinned part has several instances.
+    Different,
+    /// Parts without a skin cannot be bound to the first joint, because its transform has no inverse.
+    FirstJoint,
+    /// No part has weights of joints.
+    NoWeights,
+}
+
 /// The skin of a joined mesh.
 pub(super) struct KeptSkin {
     /// The name of the first skinned part. The node and the morph weights of this part are kept.
@@ -20,33 +31,42 @@ pub(super) struct KeptSkin {
 }
 
 impl KeptSkin {
-    /// Returns the skin that all skinned parts have.
-    pub(super) fn of(scene: &Scene, parts: &[&Object]) -> Option<Self> {
+    /// Returns the skin that all skinned parts have; `None` if no part has a skin.
+    pub(super) fn of(scene: &Scene, parts: &[&Object]) -> Result<Option<Self>, LostSkin> {
         let graph = scene.graph();
         let instances = scene.instances();
-        let mut kept: Option<(usize, Self)> = None;
+        let mut kept: Option<(Option<usize>, Self)> = None;
+        let (mut is_every_part_bound, mut has_unused_skin) = (true, false);
         for part in parts {
             let nodes = graph.nodes_of(&part.name);
             let mut own = instances.iter().filter(|i| i.object.name == part.name);
             let Some(joints) = own.find_map(|instance| instance.pose.joints.clone()) else {
+                is_every_part_bound = false;
+                has_unused_skin |= nodes.iter().any(|&i| graph.nodes()[i].skin.is_some());
                 continue;
             };
             let [node] = nodes[..] else {
-                return None;
+                return Err(LostSkin::Different);
             };
-            let skin = graph.nodes()[node].skin?;
+            let skin = graph.nodes()[node].skin;
             match &kept {
-                Some((known, _)) if *known != skin => return None,
+                Some((known, _)) if *known != skin => return Err(LostSkin::Different),
                 Some(_) => {}
                 None => {
-                    let first_joint = *joints.first()?;
-                    first_joint.inverse().is_finite().then_some(())?;
+                    let first_joint = joints.first().copied().unwrap_or_default();
                     let part = part.name.clone();
                     kept = Some((skin, Self { part, first_joint }));
                 }
             }
         }
-        kept.map(|(_, kept)| kept)
+        match kept {
+            None if has_unused_skin => Err(LostSkin::NoWeights),
+            None => Ok(None),
+            Some((_, kept)) if is_every_part_bound || kept.first_joint.inverse().is_finite() => {
+                Ok(Some(kept))
+            }
+            Some(_) => Err(LostSkin::FirstJoint),
+        }
     }
 
     /// Returns the object of an instance with points in the space in which the skin binds points.
@@ -87,15 +107,24 @@ pub(super) fn planned(parts: &[PlannedNodes], joined: &str) -> (Option<u64>, Opt
     let Some(first) = skinned.next() else {
         return (None, None);
     };
-    if first.instances == 1 && skinned.all(|other| other == first) {
+    if first.nodes == 1 && skinned.all(|other| other == first) {
         (first.skin, None)
     } else {
-        (None, Some(lost_skin(joined)))
+        (None, Some(lost_skin(joined, LostSkin::Different)))
     }
 }
 
-fn lost_skin(joined: &str) -> Loss {
-    let reason = "the parts have different skins or several instances, so they are joined in the pose of their joints";
+fn lost_skin(joined: &str, why: LostSkin) -> Loss {
+    let reason = match why {
+        LostSkin::Different => {
+            "the parts have different skins or several instances, so they are joined in the pose of their joints"
+        }
+        LostSkin::FirstJoint => {
+            "the parts without a skin cannot be bound to the first joint, because its transform has no inverse, so the \
+             parts are joined in the pose of their joints"
+        }
+        LostSkin::NoWeights => "no part has weights of joints",
+    };
     Loss {
         object: joined.to_owned(),
         name: "skins".to_owned(),
@@ -108,7 +137,7 @@ fn lost_skin(joined: &str) -> Loss {
 pub(super) fn report(
     scene: &Scene,
     parts: &[&Object],
-    kept: Option<&KeptSkin>,
+    kept: &Result<Option<KeptSkin>, LostSkin>,
     joined: &mut Object,
     report: &mut Report,
 ) {
@@ -123,8 +152,8 @@ pub(super) fn report(
             .filter(|n| n.object.as_deref() == Some(&part.name));
         nodes.any(|node| node.skin.is_some())
     };
-    let n_skinned = parts.iter().filter(is_skinned).count();
-    if kept.is_some() {
+    let skin = kept.as_ref().ok().and_then(Option::as_ref);
+    if skin.is_some() {
         let others = parts.iter().filter(|part| !is_skinned(part));
         let n: usize = others
             .filter_map(|part| part.as_mesh())
@@ -135,14 +164,14 @@ pub(super) fn report(
                 "vertices of parts without a skin, bound to the first joint: {n}"
             ));
         }
-    } else if n_skinned > 0 {
-        report.losses.push(lost_skin(&joined.name));
+    } else if let Err(why) = kept {
+        report.losses.push(lost_skin(&joined.name, *why));
     }
     let n_morphed = parts
         .iter()
         .filter(|part| !attributes(part).morphs().is_empty())
         .count();
-    let keeps_label = kept.is_some_and(|kept| {
+    let keeps_label = skin.is_some_and(|kept| {
         let part = parts.iter().find(|part| part.name == kept.part);
         n_morphed == 1 && part.is_some_and(|part| !attributes(part).morphs().is_empty())
     });
@@ -154,8 +183,7 @@ pub(super) fn report(
             reason: "the parts have their own morph targets".to_owned(),
         });
     }
-    if kept.is_none()
-        && n_skinned > 0
+    if kept.is_err()
         && let Geometry::Mesh(mesh) = &mut joined.geometry
     {
         remove_joints(Arc::make_mut(mesh));

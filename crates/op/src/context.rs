@@ -14,8 +14,9 @@ pub struct Context<'a> {
     files: &'a Files,
     /// The objects named in the step's `on:`; `None` if the step acts on all objects that it supports.
     pub on: Option<&'a [String]>,
-    /// The label of the step in the recipe. Each random choice of the step is seeded with this label and with its own
-    /// `seed`.
+    /// The label of the step in the recipe. The selection `Random` is seeded with this label and with its own `seed`,
+    /// so two steps with the same seed select different elements. Random positions and numbers, such as those of
+    /// `Scatter` and `Displace`, depend only on their `seed`.
     pub stream: &'a str,
     /// The memory budget of meshes, in bytes.
     pub budget: u64,

@@ -42,13 +42,15 @@ pub enum DisplaceBy {
     Noise {
         /// The size of the waves, in scene units.
         scale: PositiveLength,
-        /// The seed. A different seed gives different noise. Defaults to 0.
+        /// The seed. A different seed gives different noise. The same seed gives the same noise in every step. Defaults
+        /// to 0.
         #[serde(default)]
         seed: u64,
     },
     /// A random number from -1 to 1 for each vertex, which depends on the id of the vertex.
     Random {
-        /// The seed. A different seed gives different numbers. Defaults to 0.
+        /// The seed. A different seed gives different numbers. The same seed gives the same numbers in every step.
+        /// Defaults to 0.
         #[serde(default)]
         seed: u64,
     },

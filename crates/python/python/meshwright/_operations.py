@@ -681,7 +681,8 @@ class SceneOperations:
         :param surface: The name of the object with the surface, which must be a mesh with a single instance.
         :param count: The number of points.
         :param object: The name of the object that is placed. If omitted, only the points are made.
-        :param seed: The seed. A different seed gives different points. Defaults to ``0``.
+        :param seed: The seed. A different seed gives different points. The same seed gives the same points on the same
+            surface, in every step. Defaults to ``0``.
         :param align: The axis of the object that is aligned with the normal of the surface. If omitted, the copies are
             not rotated.
             ``"X"``: The x axis.
@@ -970,9 +971,9 @@ class SceneOperations:
         values (material, tags) of one of the faces beside it. Which one is not specified, but it is the same in every
         run. New edges have zero values (no crease, no tags). Normals are dropped.
 
-        An edge is refused if it is on the boundary, if one of its ends has only one other edge and this edge is not
-        selected, or if the bevels at both ends of an edge would overlap. If the result would not be manifold, all edges
-        are refused.
+        An edge is refused if it is on the boundary (``Boundary``), if one of its ends has only one other edge and this
+        edge is not selected (``FewEdges``), or if the bevels at both ends of an edge would overlap (``OutsideEdge``).
+        If the result would not be manifold, all edges are refused (``NonManifold``).
 
         Example: ``scene.bevel_edges(edges=sel.Between(0, 2), width=0.25)``, in a recipe ``BevelEdges(edges: Between(0,
         2), width: 0.25)``
@@ -1924,7 +1925,8 @@ class SceneOperations:
         The mesh is cut along a plane, as with ``bisect()``. The half on the side ``from_`` is kept and mirrored, and
         the halves are joined at the plane. Vertices near the plane (see ``bisect()``) are moved exactly onto it, so
         that the result is symmetric. Faces in the plane are removed, because they would be walls inside the result.
-        Where the surface only touches the plane, the halves are not joined.
+        Where the surface only touches the plane, the halves are not joined. The report counts the faces of which no
+        part is kept.
 
         The elements of the kept half come first, in their old order. The elements of the mirror image follow.
         Attributes are copied, so both halves have the same texture coordinates, tags and weights of joints. Normals and
@@ -2054,9 +2056,10 @@ class SceneOperations:
 
         Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
         vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target
-        length. All vertices lie on the original surface. The target length is either ``length``, or it follows
-        ``curvature``: edges are short where the surface is curved, and long where it is flat (Dunyach and others,
-        2013). Exactly one of the two must be given. All faces must be triangles.
+        length. All vertices lie on the original surface, except a new vertex that cannot move there without turning a
+        triangle or moving the surface too far. The target length is either ``length``, or it follows ``curvature``:
+        edges are short where the surface is curved, and long where it is flat (Dunyach and others, 2013). Exactly one
+        of the two must be given. All faces must be triangles.
 
         The following properties are kept:
 
@@ -2070,9 +2073,9 @@ class SceneOperations:
           its exact position unless all corners of one of its triangles, or both of its neighbors on a line, also have
           the tag. Vertices with sharpness also keep their exact positions.
 
-        Edits that would turn a triangle over are refused. All elements get new ids. If the distance between the result
-        and the original could exceed ``error``, the step is refused as ``Unreached``. With ``on_refusal="Skip"``, the
-        mesh then does not change.
+        Edits that would turn a triangle by more than 60 degrees are refused. All elements get new ids. If the distance
+        between the result and the original could exceed ``error``, the step is refused as ``Unreached``. With
+        ``on_refusal="Skip"``, the mesh then does not change.
 
         Example: ``scene.remesh(length=0.5)``, in a recipe ``Remesh(length: 0.5)``
 
@@ -3267,9 +3270,9 @@ class MeshOperations:
         values (material, tags) of one of the faces beside it. Which one is not specified, but it is the same in every
         run. New edges have zero values (no crease, no tags). Normals are dropped.
 
-        An edge is refused if it is on the boundary, if one of its ends has only one other edge and this edge is not
-        selected, or if the bevels at both ends of an edge would overlap. If the result would not be manifold, all edges
-        are refused.
+        An edge is refused if it is on the boundary (``Boundary``), if one of its ends has only one other edge and this
+        edge is not selected (``FewEdges``), or if the bevels at both ends of an edge would overlap (``OutsideEdge``).
+        If the result would not be manifold, all edges are refused (``NonManifold``).
 
         Example: ``mesh.bevel_edges(edges=sel.Between(0, 2), width=0.25)``
 
@@ -4185,7 +4188,8 @@ class MeshOperations:
         The mesh is cut along a plane, as with ``bisect()``. The half on the side ``from_`` is kept and mirrored, and
         the halves are joined at the plane. Vertices near the plane (see ``bisect()``) are moved exactly onto it, so
         that the result is symmetric. Faces in the plane are removed, because they would be walls inside the result.
-        Where the surface only touches the plane, the halves are not joined.
+        Where the surface only touches the plane, the halves are not joined. The report counts the faces of which no
+        part is kept.
 
         The elements of the kept half come first, in their old order. The elements of the mirror image follow.
         Attributes are copied, so both halves have the same texture coordinates, tags and weights of joints. Normals and
@@ -4280,9 +4284,10 @@ class MeshOperations:
 
         Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
         vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target
-        length. All vertices lie on the original surface. The target length is either ``length``, or it follows
-        ``curvature``: edges are short where the surface is curved, and long where it is flat (Dunyach and others,
-        2013). Exactly one of the two must be given. All faces must be triangles.
+        length. All vertices lie on the original surface, except a new vertex that cannot move there without turning a
+        triangle or moving the surface too far. The target length is either ``length``, or it follows ``curvature``:
+        edges are short where the surface is curved, and long where it is flat (Dunyach and others, 2013). Exactly one
+        of the two must be given. All faces must be triangles.
 
         The following properties are kept:
 
@@ -4296,9 +4301,9 @@ class MeshOperations:
           its exact position unless all corners of one of its triangles, or both of its neighbors on a line, also have
           the tag. Vertices with sharpness also keep their exact positions.
 
-        Edits that would turn a triangle over are refused. All elements get new ids. If the distance between the result
-        and the original could exceed ``error``, the step is refused as ``Unreached``. With ``on_refusal="Skip"``, the
-        mesh then does not change.
+        Edits that would turn a triangle by more than 60 degrees are refused. All elements get new ids. If the distance
+        between the result and the original could exceed ``error``, the step is refused as ``Unreached``. With
+        ``on_refusal="Skip"``, the mesh then does not change.
 
         Example: ``mesh.remesh(length=0.5)``
 

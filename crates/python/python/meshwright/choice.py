@@ -211,7 +211,8 @@ def Noise(*, scale: float | Arg | Ron, seed: int | Arg | Ron | None = None) -> C
     The value depends only on the position, so vertices at the same position move by the same amount.
 
     :param scale: The size of the waves, in scene units.
-    :param seed: The seed. A different seed gives different noise. Defaults to 0.
+    :param seed: The seed. A different seed gives different noise. The same seed gives the same noise in every step.
+        Defaults to 0.
     """
     return Choice('Noise', scale=scale, seed=seed)
 
@@ -276,7 +277,8 @@ def PrincipalCurvature(value: Literal['Largest', 'Smallest'] | Arg | Ron, /) -> 
 def Random(*, seed: int | Arg | Ron | None = None) -> Choice:
     """A random number from -1 to 1 for each vertex, which depends on the id of the vertex.
 
-    :param seed: The seed. A different seed gives different numbers. Defaults to 0.
+    :param seed: The seed. A different seed gives different numbers. The same seed gives the same numbers in every step.
+        Defaults to 0.
     """
     return Choice('Random', seed=seed)
 

@@ -422,7 +422,7 @@ class SceneOperations:
         on: str | Sequence[str] | None = None,
         id: str | None = None,
     ) -> Self:
-        """Replaces curves with polylines through their points.
+        """Replaces curves with polylines whose points lie on the curves.
 
         Each curve becomes one polyline with ``segments`` + 1 points in the plane z = 0, at the parameters 0, 1 /
         segments, 2 / segments and so on, up to 1. The first and the last point are exactly the end control points.
@@ -2900,7 +2900,7 @@ class MeshOperations:
         *,
         id: str | None = None,
     ) -> Self:
-        """Replaces curves with polylines through their points.
+        """Replaces curves with polylines whose points lie on the curves.
 
         Each curve becomes one polyline with ``segments`` + 1 points in the plane z = 0, at the parameters 0, 1 /
         segments, 2 / segments and so on, up to 1. The first and the last point are exactly the end control points.

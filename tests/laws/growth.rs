@@ -56,7 +56,13 @@ const OTHER: &str =
 const STEEPER: &[(&str, f64)] = &[
     // All vertices of a row become one vertex, whose valence is the length of a row. So the time for n faces is
     // proportional to n^1.5.
-    ("CollapseEdges(edges: All", 8.5),
+    ("CollapseEdges(", 8.5),
+    // Flips of all edges of a row end at one vertex, with the same effect.
+    ("FlipEdges(edges: All, on_refusal", 8.5),
+    // The factorization of the sparse matrix of a surface takes a time proportional to n^1.5. Source: Lipton, Rose,
+    // Tarjan, "Generalized Nested Dissection", 1979.
+    ("Measure(of: Geodesic", 8.5),
+    ("Smooth(by: Implicit", 8.5),
     // Holes of at most 500 edges are filled in cubic time. The boundaries of the largest grids are longer.
     ("FillHoles(", 8.5),
 ];

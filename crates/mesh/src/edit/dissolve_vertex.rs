@@ -236,7 +236,7 @@ impl Mesh {
     /// ```
     fn join_edges(&mut self, x: HalfEdgeId, y: HalfEdgeId) {
         let (x, y) = if x.edge() < y.edge() { (x, y) } else { (y, x) };
-        let (before, after) = (self.prev(y.twin()), self.next(y));
+        let (before, after) = (self.prev_on_face(y.twin()), self.next(y));
         let (v, b) = (self.origin(x), self.target(y));
         // Half-edge x now leaves b. So x now stores the corner that the twin of y stored before.
         self.copy_values(y.twin(), x);

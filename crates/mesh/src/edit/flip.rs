@@ -111,7 +111,7 @@ impl Mesh {
         Ok(())
     }
 
-    /// Returns the half-edge before `h` on its face. Walks around the face and around the origin of `h` at the same
+    /// Returns the half-edge before `h` on its face or its hole. Walks around the face and around the origin of `h` at the same
     /// time, so the time is proportional to the smaller of degree and valence.
     #[inline]
     pub(super) fn prev_on_face(&self, h: HalfEdgeId) -> HalfEdgeId {

@@ -61,6 +61,7 @@ impl Lods {
 
 impl Operation for Lods {
     const NAME: &'static str = "Lods";
+    const VERSION: u32 = 2;
     const SUMMARY: &'static str = "Make simplified copies of an object, its levels of detail";
     const EXAMPLE: &'static str = r#"Lods(from: "mesh", ratios: [0.5, 0.25])"#;
     const WORDS: &'static [&'static str] = &["lod", "level of detail"];

@@ -14,7 +14,7 @@ use op::prelude::*;
 
 /// Removes triangles from meshes, and changes the surface as little as possible.
 ///
-/// Edges are collapsed, starting with the edges whose collapse changes the surface least. The change is the mean
+/// Edges are collapsed, starting with the edges whose collapse changes the surface least. The change is measured by the
 /// squared distance of the new vertex to the planes of the original triangles that it replaces (Garland, Heckbert,
 /// 1997). The step ends when `faces` or `ratio` is reached, or when every remaining collapse is refused or could exceed
 /// `error`. At least one of `faces`, `ratio` and `error` must be given, but not both `faces` and `ratio`. All faces
@@ -153,6 +153,7 @@ pub(crate) fn unreached(n_faces: usize, goal: u64, blocked: &[(Blocked, usize)])
 
 impl MeshOperation for Simplify {
     const NAME: &'static str = "Simplify";
+    const VERSION: u32 = 2;
     const SUMMARY: &'static str = "Remove triangles, and change the surface as little as possible";
     const EXAMPLE: &'static str = "Simplify(ratio: 0.5)";
     const WORDS: &'static [&'static str] = &["decimate", "reduce", "quadric", "lod", "polycount"];

@@ -12,7 +12,8 @@ use mesh::{DVec3, EdgeId, FaceId};
 use crate::surface_index::triangle::nearest_on_segment;
 
 use super::Blocked;
-use super::collapse::{Collapser, Target};
+use super::collapse::Collapser;
+use super::target::Target;
 
 impl Collapser<'_> {
     /// If there is an error limit, returns the faces that remain around an edge after its collapse, each with a

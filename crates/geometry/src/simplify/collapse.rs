@@ -1,36 +1,56 @@
 //! The loop that collapses edges.
+//!
+//! The edges of a pass are visited in batches. Each batch has four stages. The first and the third compute in parallel,
+//! the others change the state in the order of the batch, so that the result does not depend on the number of threads.
+//!
+//! 1. The cost of an edge is computed again if one of its ends has changed.
+//! 2. Edges are chosen whose cost is low enough, and that are not near an edge chosen before in this pass.
+//! 3. For each chosen edge, the new position and values are computed, and whether the collapse is allowed.
+//! 4. The chosen edges are collapsed. They are so far from each other that the third stage remains true.
 
-use mesh::{Column, DVec3, Domain, EdgeId, FaceId, HalfEdgeId, Mesh, VERTEX_SHARPNESS, VertexId};
+use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Progress};
 use rayon::prelude::*;
 
-use crate::lines::{Kind, inverse_power_of_two, kinds, labels, lines};
+use crate::lines::{Kind, inverse_power_of_two, kinds, lines};
 
 use super::appearance::{Appearance, Around, Pair};
 use super::contact::Contacts;
 use super::quadric::{Quadric, Spread};
-use super::queue::Queue;
+use super::queue::{Entry, Queue};
+use super::target::Target;
 use super::{Blocked, Options};
 
-/// The weight of the squared distance to the area of the original surface that a vertex represents. This weight
-/// is used to compare costs, where the squared distance to the planes of that area has the weight 1. Without this
-/// weight, triangles become thin where the surface is flat or curved in one direction. On a torus of 1,000,000
-/// triangles reduced to a tenth, one percent of the triangles have an angle below 9° with the weight 1e-6, and
-/// below 15° with 2e-5. The distance to the original is the same for both weights.
-const ROUNDNESS: f64 = 2e-5;
+/// The number of edges in a batch. The data around the edges of a batch should fit into the cache of a processor.
+const BATCH: usize = 1024;
 
-/// The weight that replaces [`ROUNDNESS`] when the new position is chosen. This weight is so small that it
-/// matters only if many positions have the same distance to the planes.
-const FIRMNESS: f64 = 1e-8;
-
-/// The smallest cosine of the angle by which a collapse may turn a triangle.
-const TURN: f64 = 0.2;
+/// The least number of edges for which a thread is worthwhile.
+const PER_THREAD: usize = 64;
 
 /// The state of an edge in the queue.
 #[derive(Clone, Copy, PartialEq)]
 enum State {
     Queued,
     Blocked(Blocked),
+}
+
+/// The properties of a vertex from which the costs of its edges are computed.
+#[derive(Clone, Copy)]
+pub(super) struct Node {
+    /// The position, in scaled coordinates.
+    pub(super) point: DVec3,
+    pub(super) quadric: Quadric,
+    pub(super) spread: Spread,
+    pub(super) kind: Kind,
+}
+
+/// When a vertex changed.
+#[derive(Clone, Copy, Default)]
+struct Mark {
+    /// The last pass in which the vertex or one of its neighbors was chosen to change.
+    touched: u32,
+    /// The last pass in which the vertex changed.
+    changed: u32,
 }
 
 pub(super) struct Collapser<'a> {
@@ -42,17 +62,15 @@ pub(super) struct Collapser<'a> {
     /// very large meshes give the same result.
     center: DVec3,
     pub(super) scale: f64,
-    /// The quadric of each vertex, by index.
-    quadrics: Vec<Quadric>,
-    spreads: Vec<Spread>,
-    kinds: Vec<Kind>,
-    /// The pass in which a collapse changed the vertex or one of its neighbors.
-    touched: Vec<u32>,
+    /// By vertex.
+    pub(super) nodes: Vec<Node>,
+    /// By vertex.
+    marks: Vec<Mark>,
     /// If there is an error limit, a bound on the distance between each face and the original surface, by face
     /// index.
     pub(super) errors: Vec<f64>,
     /// Whether each edge belongs to a line, by index.
-    lines: Vec<bool>,
+    pub(super) lines: Vec<bool>,
     states: Vec<State>,
     queue: Queue,
     /// The boxes of the faces, if intersections are refused.
@@ -60,23 +78,27 @@ pub(super) struct Collapser<'a> {
     pub(super) options: &'a Options<'a>,
 }
 
-/// The position of the vertex to which an edge would collapse.
-pub(super) struct Target {
-    /// The position, in the scaled coordinates of the [`Collapser`].
-    pub(super) point: DVec3,
-    /// The end of the edge that keeps its position; `None` if both ends move.
-    pub(super) end: Option<VertexId>,
-    /// The place on the edge, from 0 at its first end to 1, whose values the vertex gets; `None` for the values with the
-    /// least error.
-    t: Option<f64>,
-    /// The mean squared distance from the point to the planes of the original triangles that the vertex
-    /// represents, plus the mean squared error of its values, plus the mean squared distance to these triangles, with a
-    /// small weight.
-    cost: f64,
+/// The faces around an edge, and the wedges that become one with their values.
+pub(super) type Values = (Around, Vec<(Pair, Vec<f64>)>);
+
+/// What is computed for an allowed collapse before the mesh changes.
+struct Plan {
+    target: Target,
+    /// The faces that remain, with new bounds on their distance to the original surface.
+    errors: Vec<(FaceId, f64)>,
+    values: Option<Values>,
 }
 
-/// The faces around an edge, and the wedges that become one with their values.
-type Values = (Around, Vec<(Pair, Vec<f64>)>);
+/// The cost of an edge at the beginning of a batch.
+#[derive(Clone, Copy)]
+enum Cost {
+    /// The edge does not exist anymore.
+    Gone,
+    /// The edge is near an edge that was chosen in this pass.
+    Touched,
+    Unchanged,
+    New(Result<f64, Blocked>),
+}
 
 impl<'a> Collapser<'a> {
     /// Prepares the simplification of a dense mesh of triangles.
@@ -85,25 +107,17 @@ impl<'a> Collapser<'a> {
         let center = 0.5 * min + 0.5 * max;
         let scale = inverse_power_of_two((max - min).max_element());
         let lines = lines(&mesh, options.features);
-        let kinds = kinds(&mesh, &lines, options.pinned);
         let place = |mesh: &Mesh, v: VertexId| (mesh.position(v) - center) * scale;
+        let nodes = nodes(&mesh, &lines, options.pinned, |v| place(&mesh, v));
+        let n_errors = options.error.map_or(0, |_| mesh.n_faces());
         let mut this = Self {
             n_faces: mesh.n_faces(),
             appearance: Appearance::take(&mut mesh, &lines, place),
             center,
             scale,
-            quadrics: Vec::new(),
-            spreads: Vec::new(),
-            kinds,
-            touched: vec![0; mesh.n_vertices()],
-            errors: vec![
-                0.0;
-                if options.error.is_some() {
-                    mesh.n_faces()
-                } else {
-                    0
-                }
-            ],
+            nodes,
+            marks: vec![Mark::default(); mesh.n_vertices()],
+            errors: vec![0.0; n_errors],
             lines,
             states: vec![State::Queued; mesh.n_edges()],
             queue: Queue::new(),
@@ -113,10 +127,6 @@ impl<'a> Collapser<'a> {
             options,
             mesh,
         };
-        (this.quadrics, this.spreads) = (0..this.mesh.n_vertices())
-            .into_par_iter()
-            .map(|v| this.measures_at(VertexId::new(v)))
-            .unzip();
         let costs: Vec<Result<f64, Blocked>> = (0..this.mesh.n_edges())
             .into_par_iter()
             .map(|e| this.target(EdgeId::new(e)).map(|target| target.cost))
@@ -131,18 +141,17 @@ impl<'a> Collapser<'a> {
     /// collapsed.
     pub(super) fn run(&mut self, progress: &dyn Progress) -> Result<(), Cancelled> {
         let start = self.n_faces;
-        let mut visits = 0_u32;
-        while self.n_faces > self.options.faces {
-            if visits.is_multiple_of(1024) {
+        let mut edges: Vec<Entry> = Vec::new();
+        while self.n_faces > self.options.faces && self.queue.next_pass(&mut edges) {
+            // Edges that are near in the mesh are often near in memory too.
+            edges.sort_by_key(|entry| entry.edge);
+            for batch in edges.chunks(BATCH) {
+                if self.n_faces <= self.options.faces {
+                    break;
+                }
                 let (done, total) = (start - self.n_faces, start - self.options.faces);
                 progress.report("simplify", done as u64, total as u64)?;
-            }
-            visits = visits.wrapping_add(1);
-            let Some(e) = self.queue.pop() else {
-                break;
-            };
-            if self.mesh.has_edge(e) {
-                self.visit(e);
+                self.visit(batch);
             }
         }
         Ok(())
@@ -166,77 +175,111 @@ impl<'a> Collapser<'a> {
         counts.filter(|&(_, count)| count > 0).collect()
     }
 
-    fn visit(&mut self, e: EdgeId) {
-        let target = match self.target(e) {
-            Ok(target) => target,
-            Err(reason) => return self.enqueue(e, Err(reason)),
-        };
-        let ends = self.mesh.edge_vertices(e);
-        let pass = self.queue.pass();
-        // The cost of an edge grows when its neighbors collapse. Edges near a collapse wait for the next pass, so that
-        // the collapses of a pass are spread over the surface.
-        if self.queue.is_later(target.cost) || ends.iter().any(|v| self.touched[v.index()] == pass)
-        {
-            return self.enqueue(e, Ok(target.cost));
-        }
-        match self.collapse(e, &target) {
-            Err(reason) => self.enqueue(e, Err(reason)),
-            Ok(v) => {
-                self.touched[v.index()] = pass;
-                for w in self.mesh.vertex_neighbors(v) {
-                    self.touched[w.index()] = pass;
-                }
-                // The collapse can make it possible to collapse edges that were blocked.
-                let around: Vec<EdgeId> = self
-                    .mesh
-                    .vertex_half_edges(v)
-                    .map(HalfEdgeId::edge)
-                    .collect();
-                for e in around {
-                    if self.states[e.index()] != State::Queued {
-                        self.enqueue(e, self.target(e).map(|target| target.cost));
-                    }
-                }
+    fn visit(&mut self, batch: &[Entry]) {
+        let costs: Vec<Cost> = batch
+            .par_iter()
+            .with_min_len(PER_THREAD)
+            .map(|&entry| self.cost(entry))
+            .collect();
+        let chosen = self.choose(batch, &costs);
+        let plans: Vec<Result<Plan, Blocked>> = chosen
+            .par_iter()
+            .with_min_len(PER_THREAD)
+            .map(|&e| self.plan(e))
+            .collect();
+        for (e, plan) in chosen.into_iter().zip(plans) {
+            if self.n_faces <= self.options.faces {
+                break;
+            }
+            if let Err(reason) = plan.and_then(|plan| self.collapse(e, plan)) {
+                self.enqueue(e, Err(reason));
             }
         }
     }
 
-    fn enqueue(&mut self, e: EdgeId, cost: Result<f64, Blocked>) {
-        self.states[e.index()] = match cost {
+    fn cost(&self, Entry { edge, computed }: Entry) -> Cost {
+        if !self.mesh.has_edge(edge) {
+            return Cost::Gone;
+        }
+        let ends = self.mesh.edge_vertices(edge);
+        let marks = ends.map(|v| self.marks[v.index()]);
+        if marks.iter().any(|mark| mark.touched == self.queue.pass()) {
+            return Cost::Touched;
+        }
+        // The cost of an edge of a line also depends on the neighbors on the line.
+        let is_line = self.lines[edge.index()];
+        if !is_line && marks.iter().all(|mark| mark.changed < computed) {
+            return Cost::Unchanged;
+        }
+        Cost::New(self.target(edge).map(|target| target.cost))
+    }
+
+    /// Returns the edges of a batch that are to be collapsed now, and puts the others back into the queue.
+    fn choose(&mut self, batch: &[Entry], costs: &[Cost]) -> Vec<EdgeId> {
+        let pass = self.queue.pass();
+        let mut chosen = Vec::new();
+        for (&entry, &cost) in batch.iter().zip(costs) {
+            let e = entry.edge;
+            match cost {
+                Cost::Gone => continue,
+                Cost::Touched => {
+                    self.queue.push_again(entry);
+                    continue;
+                }
+                Cost::New(cost) if cost.is_err() || cost.is_ok_and(|c| self.queue.is_later(c)) => {
+                    self.enqueue(e, cost);
+                    continue;
+                }
+                Cost::New(_) | Cost::Unchanged => {}
+            }
+            let ends = self.mesh.edge_vertices(e);
+            // The cost of an edge grows when its neighbors collapse. Edges near a collapse wait for the next pass, so
+            // that the collapses of a pass are spread over the surface.
+            if ends.iter().any(|v| self.marks[v.index()].touched == pass) {
+                let computed = match cost {
+                    Cost::New(_) => pass,
+                    _ => entry.computed,
+                };
+                self.queue.push_again(Entry { edge: e, computed });
+                continue;
+            }
+            for v in ends {
+                for w in self.mesh.vertex_neighbors(v) {
+                    self.marks[w.index()].touched = pass;
+                }
+            }
+            chosen.push(e);
+        }
+        chosen
+    }
+
+    fn enqueue(&mut self, edge: EdgeId, cost: Result<f64, Blocked>) {
+        self.states[edge.index()] = match cost {
             Ok(cost) => {
-                self.queue.push(e, cost);
+                let computed = self.queue.pass();
+                self.queue.push(Entry { edge, computed }, cost);
                 State::Queued
             }
             Err(reason) => State::Blocked(reason),
         };
     }
 
-    fn collapse(&mut self, e: EdgeId, target: &Target) -> Result<VertexId, Blocked> {
+    /// Checks whether an edge may be collapsed, except for the topology and for intersections.
+    fn plan(&self, e: EdgeId) -> Result<Plan, Blocked> {
+        let target = self.target(e)?;
+        self.check(e, &target)?;
+        Ok(Plan {
+            errors: self.errors_after(e, &target)?,
+            values: self.values_after(e, &target)?,
+            target,
+        })
+    }
+
+    fn collapse(&mut self, e: EdgeId, plan: Plan) -> Result<(), Blocked> {
         let [a, b] = self.mesh.edge_vertices(e);
-        if self.labels_differ(a, b) {
-            return Err(Blocked::Labels);
-        }
-        if self.turns(a, b, target.point) || self.turns(b, a, target.point) {
-            return Err(Blocked::Turned);
-        }
-        let mut merged = [None; 2];
-        let mut n_removed = 0;
-        for (h, merged) in e.half_edges().into_iter().zip(&mut merged) {
-            if self.mesh.face(h).is_some() {
-                let next = self.mesh.next(h);
-                let edges = [next, self.mesh.next(next)].map(HalfEdgeId::edge);
-                let lines = edges.map(|e| self.lines[e.index()]);
-                if lines == [true; 2] {
-                    return Err(Blocked::Lines);
-                }
-                *merged = Some((edges, lines.contains(&true)));
-                n_removed += 1;
-            }
-        }
-        let errors = self.errors_after(e, target)?;
-        let point = match target.end {
+        let point = match plan.target.end {
             Some(v) => self.mesh.position(v),
-            None => target.point / self.scale + self.center,
+            None => plan.target.point / self.scale + self.center,
         };
         let mut around: Vec<FaceId> = Vec::new();
         if let Some(contacts) = &self.contacts {
@@ -245,154 +288,76 @@ impl<'a> Collapser<'a> {
             }
             around.extend([a, b].into_iter().flat_map(|v| self.mesh.vertex_faces(v)));
         }
-        let values = self.values_after(e, target)?;
+        let sides = e.half_edges().map(|h| {
+            let next = self.mesh.next(h);
+            let edges = [next, self.mesh.next(next)].map(HalfEdgeId::edge);
+            let is_line = edges.iter().any(|e| self.lines[e.index()]);
+            self.mesh.face(h).map(|_| (edges, is_line))
+        });
         let v = self.mesh.collapse_edge_to(e, point);
         let v = v.map_err(|_| Blocked::Topology)?;
-        if let (Some(appearance), Some((around, merged))) = (&mut self.appearance, values) {
+        if let (Some(appearance), Some((around, merged))) = (&mut self.appearance, plan.values) {
             appearance.merge(&self.mesh, [a, b], v, &around, merged);
         }
-        self.n_faces -= n_removed;
         if let Some(contacts) = &mut self.contacts {
             for f in around {
                 contacts.update(&self.mesh, f);
             }
         }
-        for (f, error) in errors {
+        for (f, error) in plan.errors {
             self.errors[f.index()] = error;
         }
-        for (edges, is_line) in merged.into_iter().flatten() {
+        for (edges, is_line) in sides.into_iter().flatten() {
+            self.n_faces -= 1;
             for e in edges {
                 self.lines[e.index()] = is_line;
             }
         }
-        let [i, j] = [a, b].map(VertexId::index);
-        self.quadrics[v.index()] = self.quadrics[i] + self.quadrics[j];
-        self.spreads[v.index()] = self.spreads[i] + self.spreads[j];
-        self.kinds[v.index()] = match [self.kinds[i], self.kinds[j]] {
-            kinds if kinds.contains(&Kind::Fixed) => Kind::Fixed,
-            kinds if kinds.contains(&Kind::Line) => Kind::Line,
-            _ => Kind::Inside,
+        let [from, to] = [&self.nodes[a.index()], &self.nodes[b.index()]];
+        self.nodes[v.index()] = Node {
+            point: (self.mesh.position(v) - self.center) * self.scale,
+            quadric: from.quadric + to.quadric,
+            spread: from.spread + to.spread,
+            kind: match [from.kind, to.kind] {
+                kinds if kinds.contains(&Kind::Fixed) => Kind::Fixed,
+                kinds if kinds.contains(&Kind::Line) => Kind::Line,
+                _ => Kind::Inside,
+            },
         };
-        Ok(v)
-    }
-
-    fn target(&self, e: EdgeId) -> Result<Target, Blocked> {
-        let ends = self.mesh.edge_vertices(e);
-        let [a, b] = ends.map(VertexId::index);
-        let end = match [self.kinds[a], self.kinds[b]] {
-            [Kind::Inside, Kind::Inside] => None,
-            [Kind::Inside, _] => Some(1),
-            [_, Kind::Inside] => Some(0),
-            _ if !self.lines[e.index()] => return Err(Blocked::Lines),
-            [Kind::Line, Kind::Line] => None,
-            [Kind::Line, Kind::Fixed] => Some(1),
-            [Kind::Fixed, Kind::Line] => Some(0),
-            [Kind::Fixed, Kind::Fixed] => return Err(Blocked::Lines),
-        };
-        let planes = self.quadrics[a] + self.quadrics[b];
-        let spread = self.spreads[a] + self.spreads[b];
-        let mut sum = planes + spread.quadric(FIRMNESS);
-        let is_line = self.lines[e.index()];
-        let pairs = self.appearance.as_ref().map(|appearance| {
-            let pairs = appearance.pairs(&self.mesh, e, is_line);
-            (appearance, pairs.into_iter().flatten())
-        });
-        if let (Some((appearance, pairs)), None, false) = (&pairs, end, is_line) {
-            sum = pairs
-                .clone()
-                .fold(sum, |sum, pair| sum + appearance.quadric(pair));
-        }
-        let points = ends.map(|v| self.position(v));
-        // The bound on the distance needs a boundary vertex that is not moved.
-        let end = end.or_else(|| {
-            let is_bounded = self.options.error.is_some() && self.mesh.is_boundary_edge(e);
-            is_bounded.then(|| usize::from(sum.at(points[1]) < sum.at(points[0])))
-        });
-        let point = end.map_or_else(|| lowest_near(&sum, points), |i| points[i]);
-        let per_area = if spread.area > 0.0 {
-            1.0 / spread.area
-        } else {
-            1.0
-        };
-        let deviation = per_area * planes.at(point);
-        let t = match end {
-            Some(i) => Some([0.0, 1.0][i]),
-            None => is_line.then(|| along(points, point)),
-        };
-        let error = pairs.map_or(0.0, |(appearance, pairs)| {
-            let error = |pair| match t {
-                Some(t) => appearance.error(pair, point, t),
-                None => appearance.least_error(pair, point),
-            };
-            pairs.map(error).sum()
-        });
-        let cost = deviation + per_area * (error + ROUNDNESS * spread.at(point));
-        Ok(Target {
-            point,
-            t,
-            end: end.map(|i| ends[i]),
-            cost,
-        })
-    }
-
-    /// Returns the faces around an edge, and the wedges that its collapse merges with their new values.
-    fn values_after(&self, e: EdgeId, target: &Target) -> Result<Option<Values>, Blocked> {
-        let Some(appearance) = &self.appearance else {
-            return Ok(None);
-        };
-        let ends = self.mesh.edge_vertices(e);
-        let around = appearance.around(&self.mesh, ends);
-        let pairs = appearance.pairs(&self.mesh, e, self.lines[e.index()]);
-        let merged = pairs.into_iter().flatten().map(|pair| {
-            let values = match target.t {
-                Some(t) => appearance.mixed(pair, t),
-                None => appearance.best(pair, &around, target.point),
-            };
-            (pair, values)
-        });
-        let merged: Vec<(Pair, Vec<f64>)> = merged.collect();
-        if appearance.turns(&around, &merged) {
-            return Err(Blocked::Turned);
-        }
-        Ok(Some((around, merged)))
-    }
-
-    pub(super) fn position(&self, v: VertexId) -> DVec3 {
-        (self.mesh.position(v) - self.center) * self.scale
-    }
-
-    /// Whether two vertices have different tags, whole numbers or sharpness.
-    fn labels_differ(&self, a: VertexId, b: VertexId) -> bool {
-        let differ = |column: &Column| !column.values.are_equal(a.index(), b.index());
-        let sharpness = self.mesh.get(VERTEX_SHARPNESS);
-        labels(&self.mesh, Domain::Vertex).any(differ)
-            || sharpness.is_some_and(|sharpness| sharpness[a.index()] != sharpness[b.index()])
-    }
-
-    /// Whether a triangle at `v`, but not at `other`, would turn over or become degenerate if `v` moved to `point`.
-    fn turns(&self, v: VertexId, other: VertexId, point: DVec3) -> bool {
-        let old = self.position(v);
-        self.mesh.vertex_half_edges(v).any(|h| {
-            let next = self.mesh.next(h);
-            let ends = [self.mesh.origin(next), self.mesh.target(next)];
-            if self.mesh.face(h).is_none() || ends.contains(&other) {
-                return false;
+        self.marks[v.index()].changed = self.queue.pass();
+        // The collapse can make it possible to collapse edges that were blocked.
+        for e in self.mesh.vertex_half_edges(v).map(HalfEdgeId::edge) {
+            let state = &mut self.states[e.index()];
+            if *state != State::Queued {
+                *state = State::Queued;
+                self.queue.push_again(Entry {
+                    edge: e,
+                    computed: 0,
+                });
             }
-            let [x, y] = ends.map(|w| self.position(w));
-            let before = (x - old).cross(y - old);
-            let after = (x - point).cross(y - point);
-            let is_kept = after.dot(before)
-                > TURN * (after.length_squared() * before.length_squared()).sqrt();
-            !is_kept && before != DVec3::ZERO
-        })
+        }
+        Ok(())
     }
+}
 
-    /// Returns the quadric and the area of a vertex. Each triangle contributes a third to each of its vertices.
-    fn measures_at(&self, v: VertexId) -> (Quadric, Spread) {
+/// Returns the properties of all vertices. `place` returns the scaled position of a vertex.
+fn nodes(
+    mesh: &Mesh,
+    lines: &[bool],
+    pinned: &[VertexId],
+    place: impl Fn(VertexId) -> DVec3 + Sync,
+) -> Vec<Node> {
+    let triangle = |h: HalfEdgeId| {
+        let next = mesh.next(h);
+        [h, next, mesh.next(next)].map(|h| place(mesh.origin(h)))
+    };
+    let node = |(v, kind): (usize, Kind)| {
+        let v = VertexId::new(v);
         let (mut quadric, mut spread) = (Quadric::default(), Spread::default());
-        for h in self.mesh.vertex_half_edges(v) {
-            if self.mesh.face(h).is_some() {
-                let [a, b, c] = self.triangle(h);
+        for h in mesh.vertex_half_edges(v) {
+            // Each triangle contributes a third of its area to each of its vertices.
+            if mesh.face(h).is_some() {
+                let [a, b, c] = triangle(h);
                 let cross = (b - a).cross(c - a);
                 let length = cross.length();
                 if length > 0.0 {
@@ -401,52 +366,31 @@ impl<'a> Collapser<'a> {
                     spread = spread + Spread::at_point((a + b + c) / 3.0, area);
                 }
             }
-            if self.lines[h.edge().index()] {
-                quadric = quadric + self.line_quadric(h.edge());
-            }
-        }
-        (quadric, spread)
-    }
-
-    /// Returns the sum of the squared distances to the planes that contain the edge and are perpendicular to
-    /// one of its faces. This quadric keeps vertices near the line.
-    fn line_quadric(&self, e: EdgeId) -> Quadric {
-        let mut sum = Quadric::default();
-        for h in e.half_edges() {
-            if self.mesh.face(h).is_some() {
-                let [a, b, c] = self.triangle(h);
-                let along = b - a;
-                if let Some(across) = along.cross(c - a).cross(along).try_normalize() {
-                    sum = sum + Quadric::plane(across, a, along.length_squared());
+            if lines[h.edge().index()] {
+                for h in h.edge().half_edges() {
+                    if mesh.face(h).is_some() {
+                        quadric = quadric + across_line(triangle(h));
+                    }
                 }
             }
         }
-        sum
-    }
-
-    pub(super) fn triangle(&self, h: HalfEdgeId) -> [DVec3; 3] {
-        let next = self.mesh.next(h);
-        [h, next, self.mesh.next(next)].map(|h| self.position(self.mesh.origin(h)))
-    }
+        Node {
+            point: place(v),
+            quadric,
+            spread,
+            kind,
+        }
+    };
+    let kinds = kinds(mesh, lines, pinned);
+    kinds.into_par_iter().enumerate().map(node).collect()
 }
 
-/// Returns the place on an edge that is nearest to `point`, from 0 to 1.
-fn along([a, b]: [DVec3; 2], point: DVec3) -> f64 {
-    let t = (point - a).dot(b - a) / (b - a).length_squared();
-    if t.is_nan() { 0.5 } else { t.clamp(0.0, 1.0) }
-}
-
-/// Returns the point where `quadric` is lowest. If there is no single lowest point, or if it is far from the
-/// edge between `ends`, returns the lowest of three points: the two ends and their middle.
-fn lowest_near(quadric: &Quadric, ends: [DVec3; 2]) -> DVec3 {
-    let [a, b] = ends;
-    let middle = 0.5 * (a + b);
-    let is_near = |p: &DVec3| p.distance_squared(middle) <= 4.0 * a.distance_squared(b);
-    quadric.lowest().filter(is_near).unwrap_or_else(|| {
-        let value = |p: &DVec3| quadric.at(*p);
-        [a, b].into_iter().fold(
-            middle,
-            |best, p| if value(&p) < value(&best) { p } else { best },
-        )
+/// Returns the squared distance to the plane that contains the side from `a` to `b` of a triangle and is perpendicular to
+/// the triangle. This quadric keeps vertices near a line.
+fn across_line([a, b, c]: [DVec3; 3]) -> Quadric {
+    let along = b - a;
+    let across = along.cross(c - a).cross(along).try_normalize();
+    across.map_or_else(Quadric::default, |across| {
+        Quadric::plane(across, a, along.length_squared())
     })
 }

@@ -1,10 +1,11 @@
 //! Simplification: fewer triangles for nearly the same surface.
 //!
-//! Edges are collapsed, the cheapest first. The cost of a collapse is the mean squared distance from the new
-//! vertex to the planes of all original triangles that this vertex represents, after Garland, Heckbert,
-//! "Surface Simplification Using Quadric Error Metrics", 1997. Because the cost is a mean over the area, small
-//! details count as much as large ones. On a model of a rocker arm with 20,088 triangles reduced to a tenth,
-//! the largest distance fell from 0.5 % of the diagonal to 0.3 % when the mean replaced the sum. A small weight
+//! Edges are collapsed, the cheapest first. The cost of a collapse is the squared distance from the new vertex to the
+//! planes of all original triangles that this vertex represents, after Garland, Heckbert, "Surface Simplification Using
+//! Quadric Error Metrics", 1997. The distance is integrated over the area of these triangles, and divided by the square
+//! root of the area. Small details therefore count more than in the integral, and less than in the mean. On a model of a
+//! rocker arm with 20,088 triangles reduced to a tenth, the largest distance is 0.5 % of the diagonal with the integral,
+//! and 0.3 % with the mean and with this cost; the mean distance is 5 % smaller than with the mean. A small weight
 //! on the distance to the area itself keeps triangles round, similar to Trettner, Kobbelt, "Fast and Robust QEM
 //! Simplification of Large Meshes Using Probabilistic Quadrics", 2020.
 //!
@@ -26,6 +27,7 @@ mod collapse;
 mod contact;
 mod quadric;
 mod queue;
+mod target;
 
 use mesh::{EdgeId, FaceId, Mesh, VertexId};
 use progress::{Cancelled, Progress};
@@ -156,8 +158,11 @@ pub fn simplify(
     if let Some(f) = mesh.faces().find(|&f| !mesh.is_triangle(f)) {
         return Err(SimplifyError::NotTriangle(f));
     }
-    let mut collapser = Collapser::new(mesh.clone(), options);
-    collapser.run(progress)?;
+    // In a thread of the pool, each parallel loop starts without waiting for another thread.
+    let collapser = rayon::scope(|_| {
+        let mut collapser = Collapser::new(mesh.clone(), options);
+        collapser.run(progress).map(|()| collapser)
+    })?;
     let mut blocked = Vec::new();
     if collapser.mesh.n_faces() > options.faces {
         blocked = collapser.blocked();

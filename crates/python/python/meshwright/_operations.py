@@ -1959,11 +1959,11 @@ class SceneOperations:
     ) -> Self:
         """Removes triangles from meshes, and changes the surface as little as possible.
 
-        Edges are collapsed, starting with the edges whose collapse changes the surface least. The change is the mean
-        squared distance of the new vertex to the planes of the original triangles that it replaces (Garland, Heckbert,
-        1997). The step ends when ``faces`` or ``ratio`` is reached, or when every remaining collapse is refused or
-        could exceed ``error``. At least one of ``faces``, ``ratio`` and ``error`` must be given, but not both ``faces``
-        and ``ratio``. All faces must be triangles.
+        Edges are collapsed, starting with the edges whose collapse changes the surface least. The change is measured by
+        the squared distance of the new vertex to the planes of the original triangles that it replaces (Garland,
+        Heckbert, 1997). The step ends when ``faces`` or ``ratio`` is reached, or when every remaining collapse is
+        refused or could exceed ``error``. At least one of ``faces``, ``ratio`` and ``error`` must be given, but not
+        both ``faces`` and ``ratio``. All faces must be triangles.
 
         The following properties are kept:
 
@@ -4221,11 +4221,11 @@ class MeshOperations:
     ) -> Self:
         """Removes triangles from meshes, and changes the surface as little as possible.
 
-        Edges are collapsed, starting with the edges whose collapse changes the surface least. The change is the mean
-        squared distance of the new vertex to the planes of the original triangles that it replaces (Garland, Heckbert,
-        1997). The step ends when ``faces`` or ``ratio`` is reached, or when every remaining collapse is refused or
-        could exceed ``error``. At least one of ``faces``, ``ratio`` and ``error`` must be given, but not both ``faces``
-        and ``ratio``. All faces must be triangles.
+        Edges are collapsed, starting with the edges whose collapse changes the surface least. The change is measured by
+        the squared distance of the new vertex to the planes of the original triangles that it replaces (Garland,
+        Heckbert, 1997). The step ends when ``faces`` or ``ratio`` is reached, or when every remaining collapse is
+        refused or could exceed ``error``. At least one of ``faces``, ``ratio`` and ``error`` must be given, but not
+        both ``faces`` and ``ratio``. All faces must be triangles.
 
         The following properties are kept:
 

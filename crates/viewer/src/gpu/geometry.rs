@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use render::{Channel, Drawing, Part, to_srgb};
 
 /// The largest number of triangles that are drawn by one command.
-const CHUNK: usize = 1 << 20;
+pub(super) const CHUNK: usize = 1 << 20;
 
 /// The largest number of points with shared buffers. With this number, no buffer exceeds 128 MiB, which every graphics
 /// card supports.
@@ -15,7 +15,7 @@ const MAX_POINTS: usize = (128 << 20) / size_of::<[f32; 3]>();
 
 /// The bit of a corner in [`Chunk::triangles`] that says that the side from this corner to the next is an edge of the
 /// mesh.
-const EDGE: u32 = 1 << 31;
+pub(super) const EDGE: u32 = 1 << 31;
 
 /// Stands for "no normal".
 const NO_NORMAL: u32 = 0x8000_8000;

@@ -13,6 +13,7 @@ mod grid;
 mod look;
 mod objects;
 mod painter;
+mod patch;
 mod pipelines;
 mod target;
 

@@ -5,11 +5,14 @@ use std::sync::Arc;
 use bytemuck::{Pod, Zeroable};
 use eframe::wgpu;
 use glam::DVec3;
-use render::{Color, Coloring, Lines, Overlays, PALETTE, PictureError, Shading, Style};
+use render::{
+    Channel, Color, Coloring, Lines, Overlays, PALETTE, Part, PictureError, Shading, Style,
+};
 use scene::{Geometry, Material, Object, Scene};
 use wgpu::util::DeviceExt;
 
 use super::geometry::{self, LineInstance, SurfaceLook};
+use super::patch::Simple;
 use super::pipelines::Pipelines;
 use super::{Look, Wireframe};
 
@@ -26,12 +29,26 @@ pub(super) struct PatchVertex {
 /// Everything that the buffers of an object depend on.
 #[derive(Clone, Debug)]
 pub(super) struct Key {
-    geometry: Geometry,
+    pub(super) geometry: Geometry,
     materials: Vec<Material>,
     color: Color,
-    style: Style,
+    pub(super) style: Style,
     seams: bool,
     coloring: Option<Coloring>,
+}
+
+impl Key {
+    /// Whether the buffers of both objects depend on their geometry in the same way, and on nothing else.
+    pub(super) fn looks_like(&self, other: &Self) -> bool {
+        self.color == other.color
+            && self.style == other.style
+            && !self.seams
+            && !other.seams
+            && self.materials.is_empty()
+            && other.materials.is_empty()
+            && self.coloring.is_none()
+            && other.coloring.is_none()
+    }
 }
 
 impl PartialEq for Key {
@@ -130,6 +147,8 @@ pub(super) struct Uploaded {
     /// The lowest and the highest coordinates, in scene units.
     pub(super) bounds: Option<[DVec3; 2]>,
     pub(super) chunks: Vec<ChunkBuffers>,
+    /// The buffers that a local change of the mesh changes. `None` if the whole object is converted after every change.
+    pub(super) simple: Option<Simple>,
     /// Lines and their number.
     pub(super) lines: Option<(wgpu::Buffer, u32)>,
     /// Whether lines are visible where a surface hides them.
@@ -212,15 +231,21 @@ pub(super) fn upload(
         }
     }
     let mut chunks = Vec::new();
+    let mut simple = None;
     for part in &drawing.parts {
-        for surface in geometry::surfaces(part, mesh, center) {
-            chunks.extend(buffers(device, pipelines, &surface));
+        let surfaces = geometry::surfaces(part, mesh, center);
+        let is_one = drawing.parts.len() == 1 && surfaces.len() == 1 && lines.is_empty();
+        for surface in surfaces {
+            let (new, buffers) = buffers(device, pipelines, &surface);
+            chunks.extend(new);
+            simple = (is_one && is_simple(part)).then_some(buffers);
         }
     }
     let uploaded = Uploaded {
         key: Some(key),
         bounds,
         chunks,
+        simple,
         ..Uploaded::of_lines(device, center, &lines, &[])
     };
     Ok((uploaded, missing))
@@ -241,12 +266,22 @@ fn alone(object: &Object, color: Color) -> Scene {
     scene
 }
 
+/// Whether all faces of a part are triangles with one material, without colors, and with at most one normal for each point.
+fn is_simple(part: &Part) -> bool {
+    let is_smooth = matches!(part.normals, Channel::Point(_));
+    let is_flat = matches!(part.normals, Channel::All([0.0, 0.0, 0.0]));
+    part.faces.is_empty()
+        && part.material_of_face.is_empty()
+        && matches!(part.colors, Channel::All(_))
+        && (is_smooth || is_flat)
+}
+
 /// Uploads the chunks of a surface.
 fn buffers(
     device: &wgpu::Device,
     pipelines: &Pipelines,
     surface: &geometry::Surface,
-) -> Vec<ChunkBuffers> {
+) -> (Vec<ChunkBuffers>, Simple) {
     let storage = |label, contents: &[u8]| {
         // A binding must not be empty.
         let contents = if contents.is_empty() {
@@ -257,8 +292,13 @@ fn buffers(
         device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some(label),
             contents,
-            usage: wgpu::BufferUsages::STORAGE,
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
         })
+    };
+    let mut simple = Simple {
+        triangles: Vec::new(),
+        normals: None,
+        has_back: surface.chunks.iter().any(|c| c.look.back[3] == 1.0),
     };
     let points = storage("points", bytemuck::cast_slice(&surface.points));
     let normals = storage("normals", bytemuck::cast_slice(&surface.normals));
@@ -270,10 +310,14 @@ fn buffers(
             storage(label, bytemuck::cast_slice(values))
         }
     };
+    simple.normals = (!surface.normals.is_empty()).then(|| normals.clone());
+    let mut all_triangles = Vec::new();
     let chunk = |chunk: &geometry::Chunk| {
+        let triangles = storage("triangles", bytemuck::cast_slice(&chunk.triangles));
+        all_triangles.push(triangles.clone());
         let all = [
             points.clone(),
-            storage("triangles", bytemuck::cast_slice(&chunk.triangles)),
+            triangles,
             own("normals", &chunk.normals, &normals),
             own("colors", &chunk.colors, &colors),
         ];
@@ -294,5 +338,7 @@ fn buffers(
             look: chunk.look,
         }
     };
-    surface.chunks.iter().map(chunk).collect()
+    let chunks = surface.chunks.iter().map(chunk).collect();
+    simple.triangles = all_triangles;
+    (chunks, simple)
 }

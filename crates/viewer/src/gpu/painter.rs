@@ -11,6 +11,7 @@ use super::geometry::{LineInstance, SurfaceLook, narrow};
 use super::grid::grid;
 use super::look::title;
 use super::objects::{self, Key, Uploaded};
+use super::patch::patch;
 use super::pipelines::Pipelines;
 use super::target::Target;
 use super::{Look, Overlay, OverlayLine, Wireframe};
@@ -168,6 +169,12 @@ impl Painter {
             let key = Key::new(object, i, look, coloring);
             if let Some(at) = old.iter().position(|o| o.key.as_ref() == Some(&key)) {
                 self.objects.push(old.swap_remove(at));
+                continue;
+            }
+            if let Some(at) = old.iter().position(|o| patch(&self.queue, o, &key)) {
+                let mut patched = old.swap_remove(at);
+                patched.key = Some(key);
+                self.objects.push(patched);
                 continue;
             }
             self.n_uploads += 1;

@@ -291,3 +291,40 @@ fn views_from_opposite_sides_and_both_upward_axes_differ() {
         }
     }
 }
+
+#[test]
+fn flips_upload_only_what_changed_and_the_picture_is_that_of_the_new_mesh() {
+    let Some(state) = device() else { return };
+    let mut mesh = shapes::torus(60, 40, 1.0, 0.4);
+    let faces: Vec<_> = mesh.faces().collect();
+    for f in faces {
+        mesh.poke_face(f).unwrap();
+    }
+    for shading in [Shading::Smooth, Shading::Flat] {
+        let look = Look {
+            shading,
+            ..Look::default()
+        };
+        let mut stage = Stage::new(&state, &scene(mesh.clone()), &look);
+        stage.draw(&look, &Overlay::default());
+        let mut flipped = mesh.clone();
+        for (i, e) in (0..4800).step_by(37).enumerate() {
+            flipped.flip_edge(mesh::EdgeId::new(e)).unwrap();
+            if i % 20 == 0 {
+                let new = scene(flipped.clone());
+                stage.painter.set_scene(&new, &look);
+                let found = stage.draw(&look, &Overlay::default());
+                let expected = picture(&state, &new, &look);
+                assert_eq!(n_different(&found, &expected), 0, "{shading:?} {i}");
+            }
+        }
+        assert_eq!(stage.painter.n_uploads(), 1, "{shading:?}");
+        // A change of the number of elements converts the object.
+        flipped.split_edge(mesh::EdgeId::new(7), 0.5).unwrap();
+        let new = scene(flipped);
+        stage.painter.set_scene(&new, &look);
+        assert_eq!(stage.painter.n_uploads(), 2);
+        let found = stage.draw(&look, &Overlay::default());
+        assert_eq!(n_different(&found, &picture(&state, &new, &look)), 0);
+    }
+}

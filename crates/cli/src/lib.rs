@@ -9,7 +9,7 @@
 //! }
 //! ```
 //!
-//! Exit codes: 0 success, 1 failure, 2 wrong usage, 130 interrupted by Ctrl-C. `diff` also exits with 2 after an error.
+//! Exit codes: 0 success, 1 failure, 2 wrong usage, 130 interrupted by Ctrl-C (0 for `watch`). `diff` also exits with 2 after an error.
 
 mod args;
 mod cache;

@@ -64,9 +64,10 @@ impl Default for Camera {
 
 impl Camera {
     /// Returns the camera rotated about the upward axis through the point that the camera looks at. A positive angle
-    /// moves the camera to the right. [`Self::Fit`] also becomes [steady](Self::Fit::steady).
+    /// moves the camera to the right. [`Self::Fit`] also becomes [steady](Self::Fit::steady). `points` are the points of
+    /// the scene, which determine the upward axis if it is [`Up::Auto`].
     #[must_use]
-    pub fn turned(mut self, degrees: f64) -> Self {
+    pub fn turned(mut self, degrees: f64, points: &impl Fn(&mut dyn FnMut(DVec3))) -> Self {
         match &mut self {
             Self::Fit { from, steady, .. } => {
                 let [azimuth, elevation] = from.angles();
@@ -76,6 +77,7 @@ impl Camera {
             }
             Self::LookAt { from, to, up, .. } => {
                 let (sin, cos) = geometry::sin_cos_degrees(degrees);
+                *up = up.resolved(points);
                 let [right, upwards, front] = up.axes();
                 let d = DVec3::from(*from) - DVec3::from(*to);
                 let [x, y, z] = [right, upwards, front].map(|axis| d.dot(axis));
@@ -88,8 +90,8 @@ impl Camera {
 
     /// Returns the few points that determine the view in a picture of this size.
     ///
-    /// The [`View`] of several scenes can be computed from the extreme points of each scene. For [`Self::LookAt`],
-    /// returns no points.
+    /// The [`View`] of several scenes can be computed from the extreme points of each scene. The view of
+    /// [`Self::LookAt`] depends on points only if its upward axis is [`Up::Auto`].
     ///
     /// # Errors
     ///
@@ -118,7 +120,13 @@ impl Camera {
                 let extreme = fits.map(|fit| Ok(fit?.extreme_points(points)));
                 Ok(extreme.collect::<Result<Vec<_>, PictureError>>()?.concat())
             }
-            Self::LookAt { .. } => self.check().map(|()| Vec::new()),
+            Self::LookAt { up, .. } => {
+                self.check()?;
+                Ok(match up {
+                    Up::Auto => fit::outermost(&[], points),
+                    Up::Y | Up::Z => Vec::new(),
+                })
+            }
         }
     }
 

@@ -50,6 +50,20 @@ pub enum PictureError {
     Encode(String),
 }
 
+impl PictureError {
+    /// Refuses a picture that needs more memory than the budget. Both numbers are in bytes.
+    ///
+    /// # Errors
+    ///
+    /// [`PictureError::Budget`] if `needed` exceeds `budget`.
+    pub fn check_budget(needed: u64, budget: u64) -> Result<(), Self> {
+        if needed > budget {
+            return Err(Self::Budget { needed, budget });
+        }
+        Ok(())
+    }
+}
+
 impl From<png::EncodingError> for PictureError {
     fn from(error: png::EncodingError) -> Self {
         Self::Encode(error.to_string())

@@ -57,6 +57,27 @@ impl Image {
         }
     }
 
+    /// Returns the width and the height of a PNG or JPEG file in pixels, without decoding its pixels.
+    ///
+    /// # Errors
+    ///
+    /// [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`]; [`PictureError::Decode`] if the file is
+    /// not a PNG or JPEG file, or its header cannot be decoded.
+    pub fn size(bytes: &[u8]) -> Result<[u32; 2], PictureError> {
+        let [width, height] = if bytes.starts_with(b"\xff\xd8") {
+            jpeg_size(&jpeg_decoder(bytes)?)
+        } else {
+            let failed = |error: png::DecodingError| PictureError::Decode(error.to_string());
+            decoder(bytes)
+                .read_info()
+                .map_err(failed)?
+                .info()
+                .size()
+                .into()
+        };
+        checked_size(width, height).map(|_| [width, height])
+    }
+
     /// Decodes a PNG file. If the file is an animation, decodes its first image.
     ///
     /// # Errors
@@ -89,16 +110,8 @@ impl Image {
 
     fn from_jpeg(bytes: &[u8]) -> Result<Self, PictureError> {
         let failed = |error: DecodeErrors| PictureError::Decode(error.to_string());
-        let options = DecoderOptions::default()
-            .jpeg_set_out_colorspace(ColorSpace::RGB)
-            .set_strict_mode(false)
-            .set_max_width(usize::MAX)
-            .set_max_height(usize::MAX);
-        let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
-        decoder.decode_headers().map_err(failed)?;
-        // The JPEG format limits a side to 65535 pixels. An image without pixels is refused.
-        let info = decoder.info();
-        let [width, height] = info.map_or([0; 2], |i| [i.width, i.height].map(u32::from));
+        let mut decoder = jpeg_decoder(bytes)?;
+        let [width, height] = jpeg_size(&decoder);
         checked_size(width, height)?;
         let bytes = decoder.decode().map_err(failed)?;
         let pixels = bytes.as_chunks().0.iter();
@@ -198,6 +211,26 @@ pub(crate) fn decoder(bytes: &[u8]) -> png::Decoder<Cursor<&[u8]>> {
     let mut decoder = png::Decoder::new(Cursor::new(bytes));
     decoder.set_transformations(png::Transformations::ALPHA | png::Transformations::EXPAND);
     decoder
+}
+
+/// Creates the decoder of a JPEG file, and decodes the headers of the file.
+fn jpeg_decoder(bytes: &[u8]) -> Result<JpegDecoder<ZCursor<&[u8]>>, PictureError> {
+    let options = DecoderOptions::default()
+        .jpeg_set_out_colorspace(ColorSpace::RGB)
+        .set_strict_mode(false)
+        .set_max_width(usize::MAX)
+        .set_max_height(usize::MAX);
+    let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
+    let headers = decoder.decode_headers();
+    headers.map_err(|error| PictureError::Decode(error.to_string()))?;
+    Ok(decoder)
+}
+
+/// Returns the width and the height of a JPEG file whose headers have been decoded.
+fn jpeg_size(decoder: &JpegDecoder<ZCursor<&[u8]>>) -> [u32; 2] {
+    // The JPEG format limits a side to 65535 pixels. An image without pixels is refused.
+    let info = decoder.info();
+    info.map_or([0; 2], |i| [i.width, i.height].map(u32::from))
 }
 
 /// Converts the samples that a [`decoder`] returned to 8-bit RGBA pixels.

@@ -58,7 +58,9 @@ mod work;
 
 use progress::NoProgress;
 
-pub use build::{Coloring, Elements, Highlight, Overlays, PALETTE, Stroke, build, extent};
+pub use build::{
+    Coloring, Elements, Highlight, Overlays, PALETTE, Stroke, build, build_within, extent,
+};
 pub use camera::{Camera, Projection, ScreenPoint, Side, Up, View};
 pub use color::{Color, NAMES, ParseColorError, to_linear, to_srgb};
 pub use colormap::ColorMap;
@@ -66,7 +68,7 @@ pub use difference::{compare, difference};
 pub use drawing::{Channel, Drawing, Label, Line, NO_FACE, Part, Surface};
 pub use error::PictureError;
 pub use image::{Image, LARGEST_SIDE, checked_size};
-pub use raster::{Look, PlacedLabel, Rendered, bytes_needed, render};
+pub use raster::{Look, PlacedLabel, Rendered, bytes_needed, pixel_bytes, render};
 pub use style::{Background, Ids, Lines, Shading, Style};
 pub use texture::{Alpha, Texture};
 
@@ -77,8 +79,8 @@ pub use texture::{Alpha, Texture};
 ///
 /// # Errors
 ///
-/// [`PictureError::Budget`] if the budget is too small, which is checked after the scene is converted and before the
-/// pixels are allocated; and the errors of [`build()`], [`View::new`] and [`render`].
+/// [`PictureError::Budget`] if the budget is too small for the pixels, which is checked first, for the drawing and its
+/// textures (see [`build_within`]), or for rendering; and the errors of [`build()`], [`View::new`] and [`render`].
 pub fn picture(
     scene: &scene::Scene,
     camera: &Camera,
@@ -88,13 +90,11 @@ pub fn picture(
     budget: u64,
     images: &mut dyn FnMut(&str) -> Option<Vec<u8>>,
 ) -> Result<(Rendered, Vec<String>), PictureError> {
-    let (drawing, missing) = build(scene, style, overlays, images)?;
+    PictureError::check_budget(pixel_bytes(size), budget)?;
+    let (drawing, missing) = build_within(scene, style, overlays, budget, images)?;
     let look = style.look();
-    let needed = bytes_needed(&drawing, size, &look);
-    if needed > budget {
-        return Err(PictureError::Budget { needed, budget });
-    }
     let view = View::new(camera, &|each| drawing.each_point(each), size)?;
+    PictureError::check_budget(bytes_needed(&drawing, &view, size, &look), budget)?;
     let rendered = render(&drawing, &view, size, &look, &NoProgress)?;
     Ok((rendered, missing))
 }

@@ -69,6 +69,11 @@ struct Footprint {
 }
 
 impl Texture {
+    /// The maximum number of bytes for each pixel of the image: the pixel, and its share of the smaller levels.
+    pub(crate) const BYTES: u64 = 6;
+    /// The maximum number of bytes for each pixel of the image while it is decoded.
+    pub(crate) const DECODING_BYTES: u64 = 12;
+
     /// Creates a texture from the bytes of a PNG or JPEG file. If all pixels are opaque, the parameter `alpha` has no
     /// effect.
     ///

@@ -8,10 +8,10 @@ use mesh::DVec3;
 use peak_alloc::PeakAlloc;
 use progress::NoProgress;
 use render::{
-    Camera, Drawing, Line, NO_FACE, Overlays, PictureError, Shading, Style, View, build,
-    bytes_needed, picture, render,
+    Camera, Drawing, Image, Line, NO_FACE, Overlays, PictureError, Projection, Shading, Style, Up,
+    View, build, bytes_needed, picture, render,
 };
-use scene::{Object, Scene};
+use scene::{Material, Object, Scene, Texture};
 
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
@@ -62,20 +62,40 @@ fn rendering_takes_at_most_the_estimated_memory() {
             ] {
                 let (drawing, _) =
                     build(scene, style, &Overlays::default(), &mut |_| None).unwrap();
-                check(&format!("{name}, {threads} threads"), &drawing, style, size);
+                let name = format!("{name}, {threads} threads");
+                check(&name, &drawing, &Camera::default(), style, size);
             }
-            check("nothing", &Drawing::default(), &plain, [500, 500]);
-            check("lines", &long_lines(), &plain, [512, 512]);
+            let camera = Camera::default();
+            check("nothing", &Drawing::default(), &camera, &plain, [500, 500]);
+            check("lines", &long_lines(), &camera, &plain, [512, 512]);
+            // The surface surrounds the camera, so triangles behind the camera and near it are clipped.
+            let (drawing, _) = build(&dense, &plain, &Overlays::default(), &mut |_| None).unwrap();
+            for to in [[0.0, 0.0, 0.9], [3e4, 0.0, 0.0]] {
+                let camera = Camera::LookAt {
+                    from: [0.0, 0.0, 0.999],
+                    to,
+                    up: Up::Y,
+                    projection: Projection::default(),
+                };
+                check(
+                    &format!("inside, to {to:?}"),
+                    &drawing,
+                    &camera,
+                    &plain,
+                    [64, 48],
+                );
+            }
         });
     }
-    too_large_pictures_are_refused_before_anything_is_allocated(&one);
+    too_large_pictures_are_refused_before_anything_is_allocated(&dense);
+    too_large_textures_are_refused_before_they_are_decoded(&one);
 }
 
 /// Renders a drawing, and compares the peak memory with the estimate.
-fn check(name: &str, drawing: &Drawing, style: &Style, size: [u32; 2]) {
+fn check(name: &str, drawing: &Drawing, camera: &Camera, style: &Style, size: [u32; 2]) {
     let look = style.look();
-    let needed = bytes_needed(drawing, size, &look);
-    let view = View::new(&Camera::default(), &|each| drawing.each_point(each), size).unwrap();
+    let view = View::new(camera, &|each| drawing.each_point(each), size).unwrap();
+    let needed = bytes_needed(drawing, &view, size, &look);
     let (rendered, peak) = peak(|| render(drawing, &view, size, &look, &NoProgress));
     assert_eq!(
         rendered.unwrap().image.pixels.len(),
@@ -112,5 +132,41 @@ fn too_large_pictures_are_refused_before_anything_is_allocated(scene: &Scene) {
     let Err(PictureError::Budget { needed, .. }) = refused else {
         panic!("{refused:?}");
     };
-    assert!(needed > budget && peak < 1 << 20, "{needed}, {peak}");
+    assert!(needed > budget && peak < 1 << 16, "{needed}, {peak}");
+}
+
+fn too_large_textures_are_refused_before_they_are_decoded(scene: &Scene) {
+    let image = Image::filled(2000, 2000, [9; 4]).unwrap();
+    let png = image.to_png(&[]).unwrap();
+    let mut material = Material::new("wood");
+    material.base_color_texture = Some(Texture::file("wood.png"));
+    let mut textured = Scene::new();
+    let mesh = scene.object("cube").unwrap().as_mesh().unwrap();
+    let object = Object {
+        materials: vec![material],
+        ..Object::mesh("cube", mesh.as_ref().clone())
+    };
+    textured.insert(object).unwrap();
+    let (camera, style, none) = (Camera::default(), Style::default(), Overlays::default());
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    pool.unwrap().install(|| {
+        let mut images = |_: &str| Some(png.clone());
+        for (budget, is_enough) in [(40 << 20, false), (50 << 20, true)] {
+            let draw = || {
+                picture(
+                    &textured,
+                    &camera,
+                    &style,
+                    &none,
+                    [64; 2],
+                    budget,
+                    &mut images,
+                )
+            };
+            let (drawn, peak) = peak(draw);
+            assert_eq!(drawn.is_ok(), is_enough, "{drawn:?}");
+            let limit = if is_enough { budget } else { 1 << 20 };
+            assert!(peak < limit, "{peak} bytes");
+        }
+    });
 }

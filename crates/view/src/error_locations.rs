@@ -99,7 +99,7 @@ pub fn draw_error_locations(
             frames: 1,
             budget,
         };
-        let (subject, _) = Subject::new(scene, "", &style, overlays, None, &mut |_| None)?;
+        let (subject, _) = Subject::new(scene, "", &style, overlays, None, budget, &mut |_| None)?;
         let mut images = shot.draw(&[subject], None, progress)?;
         Ok::<_, PictureError>(images.remove(0))
     };

@@ -5,7 +5,8 @@ use progress::Progress;
 use render::figure::label::{Label, draw_labels};
 use render::figure::legend::{Corner, Legend, covered_pixels, draw_legend};
 use render::{
-    Camera, Drawing, Image, Overlays, PictureError, Style, View, build, bytes_needed, render,
+    Camera, Drawing, Image, Overlays, PictureError, Style, View, build_within, bytes_needed,
+    pixel_bytes, render,
 };
 use scene::Scene;
 
@@ -50,24 +51,25 @@ impl<'s> Subject<'s> {
     /// Prepares a scene with its overlays and numbers. Also returns a message for each texture that cannot be drawn.
     ///
     /// `caption` is written below the view unless it is empty. `images` returns the bytes of an image file for its path
-    /// in a material.
+    /// in a material. `budget` is the memory budget in bytes.
     ///
     /// # Errors
     ///
-    /// The errors of [`render::build()`].
+    /// The errors of [`render::build_within`].
     pub fn new(
         scene: &'s Scene,
         caption: &'s str,
         style: &Style,
         mut overlays: Overlays,
         numbers: Option<Numbers>,
+        budget: u64,
         images: &mut dyn FnMut(&str) -> Option<Vec<u8>>,
     ) -> Result<(Self, Vec<String>), PictureError> {
         let scale = numbers.map(|numbers| {
             overlays.colorings = numbers.colorings;
             numbers.scale
         });
-        let (drawing, missing) = build(scene, style, &overlays, images)?;
+        let (drawing, missing) = build_within(scene, style, &overlays, budget, images)?;
         let subject = Self {
             drawing,
             scale,
@@ -83,7 +85,7 @@ impl<'s> Subject<'s> {
 /// pictures have the same view and scale, and the same numbers have the same colors.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Extent {
-    /// The points that determine the view of each camera of the kind [`Camera::Fit`].
+    /// The points that determine the view of each camera.
     points: Vec<DVec3>,
     /// The mapping from numbers to colors, if numbers are shown as colors.
     scale: Option<ColorScale>,
@@ -115,6 +117,21 @@ impl Shot<'_> {
     pub fn n_pixels(&self) -> u64 {
         let [width, height] = self.size.map(u64::from);
         width * height * self.cameras.len() as u64 * u64::from(self.frames)
+    }
+
+    /// Checks the budget for the pixels of all images of this number of scenes, before the scenes are prepared.
+    ///
+    /// # Errors
+    ///
+    /// [`PictureError::Budget`] if the budget is too small.
+    pub fn check_budget(&self, n_scenes: usize) -> Result<(), PictureError> {
+        let needed = self.image_bytes(n_scenes);
+        PictureError::check_budget(needed.saturating_add(pixel_bytes(self.size)), self.budget)
+    }
+
+    /// Returns the size of all images of this number of scenes, in bytes.
+    fn image_bytes(&self, n_scenes: usize) -> u64 {
+        (4 * self.n_pixels()).saturating_mul(n_scenes as u64)
     }
 
     /// Returns the extent of a scene. With the joined extents of several scenes, the scenes can be drawn alike although
@@ -149,39 +166,45 @@ impl Shot<'_> {
         within: Option<&Extent>,
         progress: &dyn Progress,
     ) -> Result<Vec<Image>, PictureError> {
-        let look = self.style.look();
-        let render_bytes = |subject: &Subject| bytes_needed(&subject.drawing, self.size, &look);
-        let image_bytes = 4 * self.n_pixels() * subjects.len() as u64;
-        let max_render_bytes = subjects.iter().map(render_bytes).max().unwrap_or(0);
-        let needed = image_bytes.saturating_add(max_render_bytes);
-        if needed > self.budget {
-            let budget = self.budget;
-            return Err(PictureError::Budget { needed, budget });
-        }
-        let total = u64::from(self.frames) * (self.cameras.len() * subjects.len()) as u64;
-        let mut done = 0;
-        let mut all_views = Vec::new();
+        self.check_budget(subjects.len())?;
+        let points = |each: &mut dyn FnMut(DVec3)| match within {
+            Some(extent) => extent.points.iter().for_each(|&p| each(p)),
+            None => subjects.iter().for_each(|s| s.drawing.each_point(each)),
+        };
+        let mut frames = Vec::new();
         for frame in 0..self.frames {
             let turn = 360.0 * f64::from(frame) / f64::from(self.frames);
-            let mut views = Vec::new();
-            for camera in self.cameras {
+            let views = self.cameras.iter().map(|camera| {
                 let camera = if self.frames > 1 {
-                    camera.turned(turn)
+                    camera.turned(turn, &points)
                 } else {
                     *camera
                 };
-                let points = |each: &mut dyn FnMut(DVec3)| match within {
-                    Some(extent) => extent.points.iter().for_each(|&p| each(p)),
-                    None => subjects.iter().for_each(|s| s.drawing.each_point(each)),
-                };
-                let view = View::new(&camera, &points, self.size)?;
+                View::new(&camera, &points, self.size)
+            });
+            frames.push(views.collect::<Result<Vec<_>, _>>()?);
+        }
+        let look = self.style.look();
+        let render_bytes = |view: &View| {
+            let bytes = |s: &Subject| bytes_needed(&s.drawing, view, self.size, &look);
+            subjects.iter().map(bytes).max().unwrap_or(0)
+        };
+        let max_render_bytes = frames.iter().flatten().map(render_bytes).max().unwrap_or(0);
+        let needed = self.image_bytes(subjects.len());
+        PictureError::check_budget(needed.saturating_add(max_render_bytes), self.budget)?;
+        let total = u64::from(self.frames) * (self.cameras.len() * subjects.len()) as u64;
+        let mut done = 0;
+        let mut all_views = Vec::new();
+        for frame in &frames {
+            let mut views = Vec::new();
+            for view in frame {
                 for subject in subjects {
                     let progress = ViewProgress {
                         parent: progress,
                         done,
                         total,
                     };
-                    views.push((self.view(subject, &view, &progress)?, subject));
+                    views.push((self.view(subject, view, &progress)?, subject));
                     done += 1;
                 }
             }

@@ -58,6 +58,7 @@ pub struct FlipEdges {
 /// Which edges are flipped, and when to stop.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "FlipUntil")]
 pub enum Until {
     /// Flip each edge once.
     #[default]

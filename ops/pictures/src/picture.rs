@@ -213,6 +213,8 @@ impl Picture {
             color_by.range = color_by.range.or(extent.range());
             color_by.legend = false;
         }
+        let shot = self.shot(cx.budget);
+        shot.check_budget(scenes.len()).map_err(op_error)?;
         cx.advance("draw", 0, 1)?;
         let target_scenes: Vec<_> = (scenes.iter())
             .map(|(scene, caption)| (target_scene(scene, cx), *caption))
@@ -227,7 +229,6 @@ impl Picture {
             notes.extend(scene_notes);
         }
         notes.dedup();
-        let shot = self.shot(cx.budget);
         let images = shot.draw(&subjects, within, cx.progress());
         Ok((images.map_err(op_error)?, notes))
     }
@@ -311,7 +312,16 @@ impl Picture {
         let folder = self.images.as_deref();
         let read = |path: &str| read_image(cx.files(), folder, path);
         let mut images = |path: &str| if has_images { read(path) } else { None };
-        let subject = Subject::new(placed, caption, &self.style, overlays, numbers, &mut images);
+        let (style, budget) = (&self.style, cx.budget);
+        let subject = Subject::new(
+            placed,
+            caption,
+            style,
+            overlays,
+            numbers,
+            budget,
+            &mut images,
+        );
         let (subject, missing) = subject.map_err(op_error)?;
         let note = |reason| format!("a texture is not drawn: {reason}");
         notes.extend(missing.into_iter().map(note));

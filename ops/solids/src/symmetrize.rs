@@ -37,6 +37,7 @@ pub struct Symmetrize {
 /// A side of a plane.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "SymmetrizeSide")]
 pub enum Side {
     /// The side that the normal points to.
     #[default]

@@ -1,6 +1,5 @@
 //! Generates the reference of all operations as Markdown.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
 use op::Registry;
@@ -18,7 +17,7 @@ pub(crate) fn reference(registry: &Registry, pictures: Option<&Path>) -> String 
         let (name, anchor) = (entry.name, entry.name.to_lowercase());
         text += &format!("- [{name}](#{anchor}): {}\n", entry.summary);
     }
-    let mut used: BTreeMap<String, TypeDoc> = BTreeMap::new();
+    let mut used: Vec<TypeDoc> = Vec::new();
     for entry in registry.entries() {
         let schema = entry.schema();
         text += &format!("\n## {}\n\n", entry.name);
@@ -35,15 +34,16 @@ pub(crate) fn reference(registry: &Registry, pictures: Option<&Path>) -> String 
         } else {
             text += &fields_table(&fields);
         }
-        used.extend(types(&schema).into_iter().map(|t| (t.name.clone(), t)));
+        add_types(&mut used, types(&schema));
     }
+    used.sort_by(|a, b| a.name.cmp(&b.name));
     text += "\n# Steps that contain steps\n";
     for (name, schema) in step_kinds() {
         let (doc, table) = (description(&schema), fields_table(&fields(&schema)));
         text += &format!("\n## {name}\n\n{doc}.\n\n{table}");
     }
     text += "\n# Types of parameters\n";
-    for t in used.values() {
+    for t in &used {
         text += &format!("\n## {}\n\n{}\n\n", t.name, t.doc);
         if !t.fields.is_empty() {
             text += &fields_table(&t.fields);
@@ -54,6 +54,15 @@ pub(crate) fn reference(registry: &Registry, pictures: Option<&Path>) -> String 
     }
     text += "\n# Reasons for `refused:`\n\n";
     text + &variants_table(&recipe::refusals())
+}
+
+/// Adds the types that are not in the list. Different types can have one name.
+fn add_types(used: &mut Vec<TypeDoc>, types: Vec<TypeDoc>) {
+    for t in types {
+        if !used.contains(&t) {
+            used.push(t);
+        }
+    }
 }
 
 /// Returns the pictures of an operation, side by side, with a link to the recipe that draws them.
@@ -100,4 +109,30 @@ fn description(schema: &Json) -> &str {
 /// Formats a string as one cell of a table.
 fn cell(text: &str) -> String {
     text.replace('\n', " ").replace('|', "\\|")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_two_types_of_the_reference_have_one_name() {
+        let mut used = Vec::new();
+        for entry in ops_all::registry().entries() {
+            add_types(&mut used, types(&entry.schema()));
+        }
+        let mut names: Vec<&str> = used.iter().map(|t| t.name.as_str()).collect();
+        names.sort_unstable();
+        let twice = names.windows(2).filter(|pair| pair[0] == pair[1]);
+        let twice: Vec<&str> = twice.map(|pair| pair[0]).collect();
+        assert_eq!(twice, [""; 0]);
+        // A number after a name means that one operation uses two types of this name.
+        let numbered = names
+            .iter()
+            .find(|name| name.ends_with('2') || name.ends_with('3'));
+        assert_eq!(numbered, None);
+        for name in ["Side", "SymmetrizeSide", "Until", "FlipUntil"] {
+            assert!(names.contains(&name), "{name}");
+        }
+    }
 }

@@ -3,7 +3,8 @@
 //! The program watches the folders of these files, since many editors save by replacing the file. Other files in the
 //! watched folders are ignored, and so are the files that the run writes. The cache compares contents, so steps whose
 //! inputs did not change are not run again, and saving an unchanged file prints no results. If a file is saved during a
-//! run, the run is canceled and the next one starts.
+//! run, the run is canceled and the next one starts. Ctrl-C cancels the run, if one is running, and ends the program with
+//! exit code 0.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -81,6 +82,9 @@ pub(crate) fn run(args: &RunArgs, engine: &Engine) -> anyhow::Result<bool> {
                 texts = None;
                 print_error(&format!("error: {error:#}\n"));
             }
+        }
+        if is_interrupted() {
+            break;
         }
         if is_human {
             print(&format!(

@@ -128,3 +128,40 @@ fn only_files_that_the_recipe_reads_start_a_run() {
         watching.wait_for("watching");
     }
 }
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_ends_the_program_with_success() {
+    // Pressed between runs, and during a long run.
+    for (levels, text) in [(1, "watching one folder"), (11, "")] {
+        let folder = Folder::with_recipe(RECIPE).with("a.obj", TRIANGLE);
+        let levels = format!("levels={levels}");
+        let arguments = [
+            "recipe.ron",
+            "--no-expect",
+            "--set",
+            &levels,
+            "--out",
+            "out",
+        ];
+        let mut watching = Watching::start(&folder, &arguments);
+        if text.is_empty() {
+            // The temporary folder for outputs is created when the run starts.
+            while crate::folder::names(&folder.path("out")).is_empty() {
+                std::thread::sleep(Duration::from_millis(5));
+            }
+        } else {
+            watching.wait_for(text);
+        }
+        let id = watching.child.id().to_string();
+        let kill = Command::new("kill").args(["-INT", &id]).status();
+        assert!(kill.unwrap().success());
+        let status = watching.child.wait().unwrap();
+        assert_eq!(status.code(), Some(0), "{levels}");
+        let rest: Vec<String> = watching.lines.iter().collect();
+        assert_eq!(rest, [""; 0], "{levels}");
+        let out = crate::folder::names(&folder.path("out"));
+        let expected: &[&str] = if text.is_empty() { &[] } else { &["b.obj"] };
+        assert_eq!(out, expected);
+    }
+}

@@ -32,7 +32,7 @@ impl<'s> Builder<'s, '_> {
         let colorings = &self.overlays.colorings;
         let coloring = colorings.iter().find(|c| c.object == object.name);
         let normals = self.normals(mesh);
-        let (colors, materials, material_of_face) = self.colors(object, mesh, color, coloring);
+        let (colors, materials, material_of_face) = self.colors(object, mesh, color, coloring)?;
         let uvs = uvs(mesh, &materials);
         if uvs.is_empty() && materials.iter().any(|s| s.texture.is_some()) {
             let name = &object.name;
@@ -94,7 +94,7 @@ impl<'s> Builder<'s, '_> {
         mesh: &Mesh,
         color: Color,
         coloring: Option<&Coloring>,
-    ) -> (Channel<'s>, Vec<Surface>, Vec<u32>) {
+    ) -> Result<(Channel<'s>, Vec<Surface>, Vec<u32>), PictureError> {
         let plain = vec![Surface::default()];
         let default = rgb(color.linear());
         if let Some(c) = coloring {
@@ -105,10 +105,10 @@ impl<'s> Builder<'s, '_> {
                 Domain::Face => Channel::Face(mapped.into()),
                 Domain::Edge => Channel::All([0.75; 3]),
             };
-            return (channel, plain, Vec::new());
+            return Ok((channel, plain, Vec::new()));
         }
         if self.style.color.is_some() {
-            return (Channel::All(default), plain, Vec::new());
+            return Ok((Channel::All(default), plain, Vec::new()));
         }
         let vertex_colors = mesh.get(COLOR).map(|colors| {
             let narrowed = colors.iter().map(|c| c.truncate().to_array().map(narrow));
@@ -116,10 +116,11 @@ impl<'s> Builder<'s, '_> {
         });
         if object.materials.is_empty() {
             let colors = vertex_colors.unwrap_or(Channel::All(default));
-            return (colors, plain, Vec::new());
+            return Ok((colors, plain, Vec::new()));
         }
         let materials = object.materials.iter();
-        let mut surfaces: Vec<Surface> = materials.map(|m| self.surface(m)).collect();
+        let surfaces = materials.map(|m| self.surface(m));
+        let mut surfaces = surfaces.collect::<Result<Vec<_>, _>>()?;
         // The last entry of `surfaces` is for faces without a material.
         let none = u32::try_from(surfaces.len()).unwrap_or(u32::MAX);
         let [r, g, b] = if vertex_colors.is_some() {
@@ -137,7 +138,7 @@ impl<'s> Builder<'s, '_> {
             |materials| materials.iter().map(index).collect(),
         );
         let colors = vertex_colors.unwrap_or(Channel::All([1.0; 3]));
-        (colors, surfaces, surface_of_face)
+        Ok((colors, surfaces, surface_of_face))
     }
 
     /// Returns the highlight color of each face; empty if no faces are highlighted.

@@ -13,7 +13,7 @@ use scene::{Geometry, Scene};
 use crate::PictureError;
 use crate::color::Color;
 use crate::colormap::ColorMap;
-use crate::drawing::{Drawing, Label};
+use crate::drawing::{Drawing, Label, Line};
 use crate::style::Style;
 
 /// Additions to the geometry of a scene.
@@ -141,12 +141,32 @@ pub fn build<'s>(
     overlays: &Overlays,
     images: &mut dyn FnMut(&str) -> Option<Vec<u8>>,
 ) -> Result<(Drawing<'s>, Vec<String>), PictureError> {
+    build_within(scene, style, overlays, u64::MAX, images)
+}
+
+/// Converts a scene to a drawing like [`build()`], with a memory budget in bytes.
+///
+/// # Errors
+///
+/// [`PictureError::Budget`] if the triangles and lines, or the textures, certainly exceed the budget. The size of the
+/// triangles and lines is checked before anything is allocated, and the size of a texture before it is decoded. Also
+/// the errors of [`build()`].
+pub fn build_within<'s>(
+    scene: &'s Scene,
+    style: &Style,
+    overlays: &Overlays,
+    budget: u64,
+    images: &mut dyn FnMut(&str) -> Option<Vec<u8>>,
+) -> Result<(Drawing<'s>, Vec<String>), PictureError> {
     style.check()?;
     overlays.check(scene)?;
+    PictureError::check_budget(min_bytes(scene, style), budget)?;
     let mut builder = Builder {
         style,
         overlays,
         images,
+        budget,
+        texture_bytes: 0,
         missing: Vec::new(),
         drawing: Drawing::default(),
         n_faces: 0,
@@ -171,10 +191,24 @@ pub fn build<'s>(
     Ok((builder.drawing, builder.missing))
 }
 
+/// Returns the number of bytes that the drawing of the meshes of a scene takes at least.
+fn min_bytes(scene: &Scene, style: &Style) -> u64 {
+    let meshes = scene.objects().iter().filter_map(|object| object.as_mesh());
+    let bytes = meshes.map(|mesh| {
+        let n_lines = style.wireframe.as_ref().map_or(0, |_| mesh.n_edges());
+        size_of::<[u32; 3]>() * mesh.n_faces() + size_of::<Line>() * n_lines
+    });
+    bytes.sum::<usize>() as u64
+}
+
 struct Builder<'s, 'a> {
     style: &'a Style,
     overlays: &'a Overlays,
     images: &'a mut dyn FnMut(&str) -> Option<Vec<u8>>,
+    /// The memory budget in bytes.
+    budget: u64,
+    /// The size of the textures that have been decoded, in bytes.
+    texture_bytes: u64,
     missing: Vec<String>,
     drawing: Drawing<'s>,
     /// The number of faces of the parts that have been added.

@@ -6,11 +6,16 @@ use super::Builder;
 use crate::color::narrow;
 use crate::drawing::Surface;
 use crate::texture::{Alpha, Texture};
+use crate::{Image, PictureError};
 
 impl Builder<'_, '_> {
     /// Converts a material to a surface. If the texture cannot be read, the surface has no texture, and a message is
     /// added to `missing`.
-    pub(super) fn surface(&mut self, material: &scene::Material) -> Surface {
+    ///
+    /// # Errors
+    ///
+    /// [`PictureError::Budget`] if the texture needs too much memory.
+    pub(super) fn surface(&mut self, material: &scene::Material) -> Result<Surface, PictureError> {
         let [r, g, b, base] = material.base_color.map(narrow);
         // The alpha of the material, and how the alpha of its texture is used (glTF 2.0 specification, 3.9.4).
         let (alpha, texture_alpha) = match material.alpha {
@@ -32,7 +37,7 @@ impl Builder<'_, '_> {
             emissive: material.emissive.map(|e| narrow(e * strength)),
         };
         if let (Some(texture), None) = (&material.base_color_texture, self.style.color) {
-            match self.decode(texture, texture_alpha) {
+            match self.decode(texture, texture_alpha)? {
                 Ok(decoded) => {
                     surface.texture = Some(Arc::new(decoded));
                     surface.uv_set = texture.uv_set as usize;
@@ -40,20 +45,31 @@ impl Builder<'_, '_> {
                 Err(why) => self.missing.push(why),
             }
         }
-        surface
+        Ok(surface)
     }
 
-    fn decode(&mut self, texture: &scene::Texture, alpha: Alpha) -> Result<Texture, String> {
+    /// Decodes a texture. The inner error is the reason why the texture cannot be read.
+    fn decode(
+        &mut self,
+        texture: &scene::Texture,
+        alpha: Alpha,
+    ) -> Result<Result<Texture, String>, PictureError> {
         let (name, bytes) = match &texture.image {
-            scene::Image::File(path) => {
-                let bytes = (self.images)(path).ok_or_else(|| format!("{path}: not found"))?;
-                (path.as_str(), bytes)
-            }
+            scene::Image::File(path) => match (self.images)(path) {
+                Some(bytes) => (path.as_str(), bytes),
+                None => return Ok(Err(format!("{path}: not found"))),
+            },
             scene::Image::Loaded { path: name, bytes }
             | scene::Image::Embedded { mime: name, bytes } => (name.as_str(), bytes.to_vec()),
         };
-        Texture::decode(&bytes, texture.sampler, texture.transform, alpha)
-            .map_err(|why| format!("{name}: {why}"))
+        if let Ok([width, height]) = Image::size(&bytes) {
+            let n = u64::from(width) * u64::from(height);
+            let needed = self.texture_bytes + Texture::DECODING_BYTES * n;
+            PictureError::check_budget(needed, self.budget)?;
+            self.texture_bytes += Texture::BYTES * n;
+        }
+        let decoded = Texture::decode(&bytes, texture.sampler, texture.transform, alpha);
+        Ok(decoded.map_err(|why| format!("{name}: {why}")))
     }
 }
 

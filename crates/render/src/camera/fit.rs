@@ -5,6 +5,32 @@ use glam::{DVec2, DVec3};
 use super::{Projection, Side, Up, View};
 use crate::PictureError;
 
+/// Returns the outermost point in each of these directions and in both directions of each axis. The list is empty if
+/// there are no points.
+pub(super) fn outermost(
+    directions: &[DVec3],
+    points: &impl Fn(&mut dyn FnMut(DVec3)),
+) -> Vec<DVec3> {
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+    let directions: Vec<DVec3> = (directions.iter().copied())
+        .chain(axes.into_iter().flat_map(|axis| [axis, -axis]))
+        .collect();
+    // Positions are relative to the first point, so that coordinates far from the origin lose no precision.
+    let mut first = None;
+    let mut outermost: Vec<(f64, DVec3)> = Vec::new();
+    points(&mut |p| {
+        let start = *first.get_or_insert(p);
+        outermost.resize(directions.len(), (0.0, start));
+        for (direction, farthest) in directions.iter().zip(&mut outermost) {
+            let distance = (p - start).dot(*direction);
+            if distance > farthest.0 {
+                *farthest = (distance, p);
+            }
+        }
+    });
+    outermost.into_iter().map(|(_, p)| p).collect()
+}
+
 /// Finds the camera that shows the whole scene.
 pub(super) struct Fit {
     axes: [DVec3; 3],
@@ -66,24 +92,7 @@ impl Fit {
             slant.y * z - y,
             z,
         ];
-        let axes = [DVec3::X, DVec3::Y, DVec3::Z];
-        let directions: Vec<DVec3> = (directions.into_iter())
-            .chain(axes.into_iter().flat_map(|axis| [axis, -axis]))
-            .collect();
-        // Positions are relative to the first point, so that coordinates far from the origin lose no precision.
-        let mut first = None;
-        let mut outermost: Vec<(f64, DVec3)> = Vec::new();
-        points(&mut |p| {
-            let start = *first.get_or_insert(p);
-            outermost.resize(directions.len(), (0.0, start));
-            for (direction, farthest) in directions.iter().zip(&mut outermost) {
-                let distance = (p - start).dot(*direction);
-                if distance > farthest.0 {
-                    *farthest = (distance, p);
-                }
-            }
-        });
-        let mut extreme: Vec<DVec3> = outermost.into_iter().map(|(_, p)| p).collect();
+        let mut extreme = outermost(&directions, points);
         // A steady camera shows the bounding sphere, which must contain all points of the bounding box.
         if self.steady && !extreme.is_empty() {
             let [min, max] = extreme[1..]

@@ -248,3 +248,36 @@ fn the_view_of_auto_is_that_of_its_axis() {
     let at = |view: Result<View, _>| view.unwrap().screen_point(DVec3::ONE).unwrap().at;
     assert!(at(auto).distance(at(z)) < 1e-9);
 }
+
+#[test]
+fn a_camera_that_looks_at_a_point_has_the_same_upward_axis_in_sheets_and_turntables() {
+    let size = [200, 100];
+    let standing = |each: &mut dyn FnMut(DVec3)| {
+        for p in [[-1.0, -1.0, 0.0], [1.0, 1.0, 3.0], [1.0, -1.0, 0.0]] {
+            each(p.into());
+        }
+    };
+    let camera = |up| Camera::LookAt {
+        from: [5.0, -7.0, 4.0],
+        to: [0.0, 0.0, 1.0],
+        up,
+        projection: Projection::default(),
+    };
+    let at = |view: Result<View, _>| view.unwrap().screen_point(DVec3::ONE).unwrap().at;
+    let expected = at(View::new(&camera(Up::Z), &standing, size));
+    // A sheet draws each scene with the extreme points of all scenes.
+    let extreme = camera(Up::Auto).extreme_points(&standing, size).unwrap();
+    let each = |f: &mut dyn FnMut(DVec3)| extreme.iter().copied().for_each(f);
+    assert!(extreme.len() <= 6);
+    assert_eq!(at(View::new(&camera(Up::Auto), &each, size)), expected);
+    assert_eq!(camera(Up::Z).extreme_points(&standing, size).unwrap(), []);
+    // A turntable moves the camera around the upward axis.
+    for degrees in [0.0, 70.0] {
+        let [auto, z] = [Up::Auto, Up::Z].map(|up| camera(up).turned(degrees, &standing));
+        assert_eq!(auto, z);
+    }
+    let Camera::LookAt { from, .. } = camera(Up::Auto).turned(90.0, &standing) else {
+        unreachable!()
+    };
+    assert!(DVec3::from(from).distance(DVec3::new(7.0, 5.0, 4.0)) < 1e-12);
+}

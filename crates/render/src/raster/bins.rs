@@ -6,13 +6,14 @@
 
 use std::ops::Range;
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::lines::{ProjectedLine, limits};
 use super::project::{GRID, GRID_BITS, GridPoint, ProjectedTriangle, clipped, project};
 use super::{BIN_LINE_COST, BIN_TRIANGLE_COST, Frame, TILE};
 use crate::color::whole_u32;
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, Part};
 use crate::work::Work;
 use crate::{PictureError, View};
 
@@ -85,6 +86,44 @@ pub(super) fn bytes(groups: impl Iterator<Item = usize> + Clone, frame: &Frame) 
     let longest = chunks(all, all).map(|chunk| chunk.len()).max().unwrap_or(0);
     let temporary = size_of::<(u32, TileRect)>() * longest + 4 * (frame.n_tiles() + 1);
     (lists + n_tasks * temporary) as u64
+}
+
+/// Returns the maximum number of bytes that the pieces of clipped triangles and their lists take, including the temporary
+/// memory of sorting.
+pub(super) fn clipped_bytes(drawing: &Drawing, view: &View) -> u64 {
+    let n_pieces: u64 = drawing.parts.iter().map(|part| n_pieces(part, view)).sum();
+    // While a vector grows, its old and its new memory take up to three times its length.
+    let vectors = 3 * (size_of::<(u32, ProjectedTriangle)>() + size_of::<(u32, TileRect)>());
+    n_pieces * (vectors + 4 * (ENTRIES_PER_ITEM + 1)) as u64
+}
+
+/// Returns the number of pieces of the clipped triangles of a part.
+fn n_pieces(part: &Part, view: &View) -> u64 {
+    let is_outside = |p: DVec3| GridPoint::projected(view, view.camera_space(p)).is_outside();
+    let [mut min, mut max] = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+    for &p in &*part.points {
+        (min, max) = (min.min(p), max.max(p));
+    }
+    // The region in which no triangle is clipped is convex, so it contains all points if it contains the corners of their
+    // bounding box.
+    let corner = |i: u32| {
+        let side = |axis: u32| if i >> axis & 1 == 0 { min } else { max };
+        DVec3::new(side(0).x, side(1).y, side(2).z)
+    };
+    if part.points.is_empty() || !(0..8).any(|i| is_outside(corner(i))) {
+        return 0;
+    }
+    let triangles = (0..part.triangles.len()).into_par_iter();
+    let pieces = triangles.map(|i| {
+        let corners = part.corners_at(i);
+        let is_clipped = corners.into_iter().any(is_outside);
+        if is_clipped {
+            clipped(view, corners).len() as u64
+        } else {
+            0
+        }
+    });
+    pieces.sum()
 }
 
 impl Bins {

@@ -104,13 +104,22 @@ impl Frame {
     }
 }
 
-/// Returns an estimate of the memory that [`render`] needs for a picture of this size, in bytes, in addition to the
-/// drawing. The estimate is an upper bound, unless many triangles are clipped because they surround the camera.
-pub fn bytes_needed(drawing: &Drawing, [width, height]: [u32; 2], look: &Look) -> u64 {
+/// Returns the memory that [`render`] needs for the pixels of a picture of this size, in bytes.
+pub fn pixel_bytes(size: [u32; 2]) -> u64 {
     // Sizes that are too large are refused later. Here, the computation must not overflow.
-    let [width, height] = [width, height].map(|side| side.min(1 << 20));
+    let [width, height] = size.map(|side| u64::from(side.min(1 << 20)));
+    let threads = rayon::current_num_threads() as u64;
+    // While a thread waits for other threads, it starts more rows of tiles, so a thread can hold several rows.
+    let rows = 4 * threads * (4 * u64::from(TILE) * width + (1 << 18));
+    4 * width * height + rows + (1 << 20)
+}
+
+/// Returns an upper bound of the memory that [`render`] needs for a picture of this view and size, in bytes, in addition
+/// to the drawing.
+pub fn bytes_needed(drawing: &Drawing, view: &View, size: [u32; 2], look: &Look) -> u64 {
+    // See `pixel_bytes`.
+    let [width, height] = size.map(|side| side.min(1 << 20));
     let frame = Frame::new([width, height]);
-    let pixels = u64::from(width) * u64::from(height);
     let threads = rayon::current_num_threads() as u64;
     let n_points: u64 = drawing.parts.iter().map(|p| p.points.len() as u64).sum();
     let (triangles, lines) = (drawing.n_triangles() as u64, drawing.lines.len() as u64);
@@ -121,13 +130,11 @@ pub fn bytes_needed(drawing: &Drawing, [width, height]: [u32; 2], look: &Look) -
     };
     let points = size_of::<GridPoint>() as u64 * n_points;
     let groups = drawing.parts.iter().map(|p| p.triangles.len());
-    let triangle_bytes = bins::bytes(groups, &frame);
+    let triangle_bytes = bins::bytes(groups, &frame) + bins::clipped_bytes(drawing, view);
     let bytes_per_line = size_of::<Option<lines::ProjectedLine>>() as u64 + 8 * threads;
     let line_bins = bins::bytes(std::iter::once(drawing.lines.len()), &frame);
     let line_bytes = bytes_per_line * lines + line_bins;
-    // While a thread waits for other threads, it starts more rows of tiles, so a thread can hold several rows.
-    let rows = 4 * threads * (4 * u64::from(TILE * width) + (1 << 18));
-    4 * pixels + points + triangle_bytes + line_bytes + maps + rows + (1 << 20)
+    pixel_bytes(size) + points + triangle_bytes + line_bytes + maps
 }
 
 // The costs below are estimates for progress reports, in nanoseconds.

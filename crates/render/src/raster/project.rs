@@ -59,7 +59,7 @@ impl GridPoint {
     }
 
     /// Projects a point in camera coordinates.
-    fn projected(view: &View, v: DVec3) -> Self {
+    pub(super) fn projected(view: &View, v: DVec3) -> Self {
         if v.z < view.near {
             return Self::OUTSIDE;
         }

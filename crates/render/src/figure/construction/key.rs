@@ -60,15 +60,22 @@ fn symbols(panels: &[Panel]) -> Vec<(Option<Paint>, Text)> {
         let dashed = Paint::stroke(FAINT, 2.4).with_dashes(&[6.0, 5.0]);
         entries.push((Some(dashed), plain("before")));
     }
-    let constructed = || panels.iter().filter(|p| p.t.is_some());
-    let levels = constructed().map(|p| p.curve.degree()).max().unwrap_or(0);
+    // The degree of each curve with a construction, and the last level that is drawn.
+    let constructed = || {
+        panels.iter().filter(|p| p.t.is_some()).map(|p| {
+            let degree = p.curve.degree();
+            (degree, p.levels.map_or(degree, |levels| levels.min(degree)))
+        })
+    };
+    let levels = constructed().map(|(degree, last)| degree.min(last + 1));
+    let levels = levels.max().unwrap_or(0);
     // If several levels have the same color, the legend does not list the levels.
     if levels <= LEVELS.len() + 1 {
         for r in 1..levels {
             entries.push((line(level_color(r), 1.8), plain(&format!("level {r}"))));
         }
     }
-    if constructed().next().is_some() {
+    if constructed().any(|(degree, last)| last == degree) {
         entries.push((None, Text::of(point_name(), 16.0, TEXT)));
     }
     entries

@@ -234,3 +234,46 @@ fn points_have_names_if_the_layout_has_labels() {
     // name has two text elements because of its halo.
     assert_eq!((texts(false), texts(true)), (1, 1 + 2 * 10));
 }
+
+#[test]
+fn the_legend_lists_what_is_drawn() {
+    let (curve, point) = (cubic(), curve(&[[1.0, 1.0]]));
+    let texts = |panels: &[Panel]| {
+        let svg = construction(panels, &Layout::default()).unwrap();
+        let xml = svg.finish(None);
+        let document = Document::parse(&xml).unwrap();
+        let is_legend = |node: &roxmltree::Node| node.attribute("id") == Some("legend");
+        let legend = document.descendants().find(is_legend).unwrap();
+        let texts = legend
+            .descendants()
+            .filter(|node| node.has_tag_name("text"));
+        let text = |node: roxmltree::Node| -> String {
+            (node
+                .descendants()
+                .filter_map(|n| n.text().filter(|_| n.is_text())))
+            .collect()
+        };
+        let texts: Vec<String> = texts.map(|node| text(node).trim().to_owned()).collect();
+        texts[2..].join(", ")
+    };
+    let with_levels = |curve, levels| Panel {
+        levels: Some(levels),
+        ..panel(curve, 0.5)
+    };
+    assert_eq!(texts(&[panel(&curve, None)]), "");
+    assert_eq!(texts(&[panel(&curve, 0.5)]), "level 1, level 2, c(t)");
+    for (levels, expected) in [
+        (0, ""),
+        (1, "level 1"),
+        (2, "level 1, level 2"),
+        (3, "level 1, level 2, c(t)"),
+        (9, "level 1, level 2, c(t)"),
+    ] {
+        assert_eq!(texts(&[with_levels(&curve, levels)]), expected, "{levels}");
+    }
+    assert_eq!(texts(&[with_levels(&point, 0)]), "c(t)");
+    assert_eq!(
+        texts(&[with_levels(&curve, 0), with_levels(&curve, 1)]),
+        "level 1"
+    );
+}

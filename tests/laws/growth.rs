@@ -167,7 +167,7 @@ fn growth(scene: impl Fn(usize) -> Scene, work: impl Fn(Scene) -> bool) -> Growt
         let scene = scene.clone();
         let start = processor_time();
         let succeeded = work(scene);
-        (processor_time() - start, succeeded)
+        (processor_time().saturating_sub(start), succeeded)
     };
     let median = |scene: &Scene, n: usize| {
         let mut times: Vec<Duration> = (0..n).map(|_| time(scene).0).collect();

@@ -345,7 +345,8 @@ def MinAngle(
 def Not(value: Literal['Manifold', 'Closed'] | Choice | Arg | Ron, /) -> Choice:
     """The inner expectation does not hold.
 
-    Also fails if the inner expectation cannot be checked, for example because a file cannot be read.
+    Also fails if the inner expectation cannot be checked, for example because a file cannot be read or a selection is
+    empty.
     """
     return Choice('Not', value)
 
@@ -396,6 +397,8 @@ def Point(
     tolerance: float | Arg | Ron | None = None,
 ) -> Choice:
     """The position of one point of a polyline.
+
+    Nodes do not place polylines.
 
     :param index: The index of the point in the polyline, counted from 0.
     :param is_: The expected position.

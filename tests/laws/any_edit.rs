@@ -39,6 +39,9 @@ impl EditCode {
     }
 }
 
+/// The last kind that is an edit of single elements. Later kinds change the whole surface.
+pub(crate) const LAST_LOCAL: u8 = 26;
+
 const SPLIT: u8 = 1;
 const SYMMETRIZE: u8 = 31;
 
@@ -109,7 +112,7 @@ pub(crate) fn edit(mesh: &mut Mesh, code: EditCode) -> Result<(), EditError> {
             mesh.delete_isolated_vertices();
             Ok(())
         }
-        26 => {
+        LAST_LOCAL => {
             mesh.compact();
             Ok(())
         }

@@ -105,7 +105,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
         Err(error) => {
             eprintln!(
                 "error: the window cannot be opened: {error}\n\
-                 help: the window needs a display, and a graphics adapter with Vulkan, Metal, Direct3D 12 or OpenGL ES 3.1. \
+                 help: the window needs a display, and a graphics adapter with Vulkan, Metal or Direct3D 12. \
                  On Debian, `apt-get install mesa-vulkan-drivers` installs a software renderer."
             );
             ExitCode::FAILURE

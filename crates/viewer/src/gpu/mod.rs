@@ -8,6 +8,7 @@
 //! is compared by address, or the [`Look`] changes. The picture depends only on the scene, the look, the overlay and
 //! the camera, not on earlier pictures.
 
+mod device;
 mod geometry;
 mod grid;
 mod look;
@@ -19,6 +20,7 @@ mod target;
 
 use glam::DVec3;
 
+pub use device::can_draw;
 pub use geometry::LineInstance;
 pub use grid::axis_color;
 pub use look::{Look, Wireframe, title};

@@ -16,7 +16,7 @@ use render::ColorMap;
 use scene::{ErrorLocation, Scene};
 
 use crate::camera::{Camera, Side};
-use crate::gpu::{Look, Overlay, Painter};
+use crate::gpu::{Look, Overlay, Painter, can_draw};
 use crate::overlay;
 use crate::theme::Colors;
 use gizmo::Drag;
@@ -93,7 +93,7 @@ pub(crate) struct ViewPane {
     pub(crate) shows_arrows: bool,
     /// The element under the cursor.
     pub(crate) hovered: Option<Hit>,
-    /// The device. `None` if there is no graphics adapter.
+    /// The device. `None` if there is no graphics adapter that can draw scenes.
     gpu: Option<Gpu>,
     /// What goes wrong with the device.
     pub(crate) loss: Loss,
@@ -140,7 +140,7 @@ impl ViewPane {
             mode: PickMode::Any,
             shows_arrows: false,
             hovered: None,
-            gpu: state.map(|state| Gpu {
+            gpu: state.filter(|state| can_draw(state)).map(|state| Gpu {
                 state: state.clone(),
                 painter: Painter::new(&state.device, &state.queue),
                 texture: None,
@@ -254,7 +254,7 @@ impl ViewPane {
         self.update_overlay(shown);
         let size = [rect.width(), rect.height()].map(|side| whole(side * scale));
         let Some(gpu) = &mut self.gpu else {
-            let message = "There is no graphics adapter, so the scene cannot be drawn.\nThe recipe can still be edited and run.\n\nOn Debian, `apt-get install mesa-vulkan-drivers` installs a software renderer.";
+            let message = "There is no graphics adapter that can draw the scene.\nIt needs Vulkan, Metal or Direct3D 12.\nThe recipe can still be edited and run.\n\nOn Debian, `apt-get install mesa-vulkan-drivers` installs a software renderer.";
             ui.painter().rect_filled(rect, 0.0, colors.base);
             ui.painter().text(
                 rect.center(),

@@ -1,9 +1,14 @@
 //! Tools of the view and the panels: arrows, lasso, player, labels, layout, and a window without graphics.
 
+use std::sync::Arc;
+
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, Pos2, Vec2, ViewportCommand};
+use eframe::egui_wgpu::{RenderState, RendererOptions, WgpuSetup};
+use eframe::wgpu;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
+use egui_kittest::wgpu::create_render_state;
 use viewer::{App, Start};
 
 use crate::adapter::setup;
@@ -139,8 +144,8 @@ fn every_widget_of_the_window_has_a_label() {
     assert_eq!(unnamed(&window), [""; 0], "operations");
 }
 
-#[test]
-fn without_a_graphics_adapter_the_recipe_can_be_edited_and_saved() {
+/// Edits and saves a recipe in a window that cannot draw the scene.
+fn edit_and_save(state: Option<&RenderState>) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("cube.ron");
     std::fs::write(&path, CUBE).unwrap();
@@ -151,13 +156,35 @@ fn without_a_graphics_adapter_the_recipe_can_be_edited_and_saved() {
     let harness = Harness::builder()
         .with_size(Vec2::new(1280.0, 800.0))
         .with_max_steps(60)
-        .build_eframe(|cc| App::new(&cc.egui_ctx, None, &start));
+        .build_eframe(|cc| App::new(&cc.egui_ctx, state, &start));
     let mut window = Window { harness, folder };
     window.settle();
     window.press(Key::L);
     window.press_with(Modifiers::COMMAND, Key::S);
     let saved = std::fs::read_to_string(path).unwrap();
     assert!(saved.contains("LoopSubdivide(levels: 1)"), "{saved}");
+}
+
+#[test]
+fn without_a_graphics_adapter_the_recipe_can_be_edited_and_saved() {
+    edit_and_save(None);
+}
+
+#[test]
+fn with_a_device_without_storage_buffers_the_recipe_can_be_edited_and_saved() {
+    let Some(mut setup) = setup() else { return };
+    if let WgpuSetup::CreateNew(new) = &mut setup {
+        new.device_descriptor = Arc::new(|_| wgpu::DeviceDescriptor {
+            required_limits: wgpu::Limits::downlevel_webgl2_defaults(),
+            ..wgpu::DeviceDescriptor::default()
+        });
+    }
+    let state = create_render_state(setup, RendererOptions::PREDICTABLE);
+    assert_eq!(
+        state.device.limits().max_storage_buffers_per_shader_stage,
+        0
+    );
+    edit_and_save(Some(&state));
 }
 
 #[test]

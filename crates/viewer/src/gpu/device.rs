@@ -1,0 +1,14 @@
+//! What the graphics device must be able to do.
+
+use eframe::egui_wgpu::RenderState;
+
+/// The number of storage buffers from which a vertex shader reads a surface.
+const N_STORAGE_BUFFERS: u32 = 4;
+
+/// Whether a [`Painter`](super::Painter) can draw with this device. OpenGL adapters lack features that it needs.
+pub fn can_draw(state: &RenderState) -> bool {
+    let limits = state.device.limits();
+    let properties = state.adapter.get_downlevel_capabilities();
+    limits.max_storage_buffers_per_shader_stage >= N_STORAGE_BUFFERS
+        && properties.is_webgpu_compliant()
+}

@@ -21,8 +21,9 @@ use super::queue::{Entry, Queue};
 use super::target::Target;
 use super::{Blocked, Options};
 
-/// The number of edges in a batch. The data around the edges of a batch should fit into the cache of a processor.
-const BATCH: usize = 1024;
+/// The number of edges in a batch. With smaller batches, threads wait for each other more often: with 1024 edges, a torus of
+/// 1,000,000 triangles takes 1.3 times as long on two processors.
+const BATCH: usize = 16_384;
 
 /// The least number of edges for which a thread is worthwhile.
 const PER_THREAD: usize = 64;

@@ -34,18 +34,35 @@ impl Quadric {
 
     /// Returns the value at `p`, which is at least 0.
     pub(super) fn at(&self, p: DVec3) -> f64 {
+        // Rounding can make the value negative.
+        at_least_zero((self.times(p) + 2.0 * self.b).dot(p) + self.c)
+    }
+
+    /// Returns A p.
+    fn times(&self, p: DVec3) -> DVec3 {
         let m = self.mixed;
         let mixed = DVec3::new(
             m.z * p.y + m.y * p.z,
             m.z * p.x + m.x * p.z,
             m.y * p.x + m.x * p.y,
         );
-        // Rounding can make the value negative.
-        at_least_zero((self.diagonal * p + mixed + 2.0 * self.b).dot(p) + self.c)
+        self.diagonal * p + mixed
     }
 
-    /// Returns the point with the lowest value, or `None` if many points have this value.
-    pub(super) fn lowest(&self) -> Option<DVec3> {
+    /// Returns the point with the lowest value. If many points have nearly this value, returns one of them where `weak`, a
+    /// quadric with small coefficients, is low. Returns `None` if many points have the lowest value of the sum.
+    pub(super) fn lowest(&self, weak: &Self) -> Option<DVec3> {
+        let sum = *self + *weak;
+        let inverse = sum.inverse()?;
+        let solve = |p: DVec3| p.x * inverse[0] + p.y * inverse[1] + p.z * inverse[2];
+        let lowest = -solve(sum.b);
+        // `weak` moves the point a little in all directions. A Newton step of this quadric with the matrix of the sum moves the
+        // point back, except in directions in which this quadric hardly changes.
+        Some(lowest - solve(self.times(lowest) + self.b))
+    }
+
+    /// Returns the columns of the inverse of A, or `None` if A is nearly singular.
+    fn inverse(&self) -> Option<[DVec3; 3]> {
         let (d, m) = (self.diagonal, self.mixed);
         // The columns of the adjugate of A. The adjugate is symmetric, as A is.
         let x = DVec3::new(
@@ -58,7 +75,7 @@ impl Quadric {
         let determinant = d.x * x.x + m.z * x.y + m.y * x.z;
         let trace = d.element_sum();
         (determinant > 1e-15 * trace * trace * trace)
-            .then(|| -(self.b.x * x + self.b.y * y + self.b.z * z) / determinant)
+            .then(|| [x, y, z].map(|column| column / determinant))
     }
 }
 
@@ -158,7 +175,7 @@ mod tests {
             let quadric = planes.into_iter().fold(Quadric::default(), |sum, (n, q)| {
                 sum + Quadric::plane(n.normalize_or(DVec3::X), q, 1.0)
             });
-            if let Some(lowest) = quadric.lowest() && lowest.length() < 10.0 {
+            if let Some(lowest) = quadric.lowest(&Quadric::default()) && lowest.length() < 10.0 {
                 prop_assert!(quadric.at(lowest) <= quadric.at(p) + 1e-9);
             }
         }
@@ -176,7 +193,22 @@ mod tests {
     fn parallel_planes_have_no_lowest_point() {
         let planes =
             Quadric::plane(DVec3::Z, DVec3::ZERO, 1.0) + Quadric::plane(DVec3::Z, DVec3::Z, 1.0);
-        assert_eq!(planes.lowest(), None);
-        assert_eq!(Quadric::default().lowest(), None);
+        let none = Quadric::default();
+        assert_eq!(planes.lowest(&none), None);
+        assert_eq!(none.lowest(&none), None);
+    }
+
+    #[test]
+    fn a_weak_quadric_decides_only_between_equal_points() {
+        let near = DVec3::new(3.0, 4.0, 5.0);
+        let weak = Spread::at_point(near, 1.0).quadric(1e-6);
+        // The planes x = 1 and y = 2 have a common line, on which z is free.
+        let planes =
+            Quadric::plane(DVec3::X, DVec3::X, 1.0) + Quadric::plane(DVec3::Y, 2.0 * DVec3::Y, 1.0);
+        let lowest = planes.lowest(&weak).unwrap();
+        assert!(
+            lowest.distance(DVec3::new(1.0, 2.0, 5.0)) < 1e-10,
+            "{lowest}"
+        );
     }
 }

@@ -57,24 +57,26 @@ impl Collapser<'_> {
         };
         let planes = from.quadric + to.quadric;
         let spread = from.spread + to.spread;
-        let mut sum = planes + spread.quadric(FIRMNESS);
+        let mut placing = planes;
         let is_line = self.lines[e.index()];
         let pairs = self.appearance.as_ref().map(|appearance| {
             let pairs = appearance.pairs(&self.mesh, e, is_line);
             (appearance, pairs.into_iter().flatten())
         });
         if let (Some((appearance, pairs)), None, false) = (&pairs, end, is_line) {
-            sum = pairs
+            placing = pairs
                 .clone()
-                .fold(sum, |sum, pair| sum + appearance.placing(pair));
+                .fold(placing, |sum, pair| sum + appearance.placing(pair));
         }
+        let weak = spread.quadric(FIRMNESS);
         let points = [from.point, to.point];
         // The bound on the distance needs a boundary vertex that is not moved.
         let end = end.or_else(|| {
             let is_bounded = self.options.error.is_some() && self.mesh.is_boundary_edge(e);
+            let sum = placing + weak;
             is_bounded.then(|| usize::from(sum.at(points[1]) < sum.at(points[0])))
         });
-        let point = end.map_or_else(|| lowest_near(&sum, points), |i| points[i]);
+        let point = end.map_or_else(|| lowest_near(&placing, &weak, points), |i| points[i]);
         let factor = if spread.area > 0.0 {
             1.0 / spread.area.sqrt()
         } else {
@@ -219,14 +221,15 @@ fn along([a, b]: [DVec3; 2], point: DVec3) -> f64 {
     if t.is_nan() { 0.5 } else { t.clamp(0.0, 1.0) }
 }
 
-/// Returns the point where `quadric` is lowest. If there is no single lowest point, or if it is far from the
-/// edge between `ends`, returns the lowest of three points: the two ends and their middle.
-fn lowest_near(quadric: &Quadric, ends: [DVec3; 2]) -> DVec3 {
+/// Returns the point where `quadric` is lowest; `weak` decides between points with nearly the same value. If there is no
+/// single lowest point, or if it is far from the edge between `ends`, returns the lowest of three points: the two ends and
+/// their middle.
+fn lowest_near(quadric: &Quadric, weak: &Quadric, ends: [DVec3; 2]) -> DVec3 {
     let [a, b] = ends;
     let middle = 0.5 * (a + b);
     let is_near = |p: &DVec3| p.distance_squared(middle) <= 4.0 * a.distance_squared(b);
-    quadric.lowest().filter(is_near).unwrap_or_else(|| {
-        let value = |p: &DVec3| quadric.at(*p);
+    quadric.lowest(weak).filter(is_near).unwrap_or_else(|| {
+        let value = |p: &DVec3| quadric.at(*p) + weak.at(*p);
         [a, b].into_iter().fold(
             middle,
             |best, p| if value(&p) < value(&best) { p } else { best },

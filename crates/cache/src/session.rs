@@ -136,7 +136,7 @@ impl CachedRun for Session<'_> {
             }
             Err((path, why)) => {
                 self.notes.push(format!(
-                    "step {number} {label} is not stored: its input files are unknown: {}: {why}",
+                    "the result of step {number} {label} is not stored, because its input files cannot be determined ({}: {why})",
                     path.display()
                 ));
                 // Later steps can still be cached, because the state after this step is derived from the content of the

@@ -346,7 +346,9 @@ fn a_step_that_does_not_report_what_it_reads_runs_every_time() {
     let ran = place.ran(&text);
     assert_eq!(ran.len(), 1);
     assert!(
-        ran[0].1.starts_with("its input files are unknown: "),
+        ran[0]
+            .1
+            .starts_with("its input files cannot be determined ("),
         "{ran:?}"
     );
     place.write("n.txt", "4");

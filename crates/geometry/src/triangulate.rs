@@ -335,7 +335,7 @@ fn is_triangulation(n: usize, triangles: &[Triangle]) -> bool {
         .flat_map(|&[a, b, c]| [[a, b], [b, c]])
         .collect();
     let mut descending: Vec<[u32; 2]> = triangles.iter().map(|&[a, _, c]| [a, c]).collect();
-    // The sides of the polygon ascend from 0 to n - 1, and the last side descends from n - 1 to 0.
+    // The side from corner n - 1 to corner 0 descends, and all other sides of the polygon ascend.
     let whole = [0, n - 1];
     let Some(place) = descending.iter().position(|&side| side == whole) else {
         return false;

@@ -52,7 +52,7 @@ pub(crate) fn param() -> &'static Json {
     &SCHEMA
 }
 
-/// Returns the schema of an expectation without the fields around it.
+/// Returns the schema of an expectation without the fields `after`, `on` and `that`.
 pub(crate) fn expectation() -> &'static Json {
     static SCHEMA: LazyLock<Json> = LazyLock::new(of::<Expectation>);
     &SCHEMA

@@ -178,7 +178,8 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Joins the connected points inside a box.
+    /// Joins the sets of all points in the box of a tree that are within reach of each other, directly or through other
+    /// points.
     fn join_within(&self, tree: &Tree) -> Result<(), Cancelled> {
         if let (false, Some([a, b])) = (tree.is_cluster, tree.halves.as_deref()) {
             let (low, high) = run_both(
@@ -200,7 +201,7 @@ impl Search<'_> {
         self.meter.add(tree.points.len())
     }
 
-    /// Joins the connected points between two boxes.
+    /// Joins the sets of points of one box that are within reach of points of the other box.
     fn join_between(&self, a: &Tree, b: &Tree) {
         let gap = (b.min - a.max).max(a.min - b.max).max(DVec3::ZERO);
         if !self.reach.covers(gap) {

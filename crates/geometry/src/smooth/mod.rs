@@ -8,8 +8,8 @@
 //! | [`Method::Implicit`] | one backward Euler step of mean curvature flow | `implicit.rs` |
 //! | [`Method::Denoise`] | filter the normals of the faces, then fit the vertices | `denoise.rs` |
 //!
-//! Except in the implicit method, one task computes the new position of a vertex from the positions after the previous
-//! step. The result is identical bit for bit for any number of threads.
+//! Except in the implicit method, each new position is computed by one thread, from the positions of the previous
+//! iteration only. The result is therefore identical bit for bit for any number of threads.
 
 mod denoise;
 mod explicit;

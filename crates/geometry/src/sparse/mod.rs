@@ -73,7 +73,7 @@ impl Entry for mesh::DVec3 {
 /// Why a system of equations was not solved.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SolveError {
-    /// A pivot is not positive and finite: the matrix is not positive definite, up to rounding.
+    /// A pivot is zero, negative, infinite or NaN: the matrix is not positive definite, or rounding makes it appear so.
     #[error(
         "the matrix is not positive definite: the pivot of row {row} is {pivot}; pin an unknown of each component, or add \
          a positive diagonal"

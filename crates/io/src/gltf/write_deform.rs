@@ -53,7 +53,7 @@ impl<'a> Deformation<'a> {
             .into_iter()
             .partition(|(joint, _)| *joint < n_joints.min(1 << 16));
         let is_weighted = |v: usize| unknown.iter().any(|(_, weights)| weights[v] > 0.0);
-        let reason = "the skin has fewer joints";
+        let reason = "they refer to joints that the skin does not have";
         losses.add(
             Domain::Vertex,
             "joint weights",

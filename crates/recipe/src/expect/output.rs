@@ -15,7 +15,7 @@ use super::subject::{ActualValue, Subject, Violation, fails_unless};
 /// The largest file, in bytes, that `test --update` copies over its reference file.
 const MAX_RECORDED: u64 = 64 << 20;
 
-/// Whether the file is a picture whose pixels are compared, by the extension of the path.
+/// Whether the path has the extension of a picture. The pixels of pictures are compared, not the bytes of the files.
 pub(super) fn is_picture(path: &str) -> bool {
     let extension = Path::new(path).extension().unwrap_or_default();
     ["png", "apng"]

@@ -173,7 +173,7 @@ pub enum RerunReason {
     )]
     NotKept,
     /// The input files of the step could not be determined: a path and the reason.
-    #[error("its input files are unknown: {}: {}", .0.display(), .1)]
+    #[error("its input files cannot be determined ({}: {})", .0.display(), .1)]
     Unknown(PathBuf, String),
     /// The identity of the scene before the step is unknown, because an earlier step with unknown input files left
     /// removed elements in the scene.

@@ -118,7 +118,7 @@ fn packed_start(n: usize, column: usize) -> usize {
 }
 
 /// Factors the columns of a panel with `m` rows: replaces them by columns of L, and stores the pivots. If a
-/// pivot is not positive and finite, fails with its column and the pivot.
+/// pivot is zero, negative, infinite or NaN, fails with its column and the pivot.
 fn factor_panel(panel: &mut [f64], m: usize, pivots: &mut [f64]) -> Result<(), (usize, f64)> {
     let k = pivots.len();
     for block in (0..k).step_by(BLOCK) {

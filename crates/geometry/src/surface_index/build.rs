@@ -4,7 +4,7 @@ use mesh::{DVec3, FaceId, HalfEdgeId, Mesh};
 use progress::{Cancelled, Progress};
 use rayon::prelude::*;
 
-use super::{Node, Origin, SurfaceIndex, Triangle};
+use super::{Node, Origin, Slab, SurfaceIndex, Triangle};
 use crate::triangulate::Cutter;
 
 /// The maximum number of triangles of a leaf.
@@ -73,9 +73,11 @@ impl SurfaceIndex {
             |t: &Triangle| t.positions[0] / 3.0 + t.positions[1] / 3.0 + t.positions[2] / 3.0;
         let mut keys: Vec<Key> = (0..).zip(&triangles).map(|(i, t)| (center(t), i)).collect();
         let mut nodes = vec![Node::EMPTY; n_nodes(keys.len())];
+        let mut slabs = vec![Slab::EVERYTHING; nodes.len()];
         Subtree {
             keys: &mut keys,
             nodes: &mut nodes,
+            slabs: &mut slabs,
             first: 0,
             node: 0,
         }
@@ -83,6 +85,7 @@ impl SurfaceIndex {
         let sorted = || keys.par_iter().map(|&(_, i)| &triangles[i as usize]);
         Ok(Some(Self {
             nodes,
+            slabs,
             positions: sorted().map(|t| t.positions).collect(),
             origins: sorted().map(Origin::of).collect(),
         }))
@@ -93,6 +96,7 @@ impl SurfaceIndex {
 struct Subtree<'a> {
     keys: &'a mut [Key],
     nodes: &'a mut [Node],
+    slabs: &'a mut [Slab],
     /// The position of the first key in the list of all keys.
     first: usize,
     /// The position of the first node in the list of all nodes.
@@ -100,24 +104,30 @@ struct Subtree<'a> {
 }
 
 impl Subtree<'_> {
+    /// Builds the nodes, and returns the sum of the normals of all triangles times twice their areas.
     fn build(
         self,
         triangles: &[Triangle],
         ask: &(dyn Fn() -> Result<(), Cancelled> + Sync),
-    ) -> Result<(), Cancelled> {
+    ) -> Result<DVec3, Cancelled> {
         let n = self.keys.len();
-        let [root, nodes @ ..] = self.nodes else {
+        let ([root, nodes @ ..], [slab, slabs @ ..]) = (self.nodes, self.slabs) else {
             unreachable!("a subtree has a root");
         };
         root.first = number(self.first);
         root.last = number(self.first + n);
         if n <= LEAF {
-            let corners = self
+            let triangles = self
                 .keys
                 .iter()
-                .flat_map(|&(_, i)| triangles[i as usize].positions);
-            (root.min, root.max) = bounds(corners);
-            return Ok(());
+                .map(|&(_, i)| &triangles[i as usize].positions);
+            (root.min, root.max) = bounds(triangles.clone().flatten().copied());
+            let normal = triangles
+                .clone()
+                .map(|[a, b, c]| (b - a).cross(c - a))
+                .sum();
+            *slab = Slab::of(triangles, n, normal);
+            return Ok(normal);
         }
         let (min, max) = bounds(self.keys.iter().map(|key| key.0));
         let axis = (max - min).max_position();
@@ -131,32 +141,40 @@ impl Subtree<'_> {
         let right = n_nodes(middle);
         root.right = number(self.node + 1 + right);
         let (left_nodes, right_nodes) = nodes.split_at_mut(right);
+        let (left_slabs, right_slabs) = slabs.split_at_mut(right);
         let left = Subtree {
             keys: low,
             nodes: &mut *left_nodes,
+            slabs: left_slabs,
             first: self.first,
             node: self.node + 1,
         };
         let right = Subtree {
             keys: high,
             nodes: &mut *right_nodes,
+            slabs: right_slabs,
             first: self.first + middle,
             node: self.node + 1 + right,
         };
-        if n > TASK {
+        let (left, right) = if n > TASK {
             ask()?;
-            let (left, right) = rayon::join(
+            rayon::join(
                 || left.build(triangles, ask),
                 || right.build(triangles, ask),
-            );
-            left.and(right)?;
+            )
         } else {
-            left.build(triangles, ask)?;
-            right.build(triangles, ask)?;
-        }
+            (left.build(triangles, ask), right.build(triangles, ask))
+        };
+        let normal = left? + right?;
         root.min = left_nodes[0].min.min(right_nodes[0].min);
         root.max = left_nodes[0].max.max(right_nodes[0].max);
-        Ok(())
+        let keys = self.keys.iter();
+        *slab = Slab::of(
+            keys.map(|&(_, i)| &triangles[i as usize].positions),
+            n,
+            normal,
+        );
+        Ok(normal)
     }
 }
 

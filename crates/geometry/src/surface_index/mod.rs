@@ -12,7 +12,8 @@
 //! ```
 //!
 //! The index is a binary tree of axis-aligned boxes. The triangles of a node are sorted by their centers along the
-//! longest side of the box of the centers; each child gets half of them. The tree depends only on the mesh: it is
+//! longest side of the box of the centers; each child gets half of them. A node also has a slab: two parallel planes around
+//! its triangles. The tree depends only on the mesh: it is
 //! the same for any number of threads.
 //!
 //! A face with more than three corners is divided into triangles: four corners into a fan, more corners by ear
@@ -23,6 +24,7 @@ mod intersect;
 mod nearest;
 mod pairs;
 mod ray;
+mod slab;
 pub(crate) mod triangle;
 mod winding;
 
@@ -33,6 +35,7 @@ pub(crate) use build::triangulate;
 pub use intersect::{self_intersecting_faces, triangles_intersect};
 pub use nearest::Nearest;
 pub use ray::RayHit;
+use slab::Slab;
 pub use winding::Winding;
 
 /// The triangles of a surface in a tree of boxes. The index copies the triangles, so later changes of the mesh do
@@ -40,6 +43,8 @@ pub use winding::Winding;
 #[derive(Clone, Debug)]
 pub struct SurfaceIndex {
     nodes: Vec<Node>,
+    /// By node.
+    slabs: Vec<Slab>,
     /// The corners of the triangles, in the order of the tree.
     positions: Vec<[DVec3; 3]>,
     origins: Vec<Origin>,

@@ -30,6 +30,9 @@ pub struct Nearest {
 /// this number, it accepts an inexact answer. A search usually visits at most a few hundred nodes.
 const MAX_NODES: u32 = 1000;
 
+/// After this number of visited nodes, slabs are used too. Most searches are finished by then.
+const BOXES_ONLY: u32 = 64;
+
 /// The number of points of one task. Each task starts without a hint.
 const BLOCK: usize = 1024;
 
@@ -82,7 +85,10 @@ impl SurfaceIndex {
             if children[0].1 <= children[1].1 {
                 children.swap(0, 1);
             }
-            for child in children {
+            for mut child in children {
+                if visits > BOXES_ONLY && child.1 < best.squared {
+                    child.1 = self.slab_distance_squared(p, child.0, child.1);
+                }
                 if child.1 < best.squared {
                     stack[height] = child;
                     height += 1;
@@ -172,6 +178,7 @@ impl SurfaceIndex {
                 return best.found(Some(squared), visits);
             }
             for (child, squared) in self.visit(p, i, &mut best).into_iter().flatten() {
+                let squared = self.slab_distance_squared(p, child, squared);
                 if squared < best.squared {
                     waiting.push(Reverse((squared.to_bits(), child)));
                 }

@@ -2,6 +2,7 @@
 
 mod intersect;
 mod ray;
+mod slab;
 mod winding;
 
 use mesh::{DVec3, Mesh, VertexId};

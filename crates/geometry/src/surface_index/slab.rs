@@ -1,0 +1,97 @@
+//! Slabs: pairs of parallel planes around the triangles of a node.
+//!
+//! ```text
+//!   +-----------+      From a distant point in the upper right, the corner of the box is much nearer than the surface.
+//!   |\  \       |      All boxes up to a distance of about √(size of the box · radius of the surface) from the nearest
+//!   |  \  \     |      point would be visited: hundreds of them in a fine mesh. The slab, parallel to the surface, shows
+//!   |    \  \   |      that their triangles are too far away.
+//!   +-----------+
+//! ```
+
+use mesh::DVec3;
+
+use super::SurfaceIndex;
+
+/// Larger nodes have no slab, because their triangles seldom lie near a plane.
+const MOST: usize = 512;
+
+/// The number of improvements of a bound.
+const STEPS: usize = 3;
+
+/// All points of a node satisfy `low <= normal · point <= high`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slab {
+    /// The sum of the normals of the triangles times their areas, with length 1 up to rounding.
+    normal: [f32; 3],
+    low: f64,
+    high: f64,
+}
+
+impl Slab {
+    /// A slab that contains everything.
+    pub(super) const EVERYTHING: Self = Self {
+        normal: [0.0; 3],
+        low: f64::NEG_INFINITY,
+        high: f64::INFINITY,
+    };
+
+    /// Returns the slab of triangles, whose sum of normals times areas is `normal`.
+    pub(super) fn of<'a>(
+        triangles: impl Iterator<Item = &'a [DVec3; 3]>,
+        n: usize,
+        normal: DVec3,
+    ) -> Self {
+        let Some(normal) = normal.try_normalize().filter(|_| n <= MOST) else {
+            return Self::EVERYTHING;
+        };
+        let normal = normal.as_vec3();
+        let heights = triangles.flatten().map(|p| normal.as_dvec3().dot(*p));
+        let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| {
+            (low.min(h), high.max(h))
+        });
+        Self {
+            normal: normal.to_array(),
+            low,
+            high,
+        }
+    }
+}
+
+impl SurfaceIndex {
+    /// Returns a lower bound on the squared distance from `p` to the triangles of a node. `squared` is the squared distance to
+    /// its box.
+    ///
+    /// The bound is the distance to the part of the box in the slab. For λ ≥ 0, no point x of this part is nearer than
+    /// the minimum over the box of |p - x|² + 2 λ (n·x - high), at x = p - λ n, clamped to the box. λ is improved by
+    /// Newton steps. Every λ gives a bound: Boyd, Vandenberghe, "Convex Optimization", 2004, §5.1.3.
+    pub(super) fn slab_distance_squared(&self, p: DVec3, i: usize, squared: f64) -> f64 {
+        let (node, slab) = (&self.nodes[i], &self.slabs[i]);
+        let [x, y, z] = slab.normal.map(f64::from);
+        let (mut normal, mut limit) = (DVec3::new(x, y, z), slab.high);
+        let mut height = normal.dot(p);
+        if height < slab.low {
+            (normal, limit, height) = (-normal, -slab.low, -height);
+        }
+        let mut bound = squared;
+        let mut factor = height - limit;
+        if factor.is_nan() || factor <= 0.0 || !factor.is_finite() {
+            return bound;
+        }
+        for _ in 0..STEPS {
+            let free = p - factor * normal;
+            let at = free.max(node.min).min(node.max);
+            let (above, distance) = (normal.dot(at) - limit, p.distance_squared(at));
+            let product = 2.0 * factor * above;
+            // The terms are rounded, and so are the heights.
+            let rounding = 1e-14
+                * (distance + product.abs() + factor * (limit.abs() + at.abs().element_sum()));
+            bound = bound.max(distance + product - rounding);
+            let slope = DVec3::select(free.cmpeq(at), normal * normal, DVec3::ZERO).element_sum();
+            if slope == 0.0 {
+                break;
+            }
+            factor = (factor + above / slope).max(0.0);
+        }
+        bound
+    }
+}

@@ -45,8 +45,8 @@ pub(crate) struct Session<'a> {
     ingredients: Option<Ingredients>,
     /// The computing time since the last stored scene.
     unstored_time: Duration,
-    /// The last step that had to run for a reason that can make later steps run again. The tuple has its number
-    /// (counted from 1) and its label.
+    /// The last step that ran because something changed, so that later steps can also have to run. The tuple has the
+    /// number of the step (counted from 1) and its label.
     last_changed: Option<(usize, String)>,
     notes: Vec<String>,
 }
@@ -139,8 +139,8 @@ impl CachedRun for Session<'_> {
                     "the result of step {number} {label} is not stored, because its input files cannot be determined ({}: {why})",
                     path.display()
                 ));
-                // Later steps can still be cached, because the state after this step is derived from the content of the
-                // scene.
+                // Later steps can still be cached, because the identity of the scene after this step is computed from the scene
+                // itself, not from the inputs of the step.
                 if is_dense(done.scene) {
                     let digest = position.digest.unwrap_or_else(|| done.scene.digest());
                     position.digest = Some(digest);

@@ -346,7 +346,9 @@ impl Names {
             *last += 1;
             new = format!("{name}.{last}");
         }
-        let what = format!("node named `{name}` renamed to `{new}`: the name is taken");
+        let what = format!(
+            "node named `{name}` renamed to `{new}`, because another node is named `{name}`"
+        );
         let renamed = usize::from(new != name);
         notes.changed("objects-renamed", renamed, None, what);
         new

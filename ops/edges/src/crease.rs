@@ -103,7 +103,7 @@ fn sharpen<I: Id>(
         (None, Some(column)) => {
             let (domain, kind) = (I::DOMAIN, column.values.type_name());
             return Err(OpError::Parameter(format!(
-                "expected the {domain} attribute \"{name}\" to have the type number, found {kind}"
+                "expected the {domain} attribute \"{name}\" to hold one number for each {domain}, found {kind}"
             )));
         }
     };
@@ -210,7 +210,7 @@ mod tests {
         let error = try_applied(&step("(edges: All, sharpness: 1)"), mesh).unwrap_err();
         assert_eq!(
             error.to_string(),
-            "expected the edge attribute \"crease\" to have the type number, found 3 numbers"
+            "expected the edge attribute \"crease\" to hold one number for each edge, found 3 numbers"
         );
     }
 }

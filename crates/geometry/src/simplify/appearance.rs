@@ -33,8 +33,8 @@ const TEXTURE: f64 = 0.5;
 /// is 3.3e-3.
 const NORMAL: f64 = 0.002;
 
-/// The weight of the difference between the lowest and the highest value of another attribute, relative to the size of
-/// the mesh.
+/// The weight of all attributes except texture coordinates and normals. An error as large as the difference between the
+/// lowest and the highest value of the attribute counts as a distance of this fraction of the size of the mesh.
 const OTHER: f64 = 0.02;
 
 /// A column whose values are kept by wedge instead of in the mesh.

@@ -302,7 +302,7 @@ pub(super) fn error_at(node: Node, message: impl Into<String>) -> Fault {
 /// If the attribute is missing.
 pub(super) fn required<'a>(node: Node<'a>, key: &str) -> Result<&'a str, Fault> {
     node.attribute(key)
-        .ok_or_else(|| error_at(node, format!("expected an attribute {key}, found none")))
+        .ok_or_else(|| error_at(node, format!("expected an attribute `{key}`, found none")))
 }
 
 /// The value of an attribute that is a non-negative integer; `None` if the attribute is missing.
@@ -319,7 +319,7 @@ pub(super) fn natural(node: Node, key: &str) -> Result<Option<usize>, Fault> {
         let found = quoted(value.as_bytes());
         error_at(
             node,
-            format!("expected the attribute {key} to be a non-negative integer, found {found}"),
+            format!("expected the attribute `{key}` to be a non-negative integer, found {found}"),
         )
     })
 }

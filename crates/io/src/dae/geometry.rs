@@ -206,7 +206,7 @@ impl<'a, 'd> Geometries<'a, 'd> {
         };
         for input in named(list, "input") {
             let offset = natural(input, "offset")?
-                .ok_or_else(|| error_at(input, "expected an attribute offset"))?;
+                .ok_or_else(|| error_at(input, "expected an attribute `offset`"))?;
             if offset > 1000 {
                 let message = format!("expected an offset of at most 1000, found {offset}");
                 return Err(error_at(input, message));

@@ -216,8 +216,9 @@ fn note_asset(document: &Document, notes: &mut Notes) -> Result<(), Fault> {
         && let Some(given) = unit.attribute("meter")
     {
         let parsed = given.trim().parse::<f64>().ok().filter(|x| x.is_finite());
-        meter = parsed
-            .ok_or_else(|| error_at(unit, "expected the attribute meter to be a finite number"))?;
+        meter = parsed.ok_or_else(|| {
+            error_at(unit, "expected the attribute `meter` to be a finite number")
+        })?;
     }
     let up = axis.map_or("Y_UP", text);
     if meter != 1.0 || up != "Y_UP" {

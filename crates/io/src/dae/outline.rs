@@ -146,7 +146,7 @@ impl Shape {
         if count.is_some_and(|count| count != found) {
             let count = required(list, "count")?;
             let message = format!(
-                "expected {count} polygons according to the attribute count, found {found}"
+                "expected {count} polygons according to the attribute `count`, found {found}"
             );
             return Err(error_at(list, message));
         }

@@ -59,7 +59,7 @@ pub(super) fn vectors(
         return Err(error_at(accessor, message));
     }
     let count = natural(accessor, "count")?
-        .ok_or_else(|| error_at(accessor, "expected an attribute count"))?;
+        .ok_or_else(|| error_at(accessor, "expected an attribute `count`"))?;
     let offset = natural(accessor, "offset")?.unwrap_or(0);
     let stride = natural(accessor, "stride")?.unwrap_or(1);
     let Some(array) = document.follow(accessor, "source", &["float_array", "int_array"])? else {
@@ -73,7 +73,7 @@ pub(super) fn vectors(
     if natural(array, "count")?.is_some_and(|count| count != values.len()) {
         let declared = required(array, "count")?;
         let message = format!(
-            "expected {declared} numbers according to the attribute count, found {}",
+            "expected {declared} numbers according to the attribute `count`, found {}",
             values.len()
         );
         return Err(error_at(array, message));

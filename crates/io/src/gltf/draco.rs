@@ -143,7 +143,7 @@ fn arrays(reader: &Reader, compressed: &Compressed) -> Result<Vec<(usize, Vec<u8
     let position = primitive
         .attributes
         .get(&Checked::Valid(Semantic::Positions));
-    let position = position.ok_or_else(|| wrong("expected an attribute POSITION".to_owned()))?;
+    let position = position.ok_or_else(|| wrong("expected an attribute `POSITION`".to_owned()))?;
     let (n_corners, n_points) = (
         reader.count(indices, &at)?,
         reader.count(position.value(), &at)?,

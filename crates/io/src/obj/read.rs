@@ -221,7 +221,9 @@ fn set_tags(polygons: &mut Polygons, file: &ObjFile, notes: &mut Notes) {
                 name
             }
             Some(_) => {
-                let what = format!("group `{name}` renamed to `{name} group`: the name is taken");
+                let what = format!(
+                    "group `{name}` renamed to `{name} group`, because another attribute is named `{name}`"
+                );
                 notes.changed("groups-renamed", 1, None, what);
                 format!("{name} group")
             }

@@ -65,7 +65,7 @@ const BROKEN: &[(&str, &str, &str)] = &[
     (
         "1 1 0 0 1 0<",
         "1 1 0 0 1<",
-        "6:16: <float_array>: expected 12 numbers according to the attribute count, found 11",
+        "6:16: <float_array>: expected 12 numbers according to the attribute `count`, found 11",
     ),
     (
         "count=\"4\"",
@@ -80,7 +80,7 @@ const BROKEN: &[(&str, &str, &str)] = &[
     (
         "count=\"4\"",
         "count=\"-4\"",
-        "expected the attribute count to be a non-negative integer, found `-4`",
+        "expected the attribute `count` to be a non-negative integer, found `-4`",
     ),
     (
         "stride=\"3\"",
@@ -115,7 +115,7 @@ const BROKEN: &[(&str, &str, &str)] = &[
     (
         "source=\"#v\" offset=\"0\"",
         "source=\"#v\"",
-        "expected an attribute offset",
+        "expected an attribute `offset`",
     ),
     (
         "source=\"#v\" offset=\"0\"",
@@ -170,7 +170,7 @@ const BROKEN: &[(&str, &str, &str)] = &[
     (
         "polylist count=\"1\"",
         "polylist count=\"2\"",
-        "expected 2 polygons according to the attribute count, found 1",
+        "expected 2 polygons according to the attribute `count`, found 1",
     ),
     (
         "0 0 0 1</matrix>",
@@ -193,7 +193,7 @@ const BROKEN: &[(&str, &str, &str)] = &[
         "expected a view direction",
     ),
     ("url=\"#g\"", "url=\"g\"", "expected url=\"#id\", found `g`"),
-    ("url=\"#g\"", "", "expected an attribute url"),
+    ("url=\"#g\"", "", "expected an attribute `url`"),
     (
         "url=\"#vs\"",
         "url=\"#g\"",

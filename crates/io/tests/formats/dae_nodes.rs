@@ -145,7 +145,7 @@ fn skins_and_other_libraries_are_counted() {
         [
             "1 other scenes left out",
             "1 geometries left out: not used by any node of the scene",
-            "1 node named `box` renamed to `box.2`: the name is taken",
+            "1 node named `box` renamed to `box.2`, because another node is named `box`",
             "2 animations left out",
             "1 cameras left out",
             "2 skins and morphs left out: geometries have their rest pose",

@@ -197,7 +197,7 @@ fn a_lost_graphics_device_closes_the_window_and_the_next_start_offers_the_text()
         path: Some(path),
         state_folder: Some(folder.path().join("state")),
     };
-    let device = std::sync::Arc::new(std::sync::OnceLock::new());
+    let device = Arc::new(std::sync::OnceLock::new());
     let to_device = device.clone();
     let state_folder = start.state_folder.clone();
     let harness = Harness::builder()
@@ -216,7 +216,7 @@ fn a_lost_graphics_device_closes_the_window_and_the_next_start_offers_the_text()
     let device = device.get().unwrap();
     device.destroy();
     // The loss is noticed with the next commands for the device.
-    device.poll(eframe::wgpu::PollType::Poll).ok();
+    device.poll(wgpu::PollType::Poll).ok();
     let mut closes = false;
     for _ in 0..3 {
         window.harness.run_steps(1);

@@ -29,6 +29,7 @@ const ALLOWED_DEPENDENCIES: &[(&str, &[&str])] = &[
     ("cli", &["engine", "view", "ops-pictures", "ops-all"]),
     ("editor", &["engine"]),
     ("python", &["cli"]),
+    ("web", &["engine", "ops-all"]),
     ("viewer", &["editor", "view", "ops-all"]),
     ("benches", &["ops-*", "engine"]),
     ("tests", &["cli"]),

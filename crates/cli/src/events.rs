@@ -26,15 +26,16 @@ use std::io::{self, Write as _};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-use op::{Progress, ReadingChange, ReadingElements};
+use op::Progress;
 use recipe::{Listener, Outcome, StepDone};
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 
 use crate::listener::lock;
-use crate::output::{ProblemJson, STAMP, losses_json, origin, problems_json};
+use crate::output::{STAMP, origin};
 use crate::picture_errors::Pictures;
 use engine::Loaded;
+use engine::json::{Problem, problems, step_done};
 
 /// The version of the event format.
 const FORMAT: u32 = 1;
@@ -54,7 +55,7 @@ pub(crate) struct Events<'a> {
 struct ProblemEvent {
     event: &'static str,
     #[serde(flatten)]
-    problem: ProblemJson,
+    problem: Problem,
 }
 
 struct State {
@@ -124,7 +125,7 @@ impl<'a> Events<'a> {
 
     /// Writes an event for each problem.
     fn problems(&self, diagnostics: &[recipe::Diagnostic]) {
-        for problem in problems_json(diagnostics, &self.loaded.recipe.sources) {
+        for problem in problems(diagnostics, &self.loaded.recipe.sources) {
             self.write(&ProblemEvent {
                 event: "problem",
                 problem,
@@ -174,38 +175,8 @@ impl Listener for Events<'_> {
     }
 
     fn step_done(&self, number: usize, done: &StepDone) {
-        self.write(&json!({
-            "event": "done",
-            "number": number + 1,
-            "label": done.label,
-            "vertices": done.vertices,
-            "edges": done.edges,
-            "faces": done.faces,
-            "changed": done.report.changed,
-            "refused": done.report.refused,
-            "losses": losses_json(&done.report.losses),
-            "changes": done.report.changes.iter().map(change_json).collect::<Vec<_>>(),
-            "notes": done.report.notes,
-            "digest": done.digest.map(|digest| digest.to_string()),
-            "milliseconds": milliseconds(done.time),
-            "cached": done.ran.is_none(),
-            "ran_because": done.ran.as_ref().map(ToString::to_string),
-        }));
+        self.write(&step_done(number, done));
     }
-}
-
-/// Converts a change to JSON. The field `text` names only some of the elements, but the list contains all of them.
-fn change_json(change: &ReadingChange) -> Json {
-    let mut json = json!({
-        "code": change.code, "count": change.count, "text": change.message,
-    });
-    match &change.elements {
-        Some(ReadingElements::Vertices(list)) => json["vertices"] = json!(list),
-        Some(ReadingElements::Edges(list)) => json["edges"] = json!(list),
-        Some(ReadingElements::Faces(list)) => json["faces"] = json!(list),
-        None => {}
-    }
-    json
 }
 
 fn milliseconds(time: Duration) -> f64 {

@@ -5,7 +5,7 @@ use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 
 use mesh::DVec3;
-use recipe::{LineIndex, Origin, Outcome, Recipe, RecipeStep, Source, StepDone};
+use recipe::{Origin, Outcome, Recipe, RecipeStep, Source, StepDone};
 use ron_tree::{Value, ValueKind};
 
 use engine::Loaded;
@@ -277,48 +277,6 @@ pub(crate) fn origin(origin: &Origin) -> String {
         Origin::Call => "the call".to_owned(),
         Origin::Set => "--set".to_owned(),
     }
-}
-
-/// Converts losses for serialization as JSON.
-pub(crate) fn losses_json(losses: &[op::Loss]) -> Vec<serde_json::Value> {
-    let json = |l: &op::Loss| {
-        let object = (!l.object.is_empty()).then_some(&l.object);
-        serde_json::json!({ "object": object, "name": l.name, "message": l.to_string() })
-    };
-    losses.iter().map(json).collect()
-}
-
-/// A diagnostic, for serialization as JSON.
-#[derive(Serialize)]
-pub(crate) struct ProblemJson {
-    severity: &'static str,
-    file: Option<String>,
-    line: Option<usize>,
-    column: Option<usize>,
-    message: String,
-    help: Option<String>,
-}
-
-/// Converts diagnostics for serialization as JSON.
-pub(crate) fn problems_json(
-    diagnostics: &[recipe::Diagnostic],
-    sources: &[Source],
-) -> Vec<ProblemJson> {
-    let lines: Vec<LineIndex> = sources.iter().map(|s| LineIndex::new(&s.text)).collect();
-    let problem = |d: &recipe::Diagnostic| {
-        let place = d
-            .span
-            .and_then(|span| Some(lines.get(d.source)?.position(span.start)));
-        ProblemJson {
-            severity: d.severity.name(),
-            file: sources.get(d.source).map(|s| s.path.display().to_string()),
-            line: place.map(|p| p.0),
-            column: place.map(|p| p.1),
-            message: d.message.clone(),
-            help: d.help.clone(),
-        }
-    };
-    diagnostics.iter().map(problem).collect()
 }
 
 /// Escapes control characters, so that a string stays on one line and cannot control the terminal.

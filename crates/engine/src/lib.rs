@@ -37,6 +37,8 @@
 #[doc = include_str!("../../../book/src/library.md")]
 struct Library;
 
+pub mod json;
+
 mod cancel;
 mod loaded;
 mod read;

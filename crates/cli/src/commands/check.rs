@@ -9,8 +9,7 @@ use super::run::report_errors;
 use crate::args::{CheckArgs, Format};
 use crate::loading::load;
 use crate::output::{
-    explain, group_digits, header_row, losses_json, print, print_diagnostics, print_json,
-    problems_json, table,
+    explain, group_digits, header_row, print, print_diagnostics, print_json, table,
 };
 
 pub(crate) fn run(args: &CheckArgs, engine: &Engine) -> anyhow::Result<bool> {
@@ -28,12 +27,12 @@ pub(crate) fn run(args: &CheckArgs, engine: &Engine) -> anyhow::Result<bool> {
         let forecast = steps.iter().map(|s| {
             json!({
                 "step": s.label, "vertices": range(s.vertices), "edges": range(s.edges),
-                "faces": range(s.faces), "bytes": range(s.bytes), "losses": losses_json(&s.losses),
+                "faces": range(s.faces), "bytes": range(s.bytes), "losses": engine::json::losses(&s.losses),
             })
         });
         print_json(&json!({
             "recipe": loaded.path, "succeeded": true, "forecast": forecast.collect::<Vec<_>>(),
-            "warnings": problems_json(&loaded.diagnostics, &loaded.recipe.sources),
+            "warnings": engine::json::problems(&loaded.diagnostics, &loaded.recipe.sources),
         }))?;
         return Ok(true);
     }

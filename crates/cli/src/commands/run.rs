@@ -12,8 +12,8 @@ use crate::events::Events;
 use crate::listener::{Terminal, catch_interrupts};
 use crate::loading::load;
 use crate::output::{
-    explain, explain_steps, print, print_diagnostics, print_error, print_json, problems_json,
-    step_notes, step_table,
+    explain, explain_steps, print, print_diagnostics, print_error, print_json, step_notes,
+    step_table,
 };
 use crate::picture_errors::{PictureListener, Pictures};
 use crate::pipes::recipe_name;
@@ -158,7 +158,7 @@ pub(crate) fn print_outcome(
 /// Prints the errors of a recipe that cannot be run.
 pub(crate) fn report_errors(loaded: &Loaded, json: bool) -> anyhow::Result<bool> {
     if json {
-        let problems = problems_json(&loaded.diagnostics, &loaded.recipe.sources);
+        let problems = engine::json::problems(&loaded.diagnostics, &loaded.recipe.sources);
         print_json(&serde_json::json!({
             "recipe": loaded.path, "succeeded": false, "failures": problems,
         }))?;

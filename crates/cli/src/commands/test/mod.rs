@@ -40,9 +40,7 @@ use crate::cache;
 use crate::listener::{INTERRUPT, catch_interrupts};
 use crate::loading::{RecipeFile, load_text, recipes};
 use crate::many::{JobResult, error_message, run_all, run_in_order};
-use crate::output::{
-    print, print_diagnostics, print_error, print_json, problems_json, write_atomically,
-};
+use crate::output::{print, print_diagnostics, print_error, print_json, write_atomically};
 use crate::picture_errors::{PictureListener, Pictures};
 
 pub(crate) fn run(args: &TestArgs, engine: &Engine) -> anyhow::Result<bool> {
@@ -303,7 +301,7 @@ impl<'a> Test<'a> {
     fn json(&self, result: &TestResult) -> Json {
         let mut failures: Vec<Json> = Vec::new();
         if let Ok(loaded) = &self.loaded {
-            let problems = problems_json(&result.diagnostics, &loaded.recipe.sources);
+            let problems = engine::json::problems(&result.diagnostics, &loaded.recipe.sources);
             failures.extend(problems.iter().map(|problem| json!(problem)));
         }
         let message = result.message.iter();

@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# Builds the package for browsers and Node in target/web, and tests it in Node.
+#
+# The standard library for WebAssembly comes from the installed toolchain if it has one. Otherwise a compiler and the
+# sources of its standard library are Debian packages, which are unpacked in target/ci/web. If a tool is not available, the
+# script prints the reason and exits with code 0.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+work=$PWD/target/ci/web
+out=$PWD/target/web
+target=wasm32-unknown-unknown
+mkdir -p "$work"
+
+skip() { echo "the package for browsers is not built: $*"; exit 0; }
+
+command -v npm > /dev/null || skip "npm is missing"
+sysroot=$(rustc --print sysroot)
+build=(cargo build --profile web --locked --target "$target" -p meshwright-web)
+if ! [ -d "$sysroot/lib/rustlib/$target" ]; then
+    [ "$(uname -sm)" = "Linux x86_64" ] || skip "the standard library is missing: rustup target add $target"
+    command -v apt-get > /dev/null || skip "the standard library and apt-get are missing"
+    linker=$sysroot/lib/rustlib/x86_64-unknown-linux-gnu/bin/rust-lld
+    [ -x "$linker" ] || skip "the toolchain has no rust-lld"
+    root=$work/root/usr
+    if ! [ -d "$root/src" ] || ! [ -x "$root/bin/rustc" ]; then
+        # Package lists in a folder of their own, which needs no root.
+        mkdir -p "$work/lists/partial" "$work/cache/archives/partial" "$work/debs"
+        printf '%s\n' "Dir::State::lists \"$work/lists\";" "Dir::Cache \"$work/cache\";" > "$work/apt.conf"
+        [ "$(id -u)" != 0 ] || echo 'APT::Sandbox::User "root";' >> "$work/apt.conf"
+        export APT_CONFIG=$work/apt.conf
+        apt-get update > "$work/apt.txt" 2>&1 || skip "package lists cannot be downloaded"
+        version=$(apt-cache policy rustc-web | awk '/Candidate/ { print $2 }')
+        [ -n "$version" ] || skip "the package rustc-web does not exist"
+        linked=$(apt-cache depends "libstd-rust-web-dev=$version" | awk '/Depends: libstd-rust-web-/ { print $2 }')
+        llvm=$(apt-cache depends "$linked" | awk '/Depends: libllvm/ { print $2 }')
+        (cd "$work/debs" && apt-get download "rustc-web=$version" "rust-web-src=$version" "libstd-rust-web-dev=$version" \
+            "$linked" "$llvm") >> "$work/apt.txt" 2>&1 || skip "the compiler cannot be downloaded"
+        for package in "$work"/debs/*.deb; do dpkg -x "$package" "$work/root"; done
+        rm -rf "$work/debs" "$work/cache" "$work/lists"
+        unset APT_CONFIG
+    fi
+    printf '%s\n' '#!/bin/sh' \
+        "LD_LIBRARY_PATH=$root/lib/x86_64-linux-gnu:$root/lib exec $root/bin/rustc \"\$@\"" > "$work/rustc"
+    chmod +x "$work/rustc"
+    needs=$(sed -n 's/^rust-version = "\(.*\)"/\1/p' Cargo.toml)
+    has=$("$work/rustc" -V 2> /dev/null | cut -d ' ' -f 2) || skip "the compiler does not run"
+    [ "$(printf '%s\n' "$needs" "$has" | sort -V | head -n 1)" = "$needs" ] ||
+        skip "the packaged compiler has version $has, expected at least $needs"
+    # A stable compiler builds its own standard library only with this variable.
+    export RUSTC_BOOTSTRAP=1
+    build+=(-Zbuild-std=std,panic_abort)
+    compiler=(env "RUSTC=$work/rustc" "CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER=$linker")
+fi
+npm install --silent --no-audit --no-fund --prefix "$work/tools" binaryen@132.0.0 ||
+    skip "binaryen cannot be installed from npm"
+
+CARGO_INCREMENTAL=0 CARGO_TARGET_DIR=$work/target "${compiler[@]:-env}" "${build[@]}"
+(cd crates/web/bindgen && CARGO_INCREMENTAL=0 CARGO_TARGET_DIR=$work/bindgen cargo build --locked)
+
+rm -rf "$out" && mkdir -p "$out"
+"$work/bindgen/debug/meshwright-bindgen" "$work/target/$target/web/meshwright_web.wasm" "$out"
+"$work/tools/node_modules/.bin/wasm-opt" -O1 --all-features -o "$out/core_bg.wasm" "$out/core_bg.wasm"
+cp crates/web/package/* LICENSE-APACHE LICENSE-MIT "$out"
+node crates/web/tests/size.mjs "$out/core_bg.wasm"
+node crates/web/tests/scenes.mjs "$out"

@@ -1,0 +1,134 @@
+/** An error or a warning about a recipe. */
+export interface Problem {
+    severity: "error" | "warning";
+    /** The path of the file that the problem is in. */
+    file: string | null;
+    /** The line, counted from 1. */
+    line: number | null;
+    /** The column in characters, counted from 1. */
+    column: number | null;
+    message: string;
+    /** How to correct the text. */
+    help: string | null;
+    /** The first and the last offset in the text of the recipe, as strings count. `null` if the problem is elsewhere. */
+    range: [number, number] | null;
+}
+
+/** A step that is done. Counts are those of all meshes together after the step. */
+export interface StepDone {
+    event: "done";
+    /** The number of the step, counted from 1. */
+    number: number;
+    label: string;
+    vertices: number;
+    edges: number;
+    faces: number;
+    /** The number of elements or objects that the step changed or created. */
+    changed: number;
+    /** Edits that were refused and skipped, by reason. */
+    refused: { reason: string; count: number; first: string }[];
+    losses: { object: string | null; name: string; message: string }[];
+    changes: { code: string; count: number; text: string; vertices?: number[]; edges?: number[]; faces?: number[] }[];
+    notes: string[];
+    milliseconds: number;
+}
+
+export type Event =
+    | { event: "step"; number: number; label: string; operation: string }
+    | { event: "progress"; what: string; done: number; total: number }
+    | StepDone;
+
+/** The result of a check. */
+export interface Checked {
+    problems: Problem[];
+    parameters: { name: string; type: string; value: string; doc: string | null }[];
+    steps: { label: string; operation: string }[];
+    /** The largest memory of all meshes after any step, in bytes. `null` if unknown. */
+    peak_bytes: number | null;
+}
+
+/** The result of a run. */
+export interface Result {
+    succeeded: boolean;
+    cancelled: boolean;
+    problems: Problem[];
+    steps: StepDone[];
+    /** The expectations that were checked. */
+    expectations: { file: string; line: number; text: string; met: boolean }[];
+    /** The digest of the scene at the end: 32 hexadecimal digits. `null` if the recipe has errors. */
+    digest: string | null;
+    /** The paths of the written files, in the folder `out`. */
+    files: string[];
+    objects: { name: string; kind: string; vertices?: number; edges?: number; faces?: number }[];
+}
+
+/** The arrays of a mesh. Vertices and faces have the numbers that recipes use. */
+export interface MeshArrays {
+    /** The center of the bounding box, in scene units. */
+    center: Float64Array;
+    /** The position of each vertex relative to the center: x, y and z, one vertex after another. */
+    positions: Float32Array;
+    /** The three vertices of each triangle. A polygon has several triangles. */
+    triangles: Uint32Array;
+    /** The face of each triangle. */
+    faces: Uint32Array;
+    /** The two vertices of each edge. */
+    edges: Uint32Array;
+}
+
+export interface Options {
+    /** The path of the recipe, which other paths are relative to. Defaults to `recipe.ron`. */
+    path?: string;
+    /** Values of parameters. */
+    set?: Record<string, string | number | boolean>;
+}
+
+export interface RunOptions extends Options {
+    /**
+     * Receives the events of the run. If it returns false for an event `progress`, the run is canceled. Progress is
+     * reported at most ten times per second.
+     */
+    onEvent?: (event: Event) => boolean | void;
+}
+
+/** Loads the engine once. `source` is the WebAssembly file. Defaults to the file beside this module. */
+export function load(source?: URL | Response | BufferSource | WebAssembly.Module): Promise<void>;
+
+/** Files in memory, and the scene of the last run. */
+export class Session {
+    /** Loads the engine and creates a session without files. */
+    static create(source?: Parameters<typeof load>[0]): Promise<Session>;
+    /** Creates a session without files. The engine must be loaded. */
+    constructor();
+    /** Writes a file, which recipes can then read. Folders are created. Throws if a folder has this path. */
+    write(path: string, content: string | Uint8Array): void;
+    /** Reads a file, such as an output of a run. Throws if the file does not exist. */
+    read(path: string): Uint8Array;
+    /** Checks a recipe without running it. */
+    check(recipe: string, options?: Options): Checked;
+    /**
+     * Checks and runs a recipe. Blocks until the run ends, so a page runs it in a worker. Throws `RuntimeError` if
+     * memory is exhausted; the engine cannot be used afterwards, and a page starts a new worker.
+     */
+    run(recipe: string, options?: RunOptions): Result;
+    /** Renders the scene of the last run as a PNG file. Throws if the picture is too large. */
+    picture(options?: { width?: number; height?: number; wireframe?: boolean }): Uint8Array;
+    /** Returns the arrays of a mesh of the last run; `undefined` if no mesh has this name. */
+    mesh(object: string): MeshArrays | undefined;
+    /** Returns the JSON schema of recipes. */
+    schema(): object;
+    /** Returns all operations, each with an example of a step. */
+    operations(): { name: string; summary: string; example: string }[];
+    /** Releases the memory of the session. */
+    free(): void;
+}
+
+/**
+ * Checks and runs a recipe. `files` has the content of each file by its path. The result also has the content of each
+ * written file by its path in the output folder, and the arrays of each mesh by its name.
+ */
+export function run(
+    recipe: string,
+    files?: Record<string, string | Uint8Array>,
+    options?: RunOptions,
+): Promise<Result & { outputs: Record<string, Uint8Array>; meshes: Record<string, MeshArrays> }>;

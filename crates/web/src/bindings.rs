@@ -1,0 +1,140 @@
+//! The session for JavaScript. Objects cross the border as JSON, and arrays as typed arrays.
+
+use std::cell::RefCell;
+
+use serde_json::Value as Json;
+use wasm_bindgen::prelude::*;
+
+use crate::{Arrays, session};
+
+#[wasm_bindgen]
+extern "C" {
+    /// An object with the method `event`.
+    pub type Listener;
+
+    /// Receives an event as JSON. Returns whether the run continues.
+    #[wasm_bindgen(method, catch)]
+    fn event(this: &Listener, json: &str) -> Result<bool, JsValue>;
+}
+
+thread_local! {
+    /// The listener of the run. It belongs to JavaScript, so other threads could not call it.
+    static LISTENER: RefCell<Option<Listener>> = const { RefCell::new(None) };
+}
+
+/// Files in memory, and the scene of the last run. Documented in `meshwright.d.ts`.
+#[wasm_bindgen]
+#[derive(Default)]
+pub struct Session(session::Session);
+
+fn error(error: impl ToString) -> JsError {
+    JsError::new(&error.to_string())
+}
+
+/// Reads an object of strings.
+fn values(set: &str) -> Result<Vec<(String, String)>, JsError> {
+    let object: serde_json::Map<String, Json> = serde_json::from_str(set)?;
+    let pair = |(name, value): (String, Json)| match value {
+        Json::String(text) => (name, text),
+        other => (name, other.to_string()),
+    };
+    Ok(object.into_iter().map(pair).collect())
+}
+
+#[wasm_bindgen]
+impl Session {
+    /// Creates a session without files.
+    #[wasm_bindgen(constructor)]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Writes a file.
+    pub fn write(&self, path: &str, bytes: &[u8]) -> Result<(), JsError> {
+        self.0.write(path, bytes).map_err(error)
+    }
+
+    /// Reads a file.
+    pub fn read(&self, path: &str) -> Result<Vec<u8>, JsError> {
+        self.0.read(path).map_err(error)
+    }
+
+    /// Checks a recipe.
+    pub fn check(&self, path: &str, text: &str, set: &str) -> Result<String, JsError> {
+        Ok(self.0.check(path, text, &values(set)?).to_string())
+    }
+
+    /// Runs a recipe.
+    pub fn run(
+        &mut self,
+        path: &str,
+        text: &str,
+        set: &str,
+        listener: Listener,
+    ) -> Result<String, JsError> {
+        let set = values(set)?;
+        LISTENER.set(Some(listener));
+        let result = self.0.run(path, text, &set, &|event| {
+            let heard = |listener: &Option<Listener>| {
+                let listener = listener.as_ref()?;
+                listener.event(&event.to_string()).ok()
+            };
+            // An exception of the listener ends the run, too.
+            LISTENER.with_borrow(heard).unwrap_or(false)
+        });
+        LISTENER.set(None);
+        Ok(result.to_string())
+    }
+
+    /// Renders a picture as a PNG file.
+    pub fn picture(&self, width: u32, height: u32, wireframe: bool) -> Result<Vec<u8>, JsError> {
+        self.0.picture([width, height], wireframe).map_err(error)
+    }
+
+    /// Returns the arrays of a mesh.
+    pub fn mesh(&self, object: &str) -> Option<View> {
+        self.0.arrays(object).map(View)
+    }
+
+    /// Returns the JSON schema of recipes.
+    pub fn schema(&self) -> String {
+        self.0.schema().to_string()
+    }
+
+    /// Returns the operations.
+    pub fn operations(&self) -> String {
+        self.0.operations().to_string()
+    }
+}
+
+/// The arrays of a mesh. Each array can be taken once.
+#[wasm_bindgen]
+pub struct View(Arrays);
+
+#[wasm_bindgen]
+impl View {
+    /// The center of the bounding box.
+    pub fn center(&self) -> Vec<f64> {
+        self.0.center.to_vec()
+    }
+
+    /// The positions relative to the center.
+    pub fn positions(&mut self) -> Vec<f32> {
+        std::mem::take(&mut self.0.positions)
+    }
+
+    /// The vertices of the triangles.
+    pub fn triangles(&mut self) -> Vec<u32> {
+        std::mem::take(&mut self.0.triangles)
+    }
+
+    /// The faces of the triangles.
+    pub fn faces(&mut self) -> Vec<u32> {
+        std::mem::take(&mut self.0.faces)
+    }
+
+    /// The vertices of the edges.
+    pub fn edges(&mut self) -> Vec<u32> {
+        std::mem::take(&mut self.0.edges)
+    }
+}

@@ -1,0 +1,297 @@
+//! Recipes that run on files in memory.
+
+use std::fmt::Debug;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, LazyLock, Mutex, PoisonError};
+use std::time::Duration;
+
+use engine::json::{Problem, problems, step_done};
+use engine::{
+    Diagnostic, Engine, Listener, Loaded, Memory, Options, Outcome, Run, Source, StepDone, Store,
+    Values,
+};
+use op::{Progress, Registry};
+use render::{Camera, Lines, Overlays, PictureError, Style};
+use scene::{Geometry, Scene};
+use serde::Serialize;
+use serde_json::{Value as Json, json};
+use store::StoreError;
+use web_time::Instant;
+
+use crate::Arrays;
+
+static REGISTRY: LazyLock<Registry> = LazyLock::new(ops_all::registry);
+
+/// The default memory budget for meshes in bytes. The addresses of WebAssembly end at 4 GiB.
+const BUDGET: u64 = 1 << 30;
+
+/// The minimum time between two progress events.
+const MIN_INTERVAL: Duration = Duration::from_millis(100);
+
+/// The folder for outputs.
+const OUT: &str = "out";
+
+/// Files in memory, and the scene of the last run.
+#[derive(Debug)]
+pub struct Session {
+    engine: Engine<'static>,
+    store: Arc<Memory>,
+    scene: Scene,
+}
+
+/// A diagnostic with its range in the text of the recipe.
+#[derive(Serialize)]
+struct PlacedProblem {
+    #[serde(flatten)]
+    problem: Problem,
+    /// The range in UTF-16 code units, as JavaScript counts. `null` if the problem is not about the text of the recipe
+    /// itself.
+    range: Option<[usize; 2]>,
+}
+
+impl Default for Session {
+    fn default() -> Self {
+        let store = Arc::new(Memory::default());
+        Self {
+            engine: Engine::new(&REGISTRY).with_store(store.clone()),
+            store,
+            scene: Scene::new(),
+        }
+    }
+}
+
+impl Session {
+    /// Creates a session without files.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Writes a file, which recipes can then read. Folders are created.
+    ///
+    /// # Errors
+    ///
+    /// [`StoreError`] if the path is the path of a folder, or a part of the path is a file.
+    pub fn write(&self, path: &str, bytes: &[u8]) -> Result<(), StoreError> {
+        self.store.write(path.as_ref(), bytes)
+    }
+
+    /// Reads a file, such as an output of a run.
+    ///
+    /// # Errors
+    ///
+    /// [`StoreError`] if the file does not exist.
+    pub fn read(&self, path: &str) -> Result<Vec<u8>, StoreError> {
+        self.store.read(path.as_ref())
+    }
+
+    /// Checks a recipe without running it. `path` is the path of the recipe, which other paths are relative to. `set` has
+    /// values of parameters.
+    ///
+    /// Returns `problems`, each with `severity`, `file`, `line`, `column`, `message`, `help` and `range` (the first and
+    /// the last offset in UTF-16 code units); `parameters` with `name`, `type`, `value` and `doc`; `steps` with `label` and
+    /// `operation`; `peak_bytes`, the largest memory of all meshes after any step, `null` if unknown.
+    pub fn check(&self, path: &str, text: &str, set: &[(String, String)]) -> Json {
+        let loaded = self.load(path, text, set);
+        let parameters = loaded.recipe.parameters().iter().map(|p| {
+            json!({ "name": p.name, "type": p.param.type_name(), "value": p.plain_text(), "doc": p.param.doc() })
+        });
+        let steps = loaded.recipe.steps.iter();
+        let peaks = loaded.forecast.steps.iter().map(|step| step.bytes.max);
+        json!({
+            "problems": placed(&loaded.diagnostics, &loaded),
+            "parameters": parameters.collect::<Vec<_>>(),
+            "steps": steps.map(|s| json!({ "label": s.label(), "operation": s.name })).collect::<Vec<_>>(),
+            "peak_bytes": peaks.max().filter(|&peak| peak < u64::MAX),
+        })
+    }
+
+    /// Checks and runs a recipe. Calls `listen` with the events `step`, `progress` (at most ten times
+    /// per second) and `done` of `meshwright run --format json`. If `listen` returns false for an event `progress`, the run is
+    /// canceled.
+    ///
+    /// Returns `succeeded`, `cancelled`, `problems` as [`check`](Self::check), `steps` with the events `done`,
+    /// `expectations` with `line`, `text` and `met` for each checked expectation, `digest` (`null` if the recipe has errors),
+    /// the paths of the written `files`, and `objects` with `name`, `kind`, `vertices`, `edges` and `faces`.
+    ///
+    /// Afterwards, [`picture`](Self::picture) and [`arrays`](Self::arrays) show the scene at the end, even if the run
+    /// failed.
+    pub fn run(
+        &mut self,
+        path: &str,
+        text: &str,
+        set: &[(String, String)],
+        listen: &(dyn Fn(&Json) -> bool + Sync),
+    ) -> Json {
+        // The memory of the last scene can be used again.
+        self.scene = Scene::new();
+        let loaded = self.load(path, text, set);
+        let mut found = loaded.diagnostics.clone();
+        let outcome = (!loaded.has_errors()).then(|| {
+            let settings = Run {
+                keep_outputs: true,
+                cache: None,
+            };
+            let events = Events {
+                loaded: &loaded,
+                listen,
+                last: Mutex::new(Instant::now()),
+            };
+            loaded.run(settings, &events)
+        });
+        if let Some(outcome) = &outcome {
+            found.extend(outcome.failures.iter().cloned());
+        }
+        let steps = outcome.iter().flat_map(|o| o.steps.iter().enumerate());
+        let written = outcome.iter().flat_map(|o| &o.written);
+        let mut result = json!({
+            "succeeded": outcome.as_ref().is_some_and(Outcome::succeeded),
+            "cancelled": outcome.as_ref().is_some_and(|o| o.cancelled),
+            "problems": placed(&found, &loaded),
+            "steps": steps.map(|(i, done)| step_done(i, done)).collect::<Vec<_>>(),
+            "expectations": outcome.as_ref().map_or_else(Vec::new, |o| expectations(&loaded, o)),
+            "digest": outcome.as_ref().map(|o| o.digest.to_string()),
+            "files": written.map(|path| path.display().to_string()).collect::<Vec<_>>(),
+        });
+        self.scene = outcome.and_then(|o| o.scene).unwrap_or_default();
+        result["objects"] = self.scene.objects().iter().map(object).collect();
+        result
+    }
+
+    /// Renders a picture of the scene of the last run, as the bytes of a PNG file. `size` is in pixels.
+    ///
+    /// # Errors
+    ///
+    /// [`PictureError`] if the picture is too large.
+    pub fn picture(&self, size: [u32; 2], wireframe: bool) -> Result<Vec<u8>, PictureError> {
+        let style = Style {
+            wireframe: wireframe.then(Lines::default),
+            ..Style::default()
+        };
+        let mut image = |path: &str| self.read(path).ok();
+        let (rendered, _) = render::picture(
+            &self.scene,
+            &Camera::default(),
+            &style,
+            &Overlays::default(),
+            size,
+            BUDGET,
+            &mut image,
+        )?;
+        rendered.image.to_png(&[])
+    }
+
+    /// Returns the arrays of a mesh of the last run; `None` if no mesh has this name.
+    pub fn arrays(&self, object: &str) -> Option<Arrays> {
+        let mesh = self.scene.object(object)?.as_mesh()?;
+        Some(Arrays::new(mesh))
+    }
+
+    /// Returns the JSON schema of recipes.
+    pub fn schema(&self) -> Json {
+        recipe::schema(self.engine.registry())
+    }
+
+    /// Returns the operations: `name`, `summary` and `example` of each.
+    pub fn operations(&self) -> Json {
+        let entries = self.engine.registry().entries().iter();
+        let described = entries.map(|entry| {
+            json!({ "name": entry.name, "summary": entry.summary, "example": entry.example })
+        });
+        described.collect()
+    }
+
+    fn load(&self, path: &str, text: &str, set: &[(String, String)]) -> Loaded {
+        let options = Options {
+            values: Values {
+                set,
+                preset: None,
+                folder: Some(Path::new("")),
+            },
+            out: Path::new(OUT),
+            budget: BUDGET,
+        };
+        self.engine
+            .load(&Source::new(PathBuf::from(path), text), &options)
+    }
+}
+
+/// Passes events of a run on as JSON.
+struct Events<'a> {
+    loaded: &'a Loaded,
+    listen: &'a (dyn Fn(&Json) -> bool + Sync),
+    /// The time of the last progress event.
+    last: Mutex<Instant>,
+}
+
+impl Progress for Events<'_> {
+    fn advance(&self, task: &str, done: u64, total: u64) -> bool {
+        {
+            let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+            if last.elapsed() < MIN_INTERVAL {
+                return true;
+            }
+            *last = Instant::now();
+        }
+        (self.listen)(&json!({ "event": "progress", "what": task, "done": done, "total": total }))
+    }
+}
+
+impl Listener for Events<'_> {
+    fn step_begins(&self, number: usize, label: &str) {
+        let operation = &self.loaded.recipe.steps[number].name;
+        (self.listen)(&json!({
+            "event": "step", "number": number + 1, "label": label, "operation": operation,
+        }));
+    }
+
+    fn step_done(&self, number: usize, done: &StepDone) {
+        (self.listen)(&step_done(number, done));
+    }
+}
+
+fn placed(diagnostics: &[Diagnostic], loaded: &Loaded) -> Vec<PlacedProblem> {
+    let sources = &loaded.recipe.sources;
+    let text = sources.first().map_or("", |s| &s.text);
+    let range = |d: &Diagnostic| {
+        let range = d.span.filter(|_| d.source == 0)?.fitted(text);
+        let units = |end: usize| text[..end].encode_utf16().count();
+        Some([units(range.start), units(range.end)])
+    };
+    let described = problems(diagnostics, sources).into_iter().zip(diagnostics);
+    described
+        .map(|(problem, d)| PlacedProblem {
+            problem,
+            range: range(d),
+        })
+        .collect()
+}
+
+/// Describes the expectations that were checked. Expectations are checked in order, so these are the first ones.
+fn expectations(loaded: &Loaded, outcome: &Outcome) -> Vec<Json> {
+    let recipe = &loaded.recipe;
+    let checked = recipe.expectations.iter().enumerate().take(outcome.checked);
+    let described = checked.map(|(i, placed)| {
+        let source = &recipe.sources[recipe.scopes[placed.scope].source];
+        let (line, _) = recipe::LineIndex::new(&source.text).position(placed.span.start);
+        json!({
+            "file": source.path.display().to_string(),
+            "line": line,
+            "text": placed.that.to_string(),
+            "met": outcome.unmet.iter().all(|unmet| unmet.expectation != i),
+        })
+    });
+    described.collect()
+}
+
+fn object(object: &scene::Object) -> Json {
+    let mut json = json!({ "name": object.name, "kind": object.geometry.kind() });
+    if let Geometry::Mesh(mesh) = &object.geometry {
+        json["vertices"] = json!(mesh.n_vertices());
+        json["edges"] = json!(mesh.n_edges());
+        json["faces"] = json!(mesh.n_faces());
+    }
+    json
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,137 @@
+use std::sync::Mutex;
+
+use super::*;
+
+const CUBE: &str = r#"(recipe: 1, steps: [
+    Cube(name: "cube"),
+    (id: "poke", run: PokeFaces()),
+    Save(path: "cube.obj"),
+], expect: [Faces(eq: 24), Vertices(eq: 15)])"#;
+
+fn run(session: &mut Session, text: &str) -> Json {
+    session.run("a.ron", text, &[], &|_| true)
+}
+
+#[test]
+fn a_run_has_steps_expectations_files_and_a_digest() {
+    let mut session = Session::new();
+    let events = Mutex::new(Vec::new());
+    let result = session.run("a.ron", CUBE, &[], &|event| {
+        events.lock().unwrap().push(event["event"].clone());
+        true
+    });
+    assert_eq!(result["succeeded"], false);
+    assert_eq!(result["steps"][1]["label"], "poke");
+    assert_eq!(result["steps"][1]["faces"], 24);
+    assert_eq!(result["expectations"][0]["met"], true);
+    assert_eq!(result["expectations"][1]["met"], false);
+    assert_eq!(result["expectations"][1]["line"], 5);
+    assert_eq!(result["objects"][0]["vertices"], 14);
+    assert!(result["files"].as_array().unwrap().is_empty(), "{result}");
+    assert_eq!(events.into_inner().unwrap()[..2], ["step", "done"]);
+
+    let result = run(&mut session, &CUBE.replace("15", "14"));
+    assert_eq!(result["succeeded"], true, "{result}");
+    let path = result["files"][0].as_str().unwrap();
+    assert!(session.read(path).unwrap().starts_with(b"# "));
+}
+
+#[test]
+fn the_digest_is_that_of_the_engine_on_disk() {
+    let result = run(&mut Session::new(), &CUBE.replace("15", "14"));
+    let folder = std::env::temp_dir();
+    let source = Source::new(folder.join("a.ron"), CUBE.replace("15", "14"));
+    let loaded = Engine::new(&REGISTRY).load(&source, &Options::default());
+    let digest = loaded.run(Run::default(), &engine::Silent).digest;
+    assert_eq!(result["digest"], digest.to_string());
+}
+
+#[test]
+fn files_are_read_from_memory() {
+    let mut session = Session::new();
+    session
+        .write("models/a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        .unwrap();
+    let text = r#"(recipe: 1, steps: [Load(path: "models/a.obj", name: "a")])"#;
+    let result = run(&mut session, text);
+    assert_eq!(result["succeeded"], true, "{result}");
+    assert_eq!(session.arrays("a").unwrap().triangles, [0, 1, 2]);
+    assert!(session.arrays("b").is_none());
+    let missing = session.check("a.ron", &text.replace("models", "elsewhere"), &[]);
+    assert_eq!(missing["problems"][0]["severity"], "error");
+}
+
+#[test]
+fn ranges_count_utf_16_code_units() {
+    let text = "// 𝄞\n(recipe: 1, steps: [Cubee(name: \"a\")])";
+    let checked = Session::new().check("a.ron", text, &[]);
+    let problem = &checked["problems"][0];
+    assert_eq!(
+        (&problem["line"], &problem["column"]),
+        (&json!(2), &json!(21))
+    );
+    let range = [0, 1].map(|i| usize::try_from(problem["range"][i].as_u64().unwrap()).unwrap());
+    let units: Vec<u16> = text.encode_utf16().collect();
+    assert_eq!(
+        String::from_utf16(&units[range[0]..range[1]]).unwrap(),
+        "Cubee"
+    );
+}
+
+#[test]
+fn parameters_take_values() {
+    let text = r#"(recipe: 1, params: { "n": Int(default: 1, min: 1, max: 4) }, steps: [
+        Cube(name: "a"), Triangulate(), LoopSubdivide(levels: arg("n"))])"#;
+    let mut session = Session::new();
+    let set = [("n".to_owned(), "2".to_owned())];
+    assert_eq!(
+        session.check("a.ron", text, &set)["parameters"][0]["value"],
+        "2"
+    );
+    let result = session.run("a.ron", text, &set, &|_| true);
+    assert_eq!(result["objects"][0]["faces"], 12 * 16);
+}
+
+#[test]
+fn a_recipe_with_errors_does_not_run() {
+    let mut session = Session::new();
+    run(&mut session, &CUBE.replace("15", "14"));
+    let result = run(&mut session, "(recipe: 1, steps: [");
+    assert_eq!(result["succeeded"], false);
+    assert_eq!(result["digest"], Json::Null);
+    assert!(session.arrays("cube").is_none(), "the old scene is gone");
+}
+
+#[test]
+fn a_run_is_canceled_by_its_listener() {
+    let text = r#"(recipe: 1, steps: [Cube(name: "a"), Triangulate(), LoopSubdivide(levels: 9)])"#;
+    let result = Session::new().run("a.ron", text, &[], &|event| event["event"] != "progress");
+    assert_eq!(result["cancelled"], true, "{result}");
+}
+
+#[test]
+fn a_scene_that_exceeds_the_budget_is_refused() {
+    let text = r#"(recipe: 1, steps: [Cube(name: "a"), Triangulate(), LoopSubdivide(levels: 12)])"#;
+    let checked = Session::new().check("a.ron", text, &[]);
+    assert_eq!(checked["problems"][0]["severity"], "error", "{checked}");
+}
+
+#[test]
+fn a_picture_is_a_png_file() {
+    let mut session = Session::new();
+    run(&mut session, &CUBE.replace("15", "14"));
+    for wireframe in [false, true] {
+        let png = session.picture([64, 48], wireframe).unwrap();
+        assert!(png.starts_with(b"\x89PNG"));
+    }
+    assert!(session.picture([u32::MAX, 1], false).is_err());
+}
+
+#[test]
+fn operations_and_schema_are_objects() {
+    let session = Session::new();
+    let operations = session.operations();
+    assert!(operations.as_array().unwrap().len() > 50);
+    assert!(operations[0]["example"].is_string());
+    assert!(session.schema().is_object());
+}

@@ -1,0 +1,63 @@
+// Runs every recipe in scenes/ that tests/digests.txt lists, with its files as bytes: the digests must be the same. Then
+// reads the odd and hostile files of the fuzz tests, of which none may end the engine: scenes.mjs PACKAGE
+import assert from "node:assert/strict";
+import { readFileSync, readdirSync } from "node:fs";
+import { extname, join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+
+const root = new URL("../../../", import.meta.url).pathname;
+const { Session, run } = await import(pathToFileURL(join(resolve(process.argv[2]), "meshwright.js")).href);
+
+const filesBelow = (folder) => readdirSync(join(root, folder), { recursive: true, withFileTypes: true })
+    .filter((entry) => entry.isFile())
+    .map((entry) => join(entry.parentPath ?? entry.path, entry.name).slice(root.length));
+
+const session = await Session.create();
+for (const path of filesBelow("scenes")) {
+    session.write(path, readFileSync(join(root, path)));
+}
+
+const digests = readFileSync(join(root, "tests/digests.txt"), "utf8").trim().split("\n").map((line) => line.split(" "));
+assert(digests.length > 20);
+for (const [name, digest] of digests) {
+    const path = `scenes/${name}.ron`;
+    const begin = performance.now();
+    const result = session.run(readFileSync(join(root, path), "utf8"), { path });
+    const seconds = ((performance.now() - begin) / 1000).toFixed(2);
+    assert(result.succeeded, `${name}: ${JSON.stringify(result.problems, null, 1)}`);
+    assert.equal(result.digest, digest, `${name}: the digest differs from tests/digests.txt`);
+    assert(result.expectations.every((expectation) => expectation.met));
+    console.log(`${name} ${digest} ${seconds} s`);
+}
+console.log(`${digests.length} digests are the same in WebAssembly`);
+session.free();
+
+// The short interface.
+const result = await run(`(recipe: 1, steps: [Load(path: "a.obj", name: "a"), Save(path: "b.obj")])`,
+    { "a.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" });
+assert(result.succeeded, JSON.stringify(result.problems));
+assert.deepEqual([...result.meshes.a.triangles], [0, 1, 2]);
+assert(new TextDecoder().decode(result.outputs["b.obj"]).includes("f 1 2 3"));
+
+// Checking is fast enough for each key.
+const checker = await Session.create();
+const text = readFileSync(join(root, "scenes/cube_flip.ron"), "utf8");
+checker.check(text);
+const begin = performance.now();
+for (let i = 0; i < 20; i += 1) {
+    checker.check(text);
+}
+const milliseconds = (performance.now() - begin) / 20;
+console.log(`a check takes ${milliseconds.toFixed(1)} ms`);
+
+// Files that broke readers before.
+let n = 0;
+for (const path of filesBelow("tests/fuzz/corpus")) {
+    const format = path.split("/")[3];
+    const extension = extname(path) || `.${format}`;
+    checker.write(`odd/file${extension}`, readFileSync(join(root, path)));
+    const { problems } = checker.run(`(recipe: 1, steps: [Load(path: "odd/file${extension}", name: "a")])`);
+    assert(Array.isArray(problems), path);
+    n += 1;
+}
+console.log(`${n} odd files were read or refused`);

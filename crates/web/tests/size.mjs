@@ -1,0 +1,13 @@
+// Prints the size of a file and its size as brotli, and fails if the latter is larger than the limit: size.mjs FILE
+import { readFileSync } from "node:fs";
+import { brotliCompressSync, constants } from "node:zlib";
+
+/// The maximum compressed size in bytes.
+const LIMIT = 2_500_000;
+
+const bytes = readFileSync(process.argv[2]);
+const options = { [constants.BROTLI_PARAM_QUALITY]: 11, [constants.BROTLI_PARAM_SIZE_HINT]: bytes.length,
+    [constants.BROTLI_PARAM_LGWIN]: 24 };
+const compressed = brotliCompressSync(bytes, { params: options }).length;
+console.log(`WebAssembly: ${bytes.length} bytes, ${compressed} bytes as brotli, limit ${LIMIT}`);
+process.exitCode = compressed > LIMIT ? 1 : 0;

@@ -59,7 +59,7 @@ CARGO_INCREMENTAL=0 CARGO_TARGET_DIR=$work/target "${compiler[@]:-env}" "${build
 
 rm -rf "$out" && mkdir -p "$out"
 "$work/bindgen/debug/meshwright-bindgen" "$work/target/$target/web/meshwright_web.wasm" "$out"
-"$work/tools/node_modules/.bin/wasm-opt" -O1 --all-features -o "$out/core_bg.wasm" "$out/core_bg.wasm"
+"$work/tools/node_modules/.bin/wasm-opt" -O1 -o "$out/core_bg.wasm" "$out/core_bg.wasm"
 cp crates/web/package/* LICENSE-APACHE LICENSE-MIT "$out"
 node crates/web/tests/size.mjs "$out/core_bg.wasm"
 node crates/web/tests/scenes.mjs "$out"

@@ -2,10 +2,6 @@
 //! below.
 
 use op::{Entry, Registry};
-use proptest::collection::vec;
-use proptest::prelude::*;
-use proptest::sample::Index;
-use ron_tree::{Lexer, ValueKind};
 
 const MORE_STEPS: &[&str] = &[
     r#"Load(path: "curve.bzc", name: "new")"#,
@@ -212,59 +208,5 @@ fn every_example_is_a_step_of_its_operation() {
         if let Err(error) = entry.parse(&ron_tree::parse(parameters).value) {
             panic!("{}{parameters}: {error}", entry.name);
         }
-    }
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig { cases: 4000, ..ProptestConfig::default() })]
-
-    /// Checks that the recipe parser and the crate `ron` read the same step from a sample or a slightly changed sample,
-    /// or both fail. Samples with syntax errors are skipped.
-    #[test]
-    fn samples_are_read_as_ron_reads_them(
-        at in any::<Index>(),
-        edits in vec((0_usize..4, any::<Index>(), any::<Index>()), 0..3),
-    ) {
-        let registry = ops_all::registry();
-        let samples = samples(&registry);
-        let (entry, parameters) = samples[at.index(samples.len())];
-        let mut tokens: Vec<&str> = Lexer::new(parameters).map(|t| t.span.of(parameters)).collect();
-        for (edit, at, other) in edits {
-            let (i, j) = (at.index(tokens.len()), other.index(tokens.len()));
-            match edit {
-                0 => _ = tokens.remove(i),
-                1 => tokens.insert(i, tokens[j]),
-                2 => tokens[i] = ["-1", "1.5", "()", "None", "All", "inf"][other.index(6)],
-                _ => tokens.swap(i, j),
-            }
-            if tokens.is_empty() {
-                return Ok(());
-            }
-        }
-        let parsed = ron_tree::parse(&tokens.concat());
-        if parsed.diagnostics.is_empty() && matches!(parsed.value.kind, ValueKind::Struct(_) | ValueKind::Unit) {
-            let by_tree = entry.parse(&parsed.value);
-            // The crate `ron` does not accept white space in some places, so it reads the value as `ron_tree` prints
-            // it.
-            match entry.parse_by_ron(&parsed.value.to_string()) {
-                Ok(step) => prop_assert_eq!(by_tree.unwrap().canonical(), step.canonical()),
-                Err(error) => prop_assert!(by_tree.is_err(), "{}: {error}", tokens.concat()),
-            }
-        }
-    }
-}
-
-#[test]
-fn every_sample_is_read_as_ron_reads_it() {
-    let registry = ops_all::registry();
-    for (entry, parameters) in samples(&registry) {
-        let by_tree = entry.parse(&ron_tree::parse(parameters).value).unwrap();
-        let by_ron = entry.parse_by_ron(parameters).unwrap();
-        assert_eq!(
-            by_tree.canonical(),
-            by_ron.canonical(),
-            "{}{parameters}",
-            entry.name
-        );
     }
 }

@@ -2,9 +2,6 @@
 
 use std::fmt;
 
-use ron::Options;
-use ron::error::SpannedResult;
-use ron::extensions::Extensions;
 use ron_tree::{Value, ValueKind};
 use scene::Scene;
 use schemars::{Schema, SchemaGenerator};
@@ -43,7 +40,6 @@ pub struct Entry {
     schema: fn() -> Schema,
     schema_in: fn(&mut SchemaGenerator) -> Schema,
     parse: fn(&Value) -> Result<Box<dyn Step>, ron_tree::Error>,
-    parse_by_ron: fn(&str) -> SpannedResult<Box<dyn Step>>,
 }
 
 impl fmt::Debug for Entry {
@@ -67,10 +63,6 @@ impl Entry {
             schema: || schemars::schema_for!(T),
             schema_in: SchemaGenerator::subschema_for::<T>,
             parse: |parameters| Ok(Box::new(T::deserialize(parameters)?)),
-            parse_by_ron: |parameters| {
-                let options = Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
-                Ok(Box::new(options.from_str::<T>(parameters)?))
-            },
         }
     }
 
@@ -96,15 +88,6 @@ impl Entry {
             ValueKind::Name(_) => (self.parse)(&Value::new(step.span, ValueKind::Unit)),
             _ => (self.parse)(step),
         }
-    }
-
-    /// Reads parameters `(levels: 2)` with the crate `ron`. Tests compare this method with [`parse`](Self::parse).
-    ///
-    /// # Errors
-    ///
-    /// If the text does not contain valid parameters of this operation.
-    pub fn parse_by_ron(&self, parameters: &str) -> SpannedResult<Box<dyn Step>> {
-        (self.parse_by_ron)(parameters)
     }
 }
 

@@ -122,10 +122,7 @@ impl Value {
             ValueKind::Unit => &[],
             _ => return self.expected("named fields `(name: ..)`"),
         };
-        let pairs = fields
-            .iter()
-            .map(|f| (Key::Name(&f.name.text, f.name.span), &f.value));
-        self.locate(visitor.visit_map(Pairs { pairs, value: None }))
+        self.locate(visitor.visit_map(Pairs::new(fields, &[])))
     }
 }
 
@@ -268,10 +265,7 @@ impl<'de> Deserializer<'de> for &'de Value {
 
     fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
         match &self.kind {
-            ValueKind::Map(entries) => {
-                let pairs = entries.iter().map(|(key, value)| (Key::Value(key), value));
-                self.locate(visitor.visit_map(Pairs { pairs, value: None }))
-            }
+            ValueKind::Map(entries) => self.locate(visitor.visit_map(Pairs::new(&[], entries))),
             _ => self.expected("a map `{..}`"),
         }
     }
@@ -342,17 +336,37 @@ impl<'de> Key<'de> {
     }
 }
 
-/// The fields of a struct, or the entries of a map.
-struct Pairs<'de, I> {
-    pairs: I,
+/// The fields of a struct, or the entries of a map. One type for both: each type of a parameter is compiled only once.
+struct Pairs<'de> {
+    fields: slice::Iter<'de, Field>,
+    entries: slice::Iter<'de, (Value, Value)>,
     value: Option<&'de Value>,
 }
 
-impl<'de, I: Iterator<Item = (Key<'de>, &'de Value)>> MapAccess<'de> for Pairs<'de, I> {
+impl<'de> Pairs<'de> {
+    fn new(fields: &'de [Field], entries: &'de [(Value, Value)]) -> Self {
+        Self {
+            fields: fields.iter(),
+            entries: entries.iter(),
+            value: None,
+        }
+    }
+
+    fn next(&mut self) -> Option<(Key<'de>, &'de Value)> {
+        let field = self.fields.next();
+        let field = field.map(|f| (Key::Name(&f.name.text, f.name.span), &f.value));
+        field.or_else(|| {
+            let (key, value) = self.entries.next()?;
+            Some((Key::Value(key), value))
+        })
+    }
+}
+
+impl<'de> MapAccess<'de> for Pairs<'de> {
     type Error = Error;
 
     fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>> {
-        let Some((key, value)) = self.pairs.next() else {
+        let Some((key, value)) = self.next() else {
             return Ok(None);
         };
         self.value = Some(value);
@@ -364,7 +378,7 @@ impl<'de, I: Iterator<Item = (Key<'de>, &'de Value)>> MapAccess<'de> for Pairs<'
     }
 
     fn size_hint(&self) -> Option<usize> {
-        self.pairs.size_hint().1
+        Some(self.fields.len() + self.entries.len())
     }
 }
 

@@ -255,9 +255,7 @@ fn a_skin_without_weights_is_lost_for_this_reason() {
 #[test]
 fn a_deleted_object_keeps_joints_and_drops_channels() {
     let mut scene = scene();
-    let registry = op::Registry::new().with::<Delete>();
-    let entry = registry.get("Delete").unwrap();
-    let step = entry.parse_by_ron(r#"(objects: ["body"])"#).unwrap();
+    let step: &dyn op::Step = &op::test::read::<Delete>(r#"(objects: ["body"])"#).unwrap();
     let files = op::Files::default();
     let mut cx = op::Context::new(&op::NoProgress, &files);
     let report = step.apply(&mut scene, &mut cx).unwrap();
@@ -306,18 +304,14 @@ fn the_plan_of_a_join_names_the_loss_of_different_skins() {
             assert_eq!(plan.insert(name, geometry), None);
             plan.set_nodes_of_last(nodes);
         }
-        let registry = op::Registry::new().with::<Join>();
-        let entry = registry.get("Join").unwrap();
-        let step = entry
-            .parse_by_ron(r#"(objects: ["body", "twin"], name: "all")"#)
-            .unwrap();
+        let step: Join = op::test::read(r#"(objects: ["body", "twin"], name: "all")"#).unwrap();
         let files = op::Files::default();
         let cx = op::PlanContext {
             files: &files,
             on: None,
             budget: u64::MAX,
         };
-        let problems = step.plan(&mut plan, &cx);
+        let problems = op::Operation::plan(&step, &mut plan, &cx);
         assert_eq!(problems, []);
         assert_eq!(plan.losses.len(), n_lost, "{parts:?}");
         let nodes = u64::from(kept.is_some());

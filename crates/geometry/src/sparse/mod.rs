@@ -64,6 +64,12 @@ impl Entry for f64 {
     }
 }
 
+impl Entry for mesh::DVec2 {
+    fn magnitude(self) -> f64 {
+        self.abs().max_element()
+    }
+}
+
 impl Entry for mesh::DVec3 {
     fn magnitude(self) -> f64 {
         self.abs().max_element()

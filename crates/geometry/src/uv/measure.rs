@@ -1,6 +1,8 @@
 //! Measures of texture coordinates: stretch and overlaps.
 
-use mesh::{DVec2, FaceId, HalfEdgeId, Mesh};
+use std::ops::ControlFlow;
+
+use mesh::{DVec2, DVec3, FaceId, HalfEdgeId, Mesh};
 use progress::{Cancelled, Progress};
 
 use crate::tangent::triangles;
@@ -61,7 +63,7 @@ pub fn aspects(mesh: &Mesh, uvs: &[DVec2]) -> impl Iterator<Item = ([HalfEdgeId;
 }
 
 /// Returns the value up to which the sum of the weights is `weight`. Sorts the values.
-fn percentile(values: &mut [(f64, f64)], weight: f64) -> f64 {
+pub(super) fn percentile(values: &mut [(f64, f64)], weight: f64) -> f64 {
     values.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut sum = 0.0;
     let mut at = values.iter().skip_while(|(_, w)| {
@@ -73,7 +75,15 @@ fn percentile(values: &mut [(f64, f64)], weight: f64) -> f64 {
 
 /// Returns the derivatives of the texture coordinates along two perpendicular unit vectors of a triangle, and its area.
 fn jacobian(mesh: &Mesh, uvs: &[DVec2], triangle: [HalfEdgeId; 3]) -> Option<([DVec2; 2], f64)> {
-    let [a, b, c] = triangle.map(|h| mesh.position(mesh.origin(h)));
+    jacobian_at(
+        triangle.map(|h| mesh.position(mesh.origin(h))),
+        triangle.map(|h| uvs[h.index()]),
+    )
+}
+
+/// Returns the result of [`jacobian`] for a triangle with these positions and texture coordinates.
+pub(super) fn jacobian_at(at: [DVec3; 3], uvs: [DVec2; 3]) -> Option<([DVec2; 2], f64)> {
+    let [a, b, c] = at;
     let along = (b - a).try_normalize()?;
     let length = (b - a).length();
     let x = (c - a).dot(along);
@@ -82,13 +92,13 @@ fn jacobian(mesh: &Mesh, uvs: &[DVec2], triangle: [HalfEdgeId; 3]) -> Option<([D
     if area.is_nan() || area <= 0.0 || area.is_infinite() {
         return None;
     }
-    let [a, b, c] = triangle.map(|h| uvs[h.index()]);
+    let [a, b, c] = uvs;
     let first = (b - a) / length;
     Some(([first, (c - a - first * x) / y], area))
 }
 
 /// Returns the ratio of the singular values of a matrix with these columns.
-fn aspect([a, b]: [DVec2; 2]) -> f64 {
+pub(super) fn aspect([a, b]: [DVec2; 2]) -> f64 {
     let (e, f, g) = (a.dot(a), a.dot(b), b.dot(b));
     let middle = f64::midpoint(e, g);
     let radius = (((e - g) * (e - g)) / 4.0 + f * f).sqrt();
@@ -104,11 +114,24 @@ fn aspect([a, b]: [DVec2; 2]) -> f64 {
 }
 
 /// A triangle in the texture, counter-clockwise.
-struct Flat {
+pub(super) struct Flat {
     corners: [DVec2; 3],
     low: DVec2,
     high: DVec2,
     face: FaceId,
+}
+
+impl Flat {
+    /// Returns `None` for a triangle with zero area.
+    pub(super) fn new([a, b, c]: [DVec2; 3], face: FaceId) -> Option<Self> {
+        let area = (b - a).perp_dot(c - a);
+        (area != 0.0).then(|| Self {
+            corners: if area > 0.0 { [a, b, c] } else { [a, c, b] },
+            low: a.min(b).min(c),
+            high: a.max(b).max(c),
+            face,
+        })
+    }
 }
 
 /// Returns the faces that overlap another face, or themselves, in the texture, in ascending order. Triangles that only
@@ -122,20 +145,44 @@ pub fn overlapping_faces(
     uvs: &[DVec2],
     progress: &dyn Progress,
 ) -> Result<Vec<FaceId>, Cancelled> {
-    let mut flat: Vec<Flat> = triangles(mesh)
-        .into_iter()
-        .filter_map(|triangle| {
-            let [a, b, c] = triangle.map(|h| uvs[h.index()]);
-            let area = (b - a).perp_dot(c - a);
-            (area != 0.0).then_some(())?;
-            Some(Flat {
-                corners: if area > 0.0 { [a, b, c] } else { [a, c, b] },
-                low: a.min(b).min(c),
-                high: a.max(b).max(c),
-                face: mesh.face(triangle[0])?,
-            })
-        })
-        .collect();
+    let triangles = triangles(mesh).into_iter();
+    let flat = triangles.filter_map(|triangle| {
+        Flat::new(triangle.map(|h| uvs[h.index()]), mesh.face(triangle[0])?)
+    });
+    let mut faces = Vec::new();
+    sweep(flat.collect(), progress, |pair| {
+        faces.extend(pair);
+        ControlFlow::Continue(())
+    })?;
+    faces.sort_unstable();
+    faces.dedup();
+    Ok(faces)
+}
+
+/// Returns the faces of the first two triangles that overlap, in the order of the sweep.
+///
+/// # Errors
+///
+/// Returns [`Cancelled`] if `progress` asks to stop.
+pub(super) fn first_overlap(
+    flat: Vec<Flat>,
+    progress: &dyn Progress,
+) -> Result<Option<[FaceId; 2]>, Cancelled> {
+    let mut first = None;
+    sweep(flat, progress, |pair| {
+        first = Some(pair);
+        ControlFlow::Break(())
+    })?;
+    Ok(first)
+}
+
+/// Calls `visit` with the faces of triangles that overlap. Pairs of triangles that are both known to overlap others are
+/// left out.
+fn sweep(
+    mut flat: Vec<Flat>,
+    progress: &dyn Progress,
+    mut visit: impl FnMut([FaceId; 2]) -> ControlFlow<()>,
+) -> Result<(), Cancelled> {
     // The loop sweeps along u: only triangles whose ranges of u overlap are compared.
     flat.sort_by(|a, b| a.low.x.total_cmp(&b.low.x).then(a.face.cmp(&b.face)));
     let mut overlaps = vec![false; flat.len()];
@@ -151,17 +198,13 @@ pub fn overlapping_faces(
             if is_new && b.low.y < a.high.y && a.low.y < b.high.y && overlap(a, b) {
                 overlaps[i] = true;
                 overlaps[j] = true;
+                if visit([a.face, b.face]).is_break() {
+                    return Ok(());
+                }
             }
         }
     }
-    let faces = flat
-        .iter()
-        .zip(&overlaps)
-        .filter(|(_, overlaps)| **overlaps);
-    let mut faces: Vec<FaceId> = faces.map(|(flat, _)| flat.face).collect();
-    faces.sort_unstable();
-    faces.dedup();
-    Ok(faces)
+    Ok(())
 }
 
 /// Whether the insides of two triangles overlap: no side of one has the other triangle on its outer side.

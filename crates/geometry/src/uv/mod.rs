@@ -11,8 +11,12 @@
 //! Texture coordinates are values of half-edges, which represent the corners of faces. There is one [`DVec2`] for
 //! each half-edge, in the order of the half-edge ids. `v` points upwards.
 
+mod cut;
+mod flatten;
+mod grow;
 mod measure;
 mod pack;
+mod surface;
 mod unwrap;
 
 use mesh::{DVec2, HalfEdgeId, Mesh};

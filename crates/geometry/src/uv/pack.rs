@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use mesh::{DVec2, HalfEdgeId, Mesh};
 use progress::Progress;
-use uvunwrap::{Atlas, MeshInput, OutputMesh};
+use uvunwrap::{Atlas, Density, MeshInput, Options, OutputMesh, generate_with_progress};
 
-use super::unwrap::{generate, settings};
+use super::surface::unit_positions;
 use super::{Page, UvError, charts};
 use crate::tangent::triangles;
 
@@ -24,6 +24,9 @@ pub struct Packed {
     /// The area of the charts, as a fraction of the page.
     pub coverage: f64,
 }
+
+/// Triangles whose area is at most this fraction of the area of their chart do not take part in packing.
+const MIN_AREA: f64 = 1e-11;
 
 /// One chart before it is packed.
 struct Chart {
@@ -113,6 +116,7 @@ pub fn pack(
 /// Returns the charts with their triangles.
 fn chart_list(mesh: &Mesh, uvs: &[DVec2]) -> Vec<Chart> {
     let numbers = charts(mesh, uvs);
+    let positions = unit_positions(mesh);
     let mut list: Vec<Chart> = (0..numbers.n)
         .map(|_| Chart {
             triangles: Vec::new(),
@@ -134,7 +138,7 @@ fn chart_list(mesh: &Mesh, uvs: &[DVec2]) -> Vec<Chart> {
         chart.middle = (low + high) / 2.0;
         let mut in_texture = 0.0;
         for triangle in &chart.triangles {
-            let [a, b, c] = triangle.map(|h| mesh.position(mesh.origin(h)));
+            let [a, b, c] = triangle.map(|h| positions[mesh.origin(h).index()]);
             chart.area += (b - a).cross(c - a).length() / 2.0;
             let [a, b, c] = triangle.map(|h| uvs[h.index()]);
             in_texture += ((b - a).perp_dot(c - a) / 2.0).abs();
@@ -153,7 +157,30 @@ fn pack_shapes(shapes: &[Shape], page: Page, progress: &dyn Progress) -> Result<
             ..MeshInput::new(&shape.positions, &shape.indices)
         })
         .collect();
-    generate(&inputs, &settings(page), page, progress)
+    generate(&inputs, page, progress)
+}
+
+/// Makes an atlas of a single page.
+fn generate(input: &[MeshInput], page: Page, progress: &dyn Progress) -> Result<Atlas, UvError> {
+    let settings = Options {
+        density: Density::Auto {
+            page_size: page.size,
+        },
+        padding: page.padding,
+        ..Options::default()
+    };
+    let listen = |report: uvunwrap::Progress| {
+        let done = report.done as u64;
+        // The number of packing attempts is not known in advance.
+        let total = report.total.map_or(done + 1, |total| total as u64);
+        progress.advance("pack charts", done.min(total), total)
+    };
+    let atlas = generate_with_progress(input, &settings, listen);
+    let atlas = atlas.map_err(|error| UvError::from_crate(&error, page))?;
+    if atlas.page_count > 1 {
+        return Err(UvError::PageTooSmall(page));
+    }
+    Ok(atlas)
 }
 
 fn n_charts(output: &OutputMesh) -> usize {
@@ -169,8 +196,18 @@ impl Shape {
     fn of_triangles(triangles: &[[HalfEdgeId; 3]], place: impl Fn(HalfEdgeId) -> DVec2) -> Self {
         let mut shape = Self::default();
         let mut numbers = BTreeMap::new();
-        for &triangle in triangles {
-            let points = triangle.map(&place);
+        let area = |[a, b, c]: [DVec2; 3]| {
+            let round = |p: DVec2| p.as_vec2().as_dvec2();
+            (round(b) - round(a)).perp_dot(round(c) - round(a)) / 2.0
+        };
+        let all = triangles.iter().map(|triangle| triangle.map(&place));
+        let total: f64 = all.clone().map(|t| area(t).abs()).sum();
+        for points in all {
+            // Rounding to 32-bit numbers may turn thin triangles over. Other triangles contain their corners.
+            let before = (points[1] - points[0]).perp_dot(points[2] - points[0]);
+            if area(points) * before.signum() <= MIN_AREA * total {
+                continue;
+            }
             let mut corners = points.map(|p| {
                 let key = p.to_array().map(f64::to_bits);
                 *numbers.entry(key).or_insert_with(|| shape.push(p))

@@ -1,11 +1,12 @@
 //! Unwrapping: new texture coordinates for a surface.
 
-use mesh::{DVec2, DVec3, EdgeId, FaceId, HalfEdgeId, Mesh};
+use mesh::{DVec2, EdgeId, FaceId, Mesh};
 use progress::Progress;
-use uvunwrap::{Atlas, Density, MeshInput, Options, OutputVertex, Stage, generate_with_progress};
 
-use super::{Charts, Page, UvError, charts, number};
-use crate::tangent::triangles;
+use super::cut::{self, Limits};
+use super::pack::pack;
+use super::surface::Surface;
+use super::{Charts, Page, UvError, charts};
 
 /// How a surface is unwrapped.
 #[derive(Clone, Copy, Debug)]
@@ -39,14 +40,14 @@ pub struct Unwrapped {
 /// Computes texture coordinates for all faces of a dense mesh, without overlaps except in the faces of
 /// [`Unwrapped::bent`].
 ///
-/// Charts grow from flat regions. Each chart is flattened by least squares conformal maps (Levy, Petitjean, Ray,
-/// Maillot, "Least Squares Conformal Maps for Automatic Texture Atlas Generation", 2002), then by the
-/// as-rigid-as-possible method (Liu, Zhang, Xu, Gotsman, Gortler, "A Local/Global Approach to Mesh Parameterization",
-/// 2008), and split where it would overlap itself or be stretched too much. All charts have the same scale and are
-/// packed by their shapes. No chart is mirrored, and no polygon is split.
+/// Charts grow from flat regions. Each chart is flattened by a least squares conformal map (Levy, Petitjean, Ray,
+/// Maillot, "Least Squares Conformal Maps for Automatic Texture Atlas Generation", 2002) and then by the hybrid method of
+/// Liu, Zhang, Xu, Gotsman, Gortler ("A Local/Global Approach to Mesh Parameterization", 2008). It is cut in two where it
+/// would overlap itself or be stretched too much: each chart has an aspect of at most 1.15 on 95 % of its area (see
+/// [`Stretch`](super::Stretch)). Charts that meet are joined again if the result is a chart. All charts have the same
+/// scale and are packed by their shapes. No chart is mirrored, and no polygon is split.
 ///
-/// The computation uses 32-bit positions relative to the bounding box. Its result does not depend on the number of
-/// threads or the processor.
+/// The result does not depend on the number of threads or the processor.
 ///
 /// # Errors
 ///
@@ -56,147 +57,66 @@ pub fn unwrap(
     options: &UnwrapOptions,
     progress: &dyn Progress,
 ) -> Result<Unwrapped, UvError> {
-    let triangles = triangles(mesh);
-    let mut uvs = vec![DVec2::ZERO; mesh.n_half_edges()];
-    let mut unwrapped = Unwrapped {
-        uvs: Vec::new(),
-        charts: charts(mesh, &uvs),
-        coverage: 0.0,
-        flat: Vec::new(),
-        bent: Vec::new(),
-    };
-    if triangles.is_empty() {
-        unwrapped.uvs = uvs;
-        return Ok(unwrapped);
-    }
-    let atlas = atlas(mesh, &triangles, options, progress)?;
-    let output = &atlas.meshes[0];
-    let (width, height) = (f64::from(atlas.width), f64::from(atlas.height));
-    let size = f64::from(options.page.size);
-    let mut placed = vec![None; mesh.n_half_edges()];
-    for (triangle, vertices) in triangles.iter().zip(output.indices.chunks_exact(3)) {
-        let vertices = [0, 1, 2].map(|k| output.vertices[vertices[k] as usize]);
-        let at = vertices.map(|v| position(&v) * DVec2::new(width, height) / size);
-        let area = (at[1] - at[0]).perp_dot(at[2] - at[0]) / 2.0;
-        let face = mesh.face(triangle[0]);
-        if area > 0.0 {
-            unwrapped.coverage += area;
-        } else {
-            unwrapped.flat.extend(face);
-        }
-        for (h, (vertex, uv)) in triangle.iter().zip(vertices.iter().zip(at)) {
-            match placed[h.index()] {
-                None => {
-                    placed[h.index()] = Some(vertex.chart);
-                    uvs[h.index()] = uv;
-                }
-                Some(_) if uvs[h.index()] != uv => unwrapped.bent.extend(face),
-                Some(_) => {}
-            }
-        }
-    }
-    unwrapped.flat.dedup();
-    unwrapped.bent.dedup();
-    unwrapped.charts = charts(mesh, &uvs);
-    unwrapped.uvs = uvs;
-    Ok(unwrapped)
-}
-
-/// Returns the computed texture coordinates of a vertex.
-fn position(vertex: &OutputVertex) -> DVec2 {
-    DVec2::from(vertex.uv.map(f64::from))
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the computation uses 32-bit numbers"
-)]
-fn atlas(
-    mesh: &Mesh,
-    triangles: &[[HalfEdgeId; 3]],
-    options: &UnwrapOptions,
-    progress: &dyn Progress,
-) -> Result<Atlas, UvError> {
-    let positions = unit_positions(mesh);
-    let corners = triangles.iter().flatten();
-    let indices: Vec<u32> = corners.map(|&h| number(mesh.origin(h).index())).collect();
-    let faces = triangles.iter().map(|t| mesh.face(t[0]));
-    let polygons: Vec<u32> = faces
-        .map(|f| f.map_or(u32::MAX, |f| number(f.index())))
-        .collect();
     let mut is_seam = vec![false; mesh.n_edges()];
     for e in options.seams {
         is_seam[e.index()] = true;
     }
-    // Sides of triangles inside a polygon are not edges, and cannot be seams.
-    let seam = |h: HalfEdgeId, g: HalfEdgeId| mesh.next(h) == g && is_seam[h.edge().index()];
-    let seams: Vec<[bool; 3]> = triangles
-        .iter()
-        .map(|&[a, b, c]| [seam(a, b), seam(b, c), seam(c, a)])
+    let surface = Surface::new(mesh, is_seam);
+    let limits = Limits {
+        min_cosine: libm::cos(options.max_angle.to_radians()),
+        max_stretch: options.max_stretch,
+    };
+    let list = cut::charts(&surface, limits, progress)?;
+    let mut uvs = vec![DVec2::ZERO; mesh.n_half_edges()];
+    // Charts are side by side, so that no two of them have the same coordinates at an edge.
+    let mut at = 0.0;
+    for chart in &list {
+        let low = chart.uvs.iter().copied().fold(DVec2::MAX, DVec2::min);
+        let high = chart.uvs.iter().copied().fold(DVec2::MIN, DVec2::max);
+        for (h, &v) in chart.part.corners.iter().zip(&chart.part.vertices) {
+            uvs[h.index()] = chart.uvs[v as usize] - low + DVec2::new(at, 0.0);
+        }
+        at += (high - low).x + 1.0;
+    }
+    let packed = pack(mesh, &uvs, options.page, progress)?;
+    let mut uvs = packed.uvs;
+    collapse(&surface, &mut uvs);
+    let bent = list.iter().filter(|chart| chart.is_bent);
+    let mut bent: Vec<FaceId> = bent
+        .flat_map(|chart| &chart.part.faces)
+        .map(|&f| FaceId::new(f as usize))
         .collect();
-    let input = MeshInput {
-        polygons: Some(&polygons),
-        seams: Some(&seams),
-        ..MeshInput::new(&positions, &indices)
-    };
-    let settings = Options {
-        max_chart_angle: options.max_angle as f32,
-        max_area_distortion: options.max_stretch as f32,
-        ..settings(options.page)
-    };
-    generate(&[input], &settings, options.page, progress)
-}
-
-/// The settings that unwrapping and packing share.
-pub(super) fn settings(page: Page) -> Options {
-    Options {
-        density: Density::Auto {
-            page_size: page.size,
-        },
-        padding: page.padding,
-        ..Options::default()
+    bent.sort_unstable();
+    let mut flat = Vec::new();
+    for triangle in &surface.triangles {
+        let [a, b, c] = triangle.map(|h| uvs[h.index()]);
+        if (b - a).perp_dot(c - a) <= 0.0 {
+            flat.extend(mesh.face(triangle[0]));
+        }
     }
+    flat.dedup();
+    flat.retain(|f| bent.binary_search(f).is_err());
+    Ok(Unwrapped {
+        charts: charts(mesh, &uvs),
+        coverage: packed.coverage,
+        uvs,
+        flat,
+        bent,
+    })
 }
 
-/// Makes an atlas of a single page.
-pub(super) fn generate(
-    input: &[MeshInput],
-    settings: &Options,
-    page: Page,
-    progress: &dyn Progress,
-) -> Result<Atlas, UvError> {
-    let listen = |report: uvunwrap::Progress| {
-        let task = match report.stage {
-            Stage::Segmenting => "grow charts",
-            Stage::Parameterizing => "flatten charts",
-            _ => "pack charts",
-        };
-        let done = report.done as u64;
-        // The number of packing attempts is not known in advance.
-        let total = report.total.map_or(done + 1, |total| total as u64);
-        progress.advance(task, done.min(total), total)
-    };
-    let atlas = generate_with_progress(input, settings, listen);
-    let atlas = atlas.map_err(|error| UvError::from_crate(&error, page))?;
-    if atlas.page_count > 1 {
-        return Err(UvError::PageTooSmall(page));
+/// Moves all corners of each face without area to one corner of a face with area.
+fn collapse(surface: &Surface, uvs: &mut [DVec2]) {
+    let mesh = surface.mesh;
+    for f in mesh.faces().filter(|f| surface.areas[f.index()] <= 0.0) {
+        let around = mesh
+            .face_vertices(f)
+            .flat_map(|v| mesh.vertex_half_edges(v));
+        let mut solid =
+            around.filter(|&h| mesh.face(h).is_some_and(|g| surface.areas[g.index()] > 0.0));
+        let at = solid.next().map_or(DVec2::ZERO, |h| uvs[h.index()]);
+        for h in mesh.face_half_edges(f) {
+            uvs[h.index()] = at;
+        }
     }
-    Ok(atlas)
-}
-
-/// Returns the positions of all vertices, moved and scaled so that the bounding box has a size of 1.
-fn unit_positions(mesh: &Mesh) -> Vec<[f32; 3]> {
-    // First scales the coordinates so that later computations cannot overflow.
-    let largest = |p: &DVec3| p.abs().max_element();
-    let size = mesh.positions().iter().map(largest).fold(0.0, f64::max);
-    let size = if size > 0.0 { size } else { 1.0 };
-    let unit = |p: &DVec3| *p / size;
-    let mut points = mesh.positions().iter().map(unit);
-    let first = points.next().unwrap_or_default();
-    let (low, high) = points.fold((first, first), |(low, high), p| (low.min(p), high.max(p)));
-    let (middle, extent) = ((low + high) / 2.0, (high - low).max_element());
-    let extent = if extent > 0.0 { extent } else { 1.0 };
-    let points = mesh.positions().iter();
-    let points = points.map(|p| ((unit(p) - middle) / extent).as_vec3());
-    points.map(|p| p.to_array()).collect()
 }

@@ -1,0 +1,367 @@
+//! Cutting and joining charts until each one is flat without overlaps and with little stretch.
+
+use std::collections::BTreeSet;
+
+use mesh::{DVec2, DVec3, FaceId};
+use progress::{Cancelled, Meter, Progress};
+use rayon::prelude::*;
+
+use super::flatten::{flatten, project};
+use super::grow::{Totals, grow, meetings, smooth_normals};
+use super::measure::{Flat, aspect, first_overlap, jacobian_at, percentile};
+use super::number;
+use super::surface::{Part, Surface, is_solid};
+use crate::sparse::SolveError;
+
+/// A chart whose projection to a plane has at most this aspect everywhere is projected.
+const FLAT: f64 = 1.0 + 1e-6;
+/// Two charts are joined only if they meet along this fraction of the shorter border.
+const MIN_SHARED: f64 = 0.1;
+/// The mean of `1 - cosine` of the angles at which two charts meet, from which they are not joined.
+const MAX_CREASE: f64 = 0.5;
+/// A chart whose area is less than this fraction of the other's is joined also across larger angles.
+const SMALL: f64 = 0.1;
+
+/// The limits of a chart.
+#[derive(Clone, Copy)]
+pub(super) struct Limits {
+    /// The smallest cosine of the angle between the normals of the faces and the mean normal.
+    pub(super) min_cosine: f64,
+    /// The largest ratio between the area scale of a triangle and that of the chart.
+    pub(super) max_stretch: f64,
+}
+
+/// What a map into the plane may do to a chart.
+struct Allowed {
+    /// See [`Limits::max_stretch`].
+    stretch: f64,
+    /// The largest aspect (see [`Stretch`](super::Stretch)), for all of the area but the fraction `except`.
+    aspect: f64,
+    except: f64,
+    /// The largest mean of the ratios between the area scales of the triangles and that of the chart.
+    spread: f64,
+}
+
+impl Allowed {
+    /// A chart that stretches more is cut.
+    fn of_charts(limits: Limits) -> Self {
+        Self {
+            stretch: limits.max_stretch,
+            aspect: 1.15,
+            except: 0.05,
+            spread: 1.1,
+        }
+    }
+}
+
+/// A flat chart.
+pub(super) struct Chart {
+    pub(super) part: Part,
+    /// The positions of the vertices of the part in the plane.
+    pub(super) uvs: Vec<DVec2>,
+    /// Whether the chart is one polygon that overlaps itself.
+    pub(super) is_bent: bool,
+}
+
+/// Why a set of faces is no chart.
+enum Failure {
+    /// These faces overlap.
+    Overlap([FaceId; 2]),
+    /// A triangle is mirrored, or the stretch is too large.
+    Stretch,
+}
+
+/// Checks for cancellation, but does not report.
+struct Quiet<'a, 'b>(&'a Meter<'b>);
+
+impl Progress for Quiet<'_, '_> {
+    fn advance(&self, _: &str, _: u64, _: u64) -> bool {
+        self.0.add(0).is_ok()
+    }
+}
+
+/// Divides a surface into flat charts.
+pub(super) fn charts(
+    surface: &Surface,
+    limits: Limits,
+    progress: &dyn Progress,
+) -> Result<Vec<Chart>, Cancelled> {
+    progress.report("grow charts", 0, 1)?;
+    let smooth = smooth_normals(surface);
+    let (chart_of, n) = grow(surface, &smooth, limits.min_cosine);
+    progress.report("grow charts", 1, 1)?;
+    let mut open = vec![Vec::new(); n];
+    for (f, &chart) in chart_of.iter().enumerate() {
+        if let Some(faces) = open.get_mut(chart as usize) {
+            faces.push(number(f));
+        }
+    }
+    let meter = Meter::new(progress, "flatten charts", surface.areas.len() as u64);
+    let mut charts = Vec::new();
+    while !open.is_empty() {
+        let results: Vec<_> = open
+            .into_par_iter()
+            .map(|faces| {
+                let n = faces.len();
+                let result = chart(surface, faces, limits, &Quiet(&meter))?;
+                if result.is_ok() {
+                    meter.add(n)?;
+                }
+                Ok(result.map_err(|(part, failure)| split(surface, &part.faces, &failure)))
+            })
+            .collect::<Result<_, Cancelled>>()?;
+        open = Vec::new();
+        for result in results {
+            match result {
+                Ok(chart) => charts.push(chart),
+                Err(halves) => open.extend(halves),
+            }
+        }
+    }
+    join(surface, &smooth, charts, limits, &Quiet(&meter))
+}
+
+/// Flattens a set of faces.
+fn chart(
+    surface: &Surface,
+    faces: Vec<u32>,
+    limits: Limits,
+    progress: &dyn Progress,
+) -> Result<Result<Chart, (Part, Failure)>, Cancelled> {
+    let part = Part::new(surface, faces);
+    let projected = project(&part);
+    let whole = |part, uvs, is_bent| Ok(Ok(Chart { part, uvs, is_bent }));
+    let flat = Allowed {
+        aspect: FLAT,
+        except: 0.0,
+        ..Allowed::of_charts(limits)
+    };
+    if check(&part, &projected, &flat, progress)?.is_ok() {
+        return whole(part, projected, false);
+    }
+    // A polygon is never cut, so only overlaps matter.
+    let is_single = part.faces.len() == 1;
+    let allowed = if is_single {
+        Allowed {
+            stretch: f64::INFINITY,
+            aspect: f64::INFINITY,
+            except: 0.0,
+            spread: f64::INFINITY,
+        }
+    } else {
+        Allowed::of_charts(limits)
+    };
+    let mut failure = Failure::Stretch;
+    match flatten(&part, progress) {
+        Ok(maps) => {
+            for uvs in maps {
+                match check(&part, &uvs, &allowed, progress)? {
+                    Ok(()) => return whole(part, uvs, false),
+                    Err(found) => failure = found,
+                }
+            }
+        }
+        Err(SolveError::Cancelled(cancelled)) => return Err(cancelled),
+        // The equations of extremely thin triangles can have no accurate solution.
+        Err(_) => {}
+    }
+    if is_single {
+        return whole(part, projected, true);
+    }
+    Ok(Err((part, failure)))
+}
+
+/// Checks that no triangle is mirrored or overlaps another, and that the stretch is allowed.
+fn check(
+    part: &Part,
+    uvs: &[DVec2],
+    allowed: &Allowed,
+    progress: &dyn Progress,
+) -> Result<Result<(), Failure>, Cancelled> {
+    if !uvs.iter().all(|p| p.is_finite()) {
+        return Ok(Err(Failure::Stretch));
+    }
+    let (mut aspects, mut scales, mut flat) = (Vec::new(), Vec::new(), Vec::new());
+    for (t, &f) in part.triangles.iter().zip(&part.face_of) {
+        let (points, at) = (
+            t.map(|v| part.points[v as usize]),
+            t.map(|v| uvs[v as usize]),
+        );
+        flat.extend(Flat::new(at, FaceId::new(f as usize)));
+        if !is_solid(points) {
+            continue;
+        }
+        let Some((map, area)) = jacobian_at(points, at) else {
+            continue;
+        };
+        let scale = map[0].perp_dot(map[1]);
+        if scale <= 0.0 {
+            return Ok(Err(Failure::Stretch));
+        }
+        aspects.push((aspect(map), area));
+        scales.push(scale);
+    }
+    let total: f64 = aspects.iter().map(|a| a.1).sum();
+    let in_texture: f64 = aspects.iter().zip(&scales).map(|(a, s)| a.1 * s).sum();
+    let mean = in_texture / total;
+    let ratio = |scale: f64| (scale / mean).max(mean / scale);
+    let (mut largest, mut spread) = (0.0_f64, 0.0);
+    for (&(_, area), &scale) in aspects.iter().zip(&scales) {
+        largest = largest.max(ratio(scale));
+        spread += area * ratio(scale);
+    }
+    // Rounding may change the scale of a flat chart a little.
+    if largest > allowed.stretch * (1.0 + 1e-6)
+        || spread > allowed.spread * total
+        || percentile(&mut aspects, (1.0 - allowed.except) * total) > allowed.aspect
+    {
+        return Ok(Err(Failure::Stretch));
+    }
+    let found = first_overlap(flat, progress)?;
+    Ok(found.map_or(Ok(()), |pair| Err(Failure::Overlap(pair))))
+}
+
+/// Divides a connected set of faces into two connected sets: those that are nearer to one of two faces, along the
+/// surface. The faces are two that overlap, or two that are far from each other.
+fn split(surface: &Surface, faces: &[u32], failure: &Failure) -> [Vec<u32>; 2] {
+    let index = |f: u32| faces.binary_search(&f).ok();
+    let seeds = match failure {
+        Failure::Overlap([f, g]) if f != g => [f, g].map(|f| index(number(f.index()))),
+        _ => [None, None],
+    };
+    let farthest = |from: usize| {
+        let (distance, _) = nearest(surface, faces, &[from]);
+        (0..faces.len())
+            .max_by(|&a, &b| distance[a].total_cmp(&distance[b]).then(b.cmp(&a)))
+            .unwrap_or(0)
+    };
+    let seeds = if let [Some(a), Some(b)] = seeds {
+        [a, b]
+    } else {
+        let a = farthest(0);
+        [a, farthest(a)]
+    };
+    let (_, side) = nearest(surface, faces, &seeds);
+    let of_side = |s: u32| {
+        let pairs = faces.iter().zip(&side);
+        pairs
+            .filter(|(_, side)| **side == s)
+            .map(|(f, _)| *f)
+            .collect()
+    };
+    [of_side(0), of_side(1)]
+}
+
+/// Returns, for each face of a connected set, the distance to the nearest of some faces of the set, and the number of
+/// that face (Dijkstra, 1959). Distances are sums of distances between the centers of neighbors.
+fn nearest(surface: &Surface, faces: &[u32], seeds: &[usize]) -> (Vec<f64>, Vec<u32>) {
+    let center = |f: u32| {
+        let corners = surface
+            .half_edges(f)
+            .map(|h| surface.positions[surface.mesh.origin(h).index()]);
+        let (sum, n) = corners.fold((DVec3::ZERO, 0.0), |(sum, n), p| (sum + p, n + 1.0));
+        sum / n
+    };
+    let mut distance = vec![f64::INFINITY; faces.len()];
+    let mut side = vec![0; faces.len()];
+    // Distances are not negative, so their bits have the order of the numbers.
+    let mut queue = BTreeSet::new();
+    for (s, &seed) in (0..).zip(seeds) {
+        distance[seed] = 0.0;
+        side[seed] = s;
+        queue.insert((0_u64, seed));
+    }
+    while let Some((_, i)) = queue.pop_first() {
+        for (_, g) in surface.neighbors(faces[i]) {
+            let Ok(j) = faces.binary_search(&g) else {
+                continue;
+            };
+            let next = distance[i] + center(faces[i]).distance(center(g));
+            if next < distance[j] {
+                queue.remove(&(distance[j].to_bits(), j));
+                queue.insert((next.to_bits(), j));
+                distance[j] = next;
+                side[j] = side[i];
+            }
+        }
+    }
+    (distance, side)
+}
+
+/// Joins charts that meet as long as the result is a chart, those that share most of their border first.
+fn join(
+    surface: &Surface,
+    smooth: &[DVec3],
+    mut charts: Vec<Chart>,
+    limits: Limits,
+    progress: &dyn Progress,
+) -> Result<Vec<Chart>, Cancelled> {
+    // Charts are known by their lowest faces and numbers of faces, which change when a chart changes.
+    let key = |chart: &Chart| (chart.part.faces[0], chart.part.faces.len());
+    let mut failed = BTreeSet::new();
+    loop {
+        let mut chart_of = vec![u32::MAX; surface.areas.len()];
+        for (c, chart) in charts.iter().enumerate() {
+            for &f in &chart.part.faces {
+                chart_of[f as usize] = number(c);
+            }
+        }
+        let (totals, links) = meetings(surface, smooth, &chart_of, charts.len());
+        let mut pairs = Vec::new();
+        for (a, links) in links.iter().enumerate() {
+            for (&b, meeting) in links.range(number(a) + 1..) {
+                let b = b as usize;
+                let (x, y) = (&totals[a], &totals[b]);
+                let shared = meeting.length / x.border.min(y.border);
+                let joined = x.joined(*y, *meeting);
+                let is_small = x.area.min(y.area) < SMALL * x.area.max(y.area);
+                if shared >= MIN_SHARED
+                    && (is_small || meeting.crease <= MAX_CREASE * meeting.length)
+                    && !failed.contains(&(key(&charts[a]), key(&charts[b])))
+                    && [a, b]
+                        .iter()
+                        .all(|&c| is_cone(&charts[c], &joined, smooth, limits))
+                {
+                    pairs.push((shared, a, b));
+                }
+            }
+        }
+        pairs.sort_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+        let mut is_taken = vec![false; charts.len()];
+        pairs.retain(|&(_, a, b)| {
+            let is_free = !is_taken[a] && !is_taken[b];
+            is_taken[a] |= is_free;
+            is_taken[b] |= is_free;
+            is_free
+        });
+        if pairs.is_empty() {
+            return Ok(charts);
+        }
+        let joined: Vec<_> = pairs
+            .par_iter()
+            .map(|&(_, a, b)| {
+                let mut faces = charts[a].part.faces.clone();
+                faces.extend(&charts[b].part.faces);
+                faces.sort_unstable();
+                Ok(chart(surface, faces, limits, progress)?.ok())
+            })
+            .collect::<Result<_, Cancelled>>()?;
+        let mut charts_left: Vec<Option<Chart>> = charts.into_iter().map(Some).collect();
+        for (&(_, a, b), joined) in pairs.iter().zip(joined) {
+            if joined.is_some() {
+                charts_left[a] = joined;
+                charts_left[b] = None;
+            } else if let (Some(a), Some(b)) = (&charts_left[a], &charts_left[b]) {
+                failed.insert((key(a), key(b)));
+            }
+        }
+        charts = charts_left.into_iter().flatten().collect();
+    }
+}
+
+/// Whether the angles between the faces of a chart and the mean normal of the joined chart are small.
+fn is_cone(chart: &Chart, joined: &Totals, smooth: &[DVec3], limits: Limits) -> bool {
+    let axis = joined.normal.normalize_or_zero();
+    let mut normals = chart.part.faces.iter().map(|&f| smooth[f as usize]);
+    normals.all(|normal| normal.dot(axis) >= limits.min_cosine)
+}

@@ -1,0 +1,188 @@
+//! The surface as unwrapping reads it, and connected parts of it.
+
+use mesh::{DVec3, FaceId, HalfEdgeId, Mesh};
+
+use super::number;
+use crate::merge::union_find::UnionFind;
+use crate::tangent::triangles;
+
+/// A triangle whose doubled area is at most this fraction of the square of its longest side has no area.
+const MIN_HEIGHT: f64 = 1e-8;
+
+/// A mesh whose bounding box has a size of 1, with the quantities of its faces. Faces are numbered by their ids.
+pub(super) struct Surface<'a> {
+    pub(super) mesh: &'a Mesh,
+    /// The positions of the vertices.
+    pub(super) positions: Vec<DVec3>,
+    /// The corners of the triangles of all faces, in the order of the faces.
+    pub(super) triangles: Vec<[HalfEdgeId; 3]>,
+    /// The triangles of face f are those from `starts[f]` to `starts[f + 1]`.
+    starts: Vec<usize>,
+    /// The unit normals, or zero for faces without area.
+    pub(super) normals: Vec<DVec3>,
+    /// The areas. A face is solid if its area is positive; other faces belong to no chart.
+    pub(super) areas: Vec<f64>,
+    is_seam: Vec<bool>,
+}
+
+impl<'a> Surface<'a> {
+    pub(super) fn new(mesh: &'a Mesh, is_seam: Vec<bool>) -> Self {
+        let n = mesh.n_faces();
+        let mut surface = Self {
+            mesh,
+            positions: unit_positions(mesh),
+            triangles: triangles(mesh),
+            starts: vec![0; n + 1],
+            normals: vec![DVec3::ZERO; n],
+            areas: vec![0.0; n],
+            is_seam,
+        };
+        for &triangle in &surface.triangles {
+            let Some(f) = mesh.face(triangle[0]) else {
+                continue;
+            };
+            surface.starts[f.index() + 1] += 1;
+            let [a, b, c] = triangle.map(|h| surface.positions[mesh.origin(h).index()]);
+            let normal = (b - a).cross(c - a);
+            surface.normals[f.index()] += normal;
+            if is_solid([a, b, c]) {
+                surface.areas[f.index()] += normal.length() / 2.0;
+            }
+        }
+        for f in 0..n {
+            surface.starts[f + 1] += surface.starts[f];
+            surface.normals[f] = surface.normals[f].normalize_or_zero();
+        }
+        surface
+    }
+
+    /// Returns the triangles of a face.
+    pub(super) fn triangles_of(&self, f: u32) -> &[[HalfEdgeId; 3]] {
+        &self.triangles[self.starts[f as usize]..self.starts[f as usize + 1]]
+    }
+
+    /// Returns the half-edges of a face.
+    pub(super) fn half_edges(&self, f: u32) -> impl Iterator<Item = HalfEdgeId> + '_ {
+        self.mesh.face_half_edges(FaceId::new(f as usize))
+    }
+
+    /// Returns the solid face on the other side of a half-edge, unless the edge is a seam.
+    pub(super) fn across(&self, h: HalfEdgeId) -> Option<u32> {
+        let f = self.mesh.face(h.twin())?;
+        let is_joined = !self.is_seam[h.edge().index()] && self.areas[f.index()] > 0.0;
+        is_joined.then(|| number(f.index()))
+    }
+
+    /// Returns the half-edges of a face that have a face on the other side, with that face. See [`Self::across`].
+    pub(super) fn neighbors(&self, f: u32) -> impl Iterator<Item = (HalfEdgeId, u32)> + '_ {
+        self.half_edges(f)
+            .filter_map(|h| Some((h, self.across(h)?)))
+    }
+
+    /// Returns the length of an edge.
+    pub(super) fn length(&self, h: HalfEdgeId) -> f64 {
+        let [a, b] = [h, self.mesh.next(h)].map(|h| self.positions[self.mesh.origin(h).index()]);
+        a.distance(b)
+    }
+}
+
+/// Whether a triangle has an area.
+pub(super) fn is_solid([a, b, c]: [DVec3; 3]) -> bool {
+    let sides = [a - b, b - c, c - a].map(DVec3::length_squared);
+    let longest = sides[0].max(sides[1]).max(sides[2]);
+    (b - a).cross(c - a).length() > MIN_HEIGHT * longest
+}
+
+/// Returns the positions of all vertices, moved and scaled so that the bounding box has a size of 1.
+pub(super) fn unit_positions(mesh: &Mesh) -> Vec<DVec3> {
+    // First scales the coordinates so that later computations cannot overflow.
+    let largest = |p: &DVec3| p.abs().max_element();
+    let size = mesh.positions().iter().map(largest).fold(0.0, f64::max);
+    let size = if size > 0.0 { size } else { 1.0 };
+    let unit = |p: &DVec3| *p / size;
+    let mut points = mesh.positions().iter().map(unit);
+    let first = points.next().unwrap_or_default();
+    let (low, high) = points.fold((first, first), |(low, high), p| (low.min(p), high.max(p)));
+    let (middle, extent) = ((low + high) / 2.0, (high - low).max_element());
+    let extent = if extent > 0.0 { extent } else { 1.0 };
+    let points = mesh.positions().iter();
+    points.map(|p| (unit(p) - middle) / extent).collect()
+}
+
+/// A connected set of faces that is cut open along its border and along the seams inside it. Its vertices are sets of
+/// corners that are connected across edges, so both sides of a cut have their own vertices.
+pub(super) struct Part {
+    /// The faces, ascending.
+    pub(super) faces: Vec<u32>,
+    /// The corners of the faces, in the order of the faces.
+    pub(super) corners: Vec<HalfEdgeId>,
+    /// The vertex of each corner.
+    pub(super) vertices: Vec<u32>,
+    /// The positions of the vertices.
+    pub(super) points: Vec<DVec3>,
+    /// The vertices of the triangles.
+    pub(super) triangles: Vec<[u32; 3]>,
+    /// The face of each triangle.
+    pub(super) face_of: Vec<u32>,
+}
+
+impl Part {
+    /// Creates the part of a surface with the given faces, in ascending order.
+    pub(super) fn new(surface: &Surface, faces: Vec<u32>) -> Self {
+        let mut corners = Vec::new();
+        let mut starts = Vec::with_capacity(faces.len());
+        for &f in &faces {
+            starts.push(corners.len());
+            corners.extend(surface.half_edges(f));
+        }
+        let corner = |h: HalfEdgeId| {
+            let f = surface.mesh.face(h)?;
+            let start = starts[faces.binary_search(&number(f.index())).ok()?];
+            let at = corners[start..].iter().position(|&c| c == h)?;
+            Some(number(start + at))
+        };
+        let sets = UnionFind::new(number(corners.len()));
+        for &h in &corners {
+            let twin = h.twin();
+            if h.index() < twin.index() && surface.across(h).is_some() {
+                let ends = [h, surface.mesh.next(h)].map(corner);
+                let opposite = [surface.mesh.next(twin), twin].map(corner);
+                for (a, b) in ends.iter().zip(opposite) {
+                    if let (Some(a), Some(b)) = (*a, b) {
+                        sets.join(a, b);
+                    }
+                }
+            }
+        }
+        let lowest = sets.into_lowest();
+        let mut vertices: Vec<u32> = Vec::with_capacity(corners.len());
+        let mut points = Vec::new();
+        for (c, &first) in lowest.iter().enumerate() {
+            if first as usize == c {
+                vertices.push(number(points.len()));
+                points.push(surface.positions[surface.mesh.origin(corners[c]).index()]);
+            } else {
+                vertices.push(vertices[first as usize]);
+            }
+        }
+        let (mut triangles, mut face_of) = (Vec::new(), Vec::new());
+        for (&f, &start) in faces.iter().zip(&starts) {
+            for triangle in surface.triangles_of(f) {
+                let at = triangle.map(|h| {
+                    let found = corners[start..].iter().position(|&c| c == h);
+                    vertices[start + found.expect("a triangle has corners of its face")]
+                });
+                triangles.push(at);
+                face_of.push(f);
+            }
+        }
+        Self {
+            faces,
+            corners,
+            vertices,
+            points,
+            triangles,
+            face_of,
+        }
+    }
+}

@@ -2534,10 +2534,10 @@ class SceneOperations:
         """Computes texture coordinates without overlaps.
 
         The surface is cut into charts, which are flattened and packed into a square page. Charts grow from flat regions
-        up to ``max_angle``. They are flattened by least squares conformal maps (Levy and others, 2002) and the
-        as-rigid-as-possible method (Liu and others, 2008), and are cut again where they would overlap themselves or
-        exceed ``max_stretch``. All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays in
-        one chart. Each mesh gets its own page.
+        up to ``max_angle``. They are flattened by least squares conformal maps (Levy and others, 2002) and the hybrid
+        method of Liu and others (2008). A chart is cut again if it would overlap itself, if it would exceed
+        ``max_stretch``, or if more than 5 % of its area would have an aspect above 1.15. All charts of a mesh have the
+        same scale, and no chart is mirrored. A polygon stays in one chart. Each mesh gets its own page.
 
         The coordinates are written to the corner attribute ``uv``, which is replaced if it exists. Edges at which
         charts meet become seams. Positions, faces and other attributes do not change, but tangents are removed.
@@ -4748,10 +4748,10 @@ class MeshOperations:
         """Computes texture coordinates without overlaps.
 
         The surface is cut into charts, which are flattened and packed into a square page. Charts grow from flat regions
-        up to ``max_angle``. They are flattened by least squares conformal maps (Levy and others, 2002) and the
-        as-rigid-as-possible method (Liu and others, 2008), and are cut again where they would overlap themselves or
-        exceed ``max_stretch``. All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays in
-        one chart. Each mesh gets its own page.
+        up to ``max_angle``. They are flattened by least squares conformal maps (Levy and others, 2002) and the hybrid
+        method of Liu and others (2008). A chart is cut again if it would overlap itself, if it would exceed
+        ``max_stretch``, or if more than 5 % of its area would have an aspect above 1.15. All charts of a mesh have the
+        same scale, and no chart is mirrored. A polygon stays in one chart. Each mesh gets its own page.
 
         The coordinates are written to the corner attribute ``uv``, which is replaced if it exists. Edges at which
         charts meet become seams. Positions, faces and other attributes do not change, but tangents are removed.

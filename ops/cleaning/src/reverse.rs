@@ -15,8 +15,8 @@ use op::prelude::*;
 /// Adjacent faces must have the same orientation, so only whole connected components can be reversed. If a selected
 /// face shares an edge with a face that is not selected, the step is refused. No vertex moves, and all elements keep
 /// their ids. The first corner of a face stays first, and the other corners follow in reverse order. Normals are
-/// negated. Attributes with the rule `Drop`, such as tangents of corners, are dropped. Other attributes stay with their
-/// elements, and corner values stay with their vertex and face.
+/// negated. Attributes whose edit rule is `Drop`, such as tangents of corners, are dropped. Other attributes stay with
+/// their elements, and corner values stay with their vertex and face.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Reverse {

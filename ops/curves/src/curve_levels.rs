@@ -19,7 +19,8 @@ use scene::Geometry;
 /// Replaces curves with the levels of de Casteljau's algorithm.
 ///
 /// A curve with n control points becomes n polylines in the plane z = 0. The first polyline is the control polygon with
-/// n points. Each of the following polylines has one point less. The last polyline is the point of the curve at `t`.
+/// n points. Each of the following polylines has one point fewer than the polyline before it. The last polyline has a
+/// single point, the point of the curve at `t`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CurveLevels {

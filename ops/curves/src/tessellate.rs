@@ -21,12 +21,12 @@ use scene::Geometry;
 
 /// Turns Bezier patches into a mesh.
 ///
-/// Acts on all objects that consist of patches, or on the objects in `on`. Each object becomes one mesh of
-/// the same name. Every patch is divided into `segments` x `segments` cells. The ids of elements follow
-/// the order of the patches. Patches share no vertices, but if they have the same control points on a common side, the
-/// positions of their vertices there are identical bit for bit, so that `Weld(distance: 0)` joins them. A side
-/// whose points coincide, as at the pole of a teapot's lid, becomes one vertex. Zero-area patches give no
-/// faces and are counted. The mesh has UVs and normals only if they are requested.
+/// Acts on all objects that consist of patches, or on the objects in `on`. Each object becomes one mesh of the same
+/// name. Every patch is divided into `segments` x `segments` cells. The ids of elements follow the order of the
+/// patches. Patches share no vertices, but if they have the same control points on a common side, the positions of
+/// their vertices there are identical bit for bit, so that `Weld(distance: 0)` joins them. A side whose points
+/// coincide, as at the pole of a teapot's lid, becomes one vertex. Zero-area patches give no faces. The report counts
+/// them. The mesh has UVs and normals only if they are requested.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tessellate {
@@ -38,7 +38,7 @@ pub struct Tessellate {
     pub faces: Faces,
     /// Whether to store the parameters (u, v) of each patch as UVs of corners.
     ///
-    /// Each patch covers the whole square from 0 to 1.
+    /// The UVs of each patch cover the whole square from 0 to 1.
     #[serde(default)]
     pub uvs: bool,
     /// Whether to store the exact unit normals of the patches as vertex normals.
@@ -198,7 +198,7 @@ impl Tessellate {
         if let [first, ..] = tessellation.empty_patches[..] {
             let n = tessellation.empty_patches.len();
             report = report.note(format!(
-                "zero-area patches, which have no faces: {n} (first: patch {first})"
+                "zero-area patches, which give no faces: {n} (the first is patch {first})"
             ));
         }
         if !build_report.is_clean() {

@@ -17,16 +17,17 @@ use crate::moved::moved;
 /// Moves vertices along their normals, by amounts that vary over the surface.
 ///
 /// Each vertex moves along its normal by `distance` times the value of `by`. The normal of a vertex is the mean of the
-/// normals of its faces, weighted by their areas. Vertices without a normal do not move and are counted. Normals and
-/// tangents are dropped. Faces, element ids and other attributes do not change.
+/// normals of its faces, weighted by their areas. Vertices without a normal do not move. The report counts them.
+/// Normals and tangents are dropped. Faces, element ids and other attributes do not change.
 ///
-/// The values are computed without functions that differ between machines, so the result is identical on all machines.
+/// The values are computed without functions whose results differ between machines, so the result is identical on all
+/// machines.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Displace {
     /// The values by which `distance` is multiplied.
     pub by: DisplaceBy,
-    /// The distance for the value 1, in scene units. A negative distance moves inwards.
+    /// The distance that a vertex with the value 1 moves, in scene units. A negative distance moves the vertex inwards.
     pub distance: Distance,
     /// The vertices to move. If omitted, all vertices.
     #[serde(default)]

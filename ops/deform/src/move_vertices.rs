@@ -23,7 +23,7 @@ use crate::moved::moved;
 /// smoothly to 0 at the distance r. Distances are measured along straight lines, not along the surface.
 ///
 /// With `by: Distance(..)`, each vertex moves along its own normal, which is the mean of the normals of its faces,
-/// weighted by their areas. Vertices without a normal do not move and are counted.
+/// weighted by their areas. Vertices without a normal do not move. The report counts them.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MoveVertices {
@@ -43,9 +43,9 @@ pub struct MoveVertices {
 pub enum MoveBy {
     /// By this offset along x, y and z, in scene units.
     Offset(Vector),
-    /// By this distance along the normal of each vertex, in scene units. A negative distance moves inwards.
+    /// By this distance along the normal of each vertex, in scene units. A negative distance moves vertices inwards.
     Distance(Distance),
-    /// By the same offset for all selected vertices, which moves their mean to this point.
+    /// By one offset for all selected vertices. The offset moves the mean of the selected vertices to this point.
     To(Vector),
 }
 

@@ -125,7 +125,7 @@ impl MeshOperation for Project {
         let report = moved(mesh, &mask, Self::NAME, "onto", |v, _| new[v.index()])?;
         let report = report.count("vertices whose line misses the surface, not moved", missed);
         Ok(report.count(
-            "vertices farther than `distance` from the surface, not moved",
+            "vertices that would move farther than `distance`, not moved",
             far,
         ))
     }
@@ -207,7 +207,7 @@ mod tests {
         assert_eq!(report.changed, 8);
         assert_eq!(
             report.notes,
-            ["vertices farther than `distance` from the surface, not moved: 6"]
+            ["vertices that would move farther than `distance`, not moved: 6"]
         );
         assert_eq!(positions(&scene, "cube")[8..], before[8..]);
     }

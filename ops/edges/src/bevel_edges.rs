@@ -16,19 +16,20 @@ use op::{Refusal, readable};
 /// Replaces edges with faces of constant width.
 ///
 /// A selected edge and both of its ends are removed, and a new face replaces the edge. In both faces beside the edge,
-/// the new face ends at the distance `width` from the old edge. Each other edge at an end is cut where it reaches this
-/// distance, but at most four times `width` from the end. An edge that is not next to a selected edge is cut at `width`
-/// from the end. Between two selected edges, the new vertex lies in the face. If three or more new vertices surround an
-/// old vertex, another new face joins them. All edges are beveled together, so a cube that is beveled at all edges
-/// keeps all of its symmetries.
+/// the new face ends at the distance `width` from the old edge. An edge that is not selected, but shares an end with a
+/// selected edge, is cut near this end. If it is next to the selected edge around the end, the cut is where the
+/// distance from the selected edge is `width`, but at most four times `width` from the end. Otherwise, the cut is at
+/// the distance `width` from the end. In a face between two selected edges with a common end, the new vertex lies
+/// inside the face. If three or more new vertices surround an old vertex, another new face joins them. All edges are
+/// beveled together, so a cube that is beveled at all edges keeps all of its symmetries.
 ///
 /// The ends of the edges are removed, so the ids of later vertices change. New vertices get the highest ids. Faces
 /// keep their ids. New faces get the highest ids: first the faces of edges, in order of the edges, then the faces of
 /// vertices. Edges get new ids.
 ///
-/// A new vertex has the values of the old face at its position, so textures do not change. A new face has the
-/// values (material, tags) of one of the faces beside it. Which one is not specified, but it is the same in
-/// every run. New edges have zero values (no crease, no tags). Normals are dropped.
+/// A new vertex has the values of the old face at its position, so textures do not change. A new face has the values
+/// (material, tags) of one of the old faces beside it. Which face is not specified, but the choice is the same in every
+/// run. New edges have zero values (no crease, no tags). Normals are dropped.
 ///
 /// An edge is refused if it is on the boundary (`Boundary`), if one of its ends has only one other edge and this edge
 /// is not selected (`FewEdges`), or if the bevels at both ends of an edge would overlap (`OutsideEdge`). If the result

@@ -8,8 +8,8 @@
 //!        d                   d
 //! ```
 //!
-//! Either each edge is flipped once, or edges are flipped while flips improve the mesh (module `until`). The module
-//! `goal` defines an improvement.
+//! Either each edge is flipped once, or edges are flipped as long as flips improve the mesh (module `until`). The
+//! module `goal` defines an improvement.
 
 mod goal;
 mod until;
@@ -44,10 +44,10 @@ pub struct FlipEdges {
     /// Which edges are flipped, and when to stop.
     #[serde(default)]
     pub until: Until,
-    /// The largest number of passes over the edges. Ignored for `Once`, which makes one pass.
+    /// The largest number of passes over the edges. Ignored with `until: Once`, which makes one pass.
     #[serde(default = "hundred")]
     pub passes: Count<1, 1_000_000>,
-    /// What to do when a flip is refused. Only for `Once`.
+    /// What to do when a flip is refused. Ignored unless `until` is `Once`.
     #[serde(default)]
     pub on_refusal: OnRefusal,
     /// What to do at seams.
@@ -124,7 +124,7 @@ impl MeshOperation for FlipEdges {
         Ok(match flips.crossed {
             0 => report,
             n => report.note(format!(
-                "seams crossed: {n}; corners at these edges took the values of the other side"
+                "flipped seams: {n}; the new corners at these edges took the values of the other side of the seam"
             )),
         })
     }

@@ -25,10 +25,10 @@ use region::Region;
 ///
 /// Selected faces that share an edge form a region and move together, with one normal and one center. A region is first
 /// scaled, then rotated, both about the mean of its vertices, and then moved. Side faces with four corners are added
-/// along the rim of the region, which consists of the edges with a face of the region on one side only. If all faces of
-/// an open sheet are extruded, the result is a box that is open where the sheet was. A closed region has no rim, so its
-/// faces only move. If the area vectors of the faces cancel each other out, as in a closed region, the region has no
-/// normal, and `by` must be an `Offset`.
+/// along the rim of the region. The rim consists of the edges with a face of the region on one side only. If all faces
+/// of an open sheet are extruded, the result is a box that is open where the sheet was. A closed region has no rim, so
+/// its faces only move. If the area vectors of the faces cancel each other out, as in a closed region, the region has
+/// no normal, and `by` must be an `Offset`.
 ///
 /// The faces keep their ids, so the same selection can be extruded again in later steps, for example to grow an arm out
 /// of a body. Vertices and edges inside a region also keep their ids. The vertices and edges of the old rim do not

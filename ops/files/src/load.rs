@@ -24,11 +24,13 @@ use op::{Loss, Operation, PlannedNodes, ReadingChange, ReadingElements};
 pub struct Load {
     /// The file. A relative path is relative to the folder of the recipe.
     pub path: String,
-    /// The name for objects that have no name in the file, and for the only object of an `.mws` file. Defaults to the
-    /// name of the file without its extension; objects of an `.mws` file then keep their names.
+    /// The name for objects that have no name in the file, and for the only object of an `.mws` file. If omitted,
+    /// objects without a name get the name of the file without its extension, and the object of an `.mws` file keeps
+    /// its name.
     #[serde(default)]
     pub name: Option<String>,
-    /// What to do if more than two faces share an edge, or if faces at a vertex share no edge.
+    /// What to do if more than two faces share an edge, or if the faces at a vertex form several groups that have no
+    /// common edge.
     #[serde(default)]
     pub non_manifold: NonManifold,
     /// What to do if neighboring faces have opposite orientations.

@@ -12,8 +12,8 @@ use op::{Loss, Operation, target_scene};
 /// patches, `.bzc` for a curve, and `.mws` for a complete scene without any loss. `.csv` is a table of the positions
 /// and attributes of vertices, faces or corners, and `.npz` has the arrays of a mesh for `NumPy`. These two formats
 /// cannot be read. If the name ends with `.gz`, as in `a.obj.gz`, the file is compressed with gzip, which is not
-/// possible for `.glb`, `.mws` and `.npz`. Content that the format cannot store is reported. The file is only created
-/// when the whole recipe has succeeded.
+/// possible for `.glb`, `.mws` and `.npz`. The report lists the content that the format cannot store. The file is only
+/// created when the whole recipe has succeeded.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Save {
@@ -35,7 +35,8 @@ pub struct Save {
     #[serde(default)]
     pub quantize: Option<Quantization>,
     /// For `.gltf` and `.glb`, the number of sets of four joints that are written for each vertex of a skinned mesh. If
-    /// omitted, the number of sets in the file that the mesh comes from, or 1 if it does not come from such a file.
+    /// omitted, the number of sets in the file that the mesh comes from, or 1 if the mesh does not come from such a
+    /// file.
     #[serde(default)]
     pub weight_sets: Option<Count<1, 8>>,
     /// For `.csv`, the elements that the rows list. If omitted, vertices.

@@ -15,9 +15,9 @@ use op::prelude::*;
 ///
 /// The edges may form paths, loops and trees. A loop can cut out a piece. Each edge becomes two edges, one for each
 /// side. If the cuts separate the faces around a vertex into several parts, each part gets a separate copy of the
-/// vertex. The part with the lowest face id keeps the id of the vertex, and new vertices get the highest ids. Faces
-/// keep their ids, and no vertex moves. Copies have the values of the originals, and corners keep their values.
-/// `Stitch` is the inverse.
+/// vertex. The part that contains the face with the lowest id keeps the id of the vertex, and new vertices get the
+/// highest ids. Faces keep their ids, and no vertex moves. Copies have the values of the originals, and corners keep
+/// their values. `Stitch` is the inverse.
 ///
 /// All edges are cut at once. An edge is refused if it is on the boundary (`Boundary`), or if the cut would not open
 /// the mesh because both ends are inside the mesh and no other cut continues at either end (`DuplicateEdge`).
@@ -75,7 +75,8 @@ impl Cut {
             let (refusal, message) = if mesh.is_boundary_edge(e) {
                 (EditError::Boundary(e), "is on the boundary")
             } else if slits.binary_search(&e).is_ok() {
-                let why = "would not open: both ends are inside the mesh and no other cut continues there";
+                let why = "cannot be cut open, because both ends are inside the mesh and no other cut continues at \
+                           either end";
                 (EditError::DuplicateEdge(v, w), why)
             } else {
                 allowed.push(e);

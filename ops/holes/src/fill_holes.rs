@@ -17,11 +17,11 @@ use op::prelude::*;
 /// boundary loop; use `around` or `max_edges` to exclude it. No vertices are added, and existing elements keep their
 /// ids. A hole with n edges gets 1 face with n corners, or n - 2 triangles and n - 3 edges.
 ///
-/// For holes with up to 500 edges, the triangles have the smallest total area. Larger holes are filled by cutting off
-/// one corner after the other, in each case the corner whose two neighbors are closest to each other; straight and
-/// reflex corners come last. If the hole is far from convex, the triangles may overlap. Two vertices that are already
-/// joined by an edge are not joined again. If no triangles without such a second edge are found, the hole is refused
-/// (`DuplicateEdge`). A hole with two edges is also refused (`WrongPlace`); `Stitch` closes it.
+/// For holes with up to 500 edges, the triangles have the smallest possible total area. Larger holes are filled by
+/// cutting off one corner after the other, in each case the corner whose two neighbors are closest to each other;
+/// straight and reflex corners come last. If the hole is far from convex, the triangles may overlap. Two vertices that
+/// are already joined by an edge are not joined again. If no triangles without such a second edge are found, the hole
+/// is refused (`DuplicateEdge`). A hole with two edges is also refused (`WrongPlace`); `Stitch` closes it.
 ///
 /// New faces have the values of a face beside the hole. New corners have the values of the corner at the same vertex in
 /// the adjacent face. Normals are dropped if a hole was filled.

@@ -20,8 +20,8 @@ use pairs::Pairs;
 ///
 /// Two boundary edges coincide if both pairs of corresponding ends are at most `distance` apart. Two edges that
 /// coincide only with each other form a pair. Choose a distance below the lengths of the edges. An edge that coincides
-/// with several edges is refused (`NonManifold`), and none of the coincident edges are joined. Unlike `Weld`, this
-/// operation never merges vertices inside the surface or vertices whose edges do not coincide.
+/// with several edges is refused (`NonManifold`), and none of these edges are joined. Unlike `Weld`, this operation
+/// never merges vertices inside the surface or vertices whose edges do not coincide.
 ///
 /// Of each pair of vertices or edges, the one with the lower id keeps its position and its values. The other vertex or
 /// edge is removed, so the ids of later elements change. Faces and corners do not change, so an edge whose sides have

@@ -6,7 +6,8 @@
 use geometry::triangulate::Cut;
 use mesh::{EdgeId, FaceId, HalfEdgeId, Mesh, Sources, VertexId};
 
-/// Returns the mesh with its faces cut. `n_diagonals` is the number of all diagonals. With them, ids must not overflow.
+/// Returns the mesh with its faces cut. `n_diagonals` is the number of diagonals of all cuts. The mesh with these
+/// diagonals must not have more elements than there are ids.
 pub(crate) fn assemble(mesh: &Mesh, cuts: &[Cut], n_diagonals: usize) -> Mesh {
     let n_old = mesh.n_half_edges();
     let n = n_old + 2 * n_diagonals;

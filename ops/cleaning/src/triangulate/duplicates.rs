@@ -16,8 +16,8 @@ use rayon::prelude::*;
 /// A diagonal: its vertices, the lower first, and its face.
 type Diagonal = ([VertexId; 2], FaceId);
 
-/// Replaces duplicate diagonals of quadrilaterals with the other diagonal if it is as good and not a duplicate.
-/// Returns the number of duplicates that remain.
+/// Replaces each duplicate diagonal of a quadrilateral with the other diagonal, if the other diagonal is equally good
+/// and is not a duplicate. Returns the number of duplicates that remain.
 pub(crate) fn avoid(mesh: &Mesh, cuts: &mut [Cut]) -> usize {
     let diagonals = all(mesh, cuts);
     let duplicates = duplicates(mesh, &diagonals);

@@ -147,7 +147,7 @@ fn empty_patches_are_reported_and_no_patches_give_an_empty_mesh() {
     assert_eq!(mesh.n_faces(), 128);
     assert_eq!(
         report.notes,
-        ["zero-area patches, which have no faces: 2 (first: patch 0)"]
+        ["zero-area patches, which give no faces: 2 (the first is patch 0)"]
     );
     assert_eq!(run(&parse("()"), Vec::new()).0, Mesh::default());
 }

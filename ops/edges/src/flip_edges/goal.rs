@@ -1,4 +1,5 @@
-//! Goals of flips. A goal decides whether a flip is an improvement. A flip that would fold the surface is never one.
+//! Goals of flips. A goal decides whether a flip is an improvement. A flip that would fold the surface is never an
+//! improvement.
 //!
 //! **Delaunay.** The energy of a triangle is the sum of the cotangents of its angles,
 //!
@@ -13,9 +14,9 @@
 //! other vertices. The trace is the sum of these energies. In the plane, a flip does not change the Dirichlet energy of
 //! linear functions. For all other functions, a flip changes the Dirichlet energy by a quadratic form of rank 1. The
 //! sign of this form depends on whether the fourth corner is inside the circle through the other three corners (Rippa,
-//! "Minimal Roughness Property of the Delaunay Triangulation", 1990). So in the plane a flip reduces the energy exactly
-//! if the edge is not Delaunay, and flipping these edges ends with the Delaunay triangulation (Lawson, "Software for C1
-//! Surface Interpolation", 1977). Four times the sum is the harmonic index of Musin, "Properties of the Delaunay
+//! "Minimal Roughness Property of the Delaunay Triangulation", 1990). So in the plane a flip reduces the energy if and
+//! only if the edge is not Delaunay, and flipping such edges ends with the Delaunay triangulation (Lawson, "Software
+//! for C1 Surface Interpolation", 1977). Four times the sum is the harmonic index of Musin, "Properties of the Delaunay
 //! Triangulation", 1997. The energy is also defined for surfaces in space.
 //!
 //! A flip that reduces the number of zero-area triangles is an improvement. If all four corners are collinear, both
@@ -51,7 +52,7 @@ pub(crate) enum Goal {
     Delaunay,
     /// Valences close to their targets.
     Valence {
-        /// The valence minus the target of each vertex.
+        /// For each vertex, its valence minus its target.
         excess: Vec<i32>,
     },
 }
@@ -156,9 +157,9 @@ impl Quad {
             .distance_squared(mesh.position(self.b))
     }
 
-    /// Whether the normals of both new triangles point to the same side as the old pair. The sum of the two area
-    /// vectors (normals multiplied by areas) is the same before and after a flip. In the plane, the result is true
-    /// exactly if the quad is convex.
+    /// Whether the normals of both new triangles point to the same side as the sum of the two area vectors (normals
+    /// multiplied by areas). This sum is the same before and after a flip. In the plane, the result is true if and only
+    /// if the quad is convex.
     fn flips_without_fold(&self, mesh: &Mesh) -> bool {
         let [a, b, c, d] = [self.a, self.b, self.c, self.d].map(|v| mesh.position(v));
         let (left, right) = ((c - d).cross(a - d), (d - c).cross(b - c));

@@ -35,7 +35,7 @@ impl Region {
     }
 
     /// Returns the unit vector along the sum of the area vectors of the faces. Returns `None` if the area vectors
-    /// cancel out up to rounding, as in a closed region.
+    /// cancel each other out up to rounding errors, as in a closed region.
     pub(crate) fn normal(&self, mesh: &Mesh) -> Option<DVec3> {
         let (mut sum, mut area) = (DVec3::ZERO, 0.0);
         for vector in self.faces.iter().map(|&f| mesh.area_vector(f)) {

@@ -226,7 +226,7 @@ fn refused_flips_at_seams_are_counted() {
         report
             .notes
             .iter()
-            .any(|note| note.starts_with("seams crossed: "))
+            .any(|note| note.starts_with("flipped seams: "))
     );
     assert!(report.refused.iter().all(|r| r.reason != Refusal::Seam));
 }

@@ -4,7 +4,7 @@ use mesh::{joint_of, morph_of};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The attributes with fixed names that have a meaning for operations and files.
+/// The names of attributes that have a fixed meaning for operations and files.
 const RESERVED: [&str; 9] = [
     "color",
     "corner",
@@ -17,8 +17,8 @@ const RESERVED: [&str; 9] = [
     "uv",
 ];
 
-/// The name of a new attribute. It must not be empty and must not start or end with whitespace. The names of
-/// attributes with a meaning, such as `uv`, `normal` and `color`, are not allowed.
+/// The name of a new attribute. It must not be empty and must not start or end with whitespace. Names with a fixed
+/// meaning, such as `uv`, `normal` and `color`, are not allowed.
 #[derive(Clone, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(try_from = "String", into = "String")]
 #[schemars(inline)]
@@ -32,7 +32,7 @@ pub enum BadAttributeName {
         "the name of an attribute must not be empty and must not start or end with whitespace, found \"{0}\""
     )]
     Whitespace(String),
-    /// The attribute of this name has a meaning.
+    /// This name has a fixed meaning.
     #[error("the attribute \"{0}\" has a fixed meaning: choose another name")]
     Reserved(String),
 }

@@ -26,7 +26,7 @@ pub struct Context<'a> {
     object: String,
     /// The other objects of the scene; `None` for an object that is not a mesh.
     others: Vec<(String, Option<Arc<Mesh>>)>,
-    /// Facts about the selections of the step, for its report.
+    /// Notes on the selections of the step, for its report.
     notes: Mutex<Vec<String>>,
 }
 
@@ -56,8 +56,8 @@ impl<'a> Context<'a> {
         Ok(self.progress.report(what, done, total)?)
     }
 
-    /// Sets the object on which selections are evaluated: its materials, and the other objects, which
-    /// [`other_mesh`](Self::other_mesh) finds. Until [`clear_object`](Self::clear_object) is called, the meshes of
+    /// Sets the object on which selections are evaluated: stores its materials and the other objects, which
+    /// [`other_mesh`](Self::other_mesh) returns. Until [`clear_object`](Self::clear_object) is called, the meshes of
     /// the other objects are shared.
     pub fn set_object(&mut self, scene: &Scene, name: &str) {
         let (mut materials, mut others) = (Vec::new(), Vec::new());

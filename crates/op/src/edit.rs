@@ -1,4 +1,4 @@
-//! Local edits over a selection.
+//! Local edits of the elements of a selection.
 
 use mesh::{EdgeId, EditError, Element, FaceId, HalfEdgeId, Mesh, VertexId};
 use schemars::JsonSchema;
@@ -109,8 +109,8 @@ impl<E: EditTarget> EditTarget for [E; 2] {
 
 /// Edits the elements in order. Each edit is checked against the mesh as edited so far.
 ///
-/// The report counts the edits and, for [`OnRefusal::Skip`], the refused edits by reason. Elements that an
-/// earlier edit removed count as refused. `what` names the work in progress reports.
+/// The report counts the edits and, for [`OnRefusal::Skip`], the refused edits by reason. Elements that an earlier edit
+/// of the same call removed count as refused. `what` names the work in progress reports.
 ///
 /// # Errors
 ///

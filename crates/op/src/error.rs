@@ -43,7 +43,7 @@ pub enum Refusal {
     Seam,
     /// A position on an edge is not strictly between its ends, or two bevels of an edge would overlap.
     OutsideEdge,
-    /// A coordinate or length is not finite or outside its range.
+    /// A coordinate or length is not finite, or is outside its range.
     BadNumber,
     /// The faces around a vertex would be separated into several fans.
     Pinch,
@@ -54,7 +54,7 @@ pub enum Refusal {
     WrongPlace,
     /// An element, tag, attribute, material or path that the step needs does not exist, or no longer exists.
     Missing,
-    /// The number of selected elements, or of parts, is not the expected one.
+    /// The number of selected elements or parts differs from the expected number.
     Expectation,
     /// The result would not be manifold.
     NonManifold,
@@ -114,7 +114,7 @@ pub enum OpError {
     Refused {
         /// The reason.
         reason: Refusal,
-        /// The reason in words, with the elements.
+        /// The reason in words, with the names of the elements.
         message: String,
         /// The elements that caused the refusal, as ids of the mesh at the time of the refusal.
         elements: Vec<Element>,
@@ -150,10 +150,10 @@ impl OpError {
     }
 
     /// Creates the error for a coordinate that is not finite. The message names the operation and the parameters that
-    /// cause it.
+    /// determine the coordinate.
     pub fn overflow(operation: &str, parameters: &str) -> Self {
         Self::Parameter(format!(
-            "{operation}: {parameters} give a coordinate that exceeds the largest number, 1.8e308"
+            "{operation}: with these values of {parameters}, a coordinate exceeds the largest number, 1.8e308"
         ))
     }
 

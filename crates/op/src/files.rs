@@ -17,15 +17,15 @@ use store::{Disk, Store, StoreError};
 pub enum FileError {
     /// The path leads out of the output folder.
     #[error(
-        "the output path \"{0}\" must stay inside the output folder: no \"..\", no absolute path"
+        "the output path \"{0}\" must stay inside the output folder: use a relative path without \".\", \"..\", \"\\\" and \":\""
     )]
     Outside(String),
     /// The path does not end with a file name.
     #[error("the output path \"{0}\" does not end with a file name")]
     NoName(String),
-    /// A placeholder does not name a path parameter.
+    /// A placeholder in the path is not known.
     #[error(
-        "unknown placeholder {{{0}}} in \"{1}\"; placeholders stand for file names in path parameters, here: {2}"
+        "unknown placeholder {{{0}}} in \"{1}\"; known placeholders, which stand for file names in path parameters: {2}"
     )]
     Placeholder(String, String, String),
     /// The path leads out of the output folder through a symbolic link.
@@ -42,7 +42,8 @@ pub struct Files {
     pub input: PathBuf,
     /// The output folder.
     pub output: PathBuf,
-    /// Names and values of placeholders: ("model.stem", "cow") replaces `{model.stem}` in an output path by `cow`.
+    /// Names and values of placeholders. For example, ("model.stem", "cow") replaces `{model.stem}` in an output path
+    /// with `cow`.
     pub placeholders: Vec<(String, String)>,
     /// A line with the provenance of the outputs, for formats that can store it.
     pub provenance: Option<String>,
@@ -121,8 +122,8 @@ impl Files {
     }
 
     /// Logs that a file was read: either a file whose path [`to_read`](Self::to_read) returned, or another file that
-    /// such a file refers to. If an operation calls this method for every requested path, the step can be cached. In
-    /// that case, the result of the step must not depend on the contents of any other file.
+    /// such a file refers to. If an operation calls this method for every requested path, the step can be cached. The
+    /// result of a cached step must not depend on the contents of any other file.
     pub fn has_read(&self, path: impl Into<PathBuf>) {
         self.log.note(FileUse::Read(path.into()));
     }
@@ -265,7 +266,7 @@ mod tests {
         );
         assert_eq!(
             files().to_write("{mdel}.obj").unwrap_err().to_string(),
-            "unknown placeholder {mdel} in \"{mdel}.obj\"; placeholders stand for file names in path parameters, here: {model.stem}"
+            "unknown placeholder {mdel} in \"{mdel}.obj\"; known placeholders, which stand for file names in path parameters: {model.stem}"
         );
     }
 

@@ -20,8 +20,8 @@ pub trait MeshOperation:
 {
     /// The name of the step in recipes: the name of the struct.
     const NAME: &'static str;
-    /// The version of the results. This version is increased when a new version of the program can give a different
-    /// result for the same parameters and input.
+    /// The version of the results. It must be increased when a new version of the program can give a different result
+    /// for the same parameters and input.
     const VERSION: u32 = 1;
     /// One line for lists: what the operation does, without a full stop.
     const SUMMARY: &'static str;
@@ -63,8 +63,8 @@ pub trait Operation:
 {
     /// The name of the step in recipes: the name of the struct.
     const NAME: &'static str;
-    /// The version of the results. This version is increased when a new version of the program can give a different
-    /// result for the same parameters and input.
+    /// The version of the results. It must be increased when a new version of the program can give a different result
+    /// for the same parameters and input.
     const VERSION: u32 = 1;
     /// One line for lists: what the operation does, without a full stop.
     const SUMMARY: &'static str;
@@ -120,7 +120,7 @@ impl<T: MeshOperation> Operation for T {
                 && !matches!(object.geometry, PlannedGeometry::Mesh(_))
             {
                 let message = format!(
-                    "{} needs a mesh, but \"{name}\" is {}",
+                    "{} needs a mesh, but the type of \"{name}\" is {}",
                     <T as MeshOperation>::NAME,
                     object.geometry.kind()
                 );

@@ -15,7 +15,7 @@ use crate::{Files, Loss};
 pub struct Range {
     /// The lowest possible count.
     pub min: u64,
-    /// The highest possible count; `u64::MAX` if it is unknown.
+    /// The highest possible count; `u64::MAX` if no limit is known.
     pub max: u64,
 }
 
@@ -74,7 +74,7 @@ impl Range {
         }
     }
 
-    /// Returns the range of this count reduced by `n`, at least 0. The highest count must be known.
+    /// Returns the range of this count reduced by `n`, at least 0. `max` must be a known limit, not `u64::MAX`.
     #[must_use]
     pub const fn less(self, n: u64) -> Self {
         Self {
@@ -98,7 +98,8 @@ impl Range {
         self.times(Self::exactly(n))
     }
 
-    /// Returns the range from 0 to the highest count. Call this method if any number of the elements can be missing.
+    /// Returns the range from 0 to the highest count. Use this method if a step can remove any number of the elements,
+    /// or leave any number of them out.
     #[must_use]
     pub const fn or_less(self) -> Self {
         Self::at_most(self.max)
@@ -170,7 +171,7 @@ impl MeshPlan {
         }
     }
 
-    /// Creates the plan of a mesh with known counts, without attributes and materials.
+    /// Creates the plan of a mesh with known counts that has no attributes and no materials.
     pub const fn counted(vertices: u64, edges: u64, faces: u64, degrees: Range) -> Self {
         Self {
             vertices: Range::exactly(vertices),
@@ -275,7 +276,7 @@ impl MeshPlan {
             .count()
     }
 
-    /// Returns the size of the mesh in bytes, without attributes that are not known.
+    /// Returns the size of the mesh in bytes. Attributes that are not listed in the plan are not included.
     pub fn bytes(&self) -> Range {
         let count = |domain| match domain {
             Domain::Vertex => self.vertices,
@@ -502,7 +503,7 @@ impl Plan {
         Some(Problem::error(message).at([field]))
     }
 
-    /// If no object has this name, returns a problem that lists the known names. Returns `None` if the plan is
+    /// If no object has this name, returns a problem that lists the known names. Always returns `None` if the plan is
     /// incomplete. `path` is the path of the parameter that contains the name.
     pub fn missing<const N: usize>(&self, name: &str, path: [&str; N]) -> Option<Problem> {
         if self.incomplete || self.object(name).is_some() {
@@ -519,8 +520,8 @@ impl Plan {
         Some(problem.help(format!("objects at this point: {known}")))
     }
 
-    /// Adds a file that the step writes, and returns the problems of its `path`. `check` returns the problem of
-    /// the file name extension.
+    /// Adds a file that the step writes, and returns the problems of its `path`. `check` returns a problem if the file
+    /// name extension is not supported.
     pub fn write(
         &mut self,
         cx: &PlanContext,
@@ -563,7 +564,7 @@ pub struct Problem {
     /// The path of the parameter: the names of fields and variants, and the indices of items, from the outside in.
     /// The path is empty if the problem concerns the whole step.
     pub path: Vec<String>,
-    /// Whether the recipe can run anyway.
+    /// Whether the problem is only a warning, so that the recipe can run.
     pub is_warning: bool,
 }
 

@@ -1,7 +1,7 @@
-//! Numbers for people.
+//! Formats numbers in messages for people.
 
-/// Formats a number for people, with six significant digits. Numbers below 1e-5 or from 1e15 on in magnitude are in
-/// scientific notation; of other numbers, all digits before the decimal point are kept.
+/// Formats a number for people, with six significant digits. Numbers whose magnitude is below 1e-5 or at least 1e15 are
+/// in scientific notation. All other numbers keep all digits before the decimal point.
 pub fn readable(x: f64) -> String {
     if x == 0.0 || !x.is_finite() {
         return x.to_string();

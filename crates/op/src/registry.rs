@@ -97,8 +97,8 @@ impl Registry {
         Self::default()
     }
 
-    /// Adds an operation. If its name or one of its earlier names is taken, [`check`](Self::check) reports the
-    /// conflict.
+    /// Adds an operation. If another operation already has its name or one of its earlier names, [`check`](Self::check)
+    /// reports the conflict.
     #[must_use]
     pub fn with<T: Operation>(mut self) -> Self {
         let entry = Entry::of::<T>();
@@ -141,7 +141,7 @@ impl Registry {
         &self.entries
     }
 
-    /// Returns the operation with this name or this earlier name.
+    /// Returns the operation with this name, which can be its current name or one of its earlier names.
     pub fn get(&self, name: &str) -> Option<&Entry> {
         self.entries
             .iter()

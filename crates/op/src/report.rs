@@ -29,9 +29,9 @@ pub struct ReadingChange {
     pub code: String,
     /// The number of elements or values that were changed.
     pub count: u64,
-    /// The changed elements of the file, if they are known.
+    /// The changed elements, by their indices in the file, if the elements are known.
     pub elements: Option<ReadingElements>,
-    /// The change in words, with the file.
+    /// The change in words, with the name of the file.
     pub message: String,
 }
 

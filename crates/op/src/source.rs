@@ -1,4 +1,4 @@
-//! Helpers of operations that work on a whole scene: sources, which create an object, and checks of object names.
+//! Helpers for operations that work on a whole scene: sources, which create an object, and checks of object names.
 
 use glam::DVec3;
 use mesh::Mesh;
@@ -65,8 +65,9 @@ impl<'a> Source<'a> {
         source
     }
 
-    /// Scales the mesh along each axis by a factor above 0, and then moves it from the origin to `center`, the value of
-    /// the parameter `center`. `parameters` names the parameters that determine the factors, for error messages.
+    /// Scales the mesh along each axis by a factor above 0, and then moves it from the origin to `center`, which is the
+    /// value of the operation's parameter `center`. `parameters` names the parameters that determine the factors, for
+    /// error messages.
     #[must_use]
     pub fn placed(mut self, parameters: &'static str, scale: [f64; 3], center: Vector) -> Self {
         self.scale_parameters = parameters;
@@ -95,9 +96,9 @@ impl<'a> Source<'a> {
     ///
     /// # Errors
     ///
-    /// [`OpError::Parameter`] for the first problem, and if a coordinate overflows;
-    /// [`OpError::Object`] if the name is taken; [`OpError::Budget`] if the mesh would exceed the memory budget of
-    /// `cx` or the largest supported number of edges; [`OpError::Cancelled`]. The scene is unchanged.
+    /// [`OpError::Parameter`] for the first problem, or if a coordinate overflows; [`OpError::Object`] if the name is
+    /// taken; [`OpError::Budget`] if the mesh would exceed the memory budget of `cx` or the largest supported number of
+    /// edges; [`OpError::Cancelled`]. The scene is unchanged.
     pub fn insert(
         self,
         scene: &mut Scene,
@@ -268,7 +269,7 @@ mod tests {
         let made = insert(source, &mut Scene::new(), u64::MAX);
         assert_eq!(
             made.unwrap_err().to_string(),
-            "Shape: size and center give a coordinate that exceeds the largest number, 1.8e308"
+            "Shape: with these values of size and center, a coordinate exceeds the largest number, 1.8e308"
         );
     }
 }

@@ -2,7 +2,7 @@
 
 use mesh::blocks;
 
-/// Statistics of values. Some of the values can be missing.
+/// Statistics of the finite values in a list. Values that are not finite count as missing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Statistics {
     /// The number of finite values, at least 1.

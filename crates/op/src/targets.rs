@@ -19,7 +19,7 @@ pub struct TargetKind {
     pub does: &'static str,
     /// What is missing if the scene has no object to act on, for messages: `no mesh to change`.
     pub none: &'static str,
-    /// How a recipe gets an object of this kind.
+    /// What a recipe must do to get an object of this kind.
     pub help: &'static str,
 }
 
@@ -35,7 +35,7 @@ impl TargetKind {
 
     /// Returns the message about an object of the wrong kind.
     pub fn wrong_kind_message(&self, name: &str, kind: &str) -> String {
-        format!("{} {}, but \"{name}\" is {kind}", self.operation, self.does)
+        format!("{} {}, but the type of \"{name}\" is {kind}", self.operation, self.does)
     }
 
     /// Plans the operation on each object that it acts on. `change` updates the plan of an object and returns the

@@ -128,7 +128,7 @@ mod tests {
         let error = sample(8).apply(&mut scene, &mut cx).unwrap_err();
         assert_eq!(
             error.to_string(),
-            "SampleCurve changes curves, but \"lines\" is polylines"
+            "SampleCurve changes curves, but the type of \"lines\" is polylines"
         );
     }
 }

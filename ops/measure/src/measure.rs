@@ -23,7 +23,7 @@ use crate::MeasureOf;
 /// lowest, the mean and the highest value of each object.
 ///
 /// An attribute of the same name is replaced if it belongs to the same elements (vertices or faces) and has one
-/// floating-point number for each. Otherwise the step fails.
+/// floating-point number for each element. Otherwise the step fails.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Measure {
@@ -34,7 +34,7 @@ pub struct Measure {
     #[serde(default)]
     pub name: Option<AttributeName>,
     /// The value for elements at which the quantity is not defined, such as the curvature of a vertex without faces.
-    /// These elements are counted. If omitted, 0 for quantities that can be negative, and -1 for all others.
+    /// The report counts these elements. If omitted, 0 for quantities that can be negative, and -1 for all others.
     #[serde(default)]
     pub missing: Option<Number>,
 }
@@ -141,7 +141,7 @@ impl Operation for Measure {
             }
             let n = found.map_or(0, |found| found.n);
             let (without, value) = (values.len() - n, readable(missing));
-            let what = format!("\"{object}\": elements without {name}, which get {value}");
+            let what = format!("\"{object}\": elements at which {name} is not defined, set to {value}");
             report = report.count(&what, without);
             report.changed += n as u64;
             for x in &mut values {
@@ -172,7 +172,7 @@ impl Operation for Measure {
 }
 
 fn wrong_kind(object: &str, kind: &str) -> String {
-    format!("Measure measures meshes, but \"{object}\" is {kind}")
+    format!("Measure measures meshes, but the type of \"{object}\" is {kind}")
 }
 
 /// Checks that the mesh has no attribute of this name that must be kept.
@@ -183,8 +183,8 @@ fn check_free(mesh: &Mesh, object: &str, domain: Domain, name: &str) -> Result<(
     };
     columns.find(is_other).map_or(Ok(()), |(of, column)| {
         Err(OpError::Parameter(format!(
-            "name: \"{object}\" already has the {of} attribute \"{name}\" of the type {}, which is not replaced by numbers of \
-             {domain} elements; choose another name",
+            "name: \"{object}\" already has the {of} attribute \"{name}\" of the type {}, which cannot be replaced \
+             with one number for each {domain}; choose another name",
             column.values.type_name()
         )))
     })

@@ -29,16 +29,16 @@ pub enum MeasureOf {
     VertexArea,
     /// The smallest angle of each face, in degrees.
     MinAngle,
-    /// The aspect ratio of each face: 1 for regular polygons, more for others. Zero-area faces have none (Stimpson,
-    /// Ernst, Knupp, Pébay, Thompson, "The Verdict Geometric Quality Library", 2007).
+    /// The aspect ratio of each face: 1 for regular polygons, and more than 1 for all other polygons (Stimpson, Ernst,
+    /// Knupp, Pébay, Thompson, "The Verdict Geometric Quality Library", 2007). It is not defined for zero-area faces.
     AspectRatio,
-    /// The distance from each vertex to the nearest point of another mesh of the scene, in scene units. Unless `on`
-    /// names objects, all meshes but the other mesh are measured.
+    /// The distance from each vertex to the nearest point of another mesh of the scene, in scene units. Without `on`,
+    /// all meshes except the other mesh are measured.
     Distance {
         /// The name of the object with the other mesh.
         to: String,
-        /// Whether distances are negative inside the other mesh: where its winding number is more than 1/2 or less than
-        /// -1/2.
+        /// Whether distances are negative inside the other mesh, that is, where its winding number is more than 1/2 or
+        /// less than -1/2.
         #[serde(default)]
         signed: bool,
     },
@@ -54,8 +54,8 @@ pub enum MeasureOf {
     /// vertex, runs inward at a right angle to the face, and ends where it leaves the solid. The thickness is the
     /// length of the shortest ray. If no ray leaves the solid, the vertex has no thickness.
     Thickness,
-    /// The ambient occlusion of each vertex, from 0 (open) to 1 (enclosed), which is the fraction of the rays from the
-    /// vertex that meet the mesh. There are more rays near the normal, in proportion to the cosine of the angle.
+    /// The ambient occlusion of each vertex: the fraction of the rays from the vertex that meet the mesh, from 0 (open)
+    /// to 1 (enclosed). The density of the rays is proportional to the cosine of their angle to the normal.
     Occlusion {
         /// The number of rays from each vertex. At most 4096. Defaults to 64.
         #[serde(default = "sixty_four")]
@@ -66,8 +66,7 @@ pub enum MeasureOf {
     },
     /// The winding number of another mesh of the scene around each vertex: 1 inside, 0 outside, and numbers between 0
     /// and 1 near gaps of the other mesh (Jacobson, Kavan, Sorkine-Hornung, 2013; Barill, Dickson, Schmidt, Levin,
-    /// Jacobson, 2018). The error is usually below 0.001. Unless `on` names objects, all meshes but the other mesh are
-    /// measured.
+    /// Jacobson, 2018). The error is usually below 0.001. Without `on`, all meshes except the other mesh are measured.
     Winding {
         /// The name of the object with the other mesh.
         of: String,
@@ -143,8 +142,8 @@ impl MeasureOf {
     ///
     /// # Errors
     ///
-    /// [`OpError::Object`] if the other mesh is missing or has no faces; [`OpError::Refused`] by a selection;
-    /// [`OpError::Budget`]; [`OpError::Cancelled`].
+    /// [`OpError::Object`] if the other mesh is missing or has no faces; [`OpError::Refused`] if a selection is
+    /// refused; [`OpError::Budget`]; [`OpError::Cancelled`].
     pub(crate) fn values(
         &self,
         mesh: &Mesh,
@@ -230,7 +229,7 @@ fn other_mesh<'s>(scene: &'s Scene, name: &str) -> Result<&'s Mesh, OpError> {
     let kind = object.geometry.kind();
     let wrong = || {
         OpError::Object(format!(
-            "{} needs a mesh, but \"{name}\" is {kind}",
+            "{} needs a mesh, but the type of \"{name}\" is {kind}",
             Measure::NAME
         ))
     };

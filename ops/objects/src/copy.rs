@@ -10,8 +10,8 @@ use scene::Object;
 
 /// Copies an object, with its attributes and materials, under a new name.
 ///
-/// The copy is added after all other objects. The elements of the copy have the same ids as in the original. If
-/// nodes place the object, a node that places the copy is added next to each of them.
+/// The copy is added after all other objects. The elements of the copy have the same ids as in the original. If nodes
+/// place the object, each of these nodes gets a sibling that places the copy.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Copy {

@@ -262,7 +262,7 @@ fn placed(
     let bytes = bytes.fold(0_u64, |sum, mesh| sum.saturating_add(mesh.bytes() as u64));
     if bytes > cx.budget {
         let message = format!(
-            "the instances take {bytes} bytes, but the memory budget is {}",
+            "the instances take {bytes} bytes, but the memory budget is {} bytes",
             cx.budget
         );
         return Err(OpError::Budget(message));
@@ -278,7 +278,7 @@ fn placed(
 }
 
 fn not_a_mesh(name: &str, kind: &str) -> String {
-    format!("Join joins meshes, but \"{name}\" is {kind}")
+    format!("Join joins meshes, but the type of \"{name}\" is {kind}")
 }
 
 #[cfg(test)]

@@ -17,10 +17,11 @@ use scene::{Geometry, Node, Object, Placement, transformed};
 /// Exactly `count` points are chosen so that they keep their distance from each other (Yuksel, "Sample Elimination for
 /// Generating Poisson Disk Sample Sets", 2015). Each copy is a node that references the object (an instance), so copies
 /// need almost no memory, and almost no space in `.gltf`, `.glb` and `.mws` files. The node moves the origin of the
-/// object to the point. To make one mesh of all copies, use `Join` afterwards. If no node placed the object before, it
-/// then appears only at the points.
+/// object to the point. To make one mesh of all copies, use `Join` afterwards. If no node placed the object before the
+/// step, the object then appears only at the points.
 ///
-/// Without `object`, the result is a mesh of the points without faces. Its normals are those of the surface.
+/// Without `object`, the result is a mesh that consists of the points and has no faces. The normals of its vertices are
+/// those of the surface.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scatter {
@@ -165,7 +166,8 @@ impl Scatter {
     }
 }
 
-/// Returns the shortest rotation from one unit vector to another, without platform trigonometry.
+/// Returns the shortest rotation from one unit vector to another. Uses no trigonometric functions, whose results differ
+/// between platforms.
 fn half_way(from: DVec3, to: DVec3) -> DQuat {
     let w = 1.0 + from.dot(to);
     if w < 1e-12 {

@@ -18,7 +18,7 @@ use scene::{Geometry, Graph, Object};
 ///
 /// The parts of "figure" are named "figure 1", "figure 2" and so on. The first part replaces the object, and the other
 /// parts are added after all other objects. Elements keep their order and their values, and every part has all
-/// materials. Vertices without a face are dropped and counted. A mesh without faces is refused.
+/// materials. Vertices without a face are dropped. The report counts them. A mesh without faces is refused.
 ///
 /// If nodes place the object, they place the first part after the step. Each of these nodes gets children that place
 /// the other parts.
@@ -220,7 +220,7 @@ impl Separate {
 }
 
 fn not_a_mesh(name: &str, kind: &str) -> String {
-    format!("Separate splits meshes, but \"{name}\" is {kind}")
+    format!("Separate splits meshes, but the type of \"{name}\" is {kind}")
 }
 
 #[cfg(test)]

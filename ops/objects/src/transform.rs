@@ -38,8 +38,8 @@ use crate::transform::map::Map;
 /// transformed; other attributes do not change. If the points are mirrored (one or three negative factors in `scale`),
 /// the faces are also reversed, so that they stay counter-clockwise seen from outside. The first corner of a face stays
 /// first, and the other corners follow in reverse order. In mirrored patches, u and v are exchanged, so that the
-/// outside stays the outside. Mirroring the points drops attributes with the rule `Drop`, such as tangents of corners,
-/// as does any step that changes the connectivity.
+/// outside stays the outside. Like any step that changes the connectivity, mirroring the points drops attributes whose
+/// edit rule is `Drop`, such as tangents of corners.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Transform {
@@ -68,7 +68,7 @@ pub enum Space {
     /// the object change.
     #[default]
     Scene,
-    /// The space of each object. The points of the object change, and therefore all instances of the object.
+    /// The space of each object. The points of the object change, so all instances of the object change.
     Object,
 }
 
@@ -192,8 +192,8 @@ impl Transform {
                 "the curve \"{name}\" must stay in the plane z = 0, but would get z = {z}"
             ))),
             None => Some(Problem::warning(format!(
-                "the curve \"{name}\" must stay in the plane z = 0, but the rotation moves it out of the plane \
-                 unless it is on the axis"
+                "the curve \"{name}\" must stay in the plane z = 0, but the rotation moves the curve out of \
+                 the plane unless all points of the curve are on the axis"
             ))),
         }
     }

@@ -25,9 +25,10 @@ use crate::figure_file;
 ///
 /// The figure has a panel for each curve and each `t`. With `by_level`, it instead has a panel for each curve, each `t`
 /// and each level. A panel shows the control polygon, every level of de Casteljau's algorithm in a different color, the
-/// point, and the curve, with the same scale in both axes. With `by_level`, each panel of a `t` shows one level more
-/// than the panel before it, and only the last one shows the point. The extension of the file determines the format:
-/// `.svg` or `.png`. The file is written only if the whole recipe succeeds. The scene does not change.
+/// point, and the curve, with the same scale in both axes. With `by_level`, the panels for one value of `t` each show
+/// one level more than the panel before, and only the last of these panels shows the point. The extension of the file
+/// determines the format: `.svg` or `.png`. The file is written only if the whole recipe succeeds. The scene does not
+/// change.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CurveFigure {

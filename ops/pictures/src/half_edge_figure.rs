@@ -11,8 +11,8 @@ use crate::figure_file;
 /// Each half-edge is an arrow beside its edge, inside its face, with its name. A thin curve leads from the head of the
 /// arrow to the next half-edge of the face. The twin of a half-edge is on the other side of the edge. Half-edges on the
 /// boundary have no face and are gray. The faces are seen along their mean normal. Faces that face away from the viewer
-/// or are seen nearly edge-on are left out and reported. The extension of the file determines the format: `.svg` or
-/// `.png`. The file is written only if the whole recipe succeeds. The scene does not change.
+/// or are seen nearly edge-on are left out. The report counts them. The extension of the file determines the format:
+/// `.svg` or `.png`. The file is written only if the whole recipe succeeds. The scene does not change.
 ///
 /// A name is a letter and the id of the element: `v` for vertices, `h` for half-edges, `f` for faces. Half-edges
 /// `2e` and `2e + 1` belong to edge `e`.

@@ -70,7 +70,7 @@ pub struct Picture {
     #[serde(default)]
     pub turntable: Option<Turntable>,
     /// The folder of images that are not next to their model, relative to the folder of the recipe. If omitted, the
-    /// folder of the recipe. Missing images are not drawn, and are reported.
+    /// folder of the recipe. Missing images are not drawn, and the report lists them.
     #[serde(default)]
     pub images: Option<String>,
 }
@@ -333,7 +333,7 @@ impl Picture {
         let has_marks = self.highlight.is_some() || !self.marks.is_empty();
         let has_mesh = scene.objects().iter().any(|o| o.as_mesh().is_some());
         (has_marks && !has_mesh && !scene.objects().is_empty()).then(|| {
-            "nothing is highlighted: only elements of meshes can be highlighted, and the scene has no mesh; use \
+            "nothing is highlighted, because only elements of meshes can be highlighted and the scene has no mesh; use \
              `style: (points: 8)` to show the points of polylines, or `style: (control_nets: ())` to show \
              control points"
                 .to_owned()
@@ -433,7 +433,7 @@ fn placed<'s>(scene: &'s Scene, cx: &Context) -> Result<Cow<'s, Scene>, OpError>
     let bytes = scene.placed_bytes();
     if !scene.graph().is_empty() && bytes > cx.budget {
         let message = format!(
-            "the instances take {bytes} bytes, but the memory budget is {}",
+            "the instances take {bytes} bytes, but the memory budget is {} bytes",
             cx.budget
         );
         return Err(OpError::Budget(message));

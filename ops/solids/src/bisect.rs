@@ -14,16 +14,16 @@ use op::prelude::*;
 /// Cuts meshes along a plane.
 ///
 /// Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along it. A
-/// concave face can be cut several times. A vertex is on the plane if its distance from the plane is at most 1e-9 of
-/// the largest extent of the mesh or 1e-14 of the largest coordinate; it is not moved. When edge e is cut, the part at
-/// the start of half-edge 2e keeps the id of the edge. When a face is cut, the part with the first corner keeps the id
-/// of the face. New elements get the highest ids. Attributes are interpolated at the crossings, separately on each side
-/// of a seam.
+/// concave face can be cut several times. A vertex counts as on the plane if its distance from the plane is at most
+/// 1e-9 times the largest extent of the mesh, or at most 1e-14 times the largest absolute coordinate. Such a vertex is
+/// not moved. When edge e is cut, the part at the start of half-edge 2e keeps the id of the edge. When a face is cut,
+/// the part with the first corner keeps the id of the face. New elements get the highest ids. Attributes are
+/// interpolated at the crossings, separately on each side of a seam.
 ///
 /// With `keep: Front` or `keep: Back`, the other side of the plane is removed. A face in the plane belongs to the back
 /// if its normal points to the front, because the face then closes the solid behind the plane. Vertices left without a
 /// face are removed. If the remaining faces around a vertex form several fans, each fan gets a separate copy of the
-/// vertex. No faces are added to close the cut. `FillHoles` adds them.
+/// vertex. No faces are added to close the cut. To close it, use `FillHoles` in a later step.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bisect {

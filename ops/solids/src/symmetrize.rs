@@ -16,7 +16,7 @@ use op::prelude::*;
 /// The mesh is cut along a plane, as with `Bisect`. The half on the side `from` is kept and mirrored, and the halves
 /// are joined at the plane. Vertices near the plane (see `Bisect`) are moved exactly onto it, so that the result is
 /// symmetric. Faces in the plane are removed, because they would be walls inside the result. Where the surface only
-/// touches the plane, the halves are not joined. The report counts the faces of which no part is kept.
+/// touches the plane, the halves are not joined. The report counts the faces that are removed as a whole.
 ///
 /// The elements of the kept half come first, in their old order. The elements of the mirror image follow. Attributes
 /// are copied, so both halves have the same texture coordinates, tags and weights of joints. Normals and tangents are
@@ -54,7 +54,7 @@ impl MeshOperation for Symmetrize {
     const WORDS: &'static [&'static str] = &["mirror", "reflect", "plane"];
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // Twice the plan of `Bisect`.
+        // The counts are twice those of the plan of `Bisect`.
         let per_face = plan.degrees.max / 2;
         let crossings = plan.edges.or_less();
         let cuts = plan.faces.by(per_face).capped(crossings.max).or_less();

@@ -14,13 +14,13 @@
 //!
 //! Each level adds a vertex on every edge and connects the three new vertices of each triangle. Old vertices do not
 //! move, so the surface passes through all of them. An inner vertex is extraordinary if its valence n is not 6. In the
-//! mask for a new vertex on an edge of an extraordinary vertex, neighbor j of the extraordinary vertex has the
-//! weight (1/4 + cos(2πj/n) + cos(4πj/n)/2)/n; for n = 3 and n = 4, the weights are different. If both ends of an edge
-//! are extraordinary, the new vertex is the mean of the results of both masks. The scheme is the modified butterfly
-//! scheme of Zorin, Schröder and Sweldens, "Interpolating Subdivision for Meshes with Arbitrary Topology", 1996, after
-//! Dyn, Levin and Gregory, "A Butterfly Subdivision Scheme for Surface Interpolation with Tension Control", 1990. The
-//! limit surface has a continuous tangent plane. The surface can ripple where a coarse mesh bends sharply, and it can
-//! leave the convex hull of the mesh.
+//! mask for a new vertex on an edge of an extraordinary vertex, neighbor j of the extraordinary vertex has the weight
+//! (1/4 + cos(2πj/n) + cos(4πj/n)/2)/n; for n = 3 and n = 4, the weights are different. If both ends of an edge are
+//! extraordinary, the new vertex is the mean of the results of both masks. The scheme is the modified butterfly scheme
+//! of Zorin, Schröder and Sweldens, "Interpolating Subdivision for Meshes with Arbitrary Topology", 1996, which extends
+//! the scheme of Dyn, Levin and Gregory, "A Butterfly Subdivision Scheme for Surface Interpolation with Tension
+//! Control", 1990. The limit surface has a continuous tangent plane. The surface can ripple where a coarse mesh bends
+//! sharply, and it can leave the convex hull of the mesh.
 //!
 //! The crate `subdivision` implements all schemes.
 

@@ -17,7 +17,7 @@ use crate::simplify::{error, part, plan_goal, triangles_problem, unreached};
 ///
 /// The copies are named after the object, for example `rock_lod1`, `rock_lod2` and so on. Each copy is made from the
 /// previous copy in the same way as with `Simplify`, and keeps the same attributes, materials and lines. If nodes place
-/// the object, a node for each copy is added next to each of them.
+/// the object, each of these nodes gets one sibling for each copy, which places the copy.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Lods {
@@ -30,7 +30,7 @@ pub struct Lods {
     #[serde(default)]
     pub to: Option<String>,
     /// Edges that are treated as lines, for example `Sharp(above: 30)`. If omitted, only the lines that `Simplify`
-    /// always keeps.
+    /// always keeps are treated as lines.
     #[serde(default)]
     pub features: Option<EdgeSelection>,
     /// What to do if the number of faces of a copy cannot be reached.

@@ -20,10 +20,10 @@ use crate::simplify::triangles_problem;
 ///
 /// Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
 /// vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target length.
-/// All vertices lie on the original surface, except a new vertex that cannot move there without turning a triangle or
-/// moving the surface too far. The target length is either `length`, or it follows `curvature`: edges are short where
-/// the surface is curved, and long where it is flat (Dunyach and others, 2013). Exactly one of the two must be given.
-/// All faces must be triangles.
+/// All vertices lie on the original surface, except new vertices that cannot be moved onto it without turning a
+/// triangle too far or moving the surface too far. The target length is either `length`, or it follows `curvature`:
+/// edges are short where the surface is curved, and long where it is flat (Dunyach and others, 2013). Exactly one of
+/// the two must be given. All faces must be triangles.
 ///
 /// The following properties are kept:
 ///
@@ -32,7 +32,8 @@ use crate::simplify::triangles_problem;
 ///   a tag or a crease, and `features`. Vertices on a line slide along it. The ends of lines, the vertices where lines
 ///   meet, and corners where a line turns by more than 40 degrees keep their exact positions. Other sharp edges are
 ///   rounded.
-/// - Attributes: they come from the same point of the original surface, and are never interpolated across a line.
+/// - Attributes: each vertex and corner gets the values of the original surface at its position. Values are never
+///   interpolated across a line.
 /// - Vertex tags: a new vertex has a tag if all old vertices around its position had the tag. A tagged vertex keeps its
 ///   exact position unless all corners of one of its triangles, or both of its neighbors on a line, also have the tag.
 ///   Vertices with sharpness also keep their exact positions.
@@ -46,11 +47,11 @@ pub struct Remesh {
     /// The target length of edges, in scene units.
     #[serde(default)]
     pub length: Option<PositiveLength>,
-    /// Target lengths that follow the curvature, instead of `length`.
+    /// Target lengths that follow the curvature. Replaces `length`.
     #[serde(default)]
     pub curvature: Option<RemeshCurvature>,
-    /// Edges that are treated as lines, for example `Sharp(above: 30)`. If omitted, only the lines that are always
-    /// kept.
+    /// Edges that are treated as lines, for example `Sharp(above: 30)`. If omitted, only the lines that are always kept
+    /// are treated as lines.
     #[serde(default)]
     pub features: Option<EdgeSelection>,
     /// The largest allowed Hausdorff distance between the old and the new surface, in scene units. Edges

@@ -26,7 +26,7 @@ use op::prelude::*;
 /// - Lines: the boundary, seams of texture coordinates and normals, borders between face tags or materials, edges with
 ///   a tag or a crease, and `features`. A line can lose vertices, but its ends, and the vertices where lines meet, keep
 ///   their exact positions.
-/// - Attributes: texture coordinates, normals, colors and other numbers are a part of the change that is kept small
+/// - Attributes: changes of texture coordinates, normals, colors and other numbers count as changes of the surface
 ///   (Hoppe, 1999), and new vertices get the values that fit best. Values are never mixed across a line, and no
 ///   triangle is turned over in the texture. Normals are kept, so that a simplified mesh is shaded like the original.
 /// - Vertex tags: vertices with different tags, whole numbers or sharpness are not merged.
@@ -49,8 +49,8 @@ pub struct Simplify {
     /// The true distance is usually between a third of the limit and the limit. If omitted, there is no limit.
     #[serde(default)]
     pub error: Option<PositiveLength>,
-    /// Edges that are treated as lines, for example `Sharp(above: 30)`. If omitted, only the lines that are always
-    /// kept.
+    /// Edges that are treated as lines, for example `Sharp(above: 30)`. If omitted, only the lines that are always kept
+    /// are treated as lines.
     #[serde(default)]
     pub features: Option<EdgeSelection>,
     /// Vertices that keep their exact positions, for example `Boundary`. If omitted, no vertices.

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!        .   .                                        Laplacian   towards the mean of the neighbors
-//!      .' '.' '.   .'            .--.----.--          Taubin      the same, and back, so that the size stays
+//!      .' '.' '.   .'            .--.----.--          Taubin      towards the mean and back: keeps the size
 //!     /         '.'       -->   /                     Implicit    backward Euler steps of mean curvature flow
 //!    /                         /                      Denoise     filtered normals, so that edges stay sharp
 //! ```
@@ -63,15 +63,15 @@ pub enum SmoothBy {
         #[serde(default = "half")]
         factor: ClosedFraction,
     },
-    /// Moves each vertex towards the mean of its neighbors, then back by slightly more. Removes noise, and keeps larger
-    /// shapes and the volume nearly unchanged. One pass consists of both steps.
+    /// Moves each vertex towards the mean of its neighbors, and then back by a slightly larger factor. Removes noise,
+    /// and keeps larger shapes and the volume nearly unchanged. One pass consists of both steps.
     Taubin {
         /// The weights of the neighbors.
         #[serde(default)]
         weights: SmoothWeights,
         /// The distance of the first step, as a fraction of the distance to the mean. From 0 to 1, exclusive. Factors
-        /// that would amplify noise are refused: with the default `pass_band`, those of more than about 0.7. Defaults
-        /// to 0.33.
+        /// that would amplify noise are refused. With the default `pass_band`, these are the factors of more than about
+        /// 0.7. Defaults to 0.33.
         #[serde(default = "taubin_factor")]
         factor: Fraction,
         /// The frequency below which shapes are kept. A lower value smooths more. From 0 to 1, exclusive. Defaults to
@@ -113,8 +113,8 @@ pub enum SmoothBoundary {
     /// The vertices do not move.
     #[default]
     Fixed,
-    /// The boundary is smoothed as curves, so a vertex on the boundary depends only on its neighbors along the
-    /// boundary. With `Denoise`, vertices on the boundary move like all other vertices.
+    /// The boundary is smoothed as a set of curves, so the movement of a vertex on the boundary depends only on its
+    /// neighbors along the boundary. With `Denoise`, vertices on the boundary move like all other vertices.
     Free,
 }
 

@@ -15,18 +15,19 @@ use op::prelude::*;
 
 /// Copies attributes from the nearest points of another object.
 ///
-/// An attribute of vertices, corners or faces of the object `from` becomes an attribute of the same kind of elements.
-/// Numbers and vectors of vertices and corners are interpolated inside the face of the nearest point. Whole numbers,
-/// tags, and attributes that edits do not interpolate are copied from the nearest corner of this face. Values of faces
-/// are copied from this face. An existing attribute with the same type of values is overwritten; with a different type,
-/// the step fails. Without `on`, the step acts on all meshes except `from`.
+/// An attribute of vertices, corners or faces of the object `from` becomes an attribute of the same kind of elements of
+/// the changed mesh. Numbers and vectors of vertices and corners are interpolated inside the face of the nearest point.
+/// Whole numbers, tags, and attributes that edits do not interpolate are copied from the nearest corner of this face.
+/// Values of faces are copied from the face of the nearest point. An existing attribute with the same type of values is
+/// overwritten; with a different type, the step fails. Without `on`, the step acts on all meshes except `from`.
 ///
 /// All corners of a face take their values from one chart of the source, that is, from faces that are connected without
 /// crossing a seam of the attribute. The chart is the one nearest to the center of the face, so no triangle is
 /// stretched across a seam of texture coordinates.
 ///
-/// Elements whose distance from the source exceeds `within` keep their values, or get zeros if the attribute is new,
-/// and are counted. If a corner or the center of a face is that far away, this applies to all corners of the face.
+/// Elements whose distance from the source exceeds `within` keep their values, or get zeros if the attribute is new. If
+/// a corner or the center of a face is that far away, this applies to all corners of the face. The report counts these
+/// elements.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Transfer {
@@ -122,7 +123,7 @@ impl MeshOperation for Transfer {
         }
         for (domain, kept) in far {
             let what = format!(
-                "{} farther than `within` from \"{}\", which keep their values",
+                "{} farther than `within` from \"{}\", which take no values from it",
                 plural(domain),
                 self.from
             );
@@ -229,7 +230,7 @@ impl Source<'_> {
         cx: &Context,
     ) -> Result<Vec<Origin>, OpError> {
         let (chart_of_face, charts) = charts(self.mesh, values);
-        // Only the charts that some corner cannot reach by its nearest point need an index.
+        // A chart needs an index only if a corner that takes its values from the chart is nearest to another chart.
         let mut indices: Vec<Option<SurfaceIndex>> = charts.iter().map(|_| None).collect();
         let mut origins = vec![None; target.domain_len(Domain::Corner)];
         for (i, (f, center)) in target.faces().zip(faces).enumerate() {

@@ -6,9 +6,10 @@ use op::prelude::*;
 /// Tags the selected vertices and removes the tag from all other vertices. In later steps, `Tagged("rim")` selects the
 /// vertices with the tag `rim`.
 ///
-/// In later steps, a copy of a tagged vertex is also tagged, as in `ExtrudeFaces`, but a new vertex on an edge is not,
-/// as in `SplitEdges`. An existing tag of the same name is replaced. If an attribute of another type has this name, the
-/// step fails. The geometry does not change. The report counts the vertices that gained or lost the tag.
+/// If a later step copies a tagged vertex, as `ExtrudeFaces` does, the copy is also tagged. If a later step adds a
+/// vertex on an edge, as `SplitEdges` does, the new vertex is not tagged. An existing tag of the same name is replaced.
+/// If an attribute of another type has this name, the step fails. The geometry does not change. The report counts the
+/// vertices that gained or lost the tag.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct TagVertices {

@@ -20,8 +20,8 @@ use crate::attribute::{
 ///
 /// A chart is a set of faces that are connected without seams of the texture coordinates. Afterwards, the area of each
 /// chart in the texture is proportional to its area on the surface. The shape of each chart does not change, even if it
-/// is stretched, mirrored or overlaps itself. Charts that overlap themselves are counted. Each zero-area chart becomes
-/// a point and is counted. Each mesh gets its own page. Tangents are removed, because charts are rotated.
+/// is stretched, mirrored or overlaps itself. Each zero-area chart becomes a point. The report counts zero-area charts
+/// and charts that overlap themselves. Each mesh gets its own page. Tangents are removed, because charts are rotated.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct PackUvs {

@@ -19,13 +19,13 @@ use crate::attribute::{coverage, error, padding, padding_problem, page, page_of,
 ///
 /// The surface is cut into charts, which are flattened and packed into a square page. Charts grow from flat regions up
 /// to `max_angle`. They are flattened by least squares conformal maps (Levy and others, 2002) and the hybrid method of
-/// Liu and others (2008). A chart is cut again if it would overlap itself, if it would exceed `max_stretch`, or if more
-/// than 5 % of its area would have an aspect above 1.15. All charts of a mesh have the same scale, and no chart is
-/// mirrored. A polygon stays in one chart. Each mesh gets its own page.
+/// Liu and others (2008). A chart is cut again if it would overlap itself, if it would exceed `max_stretch`, or if, on
+/// more than 5 % of its area, the ratio of its largest to its smallest stretch would be above 1.15. All charts of a
+/// mesh have the same scale, and no chart is mirrored. A polygon stays in one chart. Each mesh gets its own page.
 ///
 /// The coordinates are written to the corner attribute `uv`, which is replaced if it exists. Edges at which charts meet
 /// become seams. Positions, faces and other attributes do not change, but tangents are removed. Zero-area faces have no
-/// area in the texture and are counted. A polygon that is bent so far that it overlaps itself is refused as
+/// area in the texture. The report counts them. A polygon that is bent so far that it overlaps itself is refused as
 /// `WrongPlace`, so triangulate it first. With `on_refusal: Skip`, its triangles overlap in the texture.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]

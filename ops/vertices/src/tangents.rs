@@ -11,7 +11,7 @@ use op::prelude::*;
 /// to the normal, followed by the sign of the bitangent as the fourth number. `.glb` and `.gltf` files store the
 /// attribute as `TANGENT`. Polygons are triangulated in the same way as for `.glb` and `.gltf` files. Steps that change
 /// the shape or the faces remove the tangents, except a `Transform` that does not mirror the points. Corners at which
-/// the texture coordinates define no direction get an arbitrary tangent and are counted.
+/// the texture coordinates define no direction get an arbitrary tangent. The report counts these corners.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tangents {

@@ -29,7 +29,7 @@ pub use gather::normals;
 ///
 /// The normals are written to the vertex attribute `normal`, which is replaced if it exists. Corner normals are
 /// removed, because they would contradict the vertex normals. A vertex that has no faces or only zero-area faces, or
-/// whose face normals cancel each other out, gets the zero vector and is counted.
+/// whose face normals cancel each other out, gets the zero vector. The report counts these vertices.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct VertexNormals {

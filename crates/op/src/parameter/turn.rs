@@ -13,7 +13,8 @@ use super::{Angle, Axis};
 pub struct Turn {
     /// The direction of the axis.
     pub axis: Axis,
-    /// The angle in degrees, counter-clockwise when the axis points towards the viewer. Multiples of 90 are exact.
+    /// The angle in degrees, counter-clockwise when the axis points towards the viewer. Rotations by multiples of 90
+    /// degrees are exact.
     #[serde(alias = "degrees")]
     #[schemars(extend("aliases" = ["degrees"]))]
     pub angle: Angle,

@@ -10,8 +10,8 @@ use crate::{OpError, Refusal};
 ///
 /// # Errors
 ///
-/// [`Refusal::Missing`] if no attribute of these elements has this name; [`OpError::Parameter`] if it is a tag, if a
-/// vector needs `component`, or if there is no such component.
+/// [`Refusal::Missing`] if no attribute of these elements has this name; [`OpError::Parameter`] if the attribute is a
+/// tag, if it is a vector and `component` is missing, or if the attribute does not have this component.
 pub(super) fn component_of<'m, S: Select>(
     mesh: &'m Mesh,
     name: &str,
@@ -25,11 +25,13 @@ pub(super) fn component_of<'m, S: Select>(
     Ok(move |element: usize| values.component(element, i))
 }
 
-/// Returns the index of the component that a parameter chooses. An attribute of numbers has only the component 0.
+/// Returns the index of the component that the parameter `component` of a selection chooses. If the attribute holds one
+/// number for each element, `component` must be omitted, and the index is 0.
 ///
 /// # Errors
 ///
-/// [`OpError::Parameter`] if the attribute is a tag, if a vector needs `component`, or if there is no such component.
+/// [`OpError::Parameter`] if the attribute is a tag, if it is a vector and `component` is missing, or if the attribute
+/// does not have this component.
 pub fn check_component(
     domain: Domain,
     column: &Column,

@@ -32,7 +32,7 @@ macro_rules! selection {
             Inside(super::Region),
             #[doc = concat!(
                 $inside_of, " the mesh of another object, given by its name. A point is inside if the winding number \
-                 of the mesh around the point is above 1/2 in magnitude. The mesh can have small gaps."
+                 of the mesh around the point is above 1/2 in magnitude. The mesh may have small gaps."
             )]
             InsideOf(String),
             #[doc = concat!("The ", $elements, " with the tag of this name. Refused if no tag of ", $elements,
@@ -209,7 +209,7 @@ pub trait Select: Sized + Sync {
     /// As [`resolve`](Self::resolve).
     fn mask(&self, mesh: &Mesh, cx: &Context) -> Result<Vec<bool>, OpError>;
 
-    /// Returns how many elements of a planned mesh can be selected.
+    /// Returns how many elements of a planned mesh this selection can contain.
     fn count(&self, plan: &MeshPlan) -> Range;
 
     /// Returns all elements of a mesh.

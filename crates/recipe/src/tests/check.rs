@@ -205,7 +205,7 @@ fn outputs_are_listed_with_their_placeholders_filled_in() {
     has_one_error(
         &text.replace("input.stem", "inptu.stem"),
         "\"new/{inptu.stem}.txt\"",
-        "unknown placeholder {inptu.stem} in \"new/{inptu.stem}.txt\"; placeholders stand for file names in path parameters, here: {input.stem}, {input.name}",
+        "unknown placeholder {inptu.stem} in \"new/{inptu.stem}.txt\"; known placeholders, which stand for file names in path parameters: {input.stem}, {input.name}",
         "",
     );
 }
@@ -218,7 +218,7 @@ fn outputs_stay_in_the_output_folder() {
             &text,
             &format!("\"{path}\""),
             &format!(
-                "the output path \"{path}\" must stay inside the output folder: no \"..\", no absolute path"
+                "the output path \"{path}\" must stay inside the output folder: use a relative path without \".\", \"..\", \"\\\" and \":\""
             ),
             "",
         );

@@ -170,7 +170,7 @@ fn other_objects_do_not_change_and_objects_in_on_must_be_patches() {
     let error = parse("()").apply(&mut before.clone(), &mut cx).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "Tessellate cuts patches, but \"cube\" is mesh"
+        "Tessellate cuts patches, but the type of \"cube\" is mesh"
     );
     let mut plan = patches_plan(1);
     plan.insert("cube", PlannedGeometry::Mesh(MeshPlan::unknown()));

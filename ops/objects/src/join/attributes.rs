@@ -105,7 +105,7 @@ fn note_zeros(columns: &[Attributes], parts: &[&Object], report: &mut Report) {
             if lacks(columns, parts, i, domain, &name) {
                 let part = &object.name;
                 report.notes.push(format!(
-                    "\"{part}\" has no {domain} attribute \"{name}\": its values are zero"
+                    "\"{part}\" has no {domain} attribute \"{name}\", so the values of this part are zero"
                 ));
             }
         }
@@ -142,7 +142,7 @@ pub(crate) fn tag_parts(joined: &mut Mesh, parts: &[&Object], report: &mut Repor
             Some(Values::Tag(marks)) => marks.clone(),
             Some(_) => {
                 report.notes.push(format!(
-                    "the faces of \"{name}\" are not tagged: a face attribute with this name exists"
+                    "the faces of \"{name}\" are not tagged, because another face attribute has this name"
                 ));
                 first = end;
                 continue;

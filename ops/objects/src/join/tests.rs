@@ -147,7 +147,7 @@ fn values_stay_with_their_elements_and_missing_values_are_zero_with_a_note() {
     );
     assert_eq!(
         report.notes,
-        ["\"a\" has no corner attribute \"uv\": its values are zero"]
+        ["\"a\" has no corner attribute \"uv\", so the values of this part are zero"]
     );
     assert_eq!(report.losses, []);
 }

@@ -13,7 +13,7 @@ pub(crate) fn plan(by: &ColorBy, plan: &mut Plan, cx: &PlanContext) -> Vec<Probl
         && !(low.is_finite() && high.is_finite() && low < high)
     {
         let message =
-            format!("expected a range of finite, ascending numbers, found {low} to {high}");
+            format!("expected two finite numbers, the lower one first, found {low} and {high}");
         problems.push(Problem::error(message).at(["color_by", "range"]));
     }
     match &by.of {

@@ -164,7 +164,7 @@ fn invalid_parameters_are_problems_of_the_plan() {
         ),
         (
             "path: \"../a.png\"",
-            "the output path \"../a.png\" must stay inside the output folder: no \"..\", no absolute path",
+            "the output path \"../a.png\" must stay inside the output folder: use a relative path without \".\", \"..\", \"\\\" and \":\"",
         ),
         (
             "path: \"a.png\", style: (sharp: 200)",
@@ -180,7 +180,7 @@ fn invalid_parameters_are_problems_of_the_plan() {
         ),
         (
             "path: \"a.png\", color_by: (of: Valence, range: (2, 1))",
-            "expected a range of finite, ascending numbers, found 2 to 1",
+            "expected two finite numbers, the lower one first, found 2 and 1",
         ),
         (
             "path: \"a.png\", turntable: (frames: 720)",

@@ -49,7 +49,7 @@ impl OnRefusal {
     }
 }
 
-/// What to do at a seam: an edge whose corner values, such as UVs, differ between its two sides.
+/// What to do at a seam. A seam is an edge whose corner values, such as UVs, differ between its two sides.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Seams {

@@ -32,7 +32,7 @@ pub enum Refusal {
     FewCorners,
     /// A face would have the same vertex at two corners.
     RepeatedVertex,
-    /// No face, or only two faces back to back, would remain around an edge.
+    /// Around an edge, no face would remain, or only two faces that lie back to back.
     Vanishes,
     /// The ends of an edge have a common neighbor that is not a corner of a triangle beside the edge, so the ends
     /// cannot be merged.
@@ -103,7 +103,7 @@ impl From<EditError> for Refusal {
     }
 }
 
-/// Why an operation failed. In a run, the scene is then the same as before the step.
+/// Why an operation failed. If an operation fails in a run, the scene is restored to its state before the step.
 #[derive(Debug, thiserror::Error)]
 pub enum OpError {
     /// The run was canceled.

@@ -17,7 +17,8 @@ use store::{Disk, Store, StoreError};
 pub enum FileError {
     /// The path leads out of the output folder.
     #[error(
-        "the output path \"{0}\" must stay inside the output folder: use a relative path without \".\", \"..\", \"\\\" and \":\""
+        "the output path \"{0}\" must stay inside the output folder: use a relative path without \".\", \
+         \"..\", \"\\\" and \":\""
     )]
     Outside(String),
     /// The path does not end with a file name.

@@ -35,8 +35,9 @@ use rayon::prelude::*;
 /// because it has zero area, its sides cross, or it has more than ten million corners, becomes a triangle fan around
 /// its vertex with the lowest id. The report counts these faces.
 ///
-/// The triangles replace their face in the order of the faces and have the values of the face. Vertices and edges keep
-/// their ids. The corners of the triangles have the values of the corners of the face at the same vertices.
+/// In the order of the faces, the triangles take the place of their face. They have the values of the face. Vertices
+/// and edges keep their ids. The corners of the triangles have the values of the corners of the face at the same
+/// vertices.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Triangulate {

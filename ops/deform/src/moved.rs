@@ -69,7 +69,7 @@ impl Stretch {
         }
     }
 
-    /// Returns the problem of a range that ends before it starts.
+    /// Returns a problem if the range ends before it starts.
     pub(crate) fn problems(&self) -> Vec<Problem> {
         match (self.from, self.to) {
             (Some(from), Some(to)) if from > to => {

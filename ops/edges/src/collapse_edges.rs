@@ -13,9 +13,9 @@ use op::prelude::*;
 /// Collapses edges, so that the two ends of each edge become one vertex.
 ///
 /// In a mesh of triangles, a collapse removes 1 vertex, 3 edges and 2 faces or, on the boundary, 1 vertex, 2 edges and
-/// 1 face. A face with more than three corners beside the edge only loses a corner. Of the two ends, the vertex with
-/// the lower id is kept. Edges are collapsed in order of their ids. An edge that an earlier collapse removed
-/// counts as refused.
+/// 1 face. If a face beside the edge has more than three corners, the face is not removed and only loses a corner. Of
+/// the two ends, the vertex with the lower id is kept. Edges are collapsed in order of their ids. An edge that an
+/// earlier collapse removed counts as refused.
 ///
 /// A collapse is refused if it would change the topology of the surface or make elements coincide:
 ///
@@ -24,8 +24,8 @@ use op::prelude::*;
 ///   with three sides or at a hole with three edges.
 /// - `DuplicateEdge`: a second edge joins the ends.
 /// - `RepeatedVertex`: both ends are also corners of a face that is not beside the edge.
-/// - `Vanishes`: no face would remain around the edge, as for a single triangle, or only two faces back to back, as for
-///   a tetrahedron.
+/// - `Vanishes`: around the edge, the collapse would leave no face, as for a single triangle, or only two faces that
+///   lie back to back, as for a tetrahedron.
 /// - `SameFace`: the same face is on both sides of the edge, or would be on both sides of another edge.
 /// - `SameOpposite`: the two triangles beside the edge share another edge.
 ///

@@ -18,9 +18,9 @@ use op::prelude::*;
 /// are kept. The remaining elements keep their order and their values but get new ids. To delete edges or vertices
 /// together with their faces, select the faces with `FacesBeside(edges)` or `FacesAround(vertices)`.
 ///
-/// The removal is refused if the remaining faces around a vertex would form separate fans that meet only at that
-/// vertex. With `on_refusal: Skip`, faces are instead removed one by one, in order of their ids, in repeated passes
-/// until no more selected faces can be removed. The selected faces that remain are counted as refused.
+/// The removal is refused if the remaining faces around a vertex would form several fans that meet only at that vertex.
+/// With `on_refusal: Skip`, faces are instead removed one by one, in order of their ids, in repeated passes until no
+/// more selected faces can be removed. The selected faces that remain are counted as refused.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DeleteFaces {

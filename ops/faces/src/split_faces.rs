@@ -63,7 +63,7 @@ impl MeshOperation for SplitFaces {
 }
 
 impl SplitFaces {
-    /// Returns the problem of the first cut that will certainly be refused.
+    /// Returns a problem for the first cut that will certainly be refused.
     fn problem(&self, plan: &MeshPlan) -> Option<Problem> {
         let mut cuts = self.between.iter();
         let message = if plan.is_triangles() && !self.between.is_empty() {

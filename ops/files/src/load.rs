@@ -16,9 +16,9 @@ use op::{Loss, Operation, PlannedNodes, ReadingChange, ReadingElements};
 /// (`g a`) become the face tags `o:a` and `a`. A glTF file gives an object for each mesh that a node references. The
 /// object is named after the node if only one node references the mesh. Unless `placements` is `Bake`, the nodes,
 /// cameras, lights, skins, morph targets and animations of the file are kept. A COLLADA file gives an object for each
-/// node with a mesh. Content that the scene cannot hold is counted and listed. Images of materials are read from files
-/// next to the model. A corner that repeats the previous corner is removed, and a face that still contains a vertex
-/// twice is left out.
+/// node with a mesh. The report counts and lists the content that the scene cannot hold. Images of materials are read
+/// from files next to the model. A corner that repeats the previous corner is removed, and a face that still contains a
+/// vertex twice is left out.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
@@ -118,7 +118,7 @@ impl Operation for Load {
         let left_out = appended.map_err(|error| OpError::Object(error.to_string()))?;
         if left_out > 0 {
             let what =
-                "parts of the document left out, because an earlier file already defines them";
+                "properties of the whole file left out, because an earlier file has other values for them";
             report = report.count(what, left_out);
         }
         for note in &loaded.notes {

@@ -18,8 +18,8 @@ use op::prelude::*;
 ///
 /// Each hole is identified by one of its vertices. An edge joins the two vertices, and the band goes around both holes
 /// from this edge. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and n - m evenly
-/// spread triangles. The step adds n edges and no vertices. The holes may be in one part of the mesh, which then gets a
-/// tunnel or a handle, or in two parts of one object. (`Join` joins two objects into one.)
+/// spread triangles. The step adds n edges and no vertices. Both holes may be in one connected part of the mesh, which
+/// then gets a tunnel or a handle, or in two separate parts of the same mesh. (`Join` joins two objects into one.)
 ///
 /// New faces have the values of the adjacent faces at the longer hole. New corners have the values of the corners at
 /// the same vertices in the adjacent faces. Normals are dropped.

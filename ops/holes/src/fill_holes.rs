@@ -20,8 +20,8 @@ use op::prelude::*;
 /// For holes with up to 500 edges, the triangles have the smallest possible total area. Larger holes are filled by
 /// cutting off one corner after the other, in each case the corner whose two neighbors are closest to each other;
 /// straight and reflex corners come last. If the hole is far from convex, the triangles may overlap. Two vertices that
-/// are already joined by an edge are not joined again. If no triangles without such a second edge are found, the hole
-/// is refused (`DuplicateEdge`). A hole with two edges is also refused (`WrongPlace`); `Stitch` closes it.
+/// are already joined by an edge are not joined again. If no triangulation without such a second edge is found, the
+/// hole is refused (`DuplicateEdge`). A hole with two edges is also refused (`WrongPlace`); `Stitch` closes it.
 ///
 /// New faces have the values of a face beside the hole. New corners have the values of the corner at the same vertex in
 /// the adjacent face. Normals are dropped if a hole was filled.

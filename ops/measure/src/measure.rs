@@ -175,7 +175,7 @@ fn wrong_kind(object: &str, kind: &str) -> String {
     format!("Measure measures meshes, but the type of \"{object}\" is {kind}")
 }
 
-/// Checks that the mesh has no attribute of this name that must be kept.
+/// Checks that the mesh has no attribute of this name that the step cannot replace.
 fn check_free(mesh: &Mesh, object: &str, domain: Domain, name: &str) -> Result<(), OpError> {
     let mut columns = mesh.attributes().iter();
     let is_other = |(of, column): &(Domain, &Column)| {

@@ -179,7 +179,7 @@ impl Transform {
         }
     }
 
-    /// Returns the problem of a curve that leaves its plane.
+    /// Returns a problem if the transform moves a curve out of the plane z = 0.
     fn curve_problem(&self, name: &str) -> Option<Problem> {
         let center = match self.about {
             About::Point(x, y, z) => DVec3::new(x, y, z),

@@ -118,9 +118,9 @@ fn max_faces(mesh: &Mesh, budget: u64) -> usize {
 
 fn notes(counts: &Counts) -> Report {
     let report = Report::changed(counts.split + counts.collapsed + counts.flipped)
-        .count("split", counts.split)
-        .count("collapsed", counts.collapsed)
-        .count("flipped", counts.flipped);
+        .count("edges split", counts.split)
+        .count("edges collapsed", counts.collapsed)
+        .count("edges flipped", counts.flipped);
     let refused: Vec<String> = counts
         .refused()
         .map(|(reason, n)| format!("{n} {reason}"))

@@ -115,7 +115,7 @@ pub(crate) fn plan_goal(plan: &mut MeshPlan, goal: Range, is_certain: bool) {
     plan.edges = plan.edges.or_less();
 }
 
-/// Returns the problem of a mesh that certainly has faces with more than three corners.
+/// Returns a problem if all faces of the mesh certainly have more than three corners.
 pub(crate) fn triangles_problem(name: &str, plan: &MeshPlan) -> Option<Problem> {
     (plan.degrees.min > 3 && plan.faces.max > 0).then(|| {
         let least = plan.degrees.min;

@@ -26,7 +26,7 @@ pub(crate) const fn page_of(size: Count<16, 16384>, padding: Count<0, 256>) -> P
     }
 }
 
-/// Returns the problem of a padding that leaves no space on the page.
+/// Returns a problem if the padding leaves no space on the page.
 pub(crate) fn padding_problem(page: Page) -> Option<Problem> {
     let Page { size, padding } = page;
     (size <= 2 * padding).then(|| {

@@ -23,7 +23,7 @@ selection! {
         /// Faces with this number of corners.
         Degree(u32),
         /// Faces that intersect another face of the object. Adjacent faces intersect only if they share points other
-        /// than their common vertices and edges. Vertices at the same position count as one.
+        /// than their common vertices and edges. Vertices at the same position count as the same vertex.
         SelfIntersecting,
         /// Faces with the material of this name. Refused if the object has no material of this name.
         Material(String),

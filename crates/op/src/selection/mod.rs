@@ -1,8 +1,8 @@
 //! Selections: values that describe which vertices, edges or faces an operation works on.
 //!
-//! The three types share one algebra: `And`, `Or`, `Not`, `Grow`, `Shrink`, `Component`, choices from another
-//! selection (`Random`, `Nearest`, ...), and `Expect`, which fails unless another selection has the expected number
-//! of elements. A selection is evaluated once, before the first edit.
+//! The three types share one algebra: `And`, `Or`, `Not`, `Grow`, `Shrink`, `Component`, choices from another selection
+//! (`Random`, `Nearest`, ...), and `Expect`, which fails unless another selection has the expected number of elements.
+//! A step evaluates its selections once, before the first edit.
 
 /// Defines a selection type: the variants that all three types share, and the variants of this type.
 macro_rules! selection {

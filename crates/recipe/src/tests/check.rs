@@ -218,7 +218,8 @@ fn outputs_stay_in_the_output_folder() {
             &text,
             &format!("\"{path}\""),
             &format!(
-                "the output path \"{path}\" must stay inside the output folder: use a relative path without \".\", \"..\", \"\\\" and \":\""
+                "the output path \"{path}\" must stay inside the output folder: use a \
+                 relative path without \".\", \"..\", \"\\\" and \":\""
             ),
             "",
         );

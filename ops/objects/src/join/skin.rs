@@ -31,7 +31,7 @@ pub(super) struct KeptSkin {
 }
 
 impl KeptSkin {
-    /// Returns the skin that all skinned parts have; `None` if no part has a skin.
+    /// Returns the skin that all skinned parts share; `None` if no part has a skin.
     pub(super) fn of(scene: &Scene, parts: &[&Object]) -> Result<Option<Self>, LostSkin> {
         let graph = scene.graph();
         let instances = scene.instances();

@@ -164,7 +164,8 @@ fn invalid_parameters_are_problems_of_the_plan() {
         ),
         (
             "path: \"../a.png\"",
-            "the output path \"../a.png\" must stay inside the output folder: use a relative path without \".\", \"..\", \"\\\" and \":\"",
+            "the output path \"../a.png\" must stay inside the output folder: use a relative path \
+             without \".\", \"..\", \"\\\" and \":\"",
         ),
         (
             "path: \"a.png\", style: (sharp: 200)",

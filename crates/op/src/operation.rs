@@ -18,14 +18,14 @@ use crate::{
 pub trait MeshOperation:
     Debug + Send + Sync + Serialize + DeserializeOwned + JsonSchema + 'static
 {
-    /// The name of the step in recipes: the name of the struct.
+    /// The name of the step in recipes, which is the name of the struct.
     const NAME: &'static str;
     /// The version of the results. It must be increased when a new version of the program can give a different result
     /// for the same parameters and input.
     const VERSION: u32 = 1;
-    /// One line for lists: what the operation does, without a full stop.
+    /// What the operation does, in one line without a full stop, for lists of operations.
     const SUMMARY: &'static str;
-    /// An example step as in a recipe, for the documentation and the tests: `Weld(distance: 0.001)`.
+    /// An example step as in a recipe, such as `Weld(distance: 0.001)`, for the documentation and the tests.
     const EXAMPLE: &'static str;
     /// Earlier names of the operation, which recipes may still use.
     const ALIASES: &'static [&'static str] = &[];
@@ -61,14 +61,14 @@ pub trait MeshOperation:
 pub trait Operation:
     Debug + Send + Sync + Serialize + DeserializeOwned + JsonSchema + 'static
 {
-    /// The name of the step in recipes: the name of the struct.
+    /// The name of the step in recipes, which is the name of the struct.
     const NAME: &'static str;
     /// The version of the results. It must be increased when a new version of the program can give a different result
     /// for the same parameters and input.
     const VERSION: u32 = 1;
-    /// One line for lists: what the operation does, without a full stop.
+    /// What the operation does, in one line without a full stop, for lists of operations.
     const SUMMARY: &'static str;
-    /// An example step as in a recipe, for the documentation and the tests: `Weld(distance: 0.001)`.
+    /// An example step as in a recipe, such as `Weld(distance: 0.001)`, for the documentation and the tests.
     const EXAMPLE: &'static str;
     /// Earlier names of the operation, which recipes may still use.
     const ALIASES: &'static [&'static str] = &[];

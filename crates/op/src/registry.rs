@@ -27,7 +27,7 @@ pub struct Entry {
     pub name: &'static str,
     /// The version of the operation's results.
     pub version: u32,
-    /// One line: what the operation does.
+    /// What the operation does, in one line.
     pub summary: &'static str,
     /// An example step, as in a recipe.
     pub example: &'static str,

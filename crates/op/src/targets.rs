@@ -35,7 +35,10 @@ impl TargetKind {
 
     /// Returns the message about an object of the wrong kind.
     pub fn wrong_kind_message(&self, name: &str, kind: &str) -> String {
-        format!("{} {}, but the type of \"{name}\" is {kind}", self.operation, self.does)
+        format!(
+            "{} {}, but the type of \"{name}\" is {kind}",
+            self.operation, self.does
+        )
     }
 
     /// Plans the operation on each object that it acts on. `change` updates the plan of an object and returns the

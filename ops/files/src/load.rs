@@ -117,8 +117,7 @@ impl Operation for Load {
         let appended = scene.append(loaded.objects, loaded.graph);
         let left_out = appended.map_err(|error| OpError::Object(error.to_string()))?;
         if left_out > 0 {
-            let what =
-                "properties of the whole file left out, because an earlier file has other values for them";
+            let what = "properties of the whole file left out, because an earlier file has other values for them";
             report = report.count(what, left_out);
         }
         for note in &loaded.notes {

@@ -141,7 +141,8 @@ impl Operation for Measure {
             }
             let n = found.map_or(0, |found| found.n);
             let (without, value) = (values.len() - n, readable(missing));
-            let what = format!("\"{object}\": elements at which {name} is not defined, set to {value}");
+            let what =
+                format!("\"{object}\": elements at which {name} is not defined, set to {value}");
             report = report.count(&what, without);
             report.changed += n as u64;
             for x in &mut values {

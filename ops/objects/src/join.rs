@@ -25,9 +25,9 @@ use crate::join::skin::KeptSkin;
 /// Each mesh becomes a part of the result. The ids of vertices, edges and faces follow the parts, in the order of the
 /// list. The parts are not connected, even where they touch. The result replaces the first mesh of the list in the
 /// scene; the other meshes are removed. If nodes place a part, the result contains a copy of the part for each node,
-/// with the transform of the node applied to its points. The result has no node, unless it keeps a skin: if all skinned
-/// parts have the same skin and one node each, the result keeps this skin, and the parts without a skin follow its
-/// first joint.
+/// with the transform of the node applied to its points. If there are skinned parts, and all skinned parts have the
+/// same skin and one node each, the result keeps this skin and one node. The parts without a skin then follow the first
+/// joint. Otherwise, no node places the result.
 ///
 /// If a part lacks an attribute that another part has, the elements of this part get the value zero, or -1 (no
 /// material) for material indices. Normals are dropped and reported as lost unless all parts have them. If an attribute

@@ -11,7 +11,7 @@
 //!
 //! The id of a vertex is (x > center) + 2 (y > center) + 4 (z > center). The squares, counter-clockwise seen from
 //! outside, are bottom (0, 2, 3, 1), top (4, 5, 7, 6), front (0, 1, 5, 4), right (1, 3, 7, 5), back (3, 2, 6, 7) and
-//! left (2, 0, 4, 6), so the diagonals are 0-3, 4-7, 0-5, 1-7, 3-6 and 2-4.
+//! left (2, 0, 4, 6). With `triangles: true`, the diagonals are therefore 0-3, 4-7, 0-5, 1-7, 3-6 and 2-4.
 
 use geometry::shapes;
 use op::Operation;

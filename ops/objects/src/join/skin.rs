@@ -180,7 +180,9 @@ pub(super) fn report(
             object: joined.name.clone(),
             name: "morph targets".to_owned(),
             what: "the names and default weights of morph targets".to_owned(),
-            reason: "the parts have their own morph targets".to_owned(),
+            reason: "they are kept only if the result has a skin and only the first skinned part has morph \
+                     targets"
+                .to_owned(),
         });
     }
     if kept.is_err()

@@ -25,19 +25,18 @@ use rayon::prelude::*;
 ///
 /// A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length (the relative difference
 /// of their squared lengths is at most 1e-12), it is cut along the diagonal at its vertex with the lowest id. A
-/// diagonal is avoided if it gives a zero-area triangle, or a triangle that is turned over relative to the normal of
-/// the face, unless the other diagonal also does. A quadrilateral with a reflex corner is therefore cut at that corner.
-/// If a diagonal would join two vertices that are already joined by an edge or another diagonal, the other diagonal is
-/// chosen where possible. The report counts the duplicate diagonals that remain.
+/// diagonal that gives a zero-area triangle, or a triangle that is turned over relative to the normal of the face, is
+/// avoided, unless the other diagonal has the same problem. A quadrilateral with a reflex corner is therefore cut at
+/// that corner. If a diagonal would join two vertices that are already joined by an edge or another diagonal, the other
+/// diagonal is chosen where possible. The report counts the duplicate diagonals that remain.
 ///
 /// A face with more than four corners is projected along its normal and cut by ear clipping. Then diagonals are flipped
 /// until the triangulation is a constrained Delaunay triangulation. A face that cannot be triangulated in this way,
 /// because it has zero area, its sides cross, or it has more than ten million corners, becomes a triangle fan around
 /// its vertex with the lowest id. The report counts these faces.
 ///
-/// In the order of the faces, the triangles take the place of their face. They have the values of the face. Vertices
-/// and edges keep their ids. The corners of the triangles have the values of the corners of the face at the same
-/// vertices.
+/// The triangles of a face take its place in the order of the faces and have its values. Vertices and edges keep their
+/// ids. The corners of the triangles have the values of the corners of the face at the same vertices.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Triangulate {

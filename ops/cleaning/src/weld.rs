@@ -28,7 +28,7 @@ use op::prelude::*;
 /// corners left or would contain a vertex twice. If joined faces have opposite orientations, the smaller group is
 /// reversed, provided that all orientations then agree. If faces are reversed, the report counts them, and the normals
 /// of vertices and corners are dropped. Where the result would still not be manifold, vertices and edges are copied.
-/// The report counts the copies. For example, a third face at an edge gets a copy of the edge. If no vertices merge,
+/// For example, a third face at an edge gets a copy of the edge. The report counts the copies. If no vertices merge,
 /// the mesh does not change.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]

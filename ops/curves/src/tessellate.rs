@@ -26,7 +26,7 @@ use scene::Geometry;
 /// patches. Patches share no vertices, but if they have the same control points on a common side, the positions of
 /// their vertices there are identical bit for bit, so that `Weld(distance: 0)` joins them. A side whose points
 /// coincide, as at the pole of a teapot's lid, becomes one vertex. Zero-area patches give no faces. The report counts
-/// them. The mesh has UVs and normals only if they are requested.
+/// these patches. The mesh has UVs and normals only if they are requested.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tessellate {

@@ -17,11 +17,11 @@ use op::{Refusal, readable};
 ///
 /// A selected edge and both of its ends are removed, and a new face replaces the edge. In both faces beside the edge,
 /// the new face ends at the distance `width` from the old edge. An edge that is not selected, but shares an end with a
-/// selected edge, is cut near this end. If it is next to the selected edge around the end, the cut is where the
-/// distance from the selected edge is `width`, but at most four times `width` from the end. Otherwise, the cut is at
-/// the distance `width` from the end. In a face between two selected edges with a common end, the new vertex lies
-/// inside the face. If three or more new vertices surround an old vertex, another new face joins them. All edges are
-/// beveled together, so a cube that is beveled at all edges keeps all of its symmetries.
+/// selected edge, is cut near this end. If the two edges are neighboring sides of a face, the cut is where the distance
+/// from the selected edge is `width`, but at most four times `width` from the end. Otherwise, the cut is at the
+/// distance `width` from the end. Where two selected edges are neighboring sides of a face, the new vertex lies inside
+/// this face. If three or more new vertices surround an old vertex, another new face joins them. All edges are beveled
+/// together, so a cube that is beveled at all edges keeps all of its symmetries.
 ///
 /// The ends of the edges are removed, so the ids of later vertices change. New vertices get the highest ids. Faces
 /// keep their ids. New faces get the highest ids: first the faces of edges, in order of the edges, then the faces of

@@ -57,7 +57,7 @@ fn follow(
 }
 
 /// Returns the edges of the shortest path between two vertices, starting with the edge at `to`. If several shortest
-/// paths lead to a vertex, the path is chosen on which the vertex before it has the lowest id.
+/// paths lead to a vertex, the path whose second-to-last vertex has the lowest id is chosen.
 ///
 /// E. W. Dijkstra, "A note on two problems in connexion with graphs", 1959.
 ///

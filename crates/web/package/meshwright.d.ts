@@ -41,8 +41,18 @@ export type Event =
 /** The result of a check. */
 export interface Checked {
     problems: Problem[];
-    parameters: { name: string; type: string; value: string; doc: string | null }[];
-    steps: { label: string; operation: string }[];
+    /** The parameters. `min` and `max` are the limits of a number, `of` has the allowed names of a `Choice`. */
+    parameters: {
+        name: string;
+        type: "Int" | "Float" | "Bool" | "Text" | "Path" | "Choice" | "Vector";
+        value: string;
+        doc: string | null;
+        min: number | null;
+        max: number | null;
+        of: string[] | null;
+    }[];
+    /** The steps in order. `line` is the line in the recipe, counted from 1; `null` if the step is in a called recipe. */
+    steps: { label: string; operation: string; line: number | null }[];
     /** The largest memory of all meshes after any step, in bytes. `null` if unknown. */
     peak_bytes: number | null;
 }
@@ -53,7 +63,7 @@ export interface Result {
     cancelled: boolean;
     problems: Problem[];
     steps: StepDone[];
-    /** The expectations that were checked. */
+    /** The expectations that were checked. `text` is the expectation as written. */
     expectations: { file: string; line: number; text: string; met: boolean }[];
     /** The digest of the scene at the end: 32 hexadecimal digits. `null` if the recipe has errors. */
     digest: string | null;

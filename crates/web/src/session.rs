@@ -11,6 +11,7 @@ use engine::{
     Values,
 };
 use op::{Progress, Registry};
+use recipe::{LineIndex, Param, Parameter};
 use render::{Camera, Lines, Overlays, PictureError, Style};
 use scene::{Geometry, Scene};
 use serde::Serialize;
@@ -88,19 +89,23 @@ impl Session {
     /// values of parameters.
     ///
     /// Returns `problems`, each with `severity`, `file`, `line`, `column`, `message`, `help` and `range` (the first and
-    /// the last offset in UTF-16 code units); `parameters` with `name`, `type`, `value` and `doc`; `steps` with `label` and
-    /// `operation`; `peak_bytes`, the largest memory of all meshes after any step, `null` if unknown.
+    /// the last offset in UTF-16 code units); `parameters` with `name`, `type`, `value`, `doc`, the limits `min` and `max`, and
+    /// the allowed names `of`, each `null` if there is none; `steps` with `label`, `operation` and `line` (`null` if the step is
+    /// in a called recipe); `peak_bytes`, the largest memory of all meshes after any step, `null` if unknown.
     pub fn check(&self, path: &str, text: &str, set: &[(String, String)]) -> Json {
         let loaded = self.load(path, text, set);
-        let parameters = loaded.recipe.parameters().iter().map(|p| {
-            json!({ "name": p.name, "type": p.param.type_name(), "value": p.plain_text(), "doc": p.param.doc() })
+        let parameters = loaded.recipe.parameters().iter().map(parameter);
+        let index = LineIndex::new(text);
+        let steps = loaded.recipe.steps.iter().map(|step| {
+            let written = loaded.recipe.scopes[step.scope].source == 0;
+            let line = written.then(|| index.position(step.span.start).0);
+            json!({ "label": step.label(), "operation": step.name, "line": line })
         });
-        let steps = loaded.recipe.steps.iter();
         let peaks = loaded.forecast.steps.iter().map(|step| step.bytes.max);
         json!({
             "problems": placed(&loaded.diagnostics, &loaded),
             "parameters": parameters.collect::<Vec<_>>(),
-            "steps": steps.map(|s| json!({ "label": s.label(), "operation": s.name })).collect::<Vec<_>>(),
+            "steps": steps.collect::<Vec<_>>(),
             "peak_bytes": peaks.max().filter(|&peak| peak < u64::MAX),
         })
     }
@@ -272,15 +277,35 @@ fn expectations(loaded: &Loaded, outcome: &Outcome) -> Vec<Json> {
     let checked = recipe.expectations.iter().enumerate().take(outcome.checked);
     let described = checked.map(|(i, placed)| {
         let source = &recipe.sources[recipe.scopes[placed.scope].source];
-        let (line, _) = recipe::LineIndex::new(&source.text).position(placed.span.start);
+        let (line, _) = LineIndex::new(&source.text).position(placed.span.start);
         json!({
             "file": source.path.display().to_string(),
             "line": line,
-            "text": placed.that.to_string(),
+            "text": as_written(&source.text[placed.span.fitted(&source.text)]),
             "met": outcome.unmet.iter().all(|unmet| unmet.expectation != i),
         })
     });
     described.collect()
+}
+
+/// Returns a part of a recipe on one line.
+fn as_written(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+fn parameter(parameter: &Parameter) -> Json {
+    let param = &parameter.param;
+    let mut json = json!({
+        "name": parameter.name, "type": param.type_name(), "value": parameter.plain_text(), "doc": param.doc(),
+        "min": null, "max": null, "of": null,
+    });
+    match param {
+        Param::Int { min, max, .. } => (json["min"], json["max"]) = (json!(min), json!(max)),
+        Param::Float { min, max, .. } => (json["min"], json["max"]) = (json!(min), json!(max)),
+        Param::Choice { of, .. } => json["of"] = json!(of),
+        _ => {}
+    }
+    json
 }
 
 fn object(object: &scene::Object) -> Json {

@@ -26,6 +26,7 @@ fn a_run_has_steps_expectations_files_and_a_digest() {
     assert_eq!(result["expectations"][0]["met"], true);
     assert_eq!(result["expectations"][1]["met"], false);
     assert_eq!(result["expectations"][1]["line"], 5);
+    assert_eq!(result["expectations"][1]["text"], "Vertices(eq: 15)");
     assert_eq!(result["objects"][0]["vertices"], 14);
     assert!(result["files"].as_array().unwrap().is_empty(), "{result}");
     assert_eq!(events.into_inner().unwrap()[..2], ["step", "done"]);
@@ -84,10 +85,14 @@ fn parameters_take_values() {
         Cube(name: "a"), Triangulate(), LoopSubdivide(levels: arg("n"))])"#;
     let mut session = Session::new();
     let set = [("n".to_owned(), "2".to_owned())];
+    let checked = session.check("a.ron", text, &set);
+    let parameter = &checked["parameters"][0];
+    assert_eq!(parameter["value"], "2");
     assert_eq!(
-        session.check("a.ron", text, &set)["parameters"][0]["value"],
-        "2"
+        (&parameter["min"], &parameter["max"]),
+        (&json!(1), &json!(4))
     );
+    assert_eq!(checked["steps"][2]["line"], 2);
     let result = session.run("a.ron", text, &set, &|_| true);
     assert_eq!(result["objects"][0]["faces"], 12 * 16);
 }

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Builds the package for browsers and Node in target/web, and tests it in Node.
+# Builds the package for browsers and Node in target/web, and tests it in Node. Then builds the page in target/web/page, and
+# tests it in Chromium.
 #
 # The standard library for WebAssembly comes from the installed toolchain if it has one. Otherwise a compiler and the
 # sources of its standard library are Debian packages, which are unpacked in target/ci/web. If a tool is not available, the
@@ -63,3 +64,4 @@ rm -rf "$out" && mkdir -p "$out"
 cp crates/web/package/* LICENSE-APACHE LICENSE-MIT "$out"
 node crates/web/tests/size.mjs "$out/core_bg.wasm"
 node crates/web/tests/scenes.mjs "$out"
+crates/web/page/build.sh

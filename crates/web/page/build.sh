@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# Builds the page in target/web/page from the package in target/web, and tests it in Chromium. If a tool is not available,
+# the script prints the reason and exits with code 0.
+set -euo pipefail
+cd "$(dirname "$0")/../../.."
+package=$PWD/target/web
+tools=$PWD/target/ci/page
+out=$package/page
+
+skip() { echo "$*"; exit 0; }
+
+command -v npm > /dev/null || skip "the page is not built: npm is missing"
+[ -e "$package/core_bg.wasm" ] || skip "the page is not built: target/web is missing, run crates/web/build.sh"
+mkdir -p "$tools"
+cp crates/web/page/package.json crates/web/page/package-lock.json "$tools"
+npm ci --silent --no-audit --no-fund --ignore-scripts --prefix "$tools" ||
+    skip "the page is not built: packages cannot be installed from npm"
+node crates/web/page/bundle.mjs "$package" "$tools" "$out"
+
+chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome) ||
+    skip "the page is not tested: chromium is missing"
+node crates/web/page/test.mjs "$out" "$tools" "$chromium"

@@ -1,0 +1,132 @@
+// The text of the recipe: CodeMirror with colors, completion, and problems at their places.
+import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from "@codemirror/autocomplete";
+import { defaultKeymap, history, historyKeymap, indentWithTab, isolateHistory } from "@codemirror/commands";
+import { HighlightStyle, bracketMatching, indentUnit, syntaxHighlighting } from "@codemirror/language";
+import { lintGutter, lintKeymap, setDiagnostics } from "@codemirror/lint";
+import { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
+import { EditorState, StateEffect, StateField } from "@codemirror/state";
+import {
+    Decoration, EditorView, WidgetType, drawSelection, highlightActiveLine, highlightActiveLineGutter, keymap, lineNumbers,
+} from "@codemirror/view";
+import { tags } from "@lezer/highlight";
+import { element } from "./dom.js";
+import { endOfSteps, ron } from "./ron.js";
+
+const colors = HighlightStyle.define([
+    { tag: tags.comment, color: "var(--code-comment)", fontStyle: "italic" },
+    { tag: tags.string, color: "var(--code-string)" },
+    { tag: tags.number, color: "var(--code-number)" },
+    { tag: [tags.bool, tags.keyword], color: "var(--code-keyword)" },
+    { tag: tags.propertyName, color: "var(--code-field)" },
+    { tag: tags.typeName, color: "var(--code-name)" },
+    { tag: tags.punctuation, color: "var(--code-punctuation)" },
+]);
+
+/// A problem below its line.
+class Message extends WidgetType {
+    constructor(problem) {
+        super();
+        this.problem = problem;
+    }
+
+    eq(other) {
+        return other.problem.message === this.problem.message && other.problem.help === this.problem.help;
+    }
+
+    toDOM() {
+        const { severity, message, help } = this.problem;
+        return element("div", { class: "line-message" },
+            element("div", {}, `${severity}: ${message}`, help && element("span", {}, help)));
+    }
+}
+
+const showMessages = StateEffect.define();
+
+/// The problems below their lines, until the text changes.
+const messages = StateField.define({
+    create: () => Decoration.none,
+    update(shown, transaction) {
+        const effect = transaction.effects.find((effect) => effect.is(showMessages));
+        return effect ? effect.value : transaction.docChanged ? Decoration.none : shown;
+    },
+    provide: (field) => EditorView.decorations.from(field),
+});
+
+export class Editor {
+    #view;
+
+    /// Creates the editor. `onChange` is called after each change of the text, `complete` finds completions.
+    constructor(parent, { onChange, complete, run }) {
+        const extensions = [
+            keymap.of([{ key: "Mod-Enter", run: () => { run(); return true; } }]),
+            lineNumbers(), highlightActiveLine(), highlightActiveLineGutter(), lintGutter(), history(), drawSelection(),
+            bracketMatching(), closeBrackets(), highlightSelectionMatches(), indentUnit.of("    "), ron,
+            syntaxHighlighting(colors), autocompletion({ override: [complete] }), messages,
+            matchMedia("(max-width: 800px)").matches ? EditorView.lineWrapping : [],
+            EditorView.contentAttributes.of({ "aria-label": "Recipe. Press Escape, then Tab to leave the editor.",
+                spellcheck: "false" }),
+            EditorView.updateListener.of((update) => update.docChanged && onChange()),
+            keymap.of([...closeBracketsKeymap, ...defaultKeymap, ...searchKeymap, ...historyKeymap, ...completionKeymap,
+                ...lintKeymap, indentWithTab]),
+        ];
+        this.#view = new EditorView({ parent, state: EditorState.create({ extensions }) });
+    }
+
+    get text() {
+        return this.#view.state.doc.toString();
+    }
+
+    /// Replaces the whole text, as one change that can be undone, and puts the cursor after the last step.
+    set text(text) {
+        const end = endOfSteps(text)?.end ?? text.length;
+        this.#view.dispatch({ changes: { from: 0, to: this.#view.state.doc.length, insert: text }, selection: { anchor: end },
+            annotations: isolateHistory.of("full") });
+        this.#view.scrollDOM.scrollTop = 0;
+    }
+
+    /// Puts a text in place of the selection.
+    insert(text) {
+        this.#view.dispatch(this.#view.state.replaceSelection(text), { scrollIntoView: true });
+        this.#view.focus();
+    }
+
+    /// Adds a step after the last one. Returns false if the recipe has no list of steps.
+    addStep(step) {
+        const place = endOfSteps(this.text);
+        if (!place) {
+            return false;
+        }
+        const comma = place.comma || place.empty ? "" : ",";
+        const insert = `${comma}\n        ${step},`;
+        const anchor = place.end + insert.length;
+        this.#view.dispatch({ changes: { from: place.end, insert }, selection: { anchor }, scrollIntoView: true });
+        return true;
+    }
+
+    /// Selects a range or the start of a line, counted from 1, and moves the focus there.
+    reveal(range, line) {
+        const { doc } = this.#view.state;
+        const [anchor, head] = range ?? Array(2).fill(doc.line(Math.min(Math.max(line, 1), doc.lines)).from);
+        const selection = { anchor: Math.min(anchor, doc.length), head: Math.min(head, doc.length) };
+        this.#view.dispatch({ selection, effects: EditorView.scrollIntoView(selection.anchor, { y: "center" }) });
+        this.#view.focus();
+    }
+
+    /// Underlines problems of the current text. With `below`, errors also appear below their lines.
+    show(problems, below = false) {
+        const { doc } = this.#view.state;
+        const placed = problems.filter((problem) => problem.range).map((problem) => {
+            const [from, to] = problem.range.map((at) => Math.min(at, doc.length));
+            return { ...problem, from, to: Math.max(to, Math.min(from + 1, doc.length)) };
+        });
+        const diagnostics = placed.map(({ from, to, severity, message, help }) =>
+            ({ from, to, severity, message: help ? `${message}\n${help}` : message }));
+        this.#view.dispatch(setDiagnostics(this.#view.state, diagnostics));
+        const widgets = below ? placed.filter((problem) => problem.severity === "error").map((problem) =>
+            Decoration.widget({ widget: new Message(problem), block: true, side: 1 }).range(doc.lineAt(problem.to).to)) : [];
+        this.#view.dispatch({ effects: showMessages.of(Decoration.set(widgets, true)) });
+        if (widgets.length) {
+            this.#view.dispatch({ effects: EditorView.scrollIntoView(placed[0].from, { y: "nearest", yMargin: 60 }) });
+        }
+    }
+}

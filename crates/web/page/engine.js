@@ -1,0 +1,113 @@
+// The engine in its worker. The page keeps the files, so that a new worker can replace one that was canceled or has failed.
+
+/// The engine was ended before it answered.
+export class Ended extends Error {}
+
+export class Engine {
+    #module;
+    #worker;
+    #waiting = new Map();
+    #last = 0;
+    /// Receives the events of runs.
+    onEvent = () => {};
+    /// The content of each file by its path. Outputs are not among them.
+    files = new Map();
+
+    /// Downloads and compiles the engine, and starts a worker.
+    static async load(url) {
+        const engine = new Engine();
+        engine.#module = await compile(url);
+        await engine.#start();
+        return engine;
+    }
+
+    #start() {
+        this.#worker = new Worker(new URL("worker.js", import.meta.url), { type: "module" });
+        this.#worker.onmessage = ({ data }) => this.#receive(data);
+        this.#worker.onerror = (event) => this.#end(new Ended(event.message || "the engine could not be started"));
+        return this.#call("start", this.#module, [...this.files]);
+    }
+
+    #receive({ id, value, error, fatal, event }) {
+        if (event) {
+            this.onEvent(event);
+            return;
+        }
+        const { resolve, reject } = this.#waiting.get(id) ?? {};
+        this.#waiting.delete(id);
+        if (error === undefined) {
+            resolve?.(value);
+            return;
+        }
+        reject?.(new Error(fatal ? `the engine stopped: ${error}` : error));
+        if (fatal) {
+            this.restart();
+        }
+    }
+
+    #end(reason) {
+        this.#worker.terminate();
+        for (const { reject } of this.#waiting.values()) {
+            reject(reason);
+        }
+        this.#waiting.clear();
+    }
+
+    #call(call, ...args) {
+        this.#last += 1;
+        const id = this.#last;
+        return new Promise((resolve, reject) => {
+            this.#waiting.set(id, { resolve, reject });
+            this.#worker.postMessage({ id, call, args });
+        });
+    }
+
+    /// Ends the worker at once, and starts another. Calls that wait fail with `Ended`. Outputs are lost, files are kept.
+    restart() {
+        this.#end(new Ended("canceled"));
+        return this.#start();
+    }
+
+    /// Writes a file that recipes can read.
+    write(path, bytes) {
+        this.files.set(path, bytes);
+        return this.#call("write", path, bytes);
+    }
+
+    /// Removes a file.
+    remove(path) {
+        this.files.delete(path);
+        return this.restart();
+    }
+
+    read(path) {
+        return this.#call("read", path);
+    }
+
+    check(recipe, set) {
+        return this.#call("check", recipe, set);
+    }
+
+    run(recipe, set) {
+        return this.#call("run", recipe, set);
+    }
+
+    picture(options) {
+        return this.#call("picture", options);
+    }
+
+    describe() {
+        return this.#call("describe");
+    }
+}
+
+async function compile(url) {
+    const response = await fetch(url);
+    if (!response.ok) {
+        throw new Error(`${url} cannot be loaded: ${response.status}`);
+    }
+    // Some servers do not know the type of WebAssembly files.
+    return response.headers.get("content-type")?.startsWith("application/wasm")
+        ? WebAssembly.compileStreaming(response)
+        : WebAssembly.compile(await response.arrayBuffer());
+}

@@ -1,0 +1,273 @@
+// The page: a recipe is checked while it is typed, and run in the worker of the engine.
+import { Completions } from "./completion.js";
+import { byId, debounced, download, notify } from "./dom.js";
+import { Editor } from "./editor.js";
+import { Ended, Engine } from "./engine.js";
+import { Files } from "./files.js";
+import { fillGallery } from "./gallery.js";
+import { Parameters } from "./parameters.js";
+import { Steps, showProblems } from "./results.js";
+import { LinkError, link, shared } from "./share.js";
+import { Stage } from "./stage.js";
+import { STARTER } from "./starter.js";
+
+const engine = await Engine.load("core_bg.wasm").catch((error) => {
+    byId("status").textContent = `The engine cannot be started: ${error.message}`;
+    throw error;
+});
+
+let running = false;
+/// Whether the text or a value has changed since the last check or run began.
+let checkAgain = false;
+let runAgain = false;
+/// Whether the visitor has run the recipe. A shared recipe is only checked until then.
+let trusted = true;
+/// Whether the view keeps its camera: the last run was of the same recipe.
+let sameRecipe = false;
+/// The text and the values of the last run, whose problems and steps stay until one of both changes.
+let lastRun;
+let completions;
+
+const editor = new Editor(byId("editor"), {
+    onChange: () => { remember(); checkSoon(); },
+    complete: (context) => completions?.source(context) ?? null,
+    run,
+});
+const reveal = (range, line) => {
+    if (line || range) {
+        showTab("recipe");
+        editor.reveal(range, line);
+    }
+};
+const steps = new Steps(reveal);
+const parameters = new Parameters(() => (trusted ? runSoon() : checkSoon()));
+const stage = new Stage(engine, editor);
+const files = new Files(engine, {
+    openRecipe: (text, name) => openRecipe(text, { title: name, trust: true }),
+    addStep: (step) => editor.addStep(step) || notify("The recipe has no list of steps."),
+    changed: () => { lastRun = undefined; check(); },
+});
+const checkSoon = debounced(100, check);
+const runSoon = debounced(60, run);
+engine.onEvent = (event) => {
+    const text = steps.event(event);
+    if (text) {
+        byId("status").textContent = text;
+    }
+};
+
+/// Checks the recipe once no recipe runs.
+async function check() {
+    if (running) {
+        checkAgain = true;
+    } else {
+        await checkText();
+    }
+}
+
+/// Checks the recipe, and shows problems, parameters and steps.
+async function checkText() {
+    const text = editor.text;
+    if (lastRun === current()) {
+        return;
+    }
+    lastRun = undefined;
+    try {
+        const checked = await engine.check(text, parameters.values);
+        if (editor.text !== text) {
+            return;
+        }
+        editor.show(checked.problems);
+        showProblems(checked.problems, reveal);
+        parameters.show(checked.parameters);
+        steps.list(checked.steps);
+        if (completions) {
+            completions.parameters = checked.parameters.map(({ name }) => name);
+        }
+    } catch (error) {
+        report(error);
+    }
+}
+
+/// Runs the recipe. While a recipe runs, another run waits for its end.
+async function run() {
+    if (running) {
+        runAgain = true;
+        return;
+    }
+    setRunning(true);
+    trusted = true;
+    await checkText();
+    lastRun = current();
+    steps.begin();
+    let result;
+    try {
+        result = await engine.run(editor.text, parameters.values);
+        editor.show(result.problems, true);
+        showProblems(result.problems, reveal);
+        files.outputs(result.files);
+        byId("status").textContent = result.succeeded ? "Done" : result.digest ? "The run failed" : "The recipe has errors";
+        if (result.digest) {
+            await stage.show(result, sameRecipe);
+            sameRecipe = result.objects.length > 0;
+        } else {
+            stage.keep();
+        }
+    } catch (error) {
+        report(error);
+    }
+    steps.end(result);
+    setRunning(false);
+    if (runAgain) {
+        runAgain = checkAgain = false;
+        run();
+    } else if (checkAgain) {
+        checkAgain = false;
+        check();
+    }
+}
+
+/// Returns the text and the values as one key.
+function current() {
+    return JSON.stringify([editor.text, parameters.values]);
+}
+
+/// Ends the run at once. A new worker takes over.
+function cancel() {
+    runAgain = false;
+    files.outputs([]);
+    engine.restart().then(() => (byId("status").textContent = "Canceled"), report);
+    byId("status").textContent = "Canceled";
+}
+
+function setRunning(is) {
+    running = is;
+    byId("run").hidden = is;
+    byId("cancel").hidden = !is;
+    document.body.classList.toggle("running", is);
+    (is && document.activeElement === document.body ? byId("cancel") : null)?.focus();
+}
+
+function report(error) {
+    if (!(error instanceof Ended)) {
+        byId("status").textContent = "";
+        notify(error.message);
+    }
+}
+
+/// Replaces the recipe. Without trust, the recipe is only checked.
+function openRecipe(text, { title, trust, set = {} }) {
+    sameRecipe = false;
+    trusted = trust;
+    parameters.values = set;
+    editor.text = text;
+    steps.list([]);
+    byId("status").textContent = title;
+    showTab("recipe");
+    return check();
+}
+
+/// Opens the recipe of the URL. Returns whether there is one.
+async function openShared() {
+    try {
+        const found = await shared(location.hash);
+        if (found) {
+            await openRecipe(found.recipe, { title: "Shared recipe", trust: false, set: found.set });
+            notify("This recipe comes from a link. Press Run to run it. Ctrl+Z brings back the text before.");
+        }
+        return Boolean(found);
+    } catch (error) {
+        if (!(error instanceof LinkError)) {
+            throw error;
+        }
+        notify(error.message);
+        return false;
+    }
+}
+
+async function share() {
+    try {
+        const url = await link(editor.text, parameters.values);
+        history.replaceState(null, "", url);
+        byId("link").value = url;
+        byId("link-dialog").showModal();
+        byId("link").select();
+    } catch (error) {
+        notify(error.message);
+    }
+}
+
+function copy(text, button) {
+    navigator.clipboard.writeText(text).then(() => {
+        button.textContent = "Copied";
+        setTimeout(() => (button.textContent = "Copy"), 1500);
+    }, () => notify("The browser does not allow to copy. Select the text and copy it yourself."));
+}
+
+/// Keeps the text for the next visit, if the browser allows it.
+function remember() {
+    try {
+        localStorage.setItem("recipe", editor.text);
+    } catch {
+        // The recipe is then lost with the page, like any text in a form.
+    }
+}
+
+function remembered() {
+    try {
+        return localStorage.getItem("recipe");
+    } catch {
+        return null;
+    }
+}
+
+function showTab(tab) {
+    document.body.dataset.tab = tab;
+    for (const button of document.querySelectorAll("nav button")) {
+        button.setAttribute("aria-pressed", String(button.dataset.tab === tab));
+    }
+}
+
+function listen() {
+    byId("run").addEventListener("click", run);
+    byId("cancel").addEventListener("click", cancel);
+    byId("share").addEventListener("click", share);
+    byId("close-link").addEventListener("click", () => byId("link-dialog").close());
+    byId("copy-link").addEventListener("click", ({ target }) => copy(byId("link").value, target));
+    byId("copy-digest").addEventListener("click", ({ target }) => copy(byId("digest").textContent, target));
+    byId("save-recipe").addEventListener("click", () => download("recipe.ron", editor.text, "text/plain"));
+    document.querySelector("nav").addEventListener("click", ({ target }) => target.dataset.tab && showTab(target.dataset.tab));
+    addEventListener("hashchange", openShared);
+    addEventListener("keydown", (event) => {
+        if (event.key === "Enter" && (event.ctrlKey || event.metaKey) && !event.defaultPrevented) {
+            event.preventDefault();
+            run();
+        }
+    });
+}
+
+listen();
+byId("run").disabled = false;
+files.outputs([]);
+const earlier = remembered() ?? STARTER;
+editor.text = earlier;
+if (!(await openShared())) {
+    byId("status").textContent = "Ready";
+    // A recipe of an earlier visit may be one that exhausts the memory, so it is only checked.
+    trusted = earlier === STARTER;
+    await (trusted ? run() : check());
+}
+completions = new Completions(await engine.describe());
+stage.completions = completions;
+await fillGallery(({ name, recipe, files: needed }) => {
+    // The worker writes the files before it reads the recipe.
+    for (const [path, bytes] of needed) {
+        engine.write(path, bytes).catch(report);
+    }
+    files.show();
+    openRecipe(recipe, { title: name, trust: true });
+    run();
+});
+// For tests, and for the console of the browser.
+globalThis.meshwright = { editor, engine, stage };
+document.body.dataset.ready = "";

@@ -1,0 +1,144 @@
+// The language of recipes (RON): colors for the editor, and the structure around a position.
+import { StreamLanguage } from "@codemirror/language";
+
+const WORD = /[A-Za-z_][A-Za-z0-9_]*/y;
+const NUMBER = /[+-]?(?:0x[0-9a-fA-F_]+|(?:[0-9][0-9_]*)?\.?[0-9][0-9_]*\.?(?:[eE][+-]?[0-9]+)?)/y;
+const STRING = /"(?:[^"\\]|\\[^])*"?/y;
+const COMMENT = /\/\/[^\n]*|\/\*[^]*?(?:\*\/|$)/y;
+const SPACE = /\s+/y;
+
+/// Yields the tokens of a text that are not space: `{ kind, text, start, end }`. A kind is `word`, `number`, `string`,
+/// `comment`, or the character itself.
+export function* tokens(text) {
+    let start = 0;
+    const match = (pattern) => {
+        pattern.lastIndex = start;
+        return pattern.exec(text)?.[0];
+    };
+    while (start < text.length) {
+        const space = match(SPACE);
+        start += space?.length ?? 0;
+        const found = [["comment", COMMENT], ["string", STRING], ["word", WORD], ["number", NUMBER]]
+            .map(([kind, pattern]) => [kind, match(pattern)]).find(([, part]) => part);
+        const [kind, part] = found ?? [text[start], text[start]];
+        if (part === undefined) {
+            return;
+        }
+        yield { kind, text: part, start, end: start + part.length };
+        start += part.length;
+    }
+}
+
+/// Returns the brackets around a position, from the outside in: `{ open, name, start, field, index, fields }`. `name` is the
+/// name before a parenthesis, `field` the field that the position belongs to, `index` the number of the element, and `fields`
+/// has all fields that are written before. Returns `null` inside a string or a comment.
+export function around(text, position) {
+    const stack = [{ open: "", name: null, start: 0, field: null, index: 0, fields: [] }];
+    let before = null;
+    for (const token of tokens(text)) {
+        const { kind, start, end } = token;
+        const inside = start < position && position < end;
+        if (kind === "comment" ? start < position && position <= end && text[end - 1] !== "/" : kind === "string" && inside) {
+            return null;
+        }
+        // A word that ends at the position is being typed.
+        if (start >= position || (kind === "word" && end >= position)) {
+            break;
+        }
+        const top = stack.at(-1);
+        if ("([{".includes(kind)) {
+            const name = kind === "(" && before?.kind === "word" ? before.text : null;
+            stack.push({ open: kind, name, start: name ? before.start : start, field: null, index: 0, fields: [] });
+        } else if (")]}".includes(kind) && stack.length > 1) {
+            stack.pop();
+        } else if (kind === ":") {
+            top.field = before?.text ?? null;
+            top.fields.push(top.field);
+        } else if (kind === ",") {
+            top.field = null;
+            top.index += 1;
+        }
+        if (kind !== "comment") {
+            before = token;
+        }
+    }
+    return stack;
+}
+
+/// Returns the position after the last step of a recipe, whether a comma comes before that position, and whether there
+/// is a step; `null` if there are no steps.
+export function endOfSteps(text) {
+    let depth = 0;
+    let before = [];
+    let inSteps = false;
+    for (const token of tokens(text)) {
+        if (token.kind === "comment") {
+            continue;
+        }
+        if ("([{".includes(token.kind)) {
+            depth += 1;
+            inSteps ||= depth === 2 && before[1]?.text === "steps" && before[0].kind === ":";
+        } else if (")]}".includes(token.kind)) {
+            if (inSteps && depth === 2) {
+                return { end: before[0].end, comma: before[0].kind === ",", empty: before[0].kind === "[" };
+            }
+            depth -= 1;
+        }
+        before = [token, before[0]];
+    }
+    return null;
+}
+
+/// Returns a text as a string of a recipe.
+export function quoted(text) {
+    return `"${text.replace(/[\\"]/g, "\\$&").replace(/[\u0000-\u001f]/g, "")}"`;
+}
+
+function token(stream, state) {
+    if (state.comment) {
+        state.comment = !stream.match(/^.*?\*\//);
+        if (state.comment) {
+            stream.skipToEnd();
+        }
+        return "comment";
+    }
+    if (stream.eatSpace()) {
+        return null;
+    }
+    if (stream.match("//")) {
+        stream.skipToEnd();
+        return "comment";
+    }
+    if (stream.match("/*")) {
+        state.comment = true;
+        return "comment";
+    }
+    if (stream.match(/^"(?:[^"\\]|\\.)*"?/)) {
+        return "string";
+    }
+    if (stream.match(/^[+-]?\.?[0-9][0-9_a-fA-Fx.]*(?:[eE][+-]?[0-9]+)?/)) {
+        return "number";
+    }
+    if (stream.match(/^[A-Za-z_][A-Za-z0-9_]*/)) {
+        const word = stream.current();
+        return word === "true" || word === "false" ? "bool"
+            : word === "arg" ? "keyword"
+                : stream.match(/^\s*:/, false) ? "propertyName" : "typeName";
+    }
+    const character = stream.next();
+    state.depth += "([{".includes(character) ? 1 : ")]}".includes(character) ? -1 : 0;
+    return "punctuation";
+}
+
+/// The language for CodeMirror.
+export const ron = StreamLanguage.define({
+    name: "ron",
+    startState: () => ({ comment: false, depth: 0 }),
+    token,
+    indent: (state, after, cx) => Math.max(0, state.depth - (/^\s*[)\]}]/.test(after) ? 1 : 0)) * cx.unit,
+    languageData: {
+        commentTokens: { line: "//", block: { open: "/*", close: "*/" } },
+        closeBrackets: { brackets: ["(", "[", "{", "\""] },
+        indentOnInput: /^\s*[)\]}]$/,
+    },
+});

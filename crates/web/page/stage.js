@@ -1,0 +1,168 @@
+// The pane of the picture: the view of the meshes or the engine's own picture, its buttons, and picked elements.
+import { byId, download, element } from "./dom.js";
+import { numbered, selection } from "./pick.js";
+import { View } from "./view.js";
+
+/// Meshes with more faces are shown without edges at first.
+const MAX_FACES_WITH_EDGES = 5000;
+
+export class Stage {
+    #engine;
+    #editor;
+    #picks = [];
+    #meshes = [];
+    /// Finds the operations that take a selection. Set once the schema is known.
+    completions = null;
+    /// `null` if the browser has no WebGL.
+    view = null;
+
+    constructor(engine, editor) {
+        this.#engine = engine;
+        this.#editor = editor;
+        try {
+            this.view = new View(byId("canvas"));
+            this.view.onPick = (pick, more) => this.#pick(pick, more);
+        } catch {
+            byId("canvas").hidden = true;
+            for (const id of ["smooth", "up", "fit", "kinds", "pick"]) {
+                byId(id).hidden = true;
+            }
+        }
+        this.#listen();
+    }
+
+    /// Shows the scene of a run. The camera stays if `keep` is true.
+    async show({ meshes, objects }, keep) {
+        this.#meshes = meshes;
+        const faces = objects.reduce((sum, object) => sum + (object.faces ?? 0), 0);
+        if (this.view) {
+            if (!keep) {
+                this.#press("edges", faces <= MAX_FACES_WITH_EDGES);
+            }
+            const up = this.view.show(meshes, keep);
+            this.view.style({ edges: pressed("edges") });
+            this.#press("up", up === "z");
+        }
+        this.#select([]);
+        byId("number-label").hidden = meshes.length !== 1;
+        const rendered = objects.length > 0 && (!this.view || meshes.length === 0);
+        byId("canvas").hidden = rendered || !this.view;
+        byId("picture").hidden = true;
+        const note = byId("stage-note");
+        note.hidden = objects.length > 0 && Boolean(this.view) && meshes.length === objects.length;
+        note.textContent = objects.length === 0 ? "The scene is empty."
+            : !this.view ? "This browser has no WebGL, so the engine renders the picture. The picture cannot be turned."
+                : meshes.length === 0 ? "Curves and patches are rendered by the engine. The picture cannot be turned."
+                    : "Curves and patches are not shown. Tessellate them to see them.";
+        if (rendered) {
+            await this.#render();
+        }
+    }
+
+    /// Says that the picture is that of an earlier run.
+    keep() {
+        byId("stage-note").textContent = "This is the scene of the last run without errors in the recipe.";
+        byId("stage-note").hidden = this.#meshes.length === 0;
+    }
+
+    /// The arrays of the meshes that are shown.
+    get meshes() {
+        return this.#meshes;
+    }
+
+    /// Renders the picture with the engine.
+    async #render() {
+        const { clientWidth, clientHeight } = byId("stage");
+        const size = { width: Math.max(clientWidth, 320), height: Math.max(clientHeight, 240) };
+        const png = await this.#engine.picture({ ...size, wireframe: pressed("edges") });
+        URL.revokeObjectURL(byId("picture").src);
+        byId("picture").src = URL.createObjectURL(new Blob([png], { type: "image/png" }));
+        byId("picture").hidden = false;
+    }
+
+    #listen() {
+        const toggle = (id, change) => byId(id).addEventListener("click", () => {
+            this.#press(id, !pressed(id));
+            change(pressed(id));
+        });
+        toggle("smooth", (smooth) => this.view.style({ smooth }));
+        toggle("up", (up) => this.view.style({ up: up ? "z" : "y" }));
+        toggle("edges", (edges) => (byId("picture").hidden ? this.view?.style({ edges }) : this.#render()));
+        byId("fit").addEventListener("click", () => this.view.fit());
+        byId("save-picture").addEventListener("click", async () => {
+            const rendered = !byId("picture").hidden;
+            download("picture.png", rendered ? await this.#engine.picture({ width: 1280, height: 960, wireframe: pressed("edges") })
+                : await this.view.picture(), "image/png");
+        });
+        byId("kinds").addEventListener("change", ({ target }) => {
+            this.view.kind = target.value;
+            this.#select([]);
+        });
+        byId("number").addEventListener("input", ({ target }) => {
+            const number = target.valueAsNumber;
+            const found = Number.isInteger(number) && number >= 0 ? numbered(this.#meshes[0], this.view.kind, number) : null;
+            this.#select(found ? [{ mesh: this.#meshes[0], ...found }] : [], true);
+            if (!found && target.value !== "") {
+                byId("picked").textContent = `The mesh has no ${this.view.kind} with this number.`;
+            }
+        });
+        byId("insert").addEventListener("click", () => this.#editor.insert(selection(this.#picks)));
+        byId("add-step").addEventListener("change", ({ target }) => {
+            this.#editor.addStep(target.value);
+            target.value = "";
+        });
+    }
+
+    #press(id, is) {
+        byId(id).setAttribute("aria-pressed", String(is));
+    }
+
+    #pick(pick, more) {
+        // The elements of one selection belong to one mesh.
+        const others = more && pick ? this.#picks.filter(({ mesh }) => mesh === pick.mesh) : [];
+        const again = others.some(({ number }) => number === pick.number);
+        const rest = others.filter(({ number }) => number !== pick.number);
+        this.#select(pick ? [...rest, ...again ? [] : [pick]] : more ? this.#picks : []);
+    }
+
+    #select(picks, typed = false) {
+        this.#picks = picks;
+        this.view?.mark(picks);
+        byId("insert").hidden = byId("add-step").hidden = picks.length === 0;
+        if (!typed) {
+            byId("number").value = picks.length === 1 ? picks[0].number : "";
+        }
+        byId("picked").textContent = picks.length ? this.#described(picks)
+            : "Click an element to pick it. Shift adds to the selection.";
+        if (!picks.length) {
+            return;
+        }
+        const text = selection(picks);
+        byId("insert").textContent = `Insert ${text.length > 30 ? "selection" : text}`;
+        const kind = picks[0].kind[0].toUpperCase() + picks[0].kind.slice(1);
+        const steps = this.completions?.stepsWith(kind, text) ?? [];
+        const on = (step) => (this.#meshes.length > 1 ? `(on: [${JSON.stringify(picks[0].mesh.name)}], run: ${step})` : step);
+        byId("add-step").replaceChildren(element("option", { value: "" }, "Add a step"),
+            ...steps.map(({ name, summary, text: step }) => element("option", { value: on(step), title: summary }, name)));
+    }
+
+    #described(picks) {
+        const { mesh, kind, number, vertices } = picks[0];
+        const place = this.#meshes.length > 1 ? ` of ${mesh.name}` : "";
+        if (picks.length > 1) {
+            return `${picks.length} ${kind === "vertex" ? "vertices" : `${kind}s`}${place}`;
+        }
+        const at = (v) => Array.from(mesh.positions.subarray(3 * v, 3 * v + 3), (x, k) => x + mesh.center[k]);
+        const number6 = (x) => String(Number(x.toPrecision(6)));
+        if (kind === "edge") {
+            const [p, q] = vertices.map(at);
+            return `Edge ${number}${place}: vertices ${vertices.join(" and ")}, length ${number6(Math.hypot(...p.map((x, k) => x - q[k])))}`;
+        }
+        return kind === "vertex" ? `Vertex ${number}${place}: ${at(number).map((x) => number6(Math.fround(x))).join(", ")}`
+            : `Face ${number}${place}: vertices ${vertices.join(", ")}`;
+    }
+}
+
+function pressed(id) {
+    return byId(id).getAttribute("aria-pressed") === "true";
+}

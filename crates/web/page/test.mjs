@@ -1,0 +1,342 @@
+// Tests the page in Chromium: test.mjs PAGE TOOLS CHROMIUM. Pictures of the page are written to TOOLS.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join, resolve } from "node:path";
+import { deflateRawSync } from "node:zlib";
+import { chromium, serve } from "./browser.mjs";
+
+const [folder, tools, executable] = process.argv.slice(2).map((path) => resolve(path));
+const root = new URL("../../../", import.meta.url).pathname;
+const server = await serve(folder);
+const origin = `http://127.0.0.1:${server.address().port}`;
+let browser = await chromium(tools, executable);
+
+/// Opens the page in a new profile, and records what must not happen: errors, and requests to other servers.
+async function open({ fragment = "", size = [1280, 800], scheme = "light" } = {}) {
+    const context = await browser.newContext({ viewport: { width: size[0], height: size[1] }, colorScheme: scheme });
+    const page = await context.newPage();
+    page.failures = [];
+    page.on("console", (message) => message.type() === "error" && page.failures.push(message.text()));
+    page.on("pageerror", (error) => page.failures.push(String(error)));
+    page.on("dialog", (dialog) => { page.failures.push(`dialog: ${dialog.message()}`); dialog.dismiss(); });
+    page.on("request", (request) => {
+        if (!request.url().startsWith(`${origin}/`) && !request.url().startsWith(`blob:${origin}/`)) {
+            page.failures.push(`request to ${request.url()}`);
+        }
+    });
+    await page.addInitScript(() => {
+        document.addEventListener("securitypolicyviolation", (event) => console.error(`policy: ${event.violatedDirective}`));
+    });
+    page.begin = performance.now();
+    await page.goto(`${origin}/${fragment}`);
+    return page;
+}
+
+async function close(page) {
+    assert.deepEqual(page.failures, []);
+    await page.context().close();
+}
+
+const ready = (page) => page.waitForSelector("body[data-ready]");
+const text = (page, selector) => page.locator(selector).innerText();
+
+/// Replaces the recipe as a visitor would who pastes a text.
+async function write(page, recipe) {
+    await page.locator(".cm-content").click();
+    await page.keyboard.press("Control+A");
+    await page.keyboard.insertText(recipe);
+}
+
+/// Runs the recipe, and returns its digest, which is empty if the run failed.
+async function run(page) {
+    await page.locator("#run").click();
+    await page.waitForSelector("#run:visible");
+    return text(page, "#digest");
+}
+
+async function drop(page, name, content) {
+    await page.evaluate(([name, content]) => {
+        const transfer = new DataTransfer();
+        transfer.items.add(new File([content], name));
+        for (const type of ["dragover", "drop"]) {
+            document.body.dispatchEvent(new DragEvent(type, { dataTransfer: transfer, bubbles: true, cancelable: true }));
+        }
+    }, [name, content]);
+}
+
+async function downloaded(page, action) {
+    const waiting = page.waitForEvent("download");
+    await action();
+    return readFileSync(await (await waiting).path());
+}
+
+const screenshot = (page, name) => page.screenshot({ path: join(tools, `${name}.png`) });
+
+const tests = {
+    async "a first visit runs the first recipe"(page) {
+        await page.waitForSelector("#digest-part:visible");
+        console.log(`  load and first picture: ${Math.round(performance.now() - page.begin)} ms`);
+        await ready(page);
+        assert.equal(await text(page, "#met"), "3 of 3 met");
+        // The check after the delay of typing keeps what the run has shown.
+        await page.waitForTimeout(300);
+        assert.match(await text(page, "#summary"), /^6 of 6 steps/);
+        await screenshot(page, "first");
+    },
+
+    async "the teapot of the gallery has the digest of the program"(page) {
+        await ready(page);
+        await page.locator("#open-gallery").click();
+        await screenshot(page, "gallery");
+        await page.getByRole("button", { name: "teapot" }).click();
+        await page.waitForSelector("#digest-part:visible");
+        const [, digest] = readFileSync(join(root, "tests/digests.txt"), "utf8").match(/^teapot (\S+)$/m);
+        assert.equal(await text(page, "#digest"), digest);
+        assert.equal(await page.locator("#expectations .unmet").count(), 0);
+        await screenshot(page, "teapot");
+        const output = await downloaded(page, () => page.getByRole("button", { name: "Download teapot.png" }).click());
+        // The provenance in the file differs, the size does not. The recipe itself compares the pixels.
+        assert.equal(output.length, readFileSync(join(root, "scenes/assets/goldens/teapot.png")).length);
+        // The gallery replaces the text as one change.
+        await page.locator(".cm-content").click();
+        await page.keyboard.press("Control+Z");
+        assert.match(await page.evaluate(() => meshwright.editor.text), /jack/);
+    },
+
+    async "a mistyped operation is shown at its line while typing, and below its line after a run"(page) {
+        await ready(page);
+        await write(page, "(recipe: 1, steps: [\n    Cube(name: \"a\"),\n    Flipedges(edges: Between(0, 1)),\n])");
+        await page.waitForSelector("#problem-list .error");
+        assert.match(await text(page, "#problem-list"), /3:5\s*error\s*unknown operation `Flipedges`\s*did you mean `FlipEdges`/);
+        assert.equal(await text(page, ".cm-lintRange-error"), "Flipedges");
+        assert.equal(await page.locator(".line-message").count(), 0);
+        await run(page);
+        assert.match(await text(page, ".line-message"), /unknown operation/);
+        assert.equal(await page.locator("#digest-part").isVisible(), false);
+        await screenshot(page, "problem");
+        await page.locator("#problem-list button").press("Enter");
+        assert.equal(await page.evaluate(() => getSelection().toString()), "Flipedges");
+        const milliseconds = await page.evaluate(async () => {
+            const begin = performance.now();
+            for (let i = 0; i < 20; i += 1) {
+                await meshwright.engine.check(meshwright.editor.text, {});
+            }
+            return (performance.now() - begin) / 20;
+        });
+        console.log(`  a check takes ${milliseconds.toFixed(1)} ms`);
+        assert(milliseconds < 20);
+    },
+
+    async "a failed step and an unmet expectation are shown"(page) {
+        await ready(page);
+        await write(page, "(recipe: 1, steps: [\n    Cube(name: \"a\", triangles: true),\n    FlipEdges(edges: Expect(count: 3, of: Between(0, 1))),\n])");
+        assert.equal(await run(page), "");
+        assert.equal(await page.locator("tr.failed th").innerText(), "2 FlipEdges");
+        assert.equal(await page.locator(".line-message").count(), 1);
+        await write(page, "(recipe: 1, steps: [Cube(name: \"a\")], expect: [Faces(eq: 6), Faces(eq: 7)])");
+        await run(page);
+        assert.match(await text(page, "#expectations"), /✓ met\s*Faces\(eq: 6\)\s*✗ not met\s*Faces\(eq: 7\)/);
+    },
+
+    async "completion offers operations, fields and values"(page) {
+        await ready(page);
+        const offered = async (before) => {
+            await write(page, before);
+            await page.keyboard.press("Control+Space");
+            await page.waitForSelector(".cm-tooltip-autocomplete li");
+            return (await page.locator(".cm-tooltip-autocomplete li .cm-completionLabel").allInnerTexts());
+        };
+        const operations = await offered("(recipe: 1, steps: [Cube(name: \"a\"), FlipE");
+        assert.equal(operations[0], "FlipEdges");
+        await screenshot(page, "completion");
+        await page.waitForTimeout(100);
+        await page.keyboard.press("Enter");
+        assert.match(await page.evaluate(() => meshwright.editor.text), /FlipEdges\(edges: All\),/);
+        assert((await offered("(recipe: 1, steps: [(id: \"x\", run: FlipEdges(")).includes("edges"));
+        assert((await offered("(recipe: 1, steps: [FlipEdges(edges: Or([Bet")).includes("Between"));
+        assert.deepEqual(await offered("(recipe: 1, steps: [FlipEdges(edges: All, on_refusal: S")
+            .then((all) => all.slice(0, 1)), ["Skip"]);
+        assert((await offered("(recipe: 1, ste")).includes("steps"));
+    },
+
+    async "a slider runs the recipe with another value"(page) {
+        await ready(page);
+        const faces = () => page.locator("#steps tr.done").nth(4).locator("td").nth(2).innerText();
+        assert.equal(await faces(), "3,456");
+        await page.locator("#fields input[type=range]").nth(2).fill("1");
+        await page.waitForFunction(() => /Reset/.test(document.querySelector("#parameters").innerText)
+            && document.querySelector("#steps tr:nth-child(9) td:nth-child(4)").textContent === "216");
+        assert.equal(await page.locator("#parameter-levels").inputValue(), "1");
+        // A shared recipe has the value, and the same digest.
+        const digest = await text(page, "#digest");
+        await page.locator("#share").click();
+        await page.waitForSelector("#link:visible");
+        const url = await page.locator("#link").inputValue();
+        assert.match(url, /p\.levels=1/);
+        const other = await open({ fragment: url.slice(url.indexOf("#")) });
+        await ready(other);
+        assert.equal(await other.locator("#digest-part").isVisible(), false);
+        assert.equal(await run(other), digest);
+        await close(other);
+        await page.locator("#close-link").click();
+        await page.locator("#reset").click();
+        await page.waitForFunction(() => document.querySelector("#steps tr:nth-child(9) td:nth-child(4)").textContent === "3,456");
+    },
+
+    async "a dropped model is loaded by a recipe"(page) {
+        await ready(page);
+        await drop(page, "roof.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+        await page.getByRole("button", { name: "New recipe" }).click();
+        assert.match(await run(page), /^[0-9a-f]{32}$/);
+        assert.match(await text(page, "#steps"), /Load\s*4\s*4\s*1/);
+        await screenshot(page, "dropped");
+        await page.getByRole("button", { name: "Remove roof.obj" }).click();
+        await page.waitForSelector("#problem-list .error");
+    },
+
+    async "a picked edge is inserted, flipped and split, and the output loads again"(page) {
+        await ready(page);
+        await write(page, "(recipe: 1, steps: [\n    Cube(name: \"cube\", triangles: true),\n])");
+        await run(page);
+        await page.getByLabel("Edge", { exact: true }).check();
+        // The edge of the front and the right side, which the camera sees.
+        const [v, w, x, y] = await page.evaluate(() => {
+            const { view, meshes: [mesh] } = meshwright.stage;
+            const corners = [0, 1, 2, 3, 4, 5, 6, 7].filter((i) => mesh.positions[3 * i] > 0 && mesh.positions[3 * i + 2] > 0);
+            const [p, q] = corners.map((vertex) => view.project(mesh, vertex));
+            return [...corners, (p[0] + q[0]) / 2, (p[1] + q[1]) / 2];
+        });
+        await page.mouse.click(x, y);
+        assert.match(await text(page, "#picked"), new RegExp(`vertices (${v} and ${w}|${w} and ${v}), length 2$`));
+        await screenshot(page, "picked");
+        await write(page, "(recipe: 1, steps: [\n    Cube(name: \"cube\", triangles: true),\n    FlipEdges(edges: ");
+        await page.locator("#insert").click();
+        await page.keyboard.insertText("),\n    Save(path: \"flipped.obj\"),\n])");
+        assert.match(await page.evaluate(() => meshwright.editor.text), /FlipEdges\(edges: Between\(\d, \d\)\),/);
+        assert.notEqual(await run(page), "");
+        // Picked by its number, for people who use no mouse.
+        await page.locator("#number").fill("0");
+        await page.locator("#add-step").selectOption({ label: "SplitEdges" });
+        const flipped = await downloaded(page, () => page.getByRole("button", { name: "Download flipped.obj" }).click());
+        assert.match(await page.evaluate(() => meshwright.editor.text), /SplitEdges\(edges: Between\(\d, \d\)\),\n\]/);
+        assert.notEqual(await run(page), "");
+        await drop(page, "again.obj", flipped.toString());
+        await page.getByRole("button", { name: "New recipe" }).click();
+        assert.notEqual(await run(page), "");
+        assert.match(await text(page, "#steps"), /Load\s*8\s*18\s*12/);
+    },
+
+    async "a run is canceled at once, and another can run"(page) {
+        await ready(page);
+        await write(page, "(recipe: 1, steps: [\n    Cube(name: \"a\"), Triangulate(), LoopSubdivide(levels: 8), Simplify(ratio: 0.1),\n])");
+        await page.locator("#run").click();
+        await page.waitForSelector("tr.running");
+        const milliseconds = await page.evaluate(() => new Promise((resolve) => {
+            const begin = performance.now();
+            new MutationObserver(() => resolve(performance.now() - begin)).observe(document.querySelector("#run"), { attributes: true });
+            document.querySelector("#cancel").click();
+        }));
+        console.log(`  a cancel takes ${milliseconds.toFixed(1)} ms`);
+        assert(milliseconds < 1000);
+        assert.match(await text(page, "#steps"), /canceled/);
+        await write(page, "(recipe: 1, steps: [Cube(name: \"a\")])");
+        const begin = performance.now();
+        assert.match(await run(page), /^[0-9a-f]{32}$/);
+        console.log(`  the next run ends after ${Math.round(performance.now() - begin)} ms`);
+    },
+
+    async "hostile file names and contents do nothing"(page) {
+        await ready(page);
+        const triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+        for (const [name, kept] of [["<img src=x onerror=alert(1)>.obj", null], ["..\\..\\x.obj", "x.obj"], ["../y.obj", "y.obj"],
+            ["a\"), Save(path: \"b.obj", "a\"), Save(path: \"b.obj"]]) {
+            await drop(page, name, triangle);
+            await page.getByRole("button", { name: "New recipe" }).click();
+            assert.notEqual(await run(page), "", name);
+            assert.equal((await page.locator("#steps tr.done").count()), 1, "only the model is loaded");
+            const path = (await page.locator("#inputs .path").allInnerTexts()).at(-1);
+            assert(!path.includes("/") && (kept === null || path === kept), path);
+        }
+        await drop(page, "..", triangle);
+        await drop(page, "broken.glb", "glTF\u0002\u0000\u0000\u0000");
+        await page.getByRole("button", { name: "New recipe" }).click();
+        assert.equal(await run(page), "");
+        assert.equal(await page.locator("img[onerror], main script").count(), 0);
+    },
+
+    async "hostile links give a message or a recipe that is only checked"(page) {
+        await ready(page);
+        const link = (content) => `#r=${deflateRawSync(content).toString("base64url")}`;
+        const cases = [
+            [link("<img src=x onerror=alert(1)><script>alert(2)</script>"), /comes from a link/],
+            [link("(recipe: 1, steps: [Cube(name: \"<img src=x onerror=alert(1)>\")])"), /comes from a link/],
+            ["#r=%%%", /damaged/], ["#r=AAAA", /damaged/], ["#r=", /damaged/],
+            [link(Buffer.alloc(10_000_000)), /larger than 1 MB/],
+            [`#r=${"A".repeat(100_000)}`, /too long/],
+            [link("(recipe: 1, steps: [Cube(name: \"a\")])") + "&p.__proto__=1&p.x=<b>", /comes from a link/],
+        ];
+        for (const [fragment, expected] of cases) {
+            await page.evaluate((fragment) => {
+                document.querySelector("#notice").replaceChildren();
+                location.hash = fragment;
+            }, fragment);
+            await page.waitForSelector("#notice [role=status]");
+            assert.match(await text(page, "#notice"), expected);
+            await page.waitForTimeout(150);
+            assert.equal(await page.locator("#steps tr.done").count(), 0, "it does not run");
+        }
+        assert.equal(await page.locator("main img[onerror], main script, main b").count(), 0);
+    },
+
+    async "every scene of the gallery runs without a failure"(page) {
+        await ready(page);
+        const count = await page.locator("#scenes button").count();
+        const begin = performance.now();
+        for (let i = 0; i < count; i += 1) {
+            await page.locator("#open-gallery").click();
+            await page.locator("#scenes button").nth(i).click();
+            await page.waitForSelector("#digest-part:visible", { timeout: 60_000 });
+            const [name, digest] = readFileSync(join(root, "tests/digests.txt"), "utf8").split("\n")[i].split(" ");
+            assert.equal(await text(page, "#digest"), digest, name);
+        }
+        console.log(`  ${count} scenes in ${((performance.now() - begin) / 1000).toFixed(1)} s, with the digests of the program`);
+    },
+};
+
+for (const [name, test] of Object.entries(tests)) {
+    console.log(name);
+    const page = await open();
+    page.setDefaultTimeout(20_000);
+    try {
+        await test(page);
+        await close(page);
+    } catch (error) {
+        await screenshot(page, "failed");
+        console.log(page.failures);
+        throw error;
+    }
+}
+
+// The page on a phone, in the dark.
+const phone = await open({ size: [390, 844], scheme: "dark" });
+await ready(phone);
+for (const tab of ["recipe", "view", "results"]) {
+    await phone.locator(`nav [data-tab=${tab}]`).click();
+    await phone.waitForTimeout(300);
+    await screenshot(phone, `phone-${tab}`);
+    assert.equal(await phone.evaluate(() => document.documentElement.scrollWidth), 390, "the page is not wider than the phone");
+}
+await close(phone);
+await browser.close();
+
+// A browser without WebGL shows the picture of the engine.
+browser = await chromium(tools, executable, false);
+const plain = await open();
+plain.failures = plain.failures.filter((failure) => !failure.includes("WebGL"));
+await plain.waitForSelector("#picture:visible");
+assert.match(await text(plain, "#stage-note"), /no WebGL/);
+assert(await plain.locator("#picture").evaluate((image) => image.decode().then(() => image.naturalWidth >= 320)));
+await screenshot(plain, "no-webgl");
+await browser.close();
+server.close();
+console.log("the page works in Chromium");

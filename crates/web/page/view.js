@@ -1,0 +1,244 @@
+// The picture of the meshes: three.js with an orbit camera, drawn only when something changes.
+import * as THREE from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { nearest } from "./pick.js";
+import { Marks } from "./marks.js";
+
+/// Colors of the objects, which differ in lightness too.
+const COLORS = [0x8fa8c8, 0xd9b26f, 0x8fc0a0, 0xc98f8f, 0xb3a0cf, 0xb8b8a8];
+
+/// A vertical field of view as in the pictures of recipes, in degrees.
+const ANGLE = 25;
+
+export class View {
+    #canvas;
+    #renderer;
+    #camera = new THREE.PerspectiveCamera(ANGLE, 1, 0.01, 100);
+    #controls;
+    #scene = new THREE.Scene();
+    #content = new THREE.Group();
+    #marks = new Marks();
+    #meshes = [];
+    #center = [0, 0, 0];
+    #radius = 1;
+    #style = { smooth: false, edges: true, up: "y" };
+    #waiting = false;
+    /// Receives `{ mesh, kind, number, vertices }` for a click, and whether Shift is pressed; `null` beside the meshes.
+    onPick = () => {};
+    kind = "face";
+
+    /// Creates the view. Throws if the browser has no WebGL.
+    constructor(canvas) {
+        this.#canvas = canvas;
+        this.#renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
+        this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+        const light = new THREE.DirectionalLight(0xffffff, 2.2);
+        light.position.set(-0.4, 0.6, 1);
+        this.#camera.add(light, light.target);
+        light.target.position.set(0, 0, -1);
+        this.#scene.add(this.#camera, new THREE.HemisphereLight(0xffffff, 0x8890a0, 1.3), this.#content, this.#marks.group);
+        this.#controls = new OrbitControls(this.#camera, canvas);
+        this.#controls.addEventListener("change", () => this.#draw());
+        new ResizeObserver(() => this.#resize()).observe(canvas.parentElement);
+        this.#listen();
+        this.#resize();
+    }
+
+    /// Shows meshes: `{ name, center, positions, triangles, faces, edges }`. The camera stays if `keep` is true.
+    show(meshes, keep) {
+        this.#clear();
+        this.#meshes = meshes;
+        const box = new THREE.Box3();
+        // Relative to the first center, since numbers of 32 bits are precise only near the origin.
+        this.#center = meshes[0]?.center ?? [0, 0, 0];
+        meshes.forEach((mesh, i) => {
+            const geometry = new THREE.BufferGeometry();
+            geometry.setAttribute("position", new THREE.BufferAttribute(mesh.positions, 3));
+            geometry.setIndex(new THREE.BufferAttribute(mesh.triangles, 1));
+            const material = new THREE.MeshStandardMaterial({ color: COLORS[i % COLORS.length], roughness: 0.75, side: THREE.DoubleSide,
+                polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
+            const surface = new THREE.Mesh(geometry, material);
+            const lines = new THREE.BufferGeometry();
+            lines.setAttribute("position", geometry.getAttribute("position"));
+            lines.setIndex(new THREE.BufferAttribute(mesh.edges, 1));
+            const group = new THREE.Group();
+            group.add(surface, new THREE.LineSegments(lines, new THREE.LineBasicMaterial({ color: 0x101418, transparent: true, opacity: 0.45 })));
+            group.position.set(...mesh.center.map((x, axis) => x - this.#center[axis]));
+            group.updateMatrixWorld();
+            this.#content.add(group);
+            box.expandByObject(surface);
+        });
+        this.#radius = box.isEmpty() ? 1 : Math.max(box.getSize(new THREE.Vector3()).length() / 2, 1e-9);
+        this.box = box;
+        this.style({});
+        if (!keep) {
+            this.#style.up = stands(box, this.#center) ? "z" : "y";
+            this.fit();
+        }
+        this.#draw();
+        return this.#style.up;
+    }
+
+    /// Changes the style: `smooth`, `edges`, `up` ("y" or "z").
+    style(changes) {
+        Object.assign(this.#style, changes);
+        for (const { children: [surface, lines] } of this.#content.children) {
+            surface.material.flatShading = !this.#style.smooth;
+            surface.material.needsUpdate = true;
+            if (this.#style.smooth && !surface.geometry.hasAttribute("normal")) {
+                surface.geometry.computeVertexNormals();
+            }
+            lines.visible = this.#style.edges;
+        }
+        if (changes.up) {
+            this.fit();
+        }
+        this.#draw();
+    }
+
+    /// Moves the camera so that all meshes fit the view, seen from the front, a little from the side and from above.
+    fit() {
+        const up = this.#style.up === "z" ? new THREE.Vector3(0, 0, 1) : new THREE.Vector3(0, 1, 0);
+        const front = this.#style.up === "z" ? new THREE.Vector3(0.55, -1, 0.5) : new THREE.Vector3(0.55, 0.5, 1);
+        const center = this.box?.isEmpty() === false ? this.box.getCenter(new THREE.Vector3()) : new THREE.Vector3();
+        this.#camera.up.copy(up);
+        this.#camera.position.copy(center).addScaledVector(front.normalize(), this.#distance(front, up, center));
+        this.#camera.near = this.#radius / 100;
+        this.#camera.far = this.#radius * 100;
+        this.#camera.updateProjectionMatrix();
+        this.#controls.dispose();
+        this.#controls = new OrbitControls(this.#camera, this.#canvas);
+        this.#controls.addEventListener("change", () => this.#draw());
+        this.#controls.target.copy(center);
+        this.#controls.update();
+        this.#draw();
+    }
+
+    /// Marks the elements of a mesh.
+    mark(picks) {
+        this.#marks.show(picks, (mesh) => mesh.center.map((x, axis) => x - this.#center[axis]));
+        this.#draw();
+    }
+
+    /// Returns where a vertex is on the page, in pixels.
+    project(mesh, vertex) {
+        const group = this.#content.children[this.#meshes.indexOf(mesh)];
+        const point = new THREE.Vector3().fromArray(mesh.positions, 3 * vertex).applyMatrix4(group.matrixWorld).project(this.#camera);
+        const rect = this.#canvas.getBoundingClientRect();
+        return [rect.left + ((point.x + 1) / 2) * rect.width, rect.top + ((1 - point.y) / 2) * rect.height];
+    }
+
+    /// Returns the picture as a PNG file.
+    picture() {
+        this.#renderer.render(this.#scene, this.#camera);
+        return new Promise((resolve) => this.#canvas.toBlob(resolve));
+    }
+
+    /// Returns the least distance of the camera from which all vertices are visible, with a margin.
+    #distance(front, up, center) {
+        const right = new THREE.Vector3().crossVectors(up, front).normalize();
+        const upwards = new THREE.Vector3().crossVectors(front, right);
+        const tangent = Math.tan(THREE.MathUtils.degToRad(ANGLE) / 2) * 0.9;
+        const point = new THREE.Vector3();
+        let distance = this.#radius;
+        this.#meshes.forEach(({ positions }, i) => {
+            const { matrixWorld } = this.#content.children[i];
+            // Some of many vertices are enough.
+            const stride = 3 * Math.ceil(positions.length / 3e5);
+            for (let k = 0; k < positions.length; k += stride) {
+                point.fromArray(positions, k).applyMatrix4(matrixWorld).sub(center);
+                const across = Math.max(Math.abs(point.dot(right)) / this.#camera.aspect, Math.abs(point.dot(upwards)));
+                distance = Math.max(distance, point.dot(front) + across / tangent);
+            }
+        });
+        return distance;
+    }
+
+    #clear() {
+        for (const object of this.#content.children) {
+            for (const child of object.children) {
+                child.geometry.dispose();
+                child.material.dispose();
+            }
+        }
+        this.#content.clear();
+        this.#marks.clear();
+    }
+
+    #draw() {
+        if (!this.#waiting) {
+            this.#waiting = true;
+            requestAnimationFrame(() => {
+                this.#waiting = false;
+                this.#renderer.render(this.#scene, this.#camera);
+            });
+        }
+    }
+
+    #resize() {
+        const { clientWidth: width, clientHeight: height } = this.#canvas.parentElement;
+        if (width && height) {
+            this.#renderer.setSize(width, height, false);
+            this.#camera.aspect = width / height;
+            this.#camera.updateProjectionMatrix();
+            this.#marks.resize(width, height);
+            this.#draw();
+        }
+    }
+
+    #pick(event) {
+        const rect = this.#canvas.getBoundingClientRect();
+        const at = [event.clientX, event.clientY];
+        const ray = new THREE.Raycaster();
+        ray.setFromCamera(new THREE.Vector2(((at[0] - rect.left) / rect.width) * 2 - 1, 1 - ((at[1] - rect.top) / rect.height) * 2), this.#camera);
+        const surfaces = this.#content.children.map((group) => group.children[0]);
+        const hit = ray.intersectObjects(surfaces, false)[0];
+        const mesh = hit && this.#meshes[surfaces.indexOf(hit.object)];
+        const place = (vertex) => this.project(mesh, vertex);
+        this.onPick(hit ? { mesh, ...nearest(mesh, hit.faceIndex, this.kind, at, place) } : null, event.shiftKey);
+    }
+
+    #listen() {
+        let down;
+        this.#canvas.addEventListener("pointerdown", (event) => (down = event));
+        this.#canvas.addEventListener("pointerup", (event) => {
+            // A click turns nothing.
+            if (down && Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY) < 5 && event.button === 0) {
+                this.#pick(event);
+            }
+            down = undefined;
+        });
+        const turns = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+        this.#canvas.addEventListener("keydown", (event) => {
+            if (turns[event.key]) {
+                this.#turn(...turns[event.key], 1);
+            } else if (event.key === "+" || event.key === "-") {
+                this.#turn(0, 0, event.key === "+" ? 0.85 : 1 / 0.85);
+            } else {
+                return;
+            }
+            event.preventDefault();
+        });
+    }
+
+    /// Turns the camera by steps of 10 degrees about the target, and multiplies its distance.
+    #turn(across, down, distance) {
+        const { target } = this.#controls;
+        const toY = new THREE.Quaternion().setFromUnitVectors(this.#camera.up, new THREE.Vector3(0, 1, 0));
+        const offset = this.#camera.position.clone().sub(target).applyQuaternion(toY);
+        const place = new THREE.Spherical().setFromVector3(offset);
+        place.theta += (across * Math.PI) / 18;
+        place.phi += (down * Math.PI) / 18;
+        place.radius *= distance;
+        this.#camera.position.setFromSpherical(place.makeSafe()).applyQuaternion(toY.invert()).add(target);
+        this.#controls.update();
+        this.#draw();
+    }
+}
+
+/// Returns whether a scene stands on the plane z = 0 and not on y = 0, as the pictures of recipes decide.
+function stands(box, center) {
+    const tolerance = 1e-3 * Math.max(...box.getSize(new THREE.Vector3()));
+    const on = (axis, k) => Math.abs(box.min[axis] + center[k]) <= tolerance && box.max[axis] + center[k] > tolerance;
+    return !box.isEmpty() && on("z", 2) && !on("y", 1);
+}

@@ -1,0 +1,40 @@
+// Owns the engine. The page sends `{ id, call, args }` and receives `{ id, value }` or `{ id, error, fatal }`, and
+// `{ event }` during a run. The first message has the compiled engine and the files.
+import { Session } from "meshwright";
+
+let session;
+
+const calls = {
+    async start(module, files) {
+        session = await Session.create(module);
+        for (const [path, bytes] of files) {
+            session.write(path, bytes);
+        }
+    },
+    write: (path, bytes) => session.write(path, bytes),
+    read: (path) => session.read(path),
+    check: (recipe, set) => session.check(recipe, { set }),
+    run(recipe, set) {
+        const result = session.run(recipe, { set, onEvent: (event) => postMessage({ event }) });
+        const meshes = result.objects.filter((object) => object.kind === "mesh");
+        return { ...result, meshes: meshes.map(({ name }) => ({ name, ...session.mesh(name) })) };
+    },
+    picture: (options) => session.picture(options),
+    describe: () => ({ schema: session.schema(), operations: session.operations() }),
+};
+
+/// Returns the arrays of a value, which move to the page without a copy.
+function buffers(value) {
+    const owned = value instanceof Uint8Array ? [value] : (value?.meshes ?? []).flatMap((mesh) => Object.values(mesh));
+    return owned.filter(ArrayBuffer.isView).map((array) => array.buffer);
+}
+
+onmessage = async ({ data: { id, call, args } }) => {
+    try {
+        const value = await calls[call](...args);
+        postMessage({ id, value }, buffers(value));
+    } catch (error) {
+        // After a trap the engine cannot be used again.
+        postMessage({ id, error: String(error.message ?? error), fatal: error instanceof WebAssembly.RuntimeError });
+    }
+};

@@ -1,15 +1,23 @@
 //! `edit`: starts the editor that is installed beside the program.
+#![cfg(unix)]
 
 use std::process::{Command, Output};
 
 use crate::folder::{Folder, PROGRAM};
 
+/// Runs shell commands in a folder. They create executable files. If this process wrote them, a process that another
+/// test starts at the same time would inherit the open file, and a file that is open for writing cannot be executed.
+fn shell(folder: &Folder, commands: &str, argument: &str) {
+    let mut command = Command::new("sh");
+    command.args(["-ec", commands, "sh", argument]);
+    let ended = command.current_dir(folder.path(".")).status().unwrap();
+    assert!(ended.success());
+}
+
 /// Runs a copy of the program that is alone in a folder, so that no editor is beside it.
 fn edit(folder: &Folder, arguments: &[&str]) -> Output {
-    let copy = folder.path("bin/meshwright");
-    std::fs::create_dir_all(copy.parent().unwrap()).unwrap();
-    std::fs::copy(PROGRAM, &copy).unwrap();
-    let mut command = Command::new(copy);
+    shell(folder, "mkdir -p bin; cp \"$1\" bin/meshwright", PROGRAM);
+    let mut command = Command::new(folder.path("bin/meshwright"));
     command
         .arg("edit")
         .args(arguments)
@@ -31,16 +39,12 @@ fn without_the_editor_the_message_says_how_to_install_it() {
     }
 }
 
-#[cfg(unix)]
 #[test]
 fn the_editor_gets_the_file_and_its_exit_code_counts() {
-    use std::os::unix::fs::PermissionsExt;
-    let folder = Folder::new().with("a.obj", "").with(
-        "bin/meshwright-viewer",
-        "#!/bin/sh\necho opens \"$@\"\nexit 1\n",
-    );
-    let editor = folder.path("bin/meshwright-viewer");
-    std::fs::set_permissions(editor, std::fs::Permissions::from_mode(0o755)).unwrap();
+    let folder = Folder::new().with("a.obj", "");
+    let script =
+        "mkdir bin; printf '%s' \"$1\" > bin/meshwright-viewer; chmod +x bin/meshwright-viewer";
+    shell(&folder, script, "#!/bin/sh\necho opens \"$@\"\nexit 1\n");
 
     let ended = edit(&folder, &["a.obj"]);
     assert_eq!(String::from_utf8(ended.stdout).unwrap(), "opens a.obj\n");

@@ -1,4 +1,4 @@
-//! The session for JavaScript. Objects cross the border as JSON, and arrays as typed arrays.
+//! The session for JavaScript. Objects are passed as JSON, and arrays as typed arrays.
 
 use std::cell::RefCell;
 

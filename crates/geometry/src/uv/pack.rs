@@ -203,7 +203,8 @@ impl Shape {
         let all = triangles.iter().map(|triangle| triangle.map(&place));
         let total: f64 = all.clone().map(|t| area(t).abs()).sum();
         for points in all {
-            // Rounding to 32-bit numbers may turn thin triangles over. Other triangles contain their corners.
+            // Rounding to 32-bit numbers can turn a thin triangle over. It is left out of the shape of the chart: its corners
+            // are also corners of triangles that stay.
             let before = (points[1] - points[0]).perp_dot(points[2] - points[0]);
             if area(points) * before.signum() <= MIN_AREA * total {
                 continue;

@@ -393,7 +393,7 @@ impl Vertex<'_> {
         0.75 * charts.values[value] + 0.125 * ends
     }
 
-    /// Returns the new value of a value that moves as the position of its vertex does.
+    /// Returns the new value at a corner where the rule of positions applies.
     fn regular(&self, value: usize) -> DVec2 {
         let Self {
             charts,

@@ -121,8 +121,11 @@ export class Session {
      * memory is exhausted; the engine cannot be used afterwards, and a page starts a new worker.
      */
     run(recipe: string, options?: RunOptions): Result;
-    /** Renders the scene of the last run as a PNG file. Throws if the picture is too large. */
-    picture(options?: { width?: number; height?: number; wireframe?: boolean }): Uint8Array;
+    /**
+     * Renders the scene of the last run as a PNG file. `up` is the axis that points upwards. Defaults to `auto`: z if the scene
+     * stands on the plane z = 0 and not on y = 0, otherwise y. Throws if the picture is too large.
+     */
+    picture(options?: { width?: number; height?: number; wireframe?: boolean; up?: "auto" | "y" | "z" }): Uint8Array;
     /** Returns the arrays of a mesh of the last run; `undefined` if no mesh has this name. */
     mesh(object: string): MeshArrays | undefined;
     /** Returns the JSON schema of recipes. */

@@ -53,8 +53,8 @@ export class Session {
         return JSON.parse(this.#core.run(path, recipe, JSON.stringify(set), listener));
     }
 
-    picture({ width = 800, height = 600, wireframe = false } = {}) {
-        return this.#core.picture(width, height, wireframe);
+    picture({ width = 800, height = 600, wireframe = false, up = "auto" } = {}) {
+        return this.#core.picture(width, height, wireframe, up);
     }
 
     mesh(object) {

@@ -2,6 +2,7 @@
 
 use std::cell::RefCell;
 
+use render::Up;
 use serde_json::Value as Json;
 use wasm_bindgen::prelude::*;
 
@@ -86,9 +87,23 @@ impl Session {
         Ok(result.to_string())
     }
 
-    /// Renders a picture as a PNG file.
-    pub fn picture(&self, width: u32, height: u32, wireframe: bool) -> Result<Vec<u8>, JsError> {
-        self.0.picture([width, height], wireframe).map_err(error)
+    /// Renders a picture as a PNG file. `up` is `y`, `z` or `auto`.
+    pub fn picture(
+        &self,
+        width: u32,
+        height: u32,
+        wireframe: bool,
+        up: &str,
+    ) -> Result<Vec<u8>, JsError> {
+        let up = match up {
+            "auto" => Up::Auto,
+            "y" => Up::Y,
+            "z" => Up::Z,
+            _ => return Err(error(format!("the axis `{up}` is not y, z or auto"))),
+        };
+        self.0
+            .picture([width, height], wireframe, up)
+            .map_err(error)
     }
 
     /// Returns the arrays of a mesh.

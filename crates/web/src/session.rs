@@ -12,7 +12,7 @@ use engine::{
 };
 use op::{Progress, Registry};
 use recipe::{LineIndex, Param, Parameter};
-use render::{Camera, Lines, Overlays, PictureError, Style};
+use render::{Camera, Lines, Overlays, PictureError, Style, Up};
 use scene::{Geometry, Scene};
 use serde::Serialize;
 use serde_json::{Value as Json, json};
@@ -162,20 +162,30 @@ impl Session {
         result
     }
 
-    /// Renders a picture of the scene of the last run, as the bytes of a PNG file. `size` is in pixels.
+    /// Renders a picture of the scene of the last run, as the bytes of a PNG file. `size` is in pixels. `up` is the axis that
+    /// points upwards.
     ///
     /// # Errors
     ///
     /// [`PictureError`] if the picture is too large.
-    pub fn picture(&self, size: [u32; 2], wireframe: bool) -> Result<Vec<u8>, PictureError> {
+    pub fn picture(
+        &self,
+        size: [u32; 2],
+        wireframe: bool,
+        up: Up,
+    ) -> Result<Vec<u8>, PictureError> {
         let style = Style {
             wireframe: wireframe.then(Lines::default),
             ..Style::default()
         };
+        let mut camera = Camera::default();
+        if let Camera::Fit { up: axis, .. } = &mut camera {
+            *axis = up;
+        }
         let mut image = |path: &str| self.read(path).ok();
         let (rendered, _) = render::picture(
             &self.scene,
-            &Camera::default(),
+            &camera,
             &style,
             &Overlays::default(),
             size,

@@ -126,10 +126,10 @@ fn a_picture_is_a_png_file() {
     let mut session = Session::new();
     run(&mut session, &CUBE.replace("15", "14"));
     for wireframe in [false, true] {
-        let png = session.picture([64, 48], wireframe).unwrap();
+        let png = session.picture([64, 48], wireframe, Up::Auto).unwrap();
         assert!(png.starts_with(b"\x89PNG"));
     }
-    assert!(session.picture([u32::MAX, 1], false).is_err());
+    assert!(session.picture([u32::MAX, 1], false, Up::Z).is_err());
 }
 
 #[test]

@@ -42,6 +42,8 @@ const { Session, load } = await import(pathToFileURL(join(engine, "meshwright.js
 await load();
 const names = readFileSync(join(root, "tests/digests.txt"), "utf8").trim().split("\n").map((line) => line.split(" ")[0]);
 const files = {};
+/// Scenes whose z-axis points upwards, apart from those whose recipes have a picture that says so.
+const Z_UP = ["figure", "mirrored_head", "warrior"];
 const scenes = names.map((name) => {
     const session = new Session();
     const recipe = readFileSync(join(root, `scenes/${name}.ron`), "utf8");
@@ -55,9 +57,10 @@ const scenes = names.map((name) => {
     if (!result.succeeded) {
         throw new Error(`${name}: ${JSON.stringify(result.problems)}`);
     }
-    writeFileSync(join(out, `gallery/${name}.png`), session.picture({ width: 240, height: 180 }));
+    const up = Z_UP.includes(name) || recipe.includes("up: Z") ? "z" : "auto";
+    writeFileSync(join(out, `gallery/${name}.png`), session.picture({ width: 240, height: 180, up }));
     session.free();
     const about = recipe.match(/^ {4}about: "((?:[^"\\]|\\.)*)"/m)?.[1] ?? "";
-    return { name, about, recipe, reads: [...new Set(reads)] };
+    return { name, about, recipe, reads: [...new Set(reads)], up };
 });
 writeFileSync(join(out, "gallery/scenes.json"), JSON.stringify({ scenes, files }));

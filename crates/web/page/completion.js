@@ -48,6 +48,12 @@ export class Completions {
         return this.#names(this.#values(inside, last), place, inSteps);
     }
 
+    /// Returns the description of a word at a position; `null` if it has none.
+    describe(text, position, word) {
+        const found = this.options(text, position).find((option) => option.label === word);
+        return [found?.detail, found?.info].filter(Boolean).join("\n") || null;
+    }
+
     /// Follows references and choices to the alternatives of a node.
     #alternatives(node) {
         if (!node || typeof node !== "object") {

@@ -6,7 +6,8 @@ import { lintGutter, lintKeymap, setDiagnostics } from "@codemirror/lint";
 import { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
 import { EditorState, StateEffect, StateField } from "@codemirror/state";
 import {
-    Decoration, EditorView, WidgetType, drawSelection, highlightActiveLine, highlightActiveLineGutter, keymap, lineNumbers,
+    Decoration, EditorView, WidgetType, drawSelection, highlightActiveLine, highlightActiveLineGutter, hoverTooltip, keymap,
+    lineNumbers,
 } from "@codemirror/view";
 import { tags } from "@lezer/highlight";
 import { element } from "./dom.js";
@@ -52,16 +53,26 @@ const messages = StateField.define({
     provide: (field) => EditorView.decorations.from(field),
 });
 
+/// Describes the word under the pointer.
+function tooltips(describe) {
+    return hoverTooltip((view, position) => {
+        const word = view.state.wordAt(position);
+        const text = word && describe(view.state.doc.toString(), word.from, view.state.sliceDoc(word.from, word.to));
+        return text ? { pos: word.from, end: word.to, above: true, create: () => ({ dom: element("div", { class: "tip" }, text) }) } : null;
+    });
+}
+
 export class Editor {
     #view;
 
-    /// Creates the editor. `onChange` is called after each change of the text, `complete` finds completions.
-    constructor(parent, { onChange, complete, run }) {
+    /// Creates the editor. `onChange` is called after each change of the text, `complete` finds completions, and
+    /// `describe(text, position, word)` returns the description of a word or `null`.
+    constructor(parent, { onChange, complete, describe, run }) {
         const extensions = [
             keymap.of([{ key: "Mod-Enter", run: () => { run(); return true; } }]),
             lineNumbers(), highlightActiveLine(), highlightActiveLineGutter(), lintGutter(), history(), drawSelection(),
             bracketMatching(), closeBrackets(), highlightSelectionMatches(), indentUnit.of("    "), ron,
-            syntaxHighlighting(colors), autocompletion({ override: [complete] }), messages,
+            syntaxHighlighting(colors), autocompletion({ override: [complete] }), messages, tooltips(describe),
             matchMedia("(max-width: 800px)").matches ? EditorView.lineWrapping : [],
             EditorView.contentAttributes.of({ "aria-label": "Recipe. Press Escape, then Tab to leave the editor.",
                 spellcheck: "false" }),

@@ -39,7 +39,8 @@ export class Engine {
             resolve?.(value);
             return;
         }
-        reject?.(new Error(fatal ? `the engine stopped: ${error}` : error));
+        reject?.(new Error(fatal ? `The engine stopped (${error}), probably because memory is exhausted. Another one was started.`
+            : error));
         if (fatal) {
             this.restart();
         }

@@ -24,13 +24,18 @@ let runAgain = false;
 let trusted = true;
 /// Whether the view keeps its camera: the last run was of the same recipe.
 let sameRecipe = false;
+/// The axis that points upwards: "y", "z" or "auto".
+let up = "auto";
+/// Whether a text is being opened that is not to be kept for the next visit.
+let foreign = false;
 /// The text and the values of the last run, whose problems and steps stay until one of both changes.
 let lastRun;
 let completions;
 
 const editor = new Editor(byId("editor"), {
-    onChange: () => { remember(); checkSoon(); },
+    onChange: () => { edited(); checkSoon(); },
     complete: (context) => completions?.source(context) ?? null,
+    describe: (...place) => completions?.describe(...place) ?? null,
     run,
 });
 const reveal = (range, line) => {
@@ -108,7 +113,7 @@ async function run() {
         files.outputs(result.files);
         byId("status").textContent = result.succeeded ? "Done" : result.digest ? "The run failed" : "The recipe has errors";
         if (result.digest) {
-            await stage.show(result, sameRecipe);
+            await stage.show(result, sameRecipe, up);
             sameRecipe = result.objects.length > 0;
         } else {
             stage.keep();
@@ -156,11 +161,14 @@ function report(error) {
 }
 
 /// Replaces the recipe. Without trust, the recipe is only checked.
-function openRecipe(text, { title, trust, set = {} }) {
+function openRecipe(text, { title, trust, set = {}, axis = "auto" }) {
     sameRecipe = false;
     trusted = trust;
+    up = axis;
     parameters.values = set;
+    foreign = !trust;
     editor.text = text;
+    foreign = false;
     steps.list([]);
     byId("status").textContent = title;
     showTab("recipe");
@@ -204,8 +212,14 @@ function copy(text, button) {
     }, () => notify("The browser does not allow to copy. Select the text and copy it yourself."));
 }
 
-/// Keeps the text for the next visit, if the browser allows it.
-function remember() {
+/// Keeps the text for the next visit, if the browser allows it. A recipe of a link replaces that text once it is edited.
+function edited() {
+    if (foreign) {
+        return;
+    }
+    if (location.hash) {
+        history.replaceState(null, "", location.pathname + location.search);
+    }
     try {
         localStorage.setItem("recipe", editor.text);
     } catch {
@@ -250,7 +264,9 @@ listen();
 byId("run").disabled = false;
 files.outputs([]);
 const earlier = remembered() ?? STARTER;
+foreign = true;
 editor.text = earlier;
+foreign = false;
 if (!(await openShared())) {
     byId("status").textContent = "Ready";
     // A recipe of an earlier visit may be one that exhausts the memory, so it is only checked.
@@ -259,13 +275,13 @@ if (!(await openShared())) {
 }
 completions = new Completions(await engine.describe());
 stage.completions = completions;
-await fillGallery(({ name, recipe, files: needed }) => {
+await fillGallery(({ name, recipe, up: axis, files: needed }) => {
     // The worker writes the files before it reads the recipe.
     for (const [path, bytes] of needed) {
         engine.write(path, bytes).catch(report);
     }
     files.show();
-    openRecipe(recipe, { title: name, trust: true });
+    openRecipe(recipe, { title: name, trust: true, axis });
     run();
 });
 // For tests, and for the console of the browser.

@@ -9,8 +9,9 @@ const COLOR = 0xff7a1a;
 
 export class Marks {
     group = new THREE.Group();
-    #line = new LineMaterial({ color: COLOR, linewidth: 5, depthTest: false });
-    #point = new THREE.PointsMaterial({ color: COLOR, size: 11, sizeAttenuation: false, depthTest: false });
+    #line = new LineMaterial({ color: COLOR, linewidth: 5, depthTest: false, transparent: true });
+    #point = new THREE.PointsMaterial({ color: COLOR, size: 11, sizeAttenuation: false, depthTest: false,
+        transparent: true });
     #face = new THREE.MeshBasicMaterial({ color: COLOR, side: THREE.DoubleSide, transparent: true, opacity: 0.65,
         polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -1 });
 

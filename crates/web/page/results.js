@@ -34,7 +34,8 @@ export class Steps {
     list(steps) {
         this.#steps = steps;
         this.#rows = steps.map(({ label, operation, line }, i) => {
-            const name = element("button", { type: "button", title: line ? `Line ${line}` : null, onclick: () => line && this.reveal(null, line) },
+            const show = () => line && this.reveal(null, line);
+            const name = element("button", { type: "button", title: line ? `${label}, line ${line}` : label, onclick: show },
                 element("span", { class: "number" }, String(i + 1)), " ", label,
                 label === operation ? null : element("span", { class: "operation" }, operation));
             const row = element("tr", {}, element("th", { scope: "row" }, name), ...Array.from({ length: 4 }, () => element("td")));
@@ -66,7 +67,7 @@ export class Steps {
         const row = this.#rows[event.number - 1];
         if (event.event === "step") {
             row?.classList.add("running");
-            row?.scrollIntoView({ block: "nearest" });
+            row?.scrollIntoView({ block: "nearest", inline: "start" });
             return `Step ${event.number} of ${this.#rows.length}: ${event.label}`;
         }
         progress.hidden = true;
@@ -103,6 +104,9 @@ export class Steps {
         const done = this.#rows.filter((row) => row.classList.contains("done")).length;
         const time = milliseconds(performance.now() - this.#begin);
         byId("summary").textContent = `${done} of ${counted(this.#rows.length, "step")}, ${time}`;
+        if (result?.succeeded) {
+            byId("results").scrollTop = 0;
+        }
         const expectations = result?.expectations ?? [];
         const met = expectations.filter((expectation) => expectation.met).length;
         byId("expectations-part").hidden = expectations.length === 0;

@@ -24,23 +24,25 @@ export class Stage {
             this.view.onPick = (pick, more) => this.#pick(pick, more);
         } catch {
             byId("canvas").hidden = true;
-            for (const id of ["smooth", "up", "fit", "kinds", "pick"]) {
+            for (const id of ["smooth", "fit", "kinds", "pick"]) {
                 byId(id).hidden = true;
             }
         }
         this.#listen();
     }
 
-    /// Shows the scene of a run. The camera stays if `keep` is true.
-    async show({ meshes, objects }, keep) {
+    /// Shows the scene of a run. The camera stays if `keep` is true. `up` is the axis that points upwards: "y", "z" or "auto".
+    async show({ meshes, objects }, keep, up) {
         this.#meshes = meshes;
         const faces = objects.reduce((sum, object) => sum + (object.faces ?? 0), 0);
         if (this.view) {
             if (!keep) {
                 this.#press("edges", faces <= MAX_FACES_WITH_EDGES);
             }
-            const up = this.view.show(meshes, keep);
+            const axis = this.view.show(meshes, keep, up);
             this.view.style({ edges: pressed("edges") });
+            this.#press("up", axis === "z");
+        } else if (!keep) {
             this.#press("up", up === "z");
         }
         this.#select([]);
@@ -74,10 +76,14 @@ export class Stage {
     async #render() {
         const { clientWidth, clientHeight } = byId("stage");
         const size = { width: Math.max(clientWidth, 320), height: Math.max(clientHeight, 240) };
-        const png = await this.#engine.picture({ ...size, wireframe: pressed("edges") });
+        const png = await this.#engine.picture({ ...size, ...this.#look() });
         URL.revokeObjectURL(byId("picture").src);
         byId("picture").src = URL.createObjectURL(new Blob([png], { type: "image/png" }));
         byId("picture").hidden = false;
+    }
+
+    #look() {
+        return { wireframe: pressed("edges"), up: pressed("up") ? "z" : "auto" };
     }
 
     #listen() {
@@ -86,13 +92,20 @@ export class Stage {
             change(pressed(id));
         });
         toggle("smooth", (smooth) => this.view.style({ smooth }));
-        toggle("up", (up) => this.view.style({ up: up ? "z" : "y" }));
+        toggle("several", (several) => (this.view.several = several));
+        toggle("up", (up) => {
+            this.view?.style({ up: up ? "z" : "y" });
+            if (!byId("picture").hidden) {
+                this.#render();
+            }
+        });
         toggle("edges", (edges) => (byId("picture").hidden ? this.view?.style({ edges }) : this.#render()));
         byId("fit").addEventListener("click", () => this.view.fit());
         byId("save-picture").addEventListener("click", async () => {
             const rendered = !byId("picture").hidden;
-            download("picture.png", rendered ? await this.#engine.picture({ width: 1280, height: 960, wireframe: pressed("edges") })
-                : await this.view.picture(), "image/png");
+            const png = rendered ? await this.#engine.picture({ width: 1280, height: 960, ...this.#look() })
+                : await this.view.picture();
+            download("picture.png", png, "image/png");
         });
         byId("kinds").addEventListener("change", ({ target }) => {
             this.view.kind = target.value;
@@ -133,7 +146,7 @@ export class Stage {
             byId("number").value = picks.length === 1 ? picks[0].number : "";
         }
         byId("picked").textContent = picks.length ? this.#described(picks)
-            : "Click an element to pick it. Shift adds to the selection.";
+            : "Click an element of a mesh to pick it.";
         if (!picks.length) {
             return;
         }
@@ -158,8 +171,8 @@ export class Stage {
             const [p, q] = vertices.map(at);
             return `Edge ${number}${place}: vertices ${vertices.join(" and ")}, length ${number6(Math.hypot(...p.map((x, k) => x - q[k])))}`;
         }
-        return kind === "vertex" ? `Vertex ${number}${place}: ${at(number).map((x) => number6(Math.fround(x))).join(", ")}`
-            : `Face ${number}${place}: vertices ${vertices.join(", ")}`;
+        return kind === "face" ? `Face ${number}${place}: vertices ${vertices.join(", ")}`
+            : `Vertex ${number}${place}: ${at(number).map(number6).join(", ")}`;
     }
 }
 

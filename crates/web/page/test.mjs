@@ -286,6 +286,44 @@ const tests = {
             assert.equal(await page.locator("#steps tr.done").count(), 0, "it does not run");
         }
         assert.equal(await page.locator("main img[onerror], main script, main b").count(), 0);
+        // Links do not replace the visitor's own text, as long as they are not edited.
+        await page.goto(`${origin}/?again`);
+        await ready(page);
+        assert.match(await page.evaluate(() => meshwright.editor.text), /jack/);
+    },
+
+    async "the text is kept for the next visit, which only checks it"(page) {
+        await ready(page);
+        await write(page, "(recipe: 1, steps: [Cube(name: \"kept\")])");
+        await page.reload();
+        await ready(page);
+        assert.match(await page.evaluate(() => meshwright.editor.text), /kept/);
+        assert.equal(await page.locator("#steps tr.done").count(), 0);
+        await page.locator(".cm-line").getByText("Cube").hover();
+        await page.waitForSelector(".tip");
+        assert.match(await text(page, ".tip"), /Create a cube/);
+    },
+
+    async "the view turns with keys, and a selection has several elements"(page) {
+        await ready(page);
+        await write(page, "(recipe: 1, steps: [\n    Cube(name: \"cube\"),\n])");
+        await run(page);
+        const place = () => page.evaluate(() => meshwright.stage.view.project(meshwright.stage.meshes[0], 7));
+        const before = await place();
+        await page.locator("#canvas").focus();
+        await page.keyboard.press("ArrowLeft");
+        await page.keyboard.press("ArrowDown");
+        assert.notDeepEqual(await place(), before);
+        const box = await page.locator("#canvas").boundingBox();
+        const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+        await page.locator("#several").click();
+        await page.mouse.click(x, y);
+        await page.mouse.click(x, y - box.height * 0.3);
+        assert.equal(await text(page, "#picked"), "2 faces");
+        await screenshot(page, "faces");
+        await page.locator("#add-step").selectOption({ label: "ExtrudeFaces" });
+        assert.match(await page.evaluate(() => meshwright.editor.text), /ExtrudeFaces\(faces: Faces\(\[\d, \d\]\), by: Distance\(0.5\)\),\n\]/);
+        assert.notEqual(await run(page), "");
     },
 
     async "every scene of the gallery runs without a failure"(page) {

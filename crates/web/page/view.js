@@ -26,6 +26,8 @@ export class View {
     /// Receives `{ mesh, kind, number, vertices }` for a click, and whether Shift is pressed; `null` beside the meshes.
     onPick = () => {};
     kind = "face";
+    /// Whether a click adds to the selection without Shift.
+    several = false;
 
     /// Creates the view. Throws if the browser has no WebGL.
     constructor(canvas) {
@@ -44,8 +46,11 @@ export class View {
         this.#resize();
     }
 
-    /// Shows meshes: `{ name, center, positions, triangles, faces, edges }`. The camera stays if `keep` is true.
-    show(meshes, keep) {
+    /// Shows meshes: `{ name, center, positions, triangles, faces, edges }`. The camera stays if `keep` is true and the size of
+    /// the scene is similar. `up` is the axis that points upwards: "y", "z", or "auto" for that of the pictures of recipes.
+    /// Returns the axis.
+    show(meshes, keep, up) {
+        const before = this.#radius;
         this.#clear();
         this.#meshes = meshes;
         const box = new THREE.Box3();
@@ -55,14 +60,14 @@ export class View {
             const geometry = new THREE.BufferGeometry();
             geometry.setAttribute("position", new THREE.BufferAttribute(mesh.positions, 3));
             geometry.setIndex(new THREE.BufferAttribute(mesh.triangles, 1));
-            const material = new THREE.MeshStandardMaterial({ color: COLORS[i % COLORS.length], roughness: 0.75, side: THREE.DoubleSide,
-                polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
-            const surface = new THREE.Mesh(geometry, material);
+            const surface = new THREE.Mesh(geometry, new THREE.MeshStandardMaterial({ color: COLORS[i % COLORS.length], roughness: 0.75,
+                side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));
             const lines = new THREE.BufferGeometry();
             lines.setAttribute("position", geometry.getAttribute("position"));
             lines.setIndex(new THREE.BufferAttribute(mesh.edges, 1));
+            const dark = new THREE.LineBasicMaterial({ color: 0x101418, transparent: true, opacity: 0.45 });
             const group = new THREE.Group();
-            group.add(surface, new THREE.LineSegments(lines, new THREE.LineBasicMaterial({ color: 0x101418, transparent: true, opacity: 0.45 })));
+            group.add(surface, new THREE.LineSegments(lines, dark));
             group.position.set(...mesh.center.map((x, axis) => x - this.#center[axis]));
             group.updateMatrixWorld();
             this.#content.add(group);
@@ -72,7 +77,9 @@ export class View {
         this.box = box;
         this.style({});
         if (!keep) {
-            this.#style.up = stands(box, this.#center) ? "z" : "y";
+            this.#style.up = up !== "auto" ? up : stands(box, this.#center) ? "z" : "y";
+        }
+        if (!keep || this.#radius > 2 * before || this.#radius < before / 2) {
             this.fit();
         }
         this.#draw();
@@ -123,7 +130,8 @@ export class View {
     /// Returns where a vertex is on the page, in pixels.
     project(mesh, vertex) {
         const group = this.#content.children[this.#meshes.indexOf(mesh)];
-        const point = new THREE.Vector3().fromArray(mesh.positions, 3 * vertex).applyMatrix4(group.matrixWorld).project(this.#camera);
+        const point = new THREE.Vector3().fromArray(mesh.positions, 3 * vertex).applyMatrix4(group.matrixWorld);
+        point.project(this.#camera);
         const rect = this.#canvas.getBoundingClientRect();
         return [rect.left + ((point.x + 1) / 2) * rect.width, rect.top + ((1 - point.y) / 2) * rect.height];
     }
@@ -190,12 +198,14 @@ export class View {
         const rect = this.#canvas.getBoundingClientRect();
         const at = [event.clientX, event.clientY];
         const ray = new THREE.Raycaster();
-        ray.setFromCamera(new THREE.Vector2(((at[0] - rect.left) / rect.width) * 2 - 1, 1 - ((at[1] - rect.top) / rect.height) * 2), this.#camera);
+        const across = ((at[0] - rect.left) / rect.width) * 2 - 1;
+        const upwards = 1 - ((at[1] - rect.top) / rect.height) * 2;
+        ray.setFromCamera(new THREE.Vector2(across, upwards), this.#camera);
         const surfaces = this.#content.children.map((group) => group.children[0]);
         const hit = ray.intersectObjects(surfaces, false)[0];
         const mesh = hit && this.#meshes[surfaces.indexOf(hit.object)];
         const place = (vertex) => this.project(mesh, vertex);
-        this.onPick(hit ? { mesh, ...nearest(mesh, hit.faceIndex, this.kind, at, place) } : null, event.shiftKey);
+        this.onPick(hit ? { mesh, ...nearest(mesh, hit.faceIndex, this.kind, at, place) } : null, this.several || event.shiftKey);
     }
 
     #listen() {

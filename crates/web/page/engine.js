@@ -13,12 +13,10 @@ export class Engine {
     /// The content of each file by its path. Outputs are not among them.
     files = new Map();
 
-    /// Downloads and compiles the engine, and starts a worker.
-    static async load(url) {
-        const engine = new Engine();
-        engine.#module = await compile(url);
-        await engine.#start();
-        return engine;
+    /// Downloads and compiles the engine, and starts a worker. Until then, files can be written, and nothing else.
+    async load(url) {
+        this.#module = await compile(url);
+        await this.#start();
     }
 
     #start() {
@@ -42,7 +40,7 @@ export class Engine {
         reject?.(new Error(fatal ? `The engine stopped (${error}), probably because memory is exhausted. Another one was started.`
             : error));
         if (fatal) {
-            this.restart();
+            this.restart().catch(() => {});
         }
     }
 
@@ -70,15 +68,23 @@ export class Engine {
     }
 
     /// Writes a file that recipes can read.
-    write(path, bytes) {
+    async write(path, bytes) {
         this.files.set(path, bytes);
-        return this.#call("write", path, bytes);
+        try {
+            await (this.#worker && this.#call("write", path, bytes));
+        } catch (error) {
+            // The next worker gets all files.
+            if (!(error instanceof Ended)) {
+                this.files.delete(path);
+                throw error;
+            }
+        }
     }
 
-    /// Removes a file.
-    remove(path) {
+    /// Removes a file, which needs another worker.
+    async remove(path) {
         this.files.delete(path);
-        return this.restart();
+        await (this.#worker && this.restart());
     }
 
     read(path) {
@@ -97,8 +103,16 @@ export class Engine {
         return this.#call("picture", options);
     }
 
-    describe() {
-        return this.#call("describe");
+    /// Returns the schema of recipes and the operations, even if the worker is replaced meanwhile.
+    async describe() {
+        try {
+            return await this.#call("describe");
+        } catch (error) {
+            if (error instanceof Ended) {
+                return this.describe();
+            }
+            throw error;
+        }
     }
 }
 

@@ -42,7 +42,8 @@ export class Files {
                 continue;
             }
             const bytes = new Uint8Array(await file.arrayBuffer());
-            await this.#engine.write(name, bytes);
+            // Not awaited, since the worker may be busy.
+            this.#engine.write(name, bytes).catch((error) => notify(error.message));
             added.push([name, bytes]);
         }
         if (!added.length) {
@@ -75,12 +76,12 @@ export class Files {
     show() {
         const rows = [...this.#engine.files].map(([path, bytes]) => element("li", {}, element("span", { class: "path" }, path),
             element("small", {}, sizeText(bytes.length)),
-            element("button", { type: "button", class: "plain", "aria-label": `Remove ${path}`, onclick: async () => {
-                await this.#engine.remove(path);
+            element("button", { type: "button", class: "plain", "aria-label": `Remove ${path}`, title: "Remove", onclick: () => {
+                this.#engine.remove(path).catch((error) => notify(error.message));
                 this.show();
                 this.outputs([]);
                 this.#actions.changed();
-            } }, "Remove")));
+            } }, "×")));
         byId("inputs").replaceChildren(...rows.length ? rows : [element("li", { class: "hint" },
             "Drop OBJ, glTF, PLY, STL, OFF or Bezier files on the page.")]);
     }

@@ -11,12 +11,11 @@ import { LinkError, link, shared } from "./share.js";
 import { Stage } from "./stage.js";
 import { STARTER } from "./starter.js";
 
-const engine = await Engine.load("core_bg.wasm").catch((error) => {
-    byId("status").textContent = `The engine cannot be started: ${error.message}`;
-    throw error;
-});
+const engine = new Engine();
+const loaded = engine.load("core_bg.wasm");
 
-let running = false;
+/// Whether the engine is busy with a run, or not loaded yet.
+let running = true;
 /// Whether the text or a value has changed since the last check or run began.
 let checkAgain = false;
 let runAgain = false;
@@ -50,9 +49,9 @@ const stage = new Stage(engine, editor);
 const files = new Files(engine, {
     openRecipe: (text, name) => openRecipe(text, { title: name, trust: true }),
     addStep: (step) => editor.addStep(step) || notify("The recipe has no list of steps."),
-    changed: () => { lastRun = undefined; check(); },
+    changed: () => { lastRun = undefined; check(true); },
 });
-const checkSoon = debounced(100, check);
+const checkSoon = debounced(100, () => check());
 const runSoon = debounced(60, run);
 engine.onEvent = (event) => {
     const text = steps.event(event);
@@ -61,17 +60,17 @@ engine.onEvent = (event) => {
     }
 };
 
-/// Checks the recipe once no recipe runs.
-async function check() {
+/// Checks the recipe once no recipe runs. With `keepSteps`, the steps of the last run stay.
+async function check(keepSteps = false) {
     if (running) {
         checkAgain = true;
     } else {
-        await checkText();
+        await checkText(keepSteps);
     }
 }
 
 /// Checks the recipe, and shows problems, parameters and steps.
-async function checkText() {
+async function checkText(keepSteps) {
     const text = editor.text;
     if (lastRun === current()) {
         return;
@@ -85,7 +84,9 @@ async function checkText() {
         editor.show(checked.problems);
         showProblems(checked.problems, reveal);
         parameters.show(checked.parameters);
-        steps.list(checked.steps);
+        if (!keepSteps) {
+            steps.list(checked.steps);
+        }
         if (completions) {
             completions.parameters = checked.parameters.map(({ name }) => name);
         }
@@ -141,8 +142,7 @@ function current() {
 function cancel() {
     runAgain = false;
     files.outputs([]);
-    engine.restart().then(() => (byId("status").textContent = "Canceled"), report);
-    byId("status").textContent = "Canceled";
+    engine.restart().catch(report);
 }
 
 function setRunning(is) {
@@ -157,6 +157,8 @@ function report(error) {
     if (!(error instanceof Ended)) {
         byId("status").textContent = "";
         notify(error.message);
+    } else {
+        byId("status").textContent = "Canceled";
     }
 }
 
@@ -170,6 +172,7 @@ function openRecipe(text, { title, trust, set = {}, axis = "auto" }) {
     editor.text = text;
     foreign = false;
     steps.list([]);
+    byId("notice").hidden = true;
     byId("status").textContent = title;
     showTab("recipe");
     return check();
@@ -260,30 +263,40 @@ function listen() {
     });
 }
 
-listen();
-byId("run").disabled = false;
-files.outputs([]);
-const earlier = remembered() ?? STARTER;
-foreign = true;
-editor.text = earlier;
-foreign = false;
-if (!(await openShared())) {
-    byId("status").textContent = "Ready";
-    // A recipe of an earlier visit may be one that exhausts the memory, so it is only checked.
-    trusted = earlier === STARTER;
-    await (trusted ? run() : check());
-}
-completions = new Completions(await engine.describe());
-stage.completions = completions;
-await fillGallery(({ name, recipe, up: axis, files: needed }) => {
-    // The worker writes the files before it reads the recipe.
-    for (const [path, bytes] of needed) {
-        engine.write(path, bytes).catch(report);
+/// Shows the first text while the engine is loading, then runs or checks it.
+async function start() {
+    listen();
+    files.outputs([]);
+    const earlier = remembered() ?? STARTER;
+    foreign = true;
+    editor.text = earlier;
+    foreign = false;
+    const isShared = await openShared();
+    try {
+        await loaded;
+    } catch (error) {
+        byId("status").textContent = `The engine cannot be started: ${error.message}`;
+        return;
     }
-    files.show();
-    openRecipe(recipe, { title: name, trust: true, axis });
-    run();
-});
-// For tests, and for the console of the browser.
-globalThis.meshwright = { editor, engine, stage };
-document.body.dataset.ready = "";
+    byId("status").textContent = isShared ? "Shared recipe" : "Ready";
+    byId("run").disabled = running = false;
+    // A recipe of an earlier visit may be one that exhausts the memory, so it is only checked, unless Run was pressed already.
+    trusted = runAgain || (!isShared && editor.text === STARTER);
+    runAgain = checkAgain = false;
+    await (trusted ? run() : check());
+    stage.completions = completions = new Completions(await engine.describe());
+    await fillGallery(({ name, recipe, up: axis, files: needed }) => {
+        // The worker writes the files before it reads the recipe.
+        for (const [path, bytes] of needed) {
+            engine.write(path, bytes).catch(report);
+        }
+        files.show();
+        openRecipe(recipe, { title: name, trust: true, axis });
+        run();
+    });
+    // For tests, and for the console of the browser.
+    globalThis.meshwright = { editor, engine, stage };
+    document.body.dataset.ready = "";
+}
+
+await start();

@@ -48,7 +48,7 @@ export class Stage {
         this.#select([]);
         byId("number-label").hidden = meshes.length !== 1;
         const rendered = objects.length > 0 && (!this.view || meshes.length === 0);
-        byId("canvas").hidden = rendered || !this.view;
+        byId("canvas").hidden = byId("kinds").hidden = byId("pick").hidden = rendered || !this.view;
         byId("picture").hidden = true;
         const note = byId("stage-note");
         note.hidden = objects.length > 0 && Boolean(this.view) && meshes.length === objects.length;

@@ -12,7 +12,7 @@ const origin = `http://127.0.0.1:${server.address().port}`;
 let browser = await chromium(tools, executable);
 
 /// Opens the page in a new profile, and records what must not happen: errors, and requests to other servers.
-async function open({ fragment = "", size = [1280, 800], scheme = "light" } = {}) {
+async function open({ fragment = "", size = [1280, 800], scheme = "light", before = () => {} } = {}) {
     const context = await browser.newContext({ viewport: { width: size[0], height: size[1] }, colorScheme: scheme });
     const page = await context.newPage();
     page.failures = [];
@@ -27,6 +27,7 @@ async function open({ fragment = "", size = [1280, 800], scheme = "light" } = {}
     await page.addInitScript(() => {
         document.addEventListener("securitypolicyviolation", (event) => console.error(`policy: ${event.violatedDirective}`));
     });
+    await before(page);
     page.begin = performance.now();
     await page.goto(`${origin}/${fragment}`);
     return page;
@@ -354,6 +355,24 @@ for (const [name, test] of Object.entries(tests)) {
         throw error;
     }
 }
+
+// The text can be edited and run while the engine is loading.
+const slow = await open({ before: (page) => page.route("**/core_bg.wasm", async (route) => {
+    await new Promise((resolve) => setTimeout(resolve, 1500));
+    await route.continue();
+}) });
+await slow.waitForSelector(".cm-line");
+await write(slow, "(recipe: 1, steps: [Cube(name: \"early\")])");
+await slow.keyboard.press("Control+Enter");
+assert.equal(await slow.locator("#run").isDisabled(), true);
+await ready(slow);
+assert.match(await text(slow, "#steps"), /Cube\s*8\s*12\s*6/);
+await close(slow);
+
+// A missing engine is reported.
+const missing = await open({ before: (page) => page.route("**/core_bg.wasm", (route) => route.fulfill({ status: 404 })) });
+await missing.waitForFunction(() => /cannot be started/.test(document.querySelector("#status").textContent));
+await missing.context().close();
 
 // The page on a phone, in the dark.
 const phone = await open({ size: [390, 844], scheme: "dark" });

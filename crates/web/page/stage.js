@@ -147,6 +147,7 @@ export class Stage {
         }
         byId("picked").textContent = picks.length ? this.#described(picks)
             : "Click an element of a mesh to pick it.";
+        byId("picked").title = byId("picked").textContent;
         if (!picks.length) {
             return;
         }

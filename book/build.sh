@@ -4,7 +4,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 out=target/book-source
 rm -rf "$out" && mkdir -p "$out/src/operations"
-cp book/book.toml "$out" && cp -r book/src/. "$out/src"
+cp book/book.toml book/run_here.js "$out" && cp -r book/src/. "$out/src"
 
 # Splits the generated reference into one page for each operation, and one for the types of parameters.
 awk -v out="$out/src/operations" '
@@ -33,3 +33,11 @@ for image in $(grep -oh '](\.\./\.\./[^)]*png' "$out"/src/*.md | sed 's|](../../
 done
 sed -i 's|](\.\./\.\./\([^)]*png\)|](images/\1|g' "$out"/src/*.md
 mdbook build "$out" --dest-dir "$PWD/target/book"
+# The page that "Run it here" opens.
+if [ -d target/web/page ]; then
+    rm -rf target/book/page
+    cp -r target/web/page target/book/page
+    cp crates/web/page/share.js target/book/page
+else
+    echo "The page for browsers is not built (crates/web/build.sh), so the book has no links to run its recipes."
+fi

@@ -1,0 +1,20 @@
+// Adds a link below each whole recipe of the book, which opens the recipe in the page for browsers. The page and
+// `share.js` are in the folder `page` of the book, if they were built before the book.
+(async () => {
+    const page = new URL("page/", document.currentScript.src);
+    const recipes = document.querySelectorAll("code.language-ron:not(.step):not(.sweep)");
+    if (recipes.length === 0) {
+        return;
+    }
+    // A book that is opened from a folder without a server has no access to other files.
+    const { link } = await import(new URL("share.js", page)).catch(() => ({}));
+    if (link === undefined) {
+        return;
+    }
+    for (const recipe of recipes) {
+        const open = document.createElement("a");
+        open.href = await link(recipe.textContent, {}, page);
+        open.textContent = "Run it here";
+        recipe.parentElement.after(open);
+    }
+})();

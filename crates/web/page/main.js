@@ -4,7 +4,7 @@ import { byId, debounced, download, notify } from "./dom.js";
 import { Editor } from "./editor.js";
 import { Ended, Engine } from "./engine.js";
 import { Files } from "./files.js";
-import { fillGallery } from "./gallery.js";
+import { fillGallery, namedFiles } from "./gallery.js";
 import { Parameters } from "./parameters.js";
 import { Steps, showProblems } from "./results.js";
 import { LinkError, link, shared } from "./share.js";
@@ -178,11 +178,20 @@ function openRecipe(text, { title, trust, set = {}, axis = "auto" }) {
     return check();
 }
 
+/// Gives files to the worker, which writes them before it reads the next recipe.
+function write(needed) {
+    for (const [path, bytes] of needed) {
+        engine.write(path, bytes).catch(report);
+    }
+    files.show();
+}
+
 /// Opens the recipe of the URL. Returns whether there is one.
 async function openShared() {
     try {
         const found = await shared(location.hash);
         if (found) {
+            write(await namedFiles(found.recipe));
             await openRecipe(found.recipe, { title: "Shared recipe", trust: false, set: found.set });
             notify("This recipe comes from a link. Press Run to run it. Ctrl+Z brings back the text before.");
         }
@@ -286,11 +295,7 @@ async function start() {
     await (trusted ? run() : check());
     stage.completions = completions = new Completions(await engine.describe());
     await fillGallery(({ name, recipe, up: axis, files: needed }) => {
-        // The worker writes the files before it reads the recipe.
-        for (const [path, bytes] of needed) {
-            engine.write(path, bytes).catch(report);
-        }
-        files.show();
+        write(needed);
         openRecipe(recipe, { title: name, trust: true, axis });
         run();
     });

@@ -10,8 +10,9 @@ const MAX_TEXT = 1_000_000;
 /// The link is not valid. The message is for the visitor.
 export class LinkError extends Error {}
 
-/// Returns the link to a recipe with values of parameters, or throws `LinkError` if it would be too long.
-export async function link(recipe, set) {
+/// Returns the link to a recipe with values of parameters, or throws `LinkError` if it would be too long. `page` is the URL of
+/// this page.
+export async function link(recipe, set, page = location.href) {
     const stream = new Blob([recipe]).stream().pipeThrough(new CompressionStream("deflate-raw"));
     const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
     const binary = Array.from(bytes, (byte) => String.fromCharCode(byte)).join("");
@@ -20,7 +21,7 @@ export async function link(recipe, set) {
     for (const [name, value] of Object.entries(set)) {
         fragment.set(`p.${name}`, value);
     }
-    const url = new URL(location.href);
+    const url = new URL(page);
     url.hash = fragment;
     if (url.href.length > MAX_LINK) {
         throw new LinkError("The recipe is too long for a link. Download the recipe and send the file instead.");

@@ -1,6 +1,6 @@
 // Tests the page in Chromium: test.mjs PAGE TOOLS CHROMIUM. Pictures of the page are written to TOOLS.
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { readFileSync, readdirSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { deflateRawSync } from "node:zlib";
 import { chromium, serve } from "./browser.mjs";
@@ -263,6 +263,23 @@ const tests = {
         await page.getByRole("button", { name: "New recipe" }).click();
         assert.equal(await run(page), "");
         assert.equal(await page.locator("img[onerror], main script").count(), 0);
+    },
+
+    async "every recipe of the book runs from a link"(page) {
+        await ready(page);
+        const chapters = readdirSync(join(root, "book/src")).filter((name) => name.endsWith(".md"));
+        const recipes = chapters.flatMap((name) => {
+            const chapter = readFileSync(join(root, "book/src", name), "utf8");
+            return [...chapter.matchAll(/^```ron\n(.*?)^```$/gms)].map((match) => [name, match[1]]);
+        });
+        assert.ok(recipes.length > 10);
+        for (const [name, recipe] of recipes) {
+            await page.goto(`${origin}/?book#r=${deflateRawSync(recipe).toString("base64url")}`);
+            await page.reload();
+            await ready(page);
+            assert.equal(await page.evaluate(() => meshwright.editor.text), recipe);
+            assert.match(await run(page), /^[0-9a-f]{32}$/, `${name}:\n${recipe}`);
+        }
     },
 
     async "hostile links give a message or a recipe that is only checked"(page) {

@@ -47,17 +47,18 @@ class SceneOperations:
         object, and its objects (``o a``) and groups (``g a``) become the face tags ``o="a"`` and ``a``. A glTF file
         gives an object for each mesh that a node references. The object is named after the node if only one node
         references the mesh. Unless ``placements`` is ``Bake``, the nodes, cameras, lights, skins, morph targets and
-        animations of the file are kept. A COLLADA file gives an object for each node with a mesh. Content that the
-        scene cannot hold is counted and listed. Images of materials are read from files next to the model. A corner
-        that repeats the previous corner is removed, and a face that still contains a vertex twice is left out.
+        animations of the file are kept. A COLLADA file gives an object for each node with a mesh. The report counts and
+        lists the content that the scene cannot hold. Images of materials are read from files next to the model. A
+        corner that repeats the previous corner is removed, and a face that still contains a vertex twice is left out.
 
         Example: ``scene.load(path="teapot.bez")``, in a recipe ``Load(path: "teapot.bez")``
 
         :param path: The file. A relative path is relative to the folder of the recipe.
-        :param name: The name for objects that have no name in the file, and for the only object of an ``.mws`` file.
-            Defaults to the name of the file without its extension; objects of an ``.mws`` file then keep their names.
-        :param non_manifold: What to do if more than two faces share an edge, or if faces at a vertex share no edge.
-            Defaults to ``"Split"``.
+        :param name: The name for objects that have no name in the file, and for the only object of an ``.mws`` file. If
+            omitted, objects without a name get the name of the file without its extension, and the object of an
+            ``.mws`` file keeps its name.
+        :param non_manifold: What to do if more than two faces share an edge, or if the faces at a vertex form several
+            groups that have no common edge. Defaults to ``"Split"``.
             ``"Split"``: Split edges and vertices until the faces form a manifold, and list the splits.
             ``"Refuse"``: Fail.
         :param orientation: What to do if neighboring faces have opposite orientations. Defaults to ``"Orient"``.
@@ -101,8 +102,8 @@ class SceneOperations:
         ``.bez`` for Bezier patches, ``.bzc`` for a curve, and ``.mws`` for a complete scene without any loss. ``.csv``
         is a table of the positions and attributes of vertices, faces or corners, and ``.npz`` has the arrays of a mesh
         for ``NumPy``. These two formats cannot be read. If the name ends with ``.gz``, as in ``a.obj.gz``, the file is
-        compressed with gzip, which is not possible for ``.glb``, ``.mws`` and ``.npz``. Content that the format cannot
-        store is reported. The file is only created when the whole recipe has succeeded.
+        compressed with gzip, which is not possible for ``.glb``, ``.mws`` and ``.npz``. The report lists the content
+        that the format cannot store. The file is only created when the whole recipe has succeeded.
 
         Example: ``scene.save(path="a.obj")``, in a recipe ``Save(path: "a.obj")``
 
@@ -129,8 +130,8 @@ class SceneOperations:
                 quantized. Defaults to 16.
             ``"color"``: The bits of each component of a color. Defaults to 8.
         :param weight_sets: For ``.gltf`` and ``.glb``, the number of sets of four joints that are written for each
-            vertex of a skinned mesh. If omitted, the number of sets in the file that the mesh comes from, or 1 if it
-            does not come from such a file.
+            vertex of a skinned mesh. If omitted, the number of sets in the file that the mesh comes from, or 1 if the
+            mesh does not come from such a file.
         :param rows: For ``.csv``, the elements that the rows list. If omitted, vertices.
             ``"Vertices"``: Vertices.
             ``"Faces"``: Faces, at the means of their corners.
@@ -398,8 +399,8 @@ class SceneOperations:
         same name. Every patch is divided into ``segments`` x ``segments`` cells. The ids of elements follow the order
         of the patches. Patches share no vertices, but if they have the same control points on a common side, the
         positions of their vertices there are identical bit for bit, so that ``weld(distance=0)`` joins them. A side
-        whose points coincide, as at the pole of a teapot's lid, becomes one vertex. Zero-area patches give no faces and
-        are counted. The mesh has UVs and normals only if they are requested.
+        whose points coincide, as at the pole of a teapot's lid, becomes one vertex. Zero-area patches give no faces.
+        The report counts these patches. The mesh has UVs and normals only if they are requested.
 
         Example: ``scene.tessellate(segments=3)``, in a recipe ``Tessellate(segments: 3)``
 
@@ -407,8 +408,8 @@ class SceneOperations:
         :param faces: The faces that a cell becomes. Defaults to ``"Triangles"``.
             ``"Triangles"``: Two triangles, divided by the diagonal from the corner with the lowest u and v.
             ``"Quads"``: One quad.
-        :param uvs: Whether to store the parameters (u, v) of each patch as UVs of corners. Each patch covers the whole
-            square from 0 to 1. Defaults to ``False``.
+        :param uvs: Whether to store the parameters (u, v) of each patch as UVs of corners. The UVs of each patch cover
+            the whole square from 0 to 1. Defaults to ``False``.
         :param normals: Whether to store the exact unit normals of the patches as vertex normals. Defaults to ``False``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
@@ -445,8 +446,8 @@ class SceneOperations:
         """Replaces curves with the levels of de Casteljau's algorithm.
 
         A curve with n control points becomes n polylines in the plane z = 0. The first polyline is the control polygon
-        with n points. Each of the following polylines has one point less. The last polyline is the point of the curve
-        at ``t``.
+        with n points. Each of the following polylines has one point fewer than the polyline before it. The last
+        polyline has a single point, the point of the curve at ``t``.
 
         Example: ``scene.curve_levels(t=0)``, in a recipe ``CurveLevels(t: 0)``
 
@@ -490,7 +491,7 @@ class SceneOperations:
         """Copies an object, with its attributes and materials, under a new name.
 
         The copy is added after all other objects. The elements of the copy have the same ids as in the original. If
-        nodes place the object, a node that places the copy is added next to each of them.
+        nodes place the object, each of these nodes gets a sibling that places the copy.
 
         Example: ``scene.copy(from_="mesh", to="new")``, in a recipe ``Copy(from: "mesh", to: "new")``
 
@@ -527,8 +528,8 @@ class SceneOperations:
     ) -> Self:
         """Renames an object.
 
-        The order of the objects does not change. A node or mesh of the object that has the same name also gets the new
-        name.
+        The order of the objects does not change. If a node or mesh of the object has the same name as the object, it
+        also gets the new name.
 
         Example: ``scene.rename(from_="mesh", to="new")``, in a recipe ``Rename(from: "mesh", to: "new")``
 
@@ -551,9 +552,9 @@ class SceneOperations:
         Each mesh becomes a part of the result. The ids of vertices, edges and faces follow the parts, in the order of
         the list. The parts are not connected, even where they touch. The result replaces the first mesh of the list in
         the scene; the other meshes are removed. If nodes place a part, the result contains a copy of the part for each
-        node, with the transform of the node applied to its points. The result has no node, unless it keeps a skin: if
-        all skinned parts have the same skin and one node each, the result keeps this skin, and the parts without a skin
-        follow its first joint.
+        node, with the transform of the node applied to its points. If there are skinned parts, and all skinned parts
+        have the same skin and one node each, the result keeps this skin and one node. The parts without a skin then
+        follow the first joint. Otherwise, no node places the result.
 
         If a part lacks an attribute that another part has, the elements of this part get the value zero, or -1 (no
         material) for material indices. Normals are dropped and reported as lost unless all parts have them. If an
@@ -583,7 +584,7 @@ class SceneOperations:
 
         The parts of "figure" are named "figure 1", "figure 2" and so on. The first part replaces the object, and the
         other parts are added after all other objects. Elements keep their order and their values, and every part has
-        all materials. Vertices without a face are dropped and counted. A mesh without faces is refused.
+        all materials. Vertices without a face are dropped. The report counts them. A mesh without faces is refused.
 
         If nodes place the object, they place the first part after the step. Each of these nodes gets children that
         place the other parts.
@@ -630,8 +631,8 @@ class SceneOperations:
         transformed; other attributes do not change. If the points are mirrored (one or three negative factors in
         ``scale``), the faces are also reversed, so that they stay counter-clockwise seen from outside. The first corner
         of a face stays first, and the other corners follow in reverse order. In mirrored patches, u and v are
-        exchanged, so that the outside stays the outside. Mirroring the points drops attributes with the rule ``Drop``,
-        such as tangents of corners, as does any step that changes the connectivity.
+        exchanged, so that the outside stays the outside. Like any step that changes the connectivity, mirroring the
+        points drops attributes whose edit rule is ``Drop``, such as tangents of corners.
 
         Example: ``scene.transform(scale=(2, 1, 1), rotate=[{"axis": "Z", "angle": 90}], move=(3, 1, 0))``, in a recipe
         ``Transform(scale: (2, 1, 1), rotate: [(axis: Z, angle: 90)], move: (3, 1, 0))``
@@ -639,8 +640,8 @@ class SceneOperations:
         :param scale: The scale factors along x, y and z. No factor may be 0; a negative factor mirrors.
         :param rotate: The rotations, applied in order.
             ``"axis"``: The direction of the axis.
-            ``"angle"``: The angle in degrees, counter-clockwise when the axis points towards the viewer. Multiples of
-                90 are exact.
+            ``"angle"``: The angle in degrees, counter-clockwise when the axis points towards the viewer. Rotations by
+                multiples of 90 degrees are exact.
         :param move: The distances to move along x, y and z, in scene units.
         :param about: The fixed point of scaling and rotation. Defaults to ``"Origin"``.
             ``"Origin"``: The origin.
@@ -671,9 +672,10 @@ class SceneOperations:
         Elimination for Generating Poisson Disk Sample Sets", 2015). Each copy is a node that references the object (an
         instance), so copies need almost no memory, and almost no space in ``.gltf``, ``.glb`` and ``.mws`` files. The
         node moves the origin of the object to the point. To make one mesh of all copies, use ``join()`` afterwards. If
-        no node placed the object before, it then appears only at the points.
+        no node placed the object before the step, the object then appears only at the points.
 
-        Without ``object``, the result is a mesh of the points without faces. Its normals are those of the surface.
+        Without ``object``, the result is a mesh that consists of the points and has no faces. The normals of its
+        vertices are those of the surface.
 
         Example: ``scene.scatter(surface="mesh", count=20, seed=7)``, in a recipe ``Scatter(surface: "mesh", count: 20,
         seed: 7)``
@@ -710,10 +712,10 @@ class SceneOperations:
 
         If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
         corners left or would contain a vertex twice. If joined faces have opposite orientations, the smaller group is
-        reversed, provided that all orientations then agree. If faces are reversed, they are counted, and the normals of
-        vertices and corners are dropped. Where the result would still not be manifold, vertices and edges are copied,
-        and the copies are counted. For example, a third face at an edge gets a copy of the edge. If no vertices merge,
-        the mesh does not change.
+        reversed, provided that all orientations then agree. If faces are reversed, the report counts them, and the
+        normals of vertices and corners are dropped. Where the result would still not be manifold, vertices and edges
+        are copied. For example, a third face at an edge gets a copy of the edge. The report counts the copies. If no
+        vertices merge, the mesh does not change.
 
         Example: ``scene.weld(distance=0)``, in a recipe ``Weld(distance: 0)``
 
@@ -736,8 +738,8 @@ class SceneOperations:
         Adjacent faces must have the same orientation, so only whole connected components can be reversed. If a selected
         face shares an edge with a face that is not selected, the step is refused. No vertex moves, and all elements
         keep their ids. The first corner of a face stays first, and the other corners follow in reverse order. Normals
-        are negated. Attributes with the rule ``Drop``, such as tangents of corners, are dropped. Other attributes stay
-        with their elements, and corner values stay with their vertex and face.
+        are negated. Attributes whose edit rule is ``Drop``, such as tangents of corners, are dropped. Other attributes
+        stay with their elements, and corner values stay with their vertex and face.
 
         Example: ``scene.reverse()``, in a recipe ``Reverse()``
 
@@ -760,17 +762,18 @@ class SceneOperations:
         A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length (the relative
         difference of their squared lengths is at most 1e-12), it is cut along the diagonal at its vertex with the
         lowest id. A diagonal that gives a zero-area triangle, or a triangle that is turned over relative to the normal
-        of the face, is chosen only if the other diagonal is not better. A quadrilateral with a reflex corner is
+        of the face, is avoided, unless the other diagonal has the same problem. A quadrilateral with a reflex corner is
         therefore cut at that corner. If a diagonal would join two vertices that are already joined by an edge or
-        another diagonal, the other diagonal is chosen where possible. The remaining duplicate diagonals are counted.
+        another diagonal, the other diagonal is chosen where possible. The report counts the duplicate diagonals that
+        remain.
 
-        A face with more corners is projected along its normal, cut by ear clipping, and improved by flipping diagonals
-        until it is a constrained Delaunay triangulation. A face that cannot be triangulated in this way, because it has
-        zero area, its sides cross, or it has more than ten million corners, becomes a triangle fan around its vertex
-        with the lowest id, and is counted.
+        A face with more than four corners is projected along its normal and cut by ear clipping. Then diagonals are
+        flipped until the triangulation is a constrained Delaunay triangulation. A face that cannot be triangulated in
+        this way, because it has zero area, its sides cross, or it has more than ten million corners, becomes a triangle
+        fan around its vertex with the lowest id. The report counts these faces.
 
-        The triangles replace their face in the order of the faces and have the values of the face. Vertices and edges
-        keep their ids. The corners of the triangles have the values of the corners of the face at the same vertices.
+        The triangles of a face take its place in the order of the faces and have its values. Vertices and edges keep
+        their ids. The corners of the triangles have the values of the corners of the face at the same vertices.
 
         Example: ``scene.triangulate()``, in a recipe ``Triangulate()``
 
@@ -820,9 +823,10 @@ class SceneOperations:
             ``"Delaunay"``: Flip edges until no flip reduces the sum of the cotangents of all angles of all triangles.
             ``"Valence"``: Flip edges until no flip brings the valences of the vertices closer to 6, or to 4 on the
                 boundary.
-        :param passes: The largest number of passes over the edges. Ignored for ``Once``, which makes one pass. Defaults
-            to ``100``.
-        :param on_refusal: What to do when a flip is refused. Only for ``Once``. Defaults to ``"Error"``.
+        :param passes: The largest number of passes over the edges. Ignored with ``until="Once"``, which makes one pass.
+            Defaults to ``100``.
+        :param on_refusal: What to do when a flip is refused. Ignored unless ``until`` is ``Once``. Defaults to
+            ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param seams: What to do at seams. Defaults to ``"Refuse"``.
@@ -845,9 +849,10 @@ class SceneOperations:
         """Inserts a vertex on each edge and joins it to the opposite corners of the triangles beside the edge.
 
         In a mesh of triangles, a split adds 1 vertex, 3 edges and 2 faces, or 1 vertex, 2 edges and 1 face on the
-        boundary. A face with more than three corners only gains the new vertex as a corner. Edges are split in order of
-        their ids; new edges are not split again. New vertices get the highest ids, in the order of the splits. Values
-        at the new vertex and its corners are interpolated between the ends, on each side of a seam separately.
+        boundary. If a face beside the edge has more than three corners, the face is not cut and only gains the new
+        vertex as a corner. Edges are split in order of their ids; new edges are not split again. New vertices get the
+        highest ids, in the order of the splits. Values at the new vertex and its corners are interpolated between the
+        ends, on each side of a seam separately.
 
         Example: ``scene.split_edges(edges="All")``, in a recipe ``SplitEdges(edges: All)``
 
@@ -875,9 +880,9 @@ class SceneOperations:
         """Collapses edges, so that the two ends of each edge become one vertex.
 
         In a mesh of triangles, a collapse removes 1 vertex, 3 edges and 2 faces or, on the boundary, 1 vertex, 2 edges
-        and 1 face. A face with more than three corners beside the edge only loses a corner. Of the two ends, the vertex
-        with the lower id is kept. Edges are collapsed in order of their ids. An edge that an earlier collapse removed
-        counts as refused.
+        and 1 face. If a face beside the edge has more than three corners, the face is not removed and only loses a
+        corner. Of the two ends, the vertex with the lower id is kept. Edges are collapsed in order of their ids. An
+        edge that an earlier collapse removed counts as refused.
 
         A collapse is refused if it would change the topology of the surface or make elements coincide:
 
@@ -886,8 +891,8 @@ class SceneOperations:
           tube with three sides or at a hole with three edges.
         - ``DuplicateEdge``: a second edge joins the ends.
         - ``RepeatedVertex``: both ends are also corners of a face that is not beside the edge.
-        - ``Vanishes``: no face would remain around the edge, as for a single triangle, or only two faces back to back,
-          as for a tetrahedron.
+        - ``Vanishes``: around the edge, the collapse would leave no face, as for a single triangle, or only two faces
+          that lie back to back, as for a tetrahedron.
         - ``SameFace``: the same face is on both sides of the edge, or would be on both sides of another edge.
         - ``SameOpposite``: the two triangles beside the edge share another edge.
 
@@ -957,19 +962,21 @@ class SceneOperations:
         """Replaces edges with faces of constant width.
 
         A selected edge and both of its ends are removed, and a new face replaces the edge. In both faces beside the
-        edge, the new face ends at the distance ``width`` from the old edge. Each other edge at an end is cut where it
-        reaches this distance, but at most four times ``width`` from the end. An edge that is not next to a selected
-        edge is cut at ``width`` from the end. Between two selected edges, the new vertex lies in the face. If three or
-        more new vertices surround an old vertex, another new face joins them. All edges are beveled together, so a cube
-        that is beveled at all edges keeps all of its symmetries.
+        edge, the new face ends at the distance ``width`` from the old edge. An edge that is not selected, but shares an
+        end with a selected edge, is cut near this end. If the two edges are neighboring sides of a face, the cut is
+        where the distance from the selected edge is ``width``, but at most four times ``width`` from the end.
+        Otherwise, the cut is at the distance ``width`` from the end. Where two selected edges are neighboring sides of
+        a face, the new vertex lies inside this face. If three or more new vertices surround an old vertex, another new
+        face joins them. All edges are beveled together, so a cube that is beveled at all edges keeps all of its
+        symmetries.
 
         The ends of the edges are removed, so the ids of later vertices change. New vertices get the highest ids. Faces
         keep their ids. New faces get the highest ids: first the faces of edges, in order of the edges, then the faces
         of vertices. Edges get new ids.
 
         A new vertex has the values of the old face at its position, so textures do not change. A new face has the
-        values (material, tags) of one of the faces beside it. Which one is not specified, but it is the same in every
-        run. New edges have zero values (no crease, no tags). Normals are dropped.
+        values (material, tags) of one of the old faces beside it. Which face is not specified, but the choice is the
+        same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
 
         An edge is refused if it is on the boundary (``Boundary``), if one of its ends has only one other edge and this
         edge is not selected (``FewEdges``), or if the bevels at both ends of an edge would overlap (``OutsideEdge``).
@@ -1039,9 +1046,9 @@ class SceneOperations:
         A face with n corners becomes n triangles. Each poked face adds 1 vertex, n edges and n - 1 faces. The first
         triangle keeps the id of the face; the other triangles and the new vertices and edges get the highest ids, in
         order of the faces. The new vertex is at the mean of the corners, moved along the normal of the face by
-        ``distance``. Vertex and corner attributes that edits interpolate are also means at the new vertex. The
-        triangles have the values of their face, and the new edges have zero values (no crease, no tags). If
-        ``distance`` is not 0, normals are dropped.
+        ``distance``. If edits interpolate a vertex or corner attribute, its value at the new vertex is also the mean of
+        the values at the corners. The triangles have the values of their face, and the new edges have zero values (no
+        crease, no tags). If ``distance`` is not 0, normals are dropped.
 
         A face is refused only if it contains a vertex twice, if the position of the new vertex would not be finite, or
         if the mesh already has the largest supported number of elements.
@@ -1108,7 +1115,7 @@ class SceneOperations:
         vertices together with their faces, select the faces with ``sel.FacesBeside("edges")`` or
         ``sel.FacesAround("vertices")``.
 
-        The removal is refused if the remaining faces around a vertex would form separate fans that meet only at that
+        The removal is refused if the remaining faces around a vertex would form several fans that meet only at that
         vertex. With ``on_refusal="Skip"``, faces are instead removed one by one, in order of their ids, in repeated
         passes until no more selected faces can be removed. The selected faces that remain are counted as refused.
 
@@ -1140,7 +1147,7 @@ class SceneOperations:
 
         Selected faces that share an edge form a region and move together, with one normal and one center. A region is
         first scaled, then rotated, both about the mean of its vertices, and then moved. Side faces with four corners
-        are added along the rim of the region, which consists of the edges with a face of the region on one side only.
+        are added along the rim of the region. The rim consists of the edges with a face of the region on one side only.
         If all faces of an open sheet are extruded, the result is a box that is open where the sheet was. A closed
         region has no rim, so its faces only move. If the area vectors of the faces cancel each other out, as in a
         closed region, the region has no normal, and ``by`` must be an ``choice.Offset``.
@@ -1169,8 +1176,8 @@ class SceneOperations:
         :param scale: The factor by which each region is scaled about its center. More than 0. Defaults to ``1.0``.
         :param rotate: Rotations of each region about its center, applied in order.
             ``"axis"``: The direction of the axis.
-            ``"angle"``: The angle in degrees, counter-clockwise when the axis points towards the viewer. Multiples of
-                90 are exact.
+            ``"angle"``: The angle in degrees, counter-clockwise when the axis points towards the viewer. Rotations by
+                multiples of 90 degrees are exact.
         :param tag: The name of a tag for the moved faces and their side faces. Faces that already have the tag keep it.
             If omitted, no faces are tagged.
         :param on: The objects that the step acts on. If omitted, all that it supports.
@@ -1346,7 +1353,7 @@ class SceneOperations:
 
         The normals are written to the vertex attribute ``normal``, which is replaced if it exists. Corner normals are
         removed, because they would contradict the vertex normals. A vertex that has no faces or only zero-area faces,
-        or whose face normals cancel each other out, gets the zero vector and is counted.
+        or whose face normals cancel each other out, gets the zero vector. The report counts these vertices.
 
         Example: ``scene.vertex_normals()``, in a recipe ``VertexNormals()``
 
@@ -1374,7 +1381,7 @@ class SceneOperations:
         ``.gltf`` files store the attribute as ``TANGENT``. Polygons are triangulated in the same way as for ``.glb``
         and ``.gltf`` files. Steps that change the shape or the faces remove the tangents, except a ``transform()`` that
         does not mirror the points. Corners at which the texture coordinates define no direction get an arbitrary
-        tangent and are counted.
+        tangent. The report counts these corners.
 
         Example: ``scene.tangents()``, in a recipe ``Tangents()``
 
@@ -1400,11 +1407,12 @@ class SceneOperations:
         a boundary loop; use ``around`` or ``max_edges`` to exclude it. No vertices are added, and existing elements
         keep their ids. A hole with n edges gets 1 face with n corners, or n - 2 triangles and n - 3 edges.
 
-        For holes with up to 500 edges, the triangles have the smallest total area. Larger holes are filled by cutting
-        off one corner after the other, in each case the corner whose two neighbors are closest to each other; straight
-        and reflex corners come last. If the hole is far from convex, the triangles may overlap. Two vertices that are
-        already joined by an edge are not joined again. If no triangles without such a second edge are found, the hole
-        is refused (``DuplicateEdge``). A hole with two edges is also refused (``WrongPlace``); ``stitch()`` closes it.
+        For holes with up to 500 edges, the triangles have the smallest possible total area. Larger holes are filled by
+        cutting off one corner after the other, in each case the corner whose two neighbors are closest to each other;
+        straight and reflex corners come last. If the hole is far from convex, the triangles may overlap. Two vertices
+        that are already joined by an edge are not joined again. If no triangulation without such a second edge is
+        found, the hole is refused (``DuplicateEdge``). A hole with two edges is also refused (``WrongPlace``);
+        ``stitch()`` closes it.
 
         New faces have the values of a face beside the hole. New corners have the values of the corner at the same
         vertex in the adjacent face. Normals are dropped if a hole was filled.
@@ -1437,8 +1445,9 @@ class SceneOperations:
 
         Each hole is identified by one of its vertices. An edge joins the two vertices, and the band goes around both
         holes from this edge. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and n - m
-        evenly spread triangles. The step adds n edges and no vertices. The holes may be in one part of the mesh, which
-        then gets a tunnel or a handle, or in two parts of one object. (``join()`` joins two objects into one.)
+        evenly spread triangles. The step adds n edges and no vertices. Both holes may be in one connected part of the
+        mesh, which then gets a tunnel or a handle, or in two separate parts of the same mesh. (``join()`` joins two
+        objects into one.)
 
         New faces have the values of the adjacent faces at the longer hole. New corners have the values of the corners
         at the same vertices in the adjacent faces. Normals are dropped.
@@ -1468,7 +1477,7 @@ class SceneOperations:
 
         Two boundary edges coincide if both pairs of corresponding ends are at most ``distance`` apart. Two edges that
         coincide only with each other form a pair. Choose a distance below the lengths of the edges. An edge that
-        coincides with several edges is refused (``NonManifold``), and none of the coincident edges are joined. Unlike
+        coincides with several edges is refused (``NonManifold``), and none of these edges are joined. Unlike
         ``weld()``, this operation never merges vertices inside the surface or vertices whose edges do not coincide.
 
         Of each pair of vertices or edges, the one with the lower id keeps its position and its values. The other vertex
@@ -1504,9 +1513,9 @@ class SceneOperations:
 
         The edges may form paths, loops and trees. A loop can cut out a piece. Each edge becomes two edges, one for each
         side. If the cuts separate the faces around a vertex into several parts, each part gets a separate copy of the
-        vertex. The part with the lowest face id keeps the id of the vertex, and new vertices get the highest ids. Faces
-        keep their ids, and no vertex moves. Copies have the values of the originals, and corners keep their values.
-        ``stitch()`` is the inverse.
+        vertex. The part that contains the face with the lowest id keeps the id of the vertex, and new vertices get the
+        highest ids. Faces keep their ids, and no vertex moves. Copies have the values of the originals, and corners
+        keep their values. ``stitch()`` is the inverse.
 
         All edges are cut at once. An edge is refused if it is on the boundary (``Boundary``), or if the cut would not
         open the mesh because both ends are inside the mesh and no other cut continues at either end
@@ -1534,10 +1543,10 @@ class SceneOperations:
         """Tags the selected vertices and removes the tag from all other vertices. In later steps, ``sel.Tagged("rim")``
         selects the vertices with the tag ``rim``.
 
-        In later steps, a copy of a tagged vertex is also tagged, as in ``extrude_faces()``, but a new vertex on an edge
-        is not, as in ``split_edges()``. An existing tag of the same name is replaced. If an attribute of another type
-        has this name, the step fails. The geometry does not change. The report counts the vertices that gained or lost
-        the tag.
+        If a later step copies a tagged vertex, as ``extrude_faces()`` does, the copy is also tagged. If a later step
+        adds a vertex on an edge, as ``split_edges()`` does, the new vertex is not tagged. An existing tag of the same
+        name is replaced. If an attribute of another type has this name, the step fails. The geometry does not change.
+        The report counts the vertices that gained or lost the tag.
 
         Example: ``scene.tag_vertices(name="some", vertices="Boundary")``, in a recipe ``TagVertices(name: "some",
         vertices: Boundary)``
@@ -1884,16 +1893,17 @@ class SceneOperations:
         """Cuts meshes along a plane.
 
         Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along it.
-        A concave face can be cut several times. A vertex is on the plane if its distance from the plane is at most 1e-9
-        of the largest extent of the mesh or 1e-14 of the largest coordinate; it is not moved. When edge e is cut, the
-        part at the start of half-edge 2e keeps the id of the edge. When a face is cut, the part with the first corner
-        keeps the id of the face. New elements get the highest ids. Attributes are interpolated at the crossings,
-        separately on each side of a seam.
+        A concave face can be cut several times. A vertex counts as on the plane if its distance from the plane is at
+        most 1e-9 times the largest extent of the mesh, or at most 1e-14 times the largest absolute coordinate. Such a
+        vertex is not moved. When edge e is cut, the part at the start of half-edge 2e keeps the id of the edge. When a
+        face is cut, the part with the first corner keeps the id of the face. New elements get the highest ids.
+        Attributes are interpolated at the crossings, separately on each side of a seam.
 
         With ``keep="Front"`` or ``keep="Back"``, the other side of the plane is removed. A face in the plane belongs to
         the back if its normal points to the front, because the face then closes the solid behind the plane. Vertices
         left without a face are removed. If the remaining faces around a vertex form several fans, each fan gets a
-        separate copy of the vertex. No faces are added to close the cut. ``fill_holes()`` adds them.
+        separate copy of the vertex. No faces are added to close the cut. To close it, use ``fill_holes()`` in a later
+        step.
 
         Example: ``scene.bisect(normal=(0, 0, 1))``, in a recipe ``Bisect(normal: (0, 0, 1))``
 
@@ -1925,8 +1935,8 @@ class SceneOperations:
         The mesh is cut along a plane, as with ``bisect()``. The half on the side ``from_`` is kept and mirrored, and
         the halves are joined at the plane. Vertices near the plane (see ``bisect()``) are moved exactly onto it, so
         that the result is symmetric. Faces in the plane are removed, because they would be walls inside the result.
-        Where the surface only touches the plane, the halves are not joined. The report counts the faces of which no
-        part is kept.
+        Where the surface only touches the plane, the halves are not joined. The report counts the faces that are
+        removed as a whole.
 
         The elements of the kept half come first, in their old order. The elements of the mirror image follow.
         Attributes are copied, so both halves have the same texture coordinates, tags and weights of joints. Normals and
@@ -1971,7 +1981,7 @@ class SceneOperations:
         - Lines: the boundary, seams of texture coordinates and normals, borders between face tags or materials, edges
           with a tag or a crease, and ``features``. A line can lose vertices, but its ends, and the vertices where lines
           meet, keep their exact positions.
-        - Attributes: texture coordinates, normals, colors and other numbers are a part of the change that is kept small
+        - Attributes: changes of texture coordinates, normals, colors and other numbers count as changes of the surface
           (Hoppe, 1999), and new vertices get the values that fit best. Values are never mixed across a line, and no
           triangle is turned over in the texture. Normals are kept, so that a simplified mesh is shaded like the
           original.
@@ -1991,7 +2001,8 @@ class SceneOperations:
             the surface. The true distance is usually between a third of the limit and the limit. If omitted, there is
             no limit.
         :param features: Edges that are treated as lines, for example ``sel.Sharp(above=30)``. If omitted, only the
-            lines that are always kept. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
+            lines that are always kept are treated as lines. ``"All"``, ``"Boundary"``, or a value of
+            ``meshwright.sel``.
         :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
             ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
         :param intersections: Whether the step may create intersections of faces. They can occur where parts of the
@@ -2020,7 +2031,7 @@ class SceneOperations:
 
         The copies are named after the object, for example ``rock_lod1``, ``rock_lod2`` and so on. Each copy is made
         from the previous copy in the same way as with ``simplify()``, and keeps the same attributes, materials and
-        lines. If nodes place the object, a node for each copy is added next to each of them.
+        lines. If nodes place the object, each of these nodes gets one sibling for each copy, which places the copy.
 
         Example: ``scene.lods(from_="mesh", ratios=[0.5, 0.25])``, in a recipe ``Lods(from: "mesh", ratios: [0.5,
         0.25])``
@@ -2031,7 +2042,8 @@ class SceneOperations:
         :param to: The start of the names of the copies, before the number. If omitted, the name of the object and
             ``_lod``.
         :param features: Edges that are treated as lines, for example ``sel.Sharp(above=30)``. If omitted, only the
-            lines that ``simplify()`` always keeps. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
+            lines that ``simplify()`` always keeps are treated as lines. ``"All"``, ``"Boundary"``, or a value of
+            ``meshwright.sel``.
         :param on_refusal: What to do if the number of faces of a copy cannot be reached. Defaults to ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
@@ -2056,10 +2068,10 @@ class SceneOperations:
 
         Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
         vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target
-        length. All vertices lie on the original surface, except a new vertex that cannot move there without turning a
-        triangle or moving the surface too far. The target length is either ``length``, or it follows ``curvature``:
-        edges are short where the surface is curved, and long where it is flat (Dunyach and others, 2013). Exactly one
-        of the two must be given. All faces must be triangles.
+        length. All vertices lie on the original surface, except new vertices that cannot be moved onto it without
+        turning a triangle too far or moving the surface too far. The target length is either ``length``, or it follows
+        ``curvature``: edges are short where the surface is curved, and long where it is flat (Dunyach and others,
+        2013). Exactly one of the two must be given. All faces must be triangles.
 
         The following properties are kept:
 
@@ -2068,7 +2080,8 @@ class SceneOperations:
           with a tag or a crease, and ``features``. Vertices on a line slide along it. The ends of lines, the vertices
           where lines meet, and corners where a line turns by more than 40 degrees keep their exact positions. Other
           sharp edges are rounded.
-        - Attributes: they come from the same point of the original surface, and are never interpolated across a line.
+        - Attributes: each vertex and corner gets the values of the original surface at its position. Values are never
+          interpolated across a line.
         - Vertex tags: a new vertex has a tag if all old vertices around its position had the tag. A tagged vertex keeps
           its exact position unless all corners of one of its triangles, or both of its neighbors on a line, also have
           the tag. Vertices with sharpness also keep their exact positions.
@@ -2080,13 +2093,14 @@ class SceneOperations:
         Example: ``scene.remesh(length=0.5)``, in a recipe ``Remesh(length: 0.5)``
 
         :param length: The target length of edges, in scene units.
-        :param curvature: Target lengths that follow the curvature, instead of ``length``.
+        :param curvature: Target lengths that follow the curvature. Replaces ``length``.
             ``"error"``: The intended distance between the surface and the triangles, in scene units. It is not
                 guaranteed. To guarantee a distance, use the parameter ``error`` of the step.
             ``"min"``: The smallest length, in scene units.
             ``"max"``: The largest length, in scene units.
         :param features: Edges that are treated as lines, for example ``sel.Sharp(above=30)``. If omitted, only the
-            lines that are always kept. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
+            lines that are always kept are treated as lines. ``"All"``, ``"Boundary"``, or a value of
+            ``meshwright.sel``.
         :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. Edges
             become shorter than the target length where this is necessary. The distance is measured at the end, in both
             directions and for all points. If omitted, there is no limit.
@@ -2132,7 +2146,8 @@ class SceneOperations:
 
         :param by: The method.
             ``choice.Laplacian(..)``: Moves each vertex towards the mean of its neighbors.
-            ``choice.Taubin(..)``: Moves each vertex towards the mean of its neighbors, then back by slightly more.
+            ``choice.Taubin(..)``: Moves each vertex towards the mean of its neighbors, and then back by a slightly
+                larger factor.
             ``choice.Implicit(..)``: Moves the surface by mean curvature flow for the given time, in one stable step.
             ``choice.Denoise(..)``: Filters the normals of the faces, so that similar normals become equal, then moves
                 the vertices to fit the normals.
@@ -2144,8 +2159,8 @@ class SceneOperations:
             value of ``meshwright.sel``.
         :param boundary: How vertices on the boundary move. Defaults to ``"Fixed"``.
             ``"Fixed"``: The vertices do not move.
-            ``"Free"``: The boundary is smoothed as curves, so a vertex on the boundary depends only on its neighbors
-                along the boundary.
+            ``"Free"``: The boundary is smoothed as a set of curves, so the movement of a vertex on the boundary depends
+                only on its neighbors along the boundary.
         :param keep_volume: Whether the moved vertices are finally shifted along their normals, all by the same
             distance, until the mesh has its original volume. The mesh must be closed. Defaults to ``False``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
@@ -2165,19 +2180,19 @@ class SceneOperations:
         """Copies attributes from the nearest points of another object.
 
         An attribute of vertices, corners or faces of the object ``from_`` becomes an attribute of the same kind of
-        elements. Numbers and vectors of vertices and corners are interpolated inside the face of the nearest point.
-        Whole numbers, tags, and attributes that edits do not interpolate are copied from the nearest corner of this
-        face. Values of faces are copied from this face. An existing attribute with the same type of values is
-        overwritten; with a different type, the step fails. Without ``on``, the step acts on all meshes except
-        ``from_``.
+        elements of the changed mesh. Numbers and vectors of vertices and corners are interpolated inside the face of
+        the nearest point. Whole numbers, tags, and attributes that edits do not interpolate are copied from the nearest
+        corner of this face. Values of faces are copied from the face of the nearest point. An existing attribute with
+        the same type of values is overwritten; with a different type, the step fails. Without ``on``, the step acts on
+        all meshes except ``from_``.
 
         All corners of a face take their values from one chart of the source, that is, from faces that are connected
         without crossing a seam of the attribute. The chart is the one nearest to the center of the face, so no triangle
         is stretched across a seam of texture coordinates.
 
         Elements whose distance from the source exceeds ``within`` keep their values, or get zeros if the attribute is
-        new, and are counted. If a corner or the center of a face is that far away, this applies to all corners of the
-        face.
+        new. If a corner or the center of a face is that far away, this applies to all corners of the face. The report
+        counts these elements.
 
         Example: ``scene.transfer(from_="scan", attributes=["uv", "color"], within=0.01)``, in a recipe ``Transfer(from:
         "scan", attributes: ["uv", "color"], within: 0.01)``
@@ -2209,7 +2224,7 @@ class SceneOperations:
         smoothly to 0 at the distance r. Distances are measured along straight lines, not along the surface.
 
         With ``by=choice.Distance(..)``, each vertex moves along its own normal, which is the mean of the normals of its
-        faces, weighted by their areas. Vertices without a normal do not move and are counted.
+        faces, weighted by their areas. Vertices without a normal do not move. The report counts them.
 
         Example: ``scene.move_vertices(vertices=sel.Vertices([0]), by=choice.Offset((0, 0, 0.5)))``, in a recipe
         ``MoveVertices(vertices: Vertices([0]), by: Offset((0, 0, 0.5)))``
@@ -2219,7 +2234,7 @@ class SceneOperations:
         :param by: How the vertices move.
             ``choice.Offset(..)``: By this offset along x, y and z, in scene units.
             ``choice.Distance(..)``: By this distance along the normal of each vertex, in scene units.
-            ``choice.To(..)``: By the same offset for all selected vertices, which moves their mean to this point.
+            ``choice.To(..)``: By one offset for all selected vertices.
         :param falloff: The distance from the selected vertices at which the movement has fallen to 0, in scene units.
             If omitted, only the selected vertices move.
         :param on: The objects that the step acts on. If omitted, all that it supports.
@@ -2239,11 +2254,11 @@ class SceneOperations:
         """Moves vertices along their normals, by amounts that vary over the surface.
 
         Each vertex moves along its normal by ``distance`` times the value of ``by``. The normal of a vertex is the mean
-        of the normals of its faces, weighted by their areas. Vertices without a normal do not move and are counted.
-        Normals and tangents are dropped. Faces, element ids and other attributes do not change.
+        of the normals of its faces, weighted by their areas. Vertices without a normal do not move. The report counts
+        them. Normals and tangents are dropped. Faces, element ids and other attributes do not change.
 
-        The values are computed without functions that differ between machines, so the result is identical on all
-        machines.
+        The values are computed without functions whose results differ between machines, so the result is identical on
+        all machines.
 
         Example: ``scene.displace(by=choice.Noise(scale=0.5, seed=7), distance=0.1)``, in a recipe ``Displace(by:
         Noise(scale: 0.5, seed: 7), distance: 0.1)``
@@ -2252,7 +2267,8 @@ class SceneOperations:
             ``choice.Noise(..)``: Smooth noise from -1 to 1 (Perlin, "Improving Noise", 2002).
             ``choice.Random(..)``: A random number from -1 to 1 for each vertex, which depends on the id of the vertex.
             ``choice.Attribute(..)``: A vertex attribute that holds one number for each vertex.
-        :param distance: The distance for the value 1, in scene units. A negative distance moves inwards.
+        :param distance: The distance that a vertex with the value 1 moves, in scene units. A negative distance moves
+            the vertex inwards.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param on: The objects that the step acts on. If omitted, all that it supports.
@@ -2323,9 +2339,9 @@ class SceneOperations:
         """Rotates vertices around an axis, by an angle that grows along the axis.
 
         The angle grows linearly from 0 at ``from_`` to ``angle`` at ``to``. Below ``from_`` and above ``to``, vertices
-        rotate by the angle of the nearer end. The volume changes only because edges stay straight, so hardly on a fine
-        mesh. A twist by the opposite angle undoes a twist. Source: Barr, "Global and Local Deformations of Solid
-        Primitives", 1984.
+        rotate by the angle of the nearer end. The volume changes only because edges stay straight, so on a fine mesh it
+        hardly changes. A twist by the opposite angle undoes a twist. Source: Barr, "Global and Local Deformations of
+        Solid Primitives", 1984.
 
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
         with the surface. Only vertices move, so refine the mesh first if its faces are large.
@@ -2482,7 +2498,7 @@ class SceneOperations:
         report states the lowest, the mean and the highest value of each object.
 
         An attribute of the same name is replaced if it belongs to the same elements (vertices or faces) and has one
-        floating-point number for each. Otherwise the step fails.
+        floating-point number for each element. Otherwise the step fails.
 
         Example: ``scene.measure(of="MeanCurvature")``, in a recipe ``Measure(of: MeanCurvature)``
 
@@ -2496,23 +2512,24 @@ class SceneOperations:
             ``"Area"``: The area of each face, in scene units².
             ``"VertexArea"``: The area of each vertex, in scene units².
             ``"MinAngle"``: The smallest angle of each face, in degrees.
-            ``"AspectRatio"``: The aspect ratio of each face: 1 for regular polygons, more for others.
+            ``"AspectRatio"``: The aspect ratio of each face: 1 for regular polygons, and more than 1 for all other
+                polygons (Stimpson, Ernst, Knupp, Pébay, Thompson, "The Verdict Geometric Quality Library", 2007).
             ``choice.Distance(..)``: The distance from each vertex to the nearest point of another mesh of the scene, in
                 scene units.
             ``choice.Geodesic(..)``: The distance along the surface from each vertex to the nearest selected vertex, in
                 scene units, by the heat method (Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013; Sharp, Crane,
                 2020).
             ``"Thickness"``: The thickness of the solid at each vertex, in scene units.
-            ``choice.Occlusion(..)``: The ambient occlusion of each vertex, from 0 (open) to 1 (enclosed), which is the
-                fraction of the rays from the vertex that meet the mesh.
+            ``choice.Occlusion(..)``: The ambient occlusion of each vertex: the fraction of the rays from the vertex
+                that meet the mesh, from 0 (open) to 1 (enclosed).
             ``choice.Winding(..)``: The winding number of another mesh of the scene around each vertex: 1 inside, 0
                 outside, and numbers between 0 and 1 near gaps of the other mesh (Jacobson, Kavan, Sorkine-Hornung,
                 2013; Barill, Dickson, Schmidt, Levin, Jacobson, 2018).
         :param name: The name of the attribute. If omitted, the name of the quantity in lower case, such as
             ``mean_curvature``, or ``largest_curvature`` or ``smallest_curvature`` for a principal curvature.
         :param missing: The value for elements at which the quantity is not defined, such as the curvature of a vertex
-            without faces. These elements are counted. If omitted, 0 for quantities that can be negative, and -1 for all
-            others.
+            without faces. The report counts these elements. If omitted, 0 for quantities that can be negative, and -1
+            for all others.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
@@ -2536,14 +2553,15 @@ class SceneOperations:
         The surface is cut into charts, which are flattened and packed into a square page. Charts grow from flat regions
         up to ``max_angle``. They are flattened by least squares conformal maps (Levy and others, 2002) and the hybrid
         method of Liu and others (2008). A chart is cut again if it would overlap itself, if it would exceed
-        ``max_stretch``, or if more than 5 % of its area would have an aspect above 1.15. All charts of a mesh have the
-        same scale, and no chart is mirrored. A polygon stays in one chart. Each mesh gets its own page.
+        ``max_stretch``, or if, on more than 5 % of its area, the ratio of its largest to its smallest stretch would be
+        above 1.15. All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays in one chart.
+        Each mesh gets its own page.
 
         The coordinates are written to the corner attribute ``uv``, which is replaced if it exists. Edges at which
         charts meet become seams. Positions, faces and other attributes do not change, but tangents are removed.
-        Zero-area faces have no area in the texture and are counted. A polygon that is bent so far that it overlaps
-        itself is refused as ``WrongPlace``, so triangulate it first. With ``on_refusal="Skip"``, its triangles overlap
-        in the texture.
+        Zero-area faces have no area in the texture. The report counts them. A polygon that is bent so far that it
+        overlaps itself is refused as ``WrongPlace``, so triangulate it first. With ``on_refusal="Skip"``, its triangles
+        overlap in the texture.
 
         Example: ``scene.unwrap(max_angle=60)``, in a recipe ``Unwrap(max_angle: 60)``
 
@@ -2580,9 +2598,9 @@ class SceneOperations:
 
         A chart is a set of faces that are connected without seams of the texture coordinates. Afterwards, the area of
         each chart in the texture is proportional to its area on the surface. The shape of each chart does not change,
-        even if it is stretched, mirrored or overlaps itself. Charts that overlap themselves are counted. Each zero-area
-        chart becomes a point and is counted. Each mesh gets its own page. Tangents are removed, because charts are
-        rotated.
+        even if it is stretched, mirrored or overlaps itself. Each zero-area chart becomes a point. The report counts
+        zero-area charts and charts that overlap themselves. Each mesh gets its own page. Tangents are removed, because
+        charts are rotated.
 
         Example: ``scene.pack_uvs(page=2048, padding=4)``, in a recipe ``PackUvs(page: 2048, padding: 4)``
 
@@ -2674,7 +2692,7 @@ class SceneOperations:
             ``"frames"``: The number of images.
             ``"seconds"``: The duration of the turn.
         :param images: The folder of images that are not next to their model, relative to the folder of the recipe. If
-            omitted, the folder of the recipe. Missing images are not drawn, and are reported.
+            omitted, the folder of the recipe. Missing images are not drawn, and the report lists them.
         :param on: The objects that the step acts on. If omitted, all that it supports.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         """
@@ -2699,10 +2717,10 @@ class SceneOperations:
 
         The figure has a panel for each curve and each ``t``. With ``by_level``, it instead has a panel for each curve,
         each ``t`` and each level. A panel shows the control polygon, every level of de Casteljau's algorithm in a
-        different color, the point, and the curve, with the same scale in both axes. With ``by_level``, each panel of a
-        ``t`` shows one level more than the panel before it, and only the last one shows the point. The extension of the
-        file determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The
-        scene does not change.
+        different color, the point, and the curve, with the same scale in both axes. With ``by_level``, the panels for
+        one value of ``t`` each show one level more than the panel before, and only the last of these panels shows the
+        point. The extension of the file determines the format: ``.svg`` or ``.png``. The file is written only if the
+        whole recipe succeeds. The scene does not change.
 
         Example: ``scene.curve_figure(path="figure.svg", t=[0.25, 0.5])``, in a recipe ``CurveFigure(path: "figure.svg",
         t: [0.25, 0.5])``
@@ -2741,9 +2759,9 @@ class SceneOperations:
         Each half-edge is an arrow beside its edge, inside its face, with its name. A thin curve leads from the head of
         the arrow to the next half-edge of the face. The twin of a half-edge is on the other side of the edge.
         Half-edges on the boundary have no face and are gray. The faces are seen along their mean normal. Faces that
-        face away from the viewer or are seen nearly edge-on are left out and reported. The extension of the file
-        determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene
-        does not change.
+        face away from the viewer or are seen nearly edge-on are left out. The report counts them. The extension of the
+        file determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The
+        scene does not change.
 
         A name is a letter and the id of the element: ``v`` for vertices, ``h`` for half-edges, ``f`` for faces.
         Half-edges ``2e`` and ``2e + 1`` belong to edge ``e``.
@@ -2823,8 +2841,8 @@ class MeshOperations:
         ``.bez`` for Bezier patches, ``.bzc`` for a curve, and ``.mws`` for a complete scene without any loss. ``.csv``
         is a table of the positions and attributes of vertices, faces or corners, and ``.npz`` has the arrays of a mesh
         for ``NumPy``. These two formats cannot be read. If the name ends with ``.gz``, as in ``a.obj.gz``, the file is
-        compressed with gzip, which is not possible for ``.glb``, ``.mws`` and ``.npz``. Content that the format cannot
-        store is reported. The file is only created when the whole recipe has succeeded.
+        compressed with gzip, which is not possible for ``.glb``, ``.mws`` and ``.npz``. The report lists the content
+        that the format cannot store. The file is only created when the whole recipe has succeeded.
 
         Example: ``mesh.save(path="a.obj")``
 
@@ -2851,8 +2869,8 @@ class MeshOperations:
                 quantized. Defaults to 16.
             ``"color"``: The bits of each component of a color. Defaults to 8.
         :param weight_sets: For ``.gltf`` and ``.glb``, the number of sets of four joints that are written for each
-            vertex of a skinned mesh. If omitted, the number of sets in the file that the mesh comes from, or 1 if it
-            does not come from such a file.
+            vertex of a skinned mesh. If omitted, the number of sets in the file that the mesh comes from, or 1 if the
+            mesh does not come from such a file.
         :param rows: For ``.csv``, the elements that the rows list. If omitted, vertices.
             ``"Vertices"``: Vertices.
             ``"Faces"``: Faces, at the means of their corners.
@@ -2877,8 +2895,8 @@ class MeshOperations:
         same name. Every patch is divided into ``segments`` x ``segments`` cells. The ids of elements follow the order
         of the patches. Patches share no vertices, but if they have the same control points on a common side, the
         positions of their vertices there are identical bit for bit, so that ``weld(distance=0)`` joins them. A side
-        whose points coincide, as at the pole of a teapot's lid, becomes one vertex. Zero-area patches give no faces and
-        are counted. The mesh has UVs and normals only if they are requested.
+        whose points coincide, as at the pole of a teapot's lid, becomes one vertex. Zero-area patches give no faces.
+        The report counts these patches. The mesh has UVs and normals only if they are requested.
 
         Example: ``mesh.tessellate(segments=3)``
 
@@ -2886,8 +2904,8 @@ class MeshOperations:
         :param faces: The faces that a cell becomes. Defaults to ``"Triangles"``.
             ``"Triangles"``: Two triangles, divided by the diagonal from the corner with the lowest u and v.
             ``"Quads"``: One quad.
-        :param uvs: Whether to store the parameters (u, v) of each patch as UVs of corners. Each patch covers the whole
-            square from 0 to 1. Defaults to ``False``.
+        :param uvs: Whether to store the parameters (u, v) of each patch as UVs of corners. The UVs of each patch cover
+            the whole square from 0 to 1. Defaults to ``False``.
         :param normals: Whether to store the exact unit normals of the patches as vertex normals. Defaults to ``False``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         :returns: The new mesh. This mesh does not change.
@@ -2922,8 +2940,8 @@ class MeshOperations:
         """Replaces curves with the levels of de Casteljau's algorithm.
 
         A curve with n control points becomes n polylines in the plane z = 0. The first polyline is the control polygon
-        with n points. Each of the following polylines has one point less. The last polyline is the point of the curve
-        at ``t``.
+        with n points. Each of the following polylines has one point fewer than the polyline before it. The last
+        polyline has a single point, the point of the curve at ``t``.
 
         Example: ``mesh.curve_levels(t=0)``
 
@@ -2978,16 +2996,16 @@ class MeshOperations:
         transformed; other attributes do not change. If the points are mirrored (one or three negative factors in
         ``scale``), the faces are also reversed, so that they stay counter-clockwise seen from outside. The first corner
         of a face stays first, and the other corners follow in reverse order. In mirrored patches, u and v are
-        exchanged, so that the outside stays the outside. Mirroring the points drops attributes with the rule ``Drop``,
-        such as tangents of corners, as does any step that changes the connectivity.
+        exchanged, so that the outside stays the outside. Like any step that changes the connectivity, mirroring the
+        points drops attributes whose edit rule is ``Drop``, such as tangents of corners.
 
         Example: ``mesh.transform(scale=(2, 1, 1), rotate=[{"axis": "Z", "angle": 90}], move=(3, 1, 0))``
 
         :param scale: The scale factors along x, y and z. No factor may be 0; a negative factor mirrors.
         :param rotate: The rotations, applied in order.
             ``"axis"``: The direction of the axis.
-            ``"angle"``: The angle in degrees, counter-clockwise when the axis points towards the viewer. Multiples of
-                90 are exact.
+            ``"angle"``: The angle in degrees, counter-clockwise when the axis points towards the viewer. Rotations by
+                multiples of 90 degrees are exact.
         :param move: The distances to move along x, y and z, in scene units.
         :param about: The fixed point of scaling and rotation. Defaults to ``"Origin"``.
             ``"Origin"``: The origin.
@@ -3017,10 +3035,10 @@ class MeshOperations:
 
         If neighboring corners of a face merge, the face loses a corner. A face is removed if it has fewer than three
         corners left or would contain a vertex twice. If joined faces have opposite orientations, the smaller group is
-        reversed, provided that all orientations then agree. If faces are reversed, they are counted, and the normals of
-        vertices and corners are dropped. Where the result would still not be manifold, vertices and edges are copied,
-        and the copies are counted. For example, a third face at an edge gets a copy of the edge. If no vertices merge,
-        the mesh does not change.
+        reversed, provided that all orientations then agree. If faces are reversed, the report counts them, and the
+        normals of vertices and corners are dropped. Where the result would still not be manifold, vertices and edges
+        are copied. For example, a third face at an edge gets a copy of the edge. The report counts the copies. If no
+        vertices merge, the mesh does not change.
 
         Example: ``mesh.weld(distance=0)``
 
@@ -3042,8 +3060,8 @@ class MeshOperations:
         Adjacent faces must have the same orientation, so only whole connected components can be reversed. If a selected
         face shares an edge with a face that is not selected, the step is refused. No vertex moves, and all elements
         keep their ids. The first corner of a face stays first, and the other corners follow in reverse order. Normals
-        are negated. Attributes with the rule ``Drop``, such as tangents of corners, are dropped. Other attributes stay
-        with their elements, and corner values stay with their vertex and face.
+        are negated. Attributes whose edit rule is ``Drop``, such as tangents of corners, are dropped. Other attributes
+        stay with their elements, and corner values stay with their vertex and face.
 
         Example: ``mesh.reverse()``
 
@@ -3065,17 +3083,18 @@ class MeshOperations:
         A quadrilateral is cut along its shorter diagonal. If both diagonals have the same length (the relative
         difference of their squared lengths is at most 1e-12), it is cut along the diagonal at its vertex with the
         lowest id. A diagonal that gives a zero-area triangle, or a triangle that is turned over relative to the normal
-        of the face, is chosen only if the other diagonal is not better. A quadrilateral with a reflex corner is
+        of the face, is avoided, unless the other diagonal has the same problem. A quadrilateral with a reflex corner is
         therefore cut at that corner. If a diagonal would join two vertices that are already joined by an edge or
-        another diagonal, the other diagonal is chosen where possible. The remaining duplicate diagonals are counted.
+        another diagonal, the other diagonal is chosen where possible. The report counts the duplicate diagonals that
+        remain.
 
-        A face with more corners is projected along its normal, cut by ear clipping, and improved by flipping diagonals
-        until it is a constrained Delaunay triangulation. A face that cannot be triangulated in this way, because it has
-        zero area, its sides cross, or it has more than ten million corners, becomes a triangle fan around its vertex
-        with the lowest id, and is counted.
+        A face with more than four corners is projected along its normal and cut by ear clipping. Then diagonals are
+        flipped until the triangulation is a constrained Delaunay triangulation. A face that cannot be triangulated in
+        this way, because it has zero area, its sides cross, or it has more than ten million corners, becomes a triangle
+        fan around its vertex with the lowest id. The report counts these faces.
 
-        The triangles replace their face in the order of the faces and have the values of the face. Vertices and edges
-        keep their ids. The corners of the triangles have the values of the corners of the face at the same vertices.
+        The triangles of a face take its place in the order of the faces and have its values. Vertices and edges keep
+        their ids. The corners of the triangles have the values of the corners of the face at the same vertices.
 
         Example: ``mesh.triangulate()``
 
@@ -3124,9 +3143,10 @@ class MeshOperations:
             ``"Delaunay"``: Flip edges until no flip reduces the sum of the cotangents of all angles of all triangles.
             ``"Valence"``: Flip edges until no flip brings the valences of the vertices closer to 6, or to 4 on the
                 boundary.
-        :param passes: The largest number of passes over the edges. Ignored for ``Once``, which makes one pass. Defaults
-            to ``100``.
-        :param on_refusal: What to do when a flip is refused. Only for ``Once``. Defaults to ``"Error"``.
+        :param passes: The largest number of passes over the edges. Ignored with ``until="Once"``, which makes one pass.
+            Defaults to ``100``.
+        :param on_refusal: What to do when a flip is refused. Ignored unless ``until`` is ``Once``. Defaults to
+            ``"Error"``.
             ``"Error"``: Fail, and leave the mesh unchanged.
             ``"Skip"``: Leave the element unchanged, count the refusal, and continue.
         :param seams: What to do at seams. Defaults to ``"Refuse"``.
@@ -3148,9 +3168,10 @@ class MeshOperations:
         """Inserts a vertex on each edge and joins it to the opposite corners of the triangles beside the edge.
 
         In a mesh of triangles, a split adds 1 vertex, 3 edges and 2 faces, or 1 vertex, 2 edges and 1 face on the
-        boundary. A face with more than three corners only gains the new vertex as a corner. Edges are split in order of
-        their ids; new edges are not split again. New vertices get the highest ids, in the order of the splits. Values
-        at the new vertex and its corners are interpolated between the ends, on each side of a seam separately.
+        boundary. If a face beside the edge has more than three corners, the face is not cut and only gains the new
+        vertex as a corner. Edges are split in order of their ids; new edges are not split again. New vertices get the
+        highest ids, in the order of the splits. Values at the new vertex and its corners are interpolated between the
+        ends, on each side of a seam separately.
 
         Example: ``mesh.split_edges(edges="All")``
 
@@ -3177,9 +3198,9 @@ class MeshOperations:
         """Collapses edges, so that the two ends of each edge become one vertex.
 
         In a mesh of triangles, a collapse removes 1 vertex, 3 edges and 2 faces or, on the boundary, 1 vertex, 2 edges
-        and 1 face. A face with more than three corners beside the edge only loses a corner. Of the two ends, the vertex
-        with the lower id is kept. Edges are collapsed in order of their ids. An edge that an earlier collapse removed
-        counts as refused.
+        and 1 face. If a face beside the edge has more than three corners, the face is not removed and only loses a
+        corner. Of the two ends, the vertex with the lower id is kept. Edges are collapsed in order of their ids. An
+        edge that an earlier collapse removed counts as refused.
 
         A collapse is refused if it would change the topology of the surface or make elements coincide:
 
@@ -3188,8 +3209,8 @@ class MeshOperations:
           tube with three sides or at a hole with three edges.
         - ``DuplicateEdge``: a second edge joins the ends.
         - ``RepeatedVertex``: both ends are also corners of a face that is not beside the edge.
-        - ``Vanishes``: no face would remain around the edge, as for a single triangle, or only two faces back to back,
-          as for a tetrahedron.
+        - ``Vanishes``: around the edge, the collapse would leave no face, as for a single triangle, or only two faces
+          that lie back to back, as for a tetrahedron.
         - ``SameFace``: the same face is on both sides of the edge, or would be on both sides of another edge.
         - ``SameOpposite``: the two triangles beside the edge share another edge.
 
@@ -3256,19 +3277,21 @@ class MeshOperations:
         """Replaces edges with faces of constant width.
 
         A selected edge and both of its ends are removed, and a new face replaces the edge. In both faces beside the
-        edge, the new face ends at the distance ``width`` from the old edge. Each other edge at an end is cut where it
-        reaches this distance, but at most four times ``width`` from the end. An edge that is not next to a selected
-        edge is cut at ``width`` from the end. Between two selected edges, the new vertex lies in the face. If three or
-        more new vertices surround an old vertex, another new face joins them. All edges are beveled together, so a cube
-        that is beveled at all edges keeps all of its symmetries.
+        edge, the new face ends at the distance ``width`` from the old edge. An edge that is not selected, but shares an
+        end with a selected edge, is cut near this end. If the two edges are neighboring sides of a face, the cut is
+        where the distance from the selected edge is ``width``, but at most four times ``width`` from the end.
+        Otherwise, the cut is at the distance ``width`` from the end. Where two selected edges are neighboring sides of
+        a face, the new vertex lies inside this face. If three or more new vertices surround an old vertex, another new
+        face joins them. All edges are beveled together, so a cube that is beveled at all edges keeps all of its
+        symmetries.
 
         The ends of the edges are removed, so the ids of later vertices change. New vertices get the highest ids. Faces
         keep their ids. New faces get the highest ids: first the faces of edges, in order of the edges, then the faces
         of vertices. Edges get new ids.
 
         A new vertex has the values of the old face at its position, so textures do not change. A new face has the
-        values (material, tags) of one of the faces beside it. Which one is not specified, but it is the same in every
-        run. New edges have zero values (no crease, no tags). Normals are dropped.
+        values (material, tags) of one of the old faces beside it. Which face is not specified, but the choice is the
+        same in every run. New edges have zero values (no crease, no tags). Normals are dropped.
 
         An edge is refused if it is on the boundary (``Boundary``), if one of its ends has only one other edge and this
         edge is not selected (``FewEdges``), or if the bevels at both ends of an edge would overlap (``OutsideEdge``).
@@ -3334,9 +3357,9 @@ class MeshOperations:
         A face with n corners becomes n triangles. Each poked face adds 1 vertex, n edges and n - 1 faces. The first
         triangle keeps the id of the face; the other triangles and the new vertices and edges get the highest ids, in
         order of the faces. The new vertex is at the mean of the corners, moved along the normal of the face by
-        ``distance``. Vertex and corner attributes that edits interpolate are also means at the new vertex. The
-        triangles have the values of their face, and the new edges have zero values (no crease, no tags). If
-        ``distance`` is not 0, normals are dropped.
+        ``distance``. If edits interpolate a vertex or corner attribute, its value at the new vertex is also the mean of
+        the values at the corners. The triangles have the values of their face, and the new edges have zero values (no
+        crease, no tags). If ``distance`` is not 0, normals are dropped.
 
         A face is refused only if it contains a vertex twice, if the position of the new vertex would not be finite, or
         if the mesh already has the largest supported number of elements.
@@ -3401,7 +3424,7 @@ class MeshOperations:
         vertices together with their faces, select the faces with ``sel.FacesBeside("edges")`` or
         ``sel.FacesAround("vertices")``.
 
-        The removal is refused if the remaining faces around a vertex would form separate fans that meet only at that
+        The removal is refused if the remaining faces around a vertex would form several fans that meet only at that
         vertex. With ``on_refusal="Skip"``, faces are instead removed one by one, in order of their ids, in repeated
         passes until no more selected faces can be removed. The selected faces that remain are counted as refused.
 
@@ -3432,7 +3455,7 @@ class MeshOperations:
 
         Selected faces that share an edge form a region and move together, with one normal and one center. A region is
         first scaled, then rotated, both about the mean of its vertices, and then moved. Side faces with four corners
-        are added along the rim of the region, which consists of the edges with a face of the region on one side only.
+        are added along the rim of the region. The rim consists of the edges with a face of the region on one side only.
         If all faces of an open sheet are extruded, the result is a box that is open where the sheet was. A closed
         region has no rim, so its faces only move. If the area vectors of the faces cancel each other out, as in a
         closed region, the region has no normal, and ``by`` must be an ``choice.Offset``.
@@ -3460,8 +3483,8 @@ class MeshOperations:
         :param scale: The factor by which each region is scaled about its center. More than 0. Defaults to ``1.0``.
         :param rotate: Rotations of each region about its center, applied in order.
             ``"axis"``: The direction of the axis.
-            ``"angle"``: The angle in degrees, counter-clockwise when the axis points towards the viewer. Multiples of
-                90 are exact.
+            ``"angle"``: The angle in degrees, counter-clockwise when the axis points towards the viewer. Rotations by
+                multiples of 90 degrees are exact.
         :param tag: The name of a tag for the moved faces and their side faces. Faces that already have the tag keep it.
             If omitted, no faces are tagged.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
@@ -3628,7 +3651,7 @@ class MeshOperations:
 
         The normals are written to the vertex attribute ``normal``, which is replaced if it exists. Corner normals are
         removed, because they would contradict the vertex normals. A vertex that has no faces or only zero-area faces,
-        or whose face normals cancel each other out, gets the zero vector and is counted.
+        or whose face normals cancel each other out, gets the zero vector. The report counts these vertices.
 
         Example: ``mesh.vertex_normals()``
 
@@ -3655,7 +3678,7 @@ class MeshOperations:
         ``.gltf`` files store the attribute as ``TANGENT``. Polygons are triangulated in the same way as for ``.glb``
         and ``.gltf`` files. Steps that change the shape or the faces remove the tangents, except a ``transform()`` that
         does not mirror the points. Corners at which the texture coordinates define no direction get an arbitrary
-        tangent and are counted.
+        tangent. The report counts these corners.
 
         Example: ``mesh.tangents()``
 
@@ -3680,11 +3703,12 @@ class MeshOperations:
         a boundary loop; use ``around`` or ``max_edges`` to exclude it. No vertices are added, and existing elements
         keep their ids. A hole with n edges gets 1 face with n corners, or n - 2 triangles and n - 3 edges.
 
-        For holes with up to 500 edges, the triangles have the smallest total area. Larger holes are filled by cutting
-        off one corner after the other, in each case the corner whose two neighbors are closest to each other; straight
-        and reflex corners come last. If the hole is far from convex, the triangles may overlap. Two vertices that are
-        already joined by an edge are not joined again. If no triangles without such a second edge are found, the hole
-        is refused (``DuplicateEdge``). A hole with two edges is also refused (``WrongPlace``); ``stitch()`` closes it.
+        For holes with up to 500 edges, the triangles have the smallest possible total area. Larger holes are filled by
+        cutting off one corner after the other, in each case the corner whose two neighbors are closest to each other;
+        straight and reflex corners come last. If the hole is far from convex, the triangles may overlap. Two vertices
+        that are already joined by an edge are not joined again. If no triangulation without such a second edge is
+        found, the hole is refused (``DuplicateEdge``). A hole with two edges is also refused (``WrongPlace``);
+        ``stitch()`` closes it.
 
         New faces have the values of a face beside the hole. New corners have the values of the corner at the same
         vertex in the adjacent face. Normals are dropped if a hole was filled.
@@ -3716,8 +3740,9 @@ class MeshOperations:
 
         Each hole is identified by one of its vertices. An edge joins the two vertices, and the band goes around both
         holes from this edge. Holes with n and m edges, where n is at least m, are joined by m quadrilaterals and n - m
-        evenly spread triangles. The step adds n edges and no vertices. The holes may be in one part of the mesh, which
-        then gets a tunnel or a handle, or in two parts of one object. (``join()`` joins two objects into one.)
+        evenly spread triangles. The step adds n edges and no vertices. Both holes may be in one connected part of the
+        mesh, which then gets a tunnel or a handle, or in two separate parts of the same mesh. (``join()`` joins two
+        objects into one.)
 
         New faces have the values of the adjacent faces at the longer hole. New corners have the values of the corners
         at the same vertices in the adjacent faces. Normals are dropped.
@@ -3746,7 +3771,7 @@ class MeshOperations:
 
         Two boundary edges coincide if both pairs of corresponding ends are at most ``distance`` apart. Two edges that
         coincide only with each other form a pair. Choose a distance below the lengths of the edges. An edge that
-        coincides with several edges is refused (``NonManifold``), and none of the coincident edges are joined. Unlike
+        coincides with several edges is refused (``NonManifold``), and none of these edges are joined. Unlike
         ``weld()``, this operation never merges vertices inside the surface or vertices whose edges do not coincide.
 
         Of each pair of vertices or edges, the one with the lower id keeps its position and its values. The other vertex
@@ -3781,9 +3806,9 @@ class MeshOperations:
 
         The edges may form paths, loops and trees. A loop can cut out a piece. Each edge becomes two edges, one for each
         side. If the cuts separate the faces around a vertex into several parts, each part gets a separate copy of the
-        vertex. The part with the lowest face id keeps the id of the vertex, and new vertices get the highest ids. Faces
-        keep their ids, and no vertex moves. Copies have the values of the originals, and corners keep their values.
-        ``stitch()`` is the inverse.
+        vertex. The part that contains the face with the lowest id keeps the id of the vertex, and new vertices get the
+        highest ids. Faces keep their ids, and no vertex moves. Copies have the values of the originals, and corners
+        keep their values. ``stitch()`` is the inverse.
 
         All edges are cut at once. An edge is refused if it is on the boundary (``Boundary``), or if the cut would not
         open the mesh because both ends are inside the mesh and no other cut continues at either end
@@ -3810,10 +3835,10 @@ class MeshOperations:
         """Tags the selected vertices and removes the tag from all other vertices. In later steps, ``sel.Tagged("rim")``
         selects the vertices with the tag ``rim``.
 
-        In later steps, a copy of a tagged vertex is also tagged, as in ``extrude_faces()``, but a new vertex on an edge
-        is not, as in ``split_edges()``. An existing tag of the same name is replaced. If an attribute of another type
-        has this name, the step fails. The geometry does not change. The report counts the vertices that gained or lost
-        the tag.
+        If a later step copies a tagged vertex, as ``extrude_faces()`` does, the copy is also tagged. If a later step
+        adds a vertex on an edge, as ``split_edges()`` does, the new vertex is not tagged. An existing tag of the same
+        name is replaced. If an attribute of another type has this name, the step fails. The geometry does not change.
+        The report counts the vertices that gained or lost the tag.
 
         Example: ``mesh.tag_vertices(name="some", vertices="Boundary")``
 
@@ -4148,16 +4173,17 @@ class MeshOperations:
         """Cuts meshes along a plane.
 
         Every edge that crosses the plane gets a vertex on the plane. Every face that crosses the plane is cut along it.
-        A concave face can be cut several times. A vertex is on the plane if its distance from the plane is at most 1e-9
-        of the largest extent of the mesh or 1e-14 of the largest coordinate; it is not moved. When edge e is cut, the
-        part at the start of half-edge 2e keeps the id of the edge. When a face is cut, the part with the first corner
-        keeps the id of the face. New elements get the highest ids. Attributes are interpolated at the crossings,
-        separately on each side of a seam.
+        A concave face can be cut several times. A vertex counts as on the plane if its distance from the plane is at
+        most 1e-9 times the largest extent of the mesh, or at most 1e-14 times the largest absolute coordinate. Such a
+        vertex is not moved. When edge e is cut, the part at the start of half-edge 2e keeps the id of the edge. When a
+        face is cut, the part with the first corner keeps the id of the face. New elements get the highest ids.
+        Attributes are interpolated at the crossings, separately on each side of a seam.
 
         With ``keep="Front"`` or ``keep="Back"``, the other side of the plane is removed. A face in the plane belongs to
         the back if its normal points to the front, because the face then closes the solid behind the plane. Vertices
         left without a face are removed. If the remaining faces around a vertex form several fans, each fan gets a
-        separate copy of the vertex. No faces are added to close the cut. ``fill_holes()`` adds them.
+        separate copy of the vertex. No faces are added to close the cut. To close it, use ``fill_holes()`` in a later
+        step.
 
         Example: ``mesh.bisect(normal=(0, 0, 1))``
 
@@ -4188,8 +4214,8 @@ class MeshOperations:
         The mesh is cut along a plane, as with ``bisect()``. The half on the side ``from_`` is kept and mirrored, and
         the halves are joined at the plane. Vertices near the plane (see ``bisect()``) are moved exactly onto it, so
         that the result is symmetric. Faces in the plane are removed, because they would be walls inside the result.
-        Where the surface only touches the plane, the halves are not joined. The report counts the faces of which no
-        part is kept.
+        Where the surface only touches the plane, the halves are not joined. The report counts the faces that are
+        removed as a whole.
 
         The elements of the kept half come first, in their old order. The elements of the mirror image follow.
         Attributes are copied, so both halves have the same texture coordinates, tags and weights of joints. Normals and
@@ -4233,7 +4259,7 @@ class MeshOperations:
         - Lines: the boundary, seams of texture coordinates and normals, borders between face tags or materials, edges
           with a tag or a crease, and ``features``. A line can lose vertices, but its ends, and the vertices where lines
           meet, keep their exact positions.
-        - Attributes: texture coordinates, normals, colors and other numbers are a part of the change that is kept small
+        - Attributes: changes of texture coordinates, normals, colors and other numbers count as changes of the surface
           (Hoppe, 1999), and new vertices get the values that fit best. Values are never mixed across a line, and no
           triangle is turned over in the texture. Normals are kept, so that a simplified mesh is shaded like the
           original.
@@ -4253,7 +4279,8 @@ class MeshOperations:
             the surface. The true distance is usually between a third of the limit and the limit. If omitted, there is
             no limit.
         :param features: Edges that are treated as lines, for example ``sel.Sharp(above=30)``. If omitted, only the
-            lines that are always kept. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
+            lines that are always kept are treated as lines. ``"All"``, ``"Boundary"``, or a value of
+            ``meshwright.sel``.
         :param pin: Vertices that keep their exact positions, for example ``Boundary``. If omitted, no vertices.
             ``"All"``, ``"Boundary"``, ``"Isolated"``, or a value of ``meshwright.sel``.
         :param intersections: Whether the step may create intersections of faces. They can occur where parts of the
@@ -4284,10 +4311,10 @@ class MeshOperations:
 
         Each pass splits long edges, collapses short edges, flips edges so that most vertices have six edges, and moves
         vertices along the surface (Botsch, Kobbelt, 2004). Most edges of the result have 4/5 to 4/3 of the target
-        length. All vertices lie on the original surface, except a new vertex that cannot move there without turning a
-        triangle or moving the surface too far. The target length is either ``length``, or it follows ``curvature``:
-        edges are short where the surface is curved, and long where it is flat (Dunyach and others, 2013). Exactly one
-        of the two must be given. All faces must be triangles.
+        length. All vertices lie on the original surface, except new vertices that cannot be moved onto it without
+        turning a triangle too far or moving the surface too far. The target length is either ``length``, or it follows
+        ``curvature``: edges are short where the surface is curved, and long where it is flat (Dunyach and others,
+        2013). Exactly one of the two must be given. All faces must be triangles.
 
         The following properties are kept:
 
@@ -4296,7 +4323,8 @@ class MeshOperations:
           with a tag or a crease, and ``features``. Vertices on a line slide along it. The ends of lines, the vertices
           where lines meet, and corners where a line turns by more than 40 degrees keep their exact positions. Other
           sharp edges are rounded.
-        - Attributes: they come from the same point of the original surface, and are never interpolated across a line.
+        - Attributes: each vertex and corner gets the values of the original surface at its position. Values are never
+          interpolated across a line.
         - Vertex tags: a new vertex has a tag if all old vertices around its position had the tag. A tagged vertex keeps
           its exact position unless all corners of one of its triangles, or both of its neighbors on a line, also have
           the tag. Vertices with sharpness also keep their exact positions.
@@ -4308,13 +4336,14 @@ class MeshOperations:
         Example: ``mesh.remesh(length=0.5)``
 
         :param length: The target length of edges, in scene units.
-        :param curvature: Target lengths that follow the curvature, instead of ``length``.
+        :param curvature: Target lengths that follow the curvature. Replaces ``length``.
             ``"error"``: The intended distance between the surface and the triangles, in scene units. It is not
                 guaranteed. To guarantee a distance, use the parameter ``error`` of the step.
             ``"min"``: The smallest length, in scene units.
             ``"max"``: The largest length, in scene units.
         :param features: Edges that are treated as lines, for example ``sel.Sharp(above=30)``. If omitted, only the
-            lines that are always kept. ``"All"``, ``"Boundary"``, or a value of ``meshwright.sel``.
+            lines that are always kept are treated as lines. ``"All"``, ``"Boundary"``, or a value of
+            ``meshwright.sel``.
         :param error: The largest allowed Hausdorff distance between the old and the new surface, in scene units. Edges
             become shorter than the target length where this is necessary. The distance is measured at the end, in both
             directions and for all points. If omitted, there is no limit.
@@ -4359,7 +4388,8 @@ class MeshOperations:
 
         :param by: The method.
             ``choice.Laplacian(..)``: Moves each vertex towards the mean of its neighbors.
-            ``choice.Taubin(..)``: Moves each vertex towards the mean of its neighbors, then back by slightly more.
+            ``choice.Taubin(..)``: Moves each vertex towards the mean of its neighbors, and then back by a slightly
+                larger factor.
             ``choice.Implicit(..)``: Moves the surface by mean curvature flow for the given time, in one stable step.
             ``choice.Denoise(..)``: Filters the normals of the faces, so that similar normals become equal, then moves
                 the vertices to fit the normals.
@@ -4371,8 +4401,8 @@ class MeshOperations:
             value of ``meshwright.sel``.
         :param boundary: How vertices on the boundary move. Defaults to ``"Fixed"``.
             ``"Fixed"``: The vertices do not move.
-            ``"Free"``: The boundary is smoothed as curves, so a vertex on the boundary depends only on its neighbors
-                along the boundary.
+            ``"Free"``: The boundary is smoothed as a set of curves, so the movement of a vertex on the boundary depends
+                only on its neighbors along the boundary.
         :param keep_volume: Whether the moved vertices are finally shifted along their normals, all by the same
             distance, until the mesh has its original volume. The mesh must be closed. Defaults to ``False``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
@@ -4391,19 +4421,19 @@ class MeshOperations:
         """Copies attributes from the nearest points of another object.
 
         An attribute of vertices, corners or faces of the object ``from_`` becomes an attribute of the same kind of
-        elements. Numbers and vectors of vertices and corners are interpolated inside the face of the nearest point.
-        Whole numbers, tags, and attributes that edits do not interpolate are copied from the nearest corner of this
-        face. Values of faces are copied from this face. An existing attribute with the same type of values is
-        overwritten; with a different type, the step fails. Without ``on``, the step acts on all meshes except
-        ``from_``.
+        elements of the changed mesh. Numbers and vectors of vertices and corners are interpolated inside the face of
+        the nearest point. Whole numbers, tags, and attributes that edits do not interpolate are copied from the nearest
+        corner of this face. Values of faces are copied from the face of the nearest point. An existing attribute with
+        the same type of values is overwritten; with a different type, the step fails. Without ``on``, the step acts on
+        all meshes except ``from_``.
 
         All corners of a face take their values from one chart of the source, that is, from faces that are connected
         without crossing a seam of the attribute. The chart is the one nearest to the center of the face, so no triangle
         is stretched across a seam of texture coordinates.
 
         Elements whose distance from the source exceeds ``within`` keep their values, or get zeros if the attribute is
-        new, and are counted. If a corner or the center of a face is that far away, this applies to all corners of the
-        face.
+        new. If a corner or the center of a face is that far away, this applies to all corners of the face. The report
+        counts these elements.
 
         Example: ``mesh.transfer(from_=scan, attributes=["uv", "color"], within=0.01)``
 
@@ -4433,7 +4463,7 @@ class MeshOperations:
         smoothly to 0 at the distance r. Distances are measured along straight lines, not along the surface.
 
         With ``by=choice.Distance(..)``, each vertex moves along its own normal, which is the mean of the normals of its
-        faces, weighted by their areas. Vertices without a normal do not move and are counted.
+        faces, weighted by their areas. Vertices without a normal do not move. The report counts them.
 
         Example: ``mesh.move_vertices(vertices=sel.Vertices([0]), by=choice.Offset((0, 0, 0.5)))``
 
@@ -4442,7 +4472,7 @@ class MeshOperations:
         :param by: How the vertices move.
             ``choice.Offset(..)``: By this offset along x, y and z, in scene units.
             ``choice.Distance(..)``: By this distance along the normal of each vertex, in scene units.
-            ``choice.To(..)``: By the same offset for all selected vertices, which moves their mean to this point.
+            ``choice.To(..)``: By one offset for all selected vertices.
         :param falloff: The distance from the selected vertices at which the movement has fallen to 0, in scene units.
             If omitted, only the selected vertices move.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
@@ -4461,11 +4491,11 @@ class MeshOperations:
         """Moves vertices along their normals, by amounts that vary over the surface.
 
         Each vertex moves along its normal by ``distance`` times the value of ``by``. The normal of a vertex is the mean
-        of the normals of its faces, weighted by their areas. Vertices without a normal do not move and are counted.
-        Normals and tangents are dropped. Faces, element ids and other attributes do not change.
+        of the normals of its faces, weighted by their areas. Vertices without a normal do not move. The report counts
+        them. Normals and tangents are dropped. Faces, element ids and other attributes do not change.
 
-        The values are computed without functions that differ between machines, so the result is identical on all
-        machines.
+        The values are computed without functions whose results differ between machines, so the result is identical on
+        all machines.
 
         Example: ``mesh.displace(by=choice.Noise(scale=0.5, seed=7), distance=0.1)``
 
@@ -4473,7 +4503,8 @@ class MeshOperations:
             ``choice.Noise(..)``: Smooth noise from -1 to 1 (Perlin, "Improving Noise", 2002).
             ``choice.Random(..)``: A random number from -1 to 1 for each vertex, which depends on the id of the vertex.
             ``choice.Attribute(..)``: A vertex attribute that holds one number for each vertex.
-        :param distance: The distance for the value 1, in scene units. A negative distance moves inwards.
+        :param distance: The distance that a vertex with the value 1 moves, in scene units. A negative distance moves
+            the vertex inwards.
         :param vertices: The vertices to move. If omitted, all vertices. ``"All"``, ``"Boundary"``, ``"Isolated"``, or a
             value of ``meshwright.sel``.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
@@ -4542,9 +4573,9 @@ class MeshOperations:
         """Rotates vertices around an axis, by an angle that grows along the axis.
 
         The angle grows linearly from 0 at ``from_`` to ``angle`` at ``to``. Below ``from_`` and above ``to``, vertices
-        rotate by the angle of the nearer end. The volume changes only because edges stay straight, so hardly on a fine
-        mesh. A twist by the opposite angle undoes a twist. Source: Barr, "Global and Local Deformations of Solid
-        Primitives", 1984.
+        rotate by the angle of the nearer end. The volume changes only because edges stay straight, so on a fine mesh it
+        hardly changes. A twist by the opposite angle undoes a twist. Source: Barr, "Global and Local Deformations of
+        Solid Primitives", 1984.
 
         Normals and tangents are dropped. Faces, element ids and other attributes do not change, so textures stretch
         with the surface. Only vertices move, so refine the mesh first if its faces are large.
@@ -4696,7 +4727,7 @@ class MeshOperations:
         report states the lowest, the mean and the highest value of each object.
 
         An attribute of the same name is replaced if it belongs to the same elements (vertices or faces) and has one
-        floating-point number for each. Otherwise the step fails.
+        floating-point number for each element. Otherwise the step fails.
 
         Example: ``mesh.measure(of="MeanCurvature")``
 
@@ -4710,23 +4741,24 @@ class MeshOperations:
             ``"Area"``: The area of each face, in scene units².
             ``"VertexArea"``: The area of each vertex, in scene units².
             ``"MinAngle"``: The smallest angle of each face, in degrees.
-            ``"AspectRatio"``: The aspect ratio of each face: 1 for regular polygons, more for others.
+            ``"AspectRatio"``: The aspect ratio of each face: 1 for regular polygons, and more than 1 for all other
+                polygons (Stimpson, Ernst, Knupp, Pébay, Thompson, "The Verdict Geometric Quality Library", 2007).
             ``choice.Distance(..)``: The distance from each vertex to the nearest point of another mesh of the scene, in
                 scene units.
             ``choice.Geodesic(..)``: The distance along the surface from each vertex to the nearest selected vertex, in
                 scene units, by the heat method (Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013; Sharp, Crane,
                 2020).
             ``"Thickness"``: The thickness of the solid at each vertex, in scene units.
-            ``choice.Occlusion(..)``: The ambient occlusion of each vertex, from 0 (open) to 1 (enclosed), which is the
-                fraction of the rays from the vertex that meet the mesh.
+            ``choice.Occlusion(..)``: The ambient occlusion of each vertex: the fraction of the rays from the vertex
+                that meet the mesh, from 0 (open) to 1 (enclosed).
             ``choice.Winding(..)``: The winding number of another mesh of the scene around each vertex: 1 inside, 0
                 outside, and numbers between 0 and 1 near gaps of the other mesh (Jacobson, Kavan, Sorkine-Hornung,
                 2013; Barill, Dickson, Schmidt, Levin, Jacobson, 2018).
         :param name: The name of the attribute. If omitted, the name of the quantity in lower case, such as
             ``mean_curvature``, or ``largest_curvature`` or ``smallest_curvature`` for a principal curvature.
         :param missing: The value for elements at which the quantity is not defined, such as the curvature of a vertex
-            without faces. These elements are counted. If omitted, 0 for quantities that can be negative, and -1 for all
-            others.
+            without faces. The report counts these elements. If omitted, 0 for quantities that can be negative, and -1
+            for all others.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         :returns: The new mesh. This mesh does not change. Its ``attributes["mean_curvature"]``, or another name, has
             the values as an array.
@@ -4750,14 +4782,15 @@ class MeshOperations:
         The surface is cut into charts, which are flattened and packed into a square page. Charts grow from flat regions
         up to ``max_angle``. They are flattened by least squares conformal maps (Levy and others, 2002) and the hybrid
         method of Liu and others (2008). A chart is cut again if it would overlap itself, if it would exceed
-        ``max_stretch``, or if more than 5 % of its area would have an aspect above 1.15. All charts of a mesh have the
-        same scale, and no chart is mirrored. A polygon stays in one chart. Each mesh gets its own page.
+        ``max_stretch``, or if, on more than 5 % of its area, the ratio of its largest to its smallest stretch would be
+        above 1.15. All charts of a mesh have the same scale, and no chart is mirrored. A polygon stays in one chart.
+        Each mesh gets its own page.
 
         The coordinates are written to the corner attribute ``uv``, which is replaced if it exists. Edges at which
         charts meet become seams. Positions, faces and other attributes do not change, but tangents are removed.
-        Zero-area faces have no area in the texture and are counted. A polygon that is bent so far that it overlaps
-        itself is refused as ``WrongPlace``, so triangulate it first. With ``on_refusal="Skip"``, its triangles overlap
-        in the texture.
+        Zero-area faces have no area in the texture. The report counts them. A polygon that is bent so far that it
+        overlaps itself is refused as ``WrongPlace``, so triangulate it first. With ``on_refusal="Skip"``, its triangles
+        overlap in the texture.
 
         Example: ``mesh.unwrap(max_angle=60)``
 
@@ -4794,9 +4827,9 @@ class MeshOperations:
 
         A chart is a set of faces that are connected without seams of the texture coordinates. Afterwards, the area of
         each chart in the texture is proportional to its area on the surface. The shape of each chart does not change,
-        even if it is stretched, mirrored or overlaps itself. Charts that overlap themselves are counted. Each zero-area
-        chart becomes a point and is counted. Each mesh gets its own page. Tangents are removed, because charts are
-        rotated.
+        even if it is stretched, mirrored or overlaps itself. Each zero-area chart becomes a point. The report counts
+        zero-area charts and charts that overlap themselves. Each mesh gets its own page. Tangents are removed, because
+        charts are rotated.
 
         Example: ``mesh.pack_uvs(page=2048, padding=4)``
 
@@ -4886,7 +4919,7 @@ class MeshOperations:
             ``"frames"``: The number of images.
             ``"seconds"``: The duration of the turn.
         :param images: The folder of images that are not next to their model, relative to the folder of the recipe. If
-            omitted, the folder of the recipe. Missing images are not drawn, and are reported.
+            omitted, the folder of the recipe. Missing images are not drawn, and the report lists them.
         :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
         :returns: The new mesh. This mesh does not change.
         """
@@ -4910,10 +4943,10 @@ class MeshOperations:
 
         The figure has a panel for each curve and each ``t``. With ``by_level``, it instead has a panel for each curve,
         each ``t`` and each level. A panel shows the control polygon, every level of de Casteljau's algorithm in a
-        different color, the point, and the curve, with the same scale in both axes. With ``by_level``, each panel of a
-        ``t`` shows one level more than the panel before it, and only the last one shows the point. The extension of the
-        file determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The
-        scene does not change.
+        different color, the point, and the curve, with the same scale in both axes. With ``by_level``, the panels for
+        one value of ``t`` each show one level more than the panel before, and only the last of these panels shows the
+        point. The extension of the file determines the format: ``.svg`` or ``.png``. The file is written only if the
+        whole recipe succeeds. The scene does not change.
 
         Example: ``mesh.curve_figure(path="figure.svg", t=[0.25, 0.5])``
 
@@ -4950,9 +4983,9 @@ class MeshOperations:
         Each half-edge is an arrow beside its edge, inside its face, with its name. A thin curve leads from the head of
         the arrow to the next half-edge of the face. The twin of a half-edge is on the other side of the edge.
         Half-edges on the boundary have no face and are gray. The faces are seen along their mean normal. Faces that
-        face away from the viewer or are seen nearly edge-on are left out and reported. The extension of the file
-        determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The scene
-        does not change.
+        face away from the viewer or are seen nearly edge-on are left out. The report counts them. The extension of the
+        file determines the format: ``.svg`` or ``.png``. The file is written only if the whole recipe succeeds. The
+        scene does not change.
 
         A name is a letter and the id of the element: ``v`` for vertices, ``h`` for half-edges, ``f`` for faces.
         Half-edges ``2e`` and ``2e + 1`` belong to edge ``e``.

@@ -64,13 +64,13 @@ def Distance(
     """The distance along the normal of each region, in scene units.
 
     A negative distance moves the faces inwards. The normal is the mean of the face normals, weighted by area. By this
-    distance along the normal of each vertex, in scene units. A negative distance moves inwards. The distance from each
-    vertex to the nearest point of another mesh of the scene, in scene units. Unless ``on`` names objects, all meshes
-    but the other mesh are measured.
+    distance along the normal of each vertex, in scene units. A negative distance moves vertices inwards. The distance
+    from each vertex to the nearest point of another mesh of the scene, in scene units. Without ``on``, all meshes
+    except the other mesh are measured.
 
     :param to: The name of the object with the other mesh.
-    :param signed: Whether distances are negative inside the other mesh: where its winding number is more than 1/2 or
-        less than -1/2. Defaults to ``False``.
+    :param signed: Whether distances are negative inside the other mesh, that is, where its winding number is more than
+        1/2 or less than -1/2. Defaults to ``False``.
     """
     return Choice('Distance', *(() if value is None else (value,)), to=to, signed=signed)
 
@@ -219,10 +219,10 @@ def Noise(*, scale: float | Arg | Ron, seed: int | Arg | Ron | None = None) -> C
 
 
 def Occlusion(*, rays: int | Arg | Ron | None = None, seed: int | Arg | Ron | None = None) -> Choice:
-    """The ambient occlusion of each vertex, from 0 (open) to 1 (enclosed), which is the fraction of the rays from the
-    vertex that meet the mesh.
+    """The ambient occlusion of each vertex: the fraction of the rays from the vertex that meet the mesh, from 0 (open)
+    to 1 (enclosed).
 
-    There are more rays near the normal, in proportion to the cosine of the angle.
+    The density of the rays is proportional to the cosine of their angle to the normal.
 
     :param rays: The number of rays from each vertex. At most 4096. Defaults to 64.
     :param seed: The seed of the rays. Defaults to 0.
@@ -299,7 +299,7 @@ def Taubin(
     factor: float | Arg | Ron | None = None,
     pass_band: float | Arg | Ron | None = None,
 ) -> Choice:
-    """Moves each vertex towards the mean of its neighbors, then back by slightly more.
+    """Moves each vertex towards the mean of its neighbors, and then back by a slightly larger factor.
 
     Removes noise, and keeps larger shapes and the volume nearly unchanged. One pass consists of both steps.
 
@@ -307,8 +307,8 @@ def Taubin(
         ``"Uniform"``: All vertices that share an edge with the vertex have the same weight.
         ``"Cotangent"``: The weights follow the shape of the faces.
     :param factor: The distance of the first step, as a fraction of the distance to the mean. From 0 to 1, exclusive.
-        Factors that would amplify noise are refused: with the default ``pass_band``, those of more than about 0.7.
-        Defaults to 0.33.
+        Factors that would amplify noise are refused. With the default ``pass_band``, these are the factors of more than
+        about 0.7. Defaults to 0.33.
     :param pass_band: The frequency below which shapes are kept. A lower value smooths more. From 0 to 1, exclusive.
         Defaults to 0.05.
     """
@@ -317,7 +317,10 @@ def Taubin(
 
 
 def To(value: Sequence[float] | NDArray[Any] | Arg | Ron, /) -> Choice:
-    """By the same offset for all selected vertices, which moves their mean to this point."""
+    """By one offset for all selected vertices.
+
+    The offset moves the mean of the selected vertices to this point.
+    """
     return Choice('To', value)
 
 
@@ -327,7 +330,7 @@ def Winding(*, of: str | Arg | Ron) -> Choice:
     and 1 near gaps of the other mesh (Jacobson, Kavan, Sorkine-Hornung, 2013; Barill, Dickson, Schmidt, Levin,
     Jacobson, 2018).
 
-    The error is usually below 0.001. Unless ``on`` names objects, all meshes but the other mesh are measured.
+    The error is usually below 0.001. Without ``on``, all meshes except the other mesh are measured.
 
     :param of: The name of the object with the other mesh.
     """

@@ -246,11 +246,11 @@ def Inside(value: Choice | Arg | Ron, /) -> Choice:
 def InsideOf(value: str | Arg | Ron, /) -> Choice:
     """The vertices inside the mesh of another object, given by its name.
 
-    A point is inside if the winding number of the mesh around the point is above 1/2 in magnitude. The mesh can have
+    A point is inside if the winding number of the mesh around the point is above 1/2 in magnitude. The mesh may have
     small gaps. The edges whose vertices are all inside the mesh of another object, given by its name. A point is inside
-    if the winding number of the mesh around the point is above 1/2 in magnitude. The mesh can have small gaps. The
+    if the winding number of the mesh around the point is above 1/2 in magnitude. The mesh may have small gaps. The
     faces whose vertices are all inside the mesh of another object, given by its name. A point is inside if the winding
-    number of the mesh around the point is above 1/2 in magnitude. The mesh can have small gaps.
+    number of the mesh around the point is above 1/2 in magnitude. The mesh may have small gaps.
     """
     return Choice('InsideOf', value)
 
@@ -372,7 +372,7 @@ def Random(
 
 SelfIntersecting = Choice('SelfIntersecting')
 """Faces that intersect another face of the object. Adjacent faces intersect only if they share points other than their
-common vertices and edges. Vertices at the same position count as one."""
+common vertices and edges. Vertices at the same position count as the same vertex."""
 
 
 def Sharp(*, above: float | Arg | Ron) -> Choice:

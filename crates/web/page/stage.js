@@ -1,6 +1,7 @@
 // The pane of the picture: the view of the meshes or the engine's own picture, its buttons, and picked elements.
 import { byId, download, element } from "./dom.js";
 import { numbered, selection } from "./pick.js";
+import { quoted } from "./ron.js";
 import { View } from "./view.js";
 
 /// Meshes with more faces are shown without edges at first.
@@ -50,6 +51,7 @@ export class Stage {
         const rendered = objects.length > 0 && (!this.view || meshes.length === 0);
         byId("canvas").hidden = byId("kinds").hidden = byId("pick").hidden = rendered || !this.view;
         byId("picture").hidden = true;
+        byId("compare").hidden = rendered || !this.view?.hasEarlier;
         const note = byId("stage-note");
         note.hidden = objects.length > 0 && Boolean(this.view) && meshes.length === objects.length;
         note.textContent = objects.length === 0 ? "The scene is empty."
@@ -100,6 +102,7 @@ export class Stage {
             }
         });
         toggle("edges", (edges) => (byId("picture").hidden ? this.view?.style({ edges }) : this.#render()));
+        byId("compare-share").addEventListener("input", ({ target }) => this.view.compare(target.valueAsNumber / 100));
         byId("fit").addEventListener("click", () => this.view.fit());
         byId("save-picture").addEventListener("click", async () => {
             const rendered = !byId("picture").hidden;
@@ -155,7 +158,7 @@ export class Stage {
         byId("insert").textContent = `Insert ${text.length > 30 ? "selection" : text}`;
         const kind = picks[0].kind[0].toUpperCase() + picks[0].kind.slice(1);
         const steps = this.completions?.stepsWith(kind, text) ?? [];
-        const on = (step) => (this.#meshes.length > 1 ? `(on: [${JSON.stringify(picks[0].mesh.name)}], run: ${step})` : step);
+        const on = (step) => (this.#meshes.length > 1 ? `(on: [${quoted(picks[0].mesh.name)}], run: ${step})` : step);
         byId("add-step").replaceChildren(element("option", { value: "" }, "Add a step"),
             ...steps.map(({ name, summary, text: step }) => element("option", { value: on(step), title: summary }, name)));
     }

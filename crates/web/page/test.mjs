@@ -265,6 +265,37 @@ const tests = {
         assert.equal(await page.locator("img[onerror], main script").count(), 0);
     },
 
+    async "the meshes of the run before are shown for comparison"(page) {
+        await ready(page);
+        const picture = () => page.evaluate(async () => {
+            const bytes = new Uint8Array(await (await meshwright.stage.view.picture()).arrayBuffer());
+            return btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""));
+        });
+        const compare = (share) => page.locator("#compare-share").fill(String(share));
+        await write(page, "(recipe: 1, steps: [Cube(name: \"a\"), Tetrahedron(name: \"b\")])");
+        assert.notEqual(await run(page), "");
+        await page.locator("#fit").click();
+        const before = await picture();
+        await write(page, "(recipe: 1, steps: [Cube(name: \"a\"), Midpoint(levels: 2, into: Quads), Tetrahedron(name: \"b\")])");
+        assert.notEqual(await run(page), "");
+        await compare(0);
+        const after = await picture();
+        assert.notEqual(after, before);
+        await compare(100);
+        assert.equal(await picture(), before);
+        await compare(50);
+        const both = await picture();
+        assert.ok(both !== before && both !== after);
+        await screenshot(page, "compared");
+        await compare(0);
+        assert.equal(await picture(), after);
+        // Another recipe is not compared.
+        await page.locator("#open-gallery").click();
+        await page.locator("#scenes button").first().click();
+        await page.waitForSelector("#run:visible");
+        await page.waitForFunction(() => document.querySelector("#compare").hidden);
+    },
+
     async "every recipe of the book runs from a link"(page) {
         await ready(page);
         const chapters = readdirSync(join(root, "book/src")).filter((name) => name.endsWith(".md"));

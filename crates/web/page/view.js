@@ -17,6 +17,10 @@ export class View {
     #controls;
     #scene = new THREE.Scene();
     #content = new THREE.Group();
+    /// The meshes of the run before.
+    #earlier = new THREE.Group();
+    /// How much of the width shows the meshes of the run before, from 0 to 1.
+    #split = 0;
     #marks = new Marks();
     #meshes = [];
     #center = [0, 0, 0];
@@ -38,7 +42,8 @@ export class View {
         light.position.set(-0.4, 0.6, 1);
         this.#camera.add(light, light.target);
         light.target.position.set(0, 0, -1);
-        this.#scene.add(this.#camera, new THREE.HemisphereLight(0xffffff, 0x8890a0, 1.3), this.#content, this.#marks.group);
+        this.#scene.add(this.#camera, new THREE.HemisphereLight(0xffffff, 0x8890a0, 1.3), this.#content, this.#earlier,
+            this.#marks.group);
         this.#controls = new OrbitControls(this.#camera, canvas);
         this.#controls.addEventListener("change", () => this.#draw());
         new ResizeObserver(() => this.#resize()).observe(canvas.parentElement);
@@ -51,11 +56,12 @@ export class View {
     /// Returns the axis.
     show(meshes, keep, up) {
         const before = this.#radius;
-        this.#clear();
         this.#meshes = meshes;
         const box = new THREE.Box3();
         // Relative to the first center, since numbers of 32 bits are precise only near the origin.
-        this.#center = meshes[0]?.center ?? [0, 0, 0];
+        const center = meshes[0]?.center ?? [0, 0, 0];
+        this.#retire(keep, new THREE.Vector3(...this.#center.map((x, axis) => x - center[axis])));
+        this.#center = center;
         meshes.forEach((mesh, i) => {
             const geometry = new THREE.BufferGeometry();
             geometry.setAttribute("position", new THREE.BufferAttribute(mesh.positions, 3));
@@ -86,10 +92,21 @@ export class View {
         return this.#style.up;
     }
 
+    /// Whether there are meshes of the run before, which `compare` shows.
+    get hasEarlier() {
+        return this.#earlier.children.length > 0;
+    }
+
+    /// Shows the meshes of the run before on the left, on this fraction of the width.
+    compare(fraction) {
+        this.#split = fraction;
+        this.#draw();
+    }
+
     /// Changes the style: `smooth`, `edges`, `up` ("y" or "z").
     style(changes) {
         Object.assign(this.#style, changes);
-        for (const { children: [surface, lines] } of this.#content.children) {
+        for (const { children: [surface, lines] } of [...this.#content.children, ...this.#earlier.children]) {
             surface.material.flatShading = !this.#style.smooth;
             surface.material.needsUpdate = true;
             if (this.#style.smooth && !surface.geometry.hasAttribute("normal")) {
@@ -138,7 +155,7 @@ export class View {
 
     /// Returns the picture as a PNG file.
     picture() {
-        this.#renderer.render(this.#scene, this.#camera);
+        this.#render();
         return new Promise((resolve) => this.#canvas.toBlob(resolve));
     }
 
@@ -162,15 +179,33 @@ export class View {
         return distance;
     }
 
-    #clear() {
-        for (const object of this.#content.children) {
-            for (const child of object.children) {
-                child.geometry.dispose();
-                child.material.dispose();
-            }
+    /// Makes the meshes those of the run before, and moves them. Drops them if `keep` is false.
+    #retire(keep, move) {
+        for (const child of this.#earlier.children.flatMap((object) => object.children)) {
+            child.geometry.dispose();
+            child.material.dispose();
         }
-        this.#content.clear();
+        this.#earlier.clear();
         this.#marks.clear();
+        for (const object of [...this.#content.children]) {
+            object.position.add(move);
+            this.#earlier.add(object);
+        }
+        if (!keep) {
+            this.#retire(true, move);
+        }
+    }
+
+    #render() {
+        const { x: width, y: height } = this.#renderer.getSize(new THREE.Vector2());
+        const middle = this.hasEarlier ? Math.round(width * this.#split) : 0;
+        this.#renderer.setScissorTest(true);
+        for (const [left, right, isEarlier] of [[0, middle, true], [middle, width, false]]) {
+            this.#earlier.visible = isEarlier;
+            this.#content.visible = this.#marks.group.visible = !isEarlier;
+            this.#renderer.setScissor(left, 0, right - left, height);
+            this.#renderer.render(this.#scene, this.#camera);
+        }
     }
 
     #draw() {
@@ -178,7 +213,7 @@ export class View {
             this.#waiting = true;
             requestAnimationFrame(() => {
                 this.#waiting = false;
-                this.#renderer.render(this.#scene, this.#camera);
+                this.#render();
             });
         }
     }

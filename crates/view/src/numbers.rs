@@ -1,5 +1,6 @@
 //! Numbers of mesh elements that are shown as colors.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use geometry::distance;
@@ -71,6 +72,13 @@ pub struct Numbers {
     /// The numbers of the elements of each mesh.
     pub colorings: Vec<Coloring>,
     pub(crate) scale: ColorScale,
+}
+
+impl Numbers {
+    /// Returns the legend of the colors, if the numbers were computed for pictures with a legend.
+    pub fn legend(&self) -> Option<Legend> {
+        self.scale.legend()
+    }
 }
 
 /// The mapping from numbers to colors.
@@ -171,6 +179,27 @@ pub fn existing_attributes(mut names: Vec<&str>) -> String {
 }
 
 impl Quantity {
+    /// Returns the quantities that the meshes of a scene have without further input: all quantities that are computed
+    /// from one mesh, and the attributes of all meshes by name.
+    pub fn of_scene(scene: &Scene) -> Vec<Self> {
+        let mut quantities = vec![
+            Self::MeanCurvature,
+            Self::GaussianCurvature,
+            Self::Valence,
+            Self::MinAngle,
+            Self::Area,
+            Self::DihedralAngle,
+        ];
+        let meshes = scene.objects().iter().filter_map(|o| o.as_mesh());
+        let columns = meshes.flat_map(|mesh| mesh.attributes().iter());
+        let names: BTreeSet<&str> = columns.map(|(_, column)| &*column.name).collect();
+        quantities.extend(names.into_iter().map(|name| Self::Attribute {
+            name: name.to_owned(),
+            component: None,
+        }));
+        quantities
+    }
+
     /// Returns the domain of the quantity, and one number for each element of the domain, by index. The number of an
     /// element without a value is NaN. Returns `None` if the mesh does not have this quantity.
     fn values(&self, mesh: &Mesh, targets: &[Mesh]) -> Option<(Domain, Vec<f64>)> {
@@ -246,7 +275,8 @@ impl Quantity {
         }
     }
 
-    fn title(&self) -> String {
+    /// Returns a title with the unit, for legends and lists.
+    pub fn title(&self) -> String {
         match self {
             Self::Valence => "valence".to_owned(),
             Self::MinAngle => "min angle [°]".to_owned(),

@@ -10,7 +10,7 @@ use view::{ColorBy, Quantity};
 use crate::app::Parts;
 use crate::banners::banners;
 use crate::camera::{Side, UpAxis};
-use crate::gpu::{Wireframe, title};
+use crate::gpu::Wireframe;
 use crate::theme::Colors;
 use crate::view_pane::ViewPane;
 
@@ -187,29 +187,7 @@ fn color_combo(ui: &mut Ui, view: &mut ViewPane, scene: &scene::Scene) {
     let current = view.look.color_by.as_ref().map(|by| by.of.clone());
     let name = current
         .as_ref()
-        .map_or_else(|| "Material".to_owned(), title);
-    let mut choices = vec![
-        Quantity::MeanCurvature,
-        Quantity::GaussianCurvature,
-        Quantity::Valence,
-        Quantity::MinAngle,
-        Quantity::Area,
-        Quantity::DihedralAngle,
-    ];
-    let mut names: Vec<String> = Vec::new();
-    for mesh in scene.objects().iter().filter_map(|object| object.as_mesh()) {
-        names.extend(
-            mesh.attributes()
-                .iter()
-                .map(|(_, column)| column.name.clone()),
-        );
-    }
-    names.sort();
-    names.dedup();
-    choices.extend(names.into_iter().map(|name| Quantity::Attribute {
-        name,
-        component: None,
-    }));
+        .map_or_else(|| "Material".to_owned(), Quantity::title);
     let combo = ComboBox::from_id_salt("color")
         .selected_text(name)
         .width(64.0)
@@ -217,9 +195,9 @@ fn color_combo(ui: &mut Ui, view: &mut ViewPane, scene: &scene::Scene) {
             if ui.selectable_label(current.is_none(), "Material").clicked() {
                 view.look.color_by = None;
             }
-            for quantity in choices {
+            for quantity in Quantity::of_scene(scene) {
                 let is_current = current.as_ref() == Some(&quantity);
-                if ui.selectable_label(is_current, title(&quantity)).clicked() {
+                if ui.selectable_label(is_current, quantity.title()).clicked() {
                     view.look.color_by = Some(ColorBy::new(quantity));
                 }
             }

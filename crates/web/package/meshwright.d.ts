@@ -86,6 +86,27 @@ export interface MeshArrays {
     edges: Uint32Array;
 }
 
+/** A quantity as recipes write it in `ColorBy(of: ..)`, such as `"MeanCurvature"`. */
+export type Quantity = string | Record<string, unknown>;
+
+/** The colors of all meshes that have a quantity, with a common scale. Colors of the legend are as in `#4477aa`. */
+export interface Colors {
+    legend:
+        | { title: string; low: number; high: number; colors: string[] }
+        | { title: string; classes: [name: string, color: string][] };
+    meshes: {
+        /** The name of the object. */
+        name: string;
+        /**
+         * The elements that have colors: the vertices, the corners of the triangles in the order of `triangles`, or the
+         * edges.
+         */
+        per: "vertex" | "corner" | "edge";
+        /** Red, green and blue in sRGB of each element, one element after another. */
+        colors: Uint8Array;
+    }[];
+}
+
 export interface Options {
     /** The path of the recipe, which other paths are relative to. Defaults to `recipe.ron`. */
     path?: string;
@@ -128,6 +149,10 @@ export class Session {
     picture(options?: { width?: number; height?: number; wireframe?: boolean; up?: "auto" | "y" | "z" }): Uint8Array;
     /** Returns the arrays of a mesh of the last run; `undefined` if no mesh has this name. */
     mesh(object: string): MeshArrays | undefined;
+    /** Returns the quantities of the meshes of the last run that `colors` can show. */
+    quantities(): { title: string; quantity: Quantity }[];
+    /** Returns a quantity of the meshes of the last run as colors. Throws if no mesh has it. */
+    colors(quantity: Quantity): Colors;
     /** Returns the JSON schema of recipes. */
     schema(): object;
     /** Returns all operations, each with an example of a step. */

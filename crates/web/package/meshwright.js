@@ -75,6 +75,20 @@ export class Session {
         }
     }
 
+    quantities() {
+        return JSON.parse(this.#core.quantities());
+    }
+
+    colors(quantity) {
+        const colored = this.#core.colors(JSON.stringify(quantity));
+        try {
+            const { legend, meshes } = JSON.parse(colored.described());
+            return { legend, meshes: meshes.map((mesh, i) => ({ ...mesh, colors: colored.colors(i) })) };
+        } finally {
+            colored.free();
+        }
+    }
+
     schema() {
         return JSON.parse(this.#core.schema());
     }

@@ -99,6 +99,11 @@ export class Engine {
         return this.#call("run", recipe, set);
     }
 
+    /// Returns the colors of a quantity of the meshes of the last run.
+    colors(quantity) {
+        return this.#call("colors", quantity);
+    }
+
     picture(options) {
         return this.#call("picture", options);
     }

@@ -1,5 +1,6 @@
 // The pane of the picture: the view of the meshes or the engine's own picture, its buttons, and picked elements.
-import { byId, download, element } from "./dom.js";
+import { showLegend } from "./colors.js";
+import { byId, download, element, notify } from "./dom.js";
 import { numbered, selection } from "./pick.js";
 import { quoted } from "./ron.js";
 import { View } from "./view.js";
@@ -25,7 +26,7 @@ export class Stage {
             this.view.onPick = (pick, more) => this.#pick(pick, more);
         } catch {
             byId("canvas").hidden = true;
-            for (const id of ["smooth", "fit", "kinds", "pick"]) {
+            for (const id of ["smooth", "fit", "kinds", "pick", "color-part"]) {
                 byId(id).hidden = true;
             }
         }
@@ -33,8 +34,9 @@ export class Stage {
     }
 
     /// Shows the scene of a run. The camera stays if `keep` is true. `up` is the axis that points upwards: "y", "z" or "auto".
-    async show({ meshes, objects }, keep, up) {
+    async show({ meshes, objects, quantities }, keep, up) {
         this.#meshes = meshes;
+        this.#offer(meshes.length ? quantities : []);
         const faces = objects.reduce((sum, object) => sum + (object.faces ?? 0), 0);
         if (this.view) {
             if (!keep) {
@@ -49,7 +51,9 @@ export class Stage {
         this.#select([]);
         byId("number-label").hidden = meshes.length !== 1;
         const rendered = objects.length > 0 && (!this.view || meshes.length === 0);
-        byId("canvas").hidden = byId("kinds").hidden = byId("pick").hidden = rendered || !this.view;
+        for (const id of ["canvas", "kinds", "pick", "color-part"]) {
+            byId(id).hidden = rendered || !this.view;
+        }
         byId("picture").hidden = true;
         byId("compare").hidden = rendered || !this.view?.hasEarlier;
         const note = byId("stage-note");
@@ -60,6 +64,36 @@ export class Stage {
                     : "Curves and patches are not shown. Tessellate them to see them.";
         if (rendered) {
             await this.#render();
+        } else {
+            await this.#color();
+        }
+    }
+
+    /// Offers the quantities of the meshes. The chosen one stays if the meshes still have it.
+    #offer(quantities) {
+        const select = byId("color-by");
+        const chosen = select.value;
+        const option = ({ title, quantity }) => {
+            const value = JSON.stringify(quantity);
+            return element("option", { value, selected: value === chosen }, title);
+        };
+        select.replaceChildren(element("option", { value: "" }, "Plain"), ...quantities.map(option));
+    }
+
+    /// Colors the meshes by the chosen quantity.
+    async #color() {
+        const chosen = byId("color-by").value;
+        let found;
+        try {
+            found = chosen && this.#meshes.length ? await this.#engine.colors(JSON.parse(chosen)) : null;
+        } catch (error) {
+            byId("color-by").value = "";
+            notify(error.message);
+        }
+        // The visitor may have chosen again.
+        if (chosen === byId("color-by").value || !found) {
+            this.view?.color(found?.meshes ?? []);
+            showLegend(found?.legend);
         }
     }
 
@@ -103,6 +137,7 @@ export class Stage {
         });
         toggle("edges", (edges) => (byId("picture").hidden ? this.view?.style({ edges }) : this.#render()));
         byId("compare-share").addEventListener("input", ({ target }) => this.view.compare(target.valueAsNumber / 100));
+        byId("color-by").addEventListener("change", () => this.#color());
         byId("fit").addEventListener("click", () => this.view.fit());
         byId("save-picture").addEventListener("click", async () => {
             const rendered = !byId("picture").hidden;

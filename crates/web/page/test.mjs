@@ -296,6 +296,47 @@ const tests = {
         await page.waitForFunction(() => document.querySelector("#compare").hidden);
     },
 
+    async "quantities are shown as colors, with a legend"(page) {
+        await ready(page);
+        const picture = () => page.evaluate(async () => {
+            const bytes = new Uint8Array(await (await meshwright.stage.view.picture()).arrayBuffer());
+            return btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""));
+        });
+        const color = async (label) => {
+            await page.locator("#color-by").selectOption({ label });
+            await page.waitForFunction((label) => document.querySelector("#legend").textContent.startsWith(label), label);
+        };
+        await write(page, "(recipe: 1, steps: [Torus(major: 1, minor: 0.4), Cube(), Measure(of: MeanCurvature, name: \"bend\", on: [\"Torus\"])])");
+        await run(page);
+        await page.locator("#edges").click();
+        const plain = await picture();
+        const seen = new Set([plain]);
+        const labels = await page.locator("#color-by option").allInnerTexts();
+        assert(labels.includes("bend") && labels.includes("min angle [°]"), String(labels));
+        for (const label of labels.slice(1)) {
+            await color(label);
+            const now = await picture();
+            assert(label === "bend" || !seen.has(now), label);
+            seen.add(now);
+        }
+        await color("valence");
+        assert.equal(await text(page, "#legend"), "valence\n 3\n 4");
+        await color("mean curvature");
+        assert.match(await text(page, "#legend"), /^mean curvature\n-[\d.]+\n[\d.]+$/);
+        await screenshot(page, "colors");
+        // The next run keeps the choice, unless its meshes do not have the quantity.
+        await color("bend");
+        await write(page, "(recipe: 1, steps: [Cube()])");
+        await run(page);
+        assert.equal(await page.locator("#color-by").inputValue(), "");
+        assert.equal(await page.locator("#legend").isVisible(), false);
+        await color("area");
+        await run(page);
+        assert.match(await text(page, "#legend"), /^area\n4\n4$/);
+        await page.locator("#color-by").selectOption({ label: "Plain" });
+        await page.waitForFunction(() => document.querySelector("#legend").hidden);
+    },
+
     async "every recipe of the book runs from a link"(page) {
         await ready(page);
         const chapters = readdirSync(join(root, "book/src")).filter((name) => name.endsWith(".md"));

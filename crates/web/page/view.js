@@ -1,6 +1,7 @@
 // The picture of the meshes: three.js with an orbit camera, drawn only when something changes.
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { paint } from "./colors.js";
 import { nearest } from "./pick.js";
 import { Marks } from "./marks.js";
 
@@ -112,12 +113,18 @@ export class View {
             if (this.#style.smooth && !surface.geometry.hasAttribute("normal")) {
                 surface.geometry.computeVertexNormals();
             }
-            lines.visible = this.#style.edges;
+            lines.visible = this.#style.edges || lines.material.vertexColors;
         }
         if (changes.up) {
             this.fit();
         }
         this.#draw();
+    }
+
+    /// Colors the meshes: `[{ name, per, colors }]`. Meshes without an entry have their own color.
+    color(found) {
+        this.#meshes.forEach(({ name }, i) => paint(this.#content.children[i], found.find((mesh) => mesh.name === name)));
+        this.style({});
     }
 
     /// Moves the camera so that all meshes fit the view, seen from the front, a little from the side and from above.
@@ -188,6 +195,8 @@ export class View {
         this.#earlier.clear();
         this.#marks.clear();
         for (const object of [...this.#content.children]) {
+            // The legend is about the meshes of the last run only.
+            paint(object);
             object.position.add(move);
             this.#earlier.add(object);
         }

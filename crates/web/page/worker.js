@@ -17,8 +17,9 @@ const calls = {
     run(recipe, set) {
         const result = session.run(recipe, { set, onEvent: (event) => postMessage({ event }) });
         const meshes = result.objects.filter((object) => object.kind === "mesh");
-        return { ...result, meshes: meshes.map(({ name }) => ({ name, ...session.mesh(name) })) };
+        return { ...result, quantities: session.quantities(), meshes: meshes.map(({ name }) => ({ name, ...session.mesh(name) })) };
     },
+    colors: (quantity) => session.colors(quantity),
     picture: (options) => session.picture(options),
     describe: () => ({ schema: session.schema(), operations: session.operations() }),
 };

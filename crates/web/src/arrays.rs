@@ -1,7 +1,7 @@
 //! The arrays of a mesh that a view draws and picks.
 
 use geometry::triangulate::Cutter;
-use mesh::{DVec3, Mesh};
+use mesh::{DVec3, FaceId, HalfEdgeId, Mesh};
 
 /// The arrays of a mesh. Numbers of vertices and faces are those of recipes.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -29,29 +29,39 @@ impl Arrays {
         };
         let relative = |&p: &DVec3| (p - center).as_vec3().to_array();
         arrays.positions = mesh.positions().iter().flat_map(relative).collect();
-        let number = |id: usize| u32::try_from(id).unwrap_or(u32::MAX);
-        let mut cutter = Cutter::default();
-        let mut corners = Vec::new();
-        for f in mesh.faces() {
-            corners.clear();
-            corners.extend(mesh.face_vertices(f).map(|v| number(v.index())));
-            let cut = cutter.cut(mesh, f);
-            // A triangle is not cut.
-            let whole = [[0, 1, 2]];
-            let triangles = match cut.triangles() {
-                [] if corners.len() == 3 => &whole[..],
-                triangles => triangles,
-            };
-            for triangle in triangles {
-                let at = triangle.map(|c| corners[c as usize]);
-                arrays.triangles.extend(at);
-                arrays.faces.push(number(f.index()));
-            }
-        }
+        each_triangle(mesh, |f, corners| {
+            let vertices = corners.map(|h| number(mesh.origin(h).index()));
+            arrays.triangles.extend(vertices);
+            arrays.faces.push(number(f.index()));
+        });
         let ends = mesh.edges().flat_map(|e| mesh.edge_vertices(e));
         arrays.edges = ends.map(|v| number(v.index())).collect();
         arrays
     }
+}
+
+/// Passes each triangle on: its face and its corners. A polygon has several triangles.
+pub(crate) fn each_triangle(mesh: &Mesh, mut each: impl FnMut(FaceId, [HalfEdgeId; 3])) {
+    let mut cutter = Cutter::default();
+    let mut corners = Vec::new();
+    for f in mesh.faces() {
+        corners.clear();
+        corners.extend(mesh.face_half_edges(f));
+        let cut = cutter.cut(mesh, f);
+        // A triangle is not cut.
+        let whole = [[0, 1, 2]];
+        let triangles = match cut.triangles() {
+            [] if corners.len() == 3 => &whole[..],
+            triangles => triangles,
+        };
+        for triangle in triangles {
+            each(f, triangle.map(|c| corners[c as usize]));
+        }
+    }
+}
+
+fn number(id: usize) -> u32 {
+    u32::try_from(id).unwrap_or(u32::MAX)
 }
 
 /// Returns the center of the bounding box; the origin if there are no vertices.

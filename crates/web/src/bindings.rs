@@ -6,7 +6,7 @@ use render::Up;
 use serde_json::Value as Json;
 use wasm_bindgen::prelude::*;
 
-use crate::{Arrays, session};
+use crate::{Arrays, Colors, session};
 
 #[wasm_bindgen]
 extern "C" {
@@ -111,6 +111,17 @@ impl Session {
         self.0.arrays(object).map(View)
     }
 
+    /// Returns the quantities that colors can show.
+    pub fn quantities(&self) -> String {
+        self.0.quantities().to_string()
+    }
+
+    /// Returns the colors of a quantity.
+    pub fn colors(&self, quantity: &str) -> Result<Colored, JsError> {
+        let quantity = serde_json::from_str(quantity)?;
+        Ok(Colored(self.0.colors(quantity).map_err(error)?))
+    }
+
     /// Returns the JSON schema of recipes.
     pub fn schema(&self) -> String {
         self.0.schema().to_string()
@@ -151,5 +162,26 @@ impl View {
     /// The vertices of the edges.
     pub fn edges(&mut self) -> Vec<u32> {
         std::mem::take(&mut self.0.edges)
+    }
+}
+
+/// The colors of all meshes.
+#[wasm_bindgen]
+pub struct Colored(Colors);
+
+#[wasm_bindgen]
+impl Colored {
+    /// Describes the legend, and the meshes without their colors.
+    pub fn described(&self) -> String {
+        let meshes = self.0.meshes.iter();
+        let meshes = meshes.map(|m| serde_json::json!({ "name": m.object, "per": m.per }));
+        let meshes: Json = meshes.collect();
+        serde_json::json!({ "legend": self.0.legend, "meshes": meshes }).to_string()
+    }
+
+    /// The colors of a mesh by its index. They can be taken once.
+    pub fn colors(&mut self, mesh: usize) -> Vec<u8> {
+        let mesh = self.0.meshes.get_mut(mesh);
+        mesh.map_or_else(Vec::new, |m| std::mem::take(&mut m.colors))
     }
 }

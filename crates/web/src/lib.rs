@@ -3,16 +3,19 @@
 //! ```text
 //! session.rs  Session: files, check, run, and the scene of the last run; plain Rust, tested natively
 //! arrays.rs   the arrays of a mesh that a view needs
+//! colors.rs   the colors of quantities for these arrays
 //! bindings.rs the same for JavaScript, through `wasm-bindgen`; only in WebAssembly
 //! ```
 //!
 //! `build.sh` builds the package in `target/web`. `package/meshwright.js` adds types and objects to the bindings.
 
 mod arrays;
+mod colors;
 mod session;
 
 #[cfg(target_arch = "wasm32")]
 mod bindings;
 
 pub use arrays::Arrays;
+pub use colors::{Colors, MeshColors, Per};
 pub use session::Session;

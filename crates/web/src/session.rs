@@ -17,9 +17,10 @@ use scene::{Geometry, Scene};
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 use store::StoreError;
+use view::Quantity;
 use web_time::Instant;
 
-use crate::Arrays;
+use crate::{Arrays, Colors};
 
 static REGISTRY: LazyLock<Registry> = LazyLock::new(ops_all::registry);
 
@@ -199,6 +200,24 @@ impl Session {
     pub fn arrays(&self, object: &str) -> Option<Arrays> {
         let mesh = self.scene.object(object)?.as_mesh()?;
         Some(Arrays::new(mesh))
+    }
+
+    /// Returns the quantities of the meshes of the last run that [`colors`](Self::colors) can show: the `title` and the
+    /// `quantity` of each, as recipes write it.
+    pub fn quantities(&self) -> Json {
+        let quantities = Quantity::of_scene(&self.scene).into_iter();
+        quantities
+            .map(|quantity| json!({ "title": quantity.title(), "quantity": quantity }))
+            .collect()
+    }
+
+    /// Shows a quantity of the meshes of the last run as colors.
+    ///
+    /// # Errors
+    ///
+    /// [`PictureError::Style`] if no mesh has this quantity.
+    pub fn colors(&self, quantity: Quantity) -> Result<Colors, PictureError> {
+        Colors::new(&self.scene, quantity)
     }
 
     /// Returns the JSON schema of recipes.

@@ -39,6 +39,19 @@ assert(result.succeeded, JSON.stringify(result.problems));
 assert.deepEqual([...result.meshes.a.triangles], [0, 1, 2]);
 assert(new TextDecoder().decode(result.outputs["b.obj"]).includes("f 1 2 3"));
 
+// Each quantity has a color for each element.
+const colored = await Session.create();
+colored.run("(recipe: 1, steps: [Torus(major: 1, minor: 0.4, name: \"a\")])");
+const arrays = colored.mesh("a");
+const sizes = { vertex: arrays.positions.length, corner: 3 * arrays.triangles.length, edge: 1.5 * arrays.edges.length };
+for (const { title, quantity } of colored.quantities()) {
+    const { legend, meshes: [mesh] } = colored.colors(quantity);
+    assert.equal(legend.title, title);
+    assert.equal(mesh.colors.length, sizes[mesh.per], title);
+}
+assert.throws(() => colored.colors({ Attribute: { name: "missing" } }), /missing/);
+colored.free();
+
 // Checking is fast enough for each key.
 const checker = await Session.create();
 const text = readFileSync(join(root, "scenes/cube_flip.ron"), "utf8");

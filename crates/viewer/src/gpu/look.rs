@@ -1,7 +1,7 @@
 //! The appearance of a scene.
 
 use render::{Color, Shading};
-use view::{ColorBy, Quantity};
+use view::ColorBy;
 
 /// The lines of surfaces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -85,26 +85,5 @@ impl Look {
             _ => on_surface,
         };
         color.linear()
-    }
-}
-
-/// Returns the name of a quantity for people.
-pub fn title(quantity: &Quantity) -> String {
-    match quantity {
-        Quantity::Valence => "valence".to_owned(),
-        Quantity::MinAngle => "smallest angle [°]".to_owned(),
-        Quantity::Area => "area".to_owned(),
-        Quantity::DihedralAngle => "dihedral angle [°]".to_owned(),
-        Quantity::MeanCurvature => "mean curvature".to_owned(),
-        Quantity::GaussianCurvature => "Gaussian curvature".to_owned(),
-        Quantity::Attribute {
-            name,
-            component: None,
-        } => name.clone(),
-        Quantity::Attribute {
-            name,
-            component: Some(component),
-        } => format!("{name}[{component}]"),
-        Quantity::DistanceTo(path) => format!("distance to {path}"),
     }
 }

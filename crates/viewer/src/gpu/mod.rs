@@ -23,7 +23,7 @@ use glam::DVec3;
 pub use device::can_draw;
 pub use geometry::LineInstance;
 pub use grid::axis_color;
-pub use look::{Look, Wireframe, title};
+pub use look::{Look, Wireframe};
 pub use painter::Painter;
 
 /// Elements that are drawn on top of the scene, in scene coordinates.

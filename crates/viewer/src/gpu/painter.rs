@@ -9,7 +9,6 @@ use wgpu::util::DeviceExt;
 
 use super::geometry::{LineInstance, SurfaceLook, narrow};
 use super::grid::grid;
-use super::look::title;
 use super::objects::{self, Key, Uploaded};
 use super::patch::patch;
 use super::pipelines::Pipelines;
@@ -162,7 +161,7 @@ impl Painter {
         self.legend = colorings
             .first()
             .zip(look.color_by.as_ref())
-            .map(|(coloring, by)| (title(&by.of), coloring.map, coloring.range));
+            .map(|(coloring, by)| (by.of.title(), coloring.map, coloring.range));
         let mut old = std::mem::take(&mut self.objects);
         for (i, object) in scene.objects().iter().enumerate() {
             let coloring = colorings.iter().find(|c| c.object == object.name);

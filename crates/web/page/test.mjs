@@ -306,8 +306,8 @@ const tests = {
             await page.locator("#color-by").selectOption({ label });
             await page.waitForFunction((label) => document.querySelector("#legend").textContent.startsWith(label), label);
         };
-        await write(page, "(recipe: 1, steps: [Torus(major: 1, minor: 0.4), Cube(), Measure(of: MeanCurvature, name: \"bend\", on: [\"Torus\"])])");
-        await run(page);
+        await write(page, "(recipe: 1, steps: [Torus(major: 1, minor: 0.4), Cube(), (on: [\"torus\"], run: Measure(of: MeanCurvature, name: \"bend\"))])");
+        assert.notEqual(await run(page), "");
         await page.locator("#edges").click();
         const plain = await picture();
         const seen = new Set([plain]);

@@ -115,7 +115,6 @@ pub use provenance::provenance;
 
 use assets::Assets;
 use note::Notes;
-use peek::PeekRig;
 use placed::{Placed, placed};
 use save::{Content, save};
 use writing::without_marks;
@@ -383,7 +382,7 @@ pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Pee
     let of = |geometry: Geometry| one(PeekGeometry::of(&geometry));
     let mut notes = Notes::of(path);
     let mut assets = Assets::of(store, path);
-    let mut rig = PeekRig::default();
+    let mut graph = Graph::default();
     let plain =
         |mesh| vec![PeekObject::new(name.clone(), PeekGeometry::Mesh(mesh)).with_materials(&[])];
     let objects = match format {
@@ -393,7 +392,7 @@ pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Pee
             &name,
             options.placements,
             &mut assets,
-            &mut rig,
+            &mut graph,
             &mut notes,
         ),
         Format::Ply => ply::peek(&bytes, &mut notes).map(plain),
@@ -404,7 +403,7 @@ pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Pee
             &bytes,
             options.name.as_deref(),
             options.placements,
-            &mut rig,
+            &mut graph,
         ),
         Format::Bez => bez::read_patches(&bytes).map(of),
         Format::Bzc => bez::read_curve(&bytes).map(of),
@@ -417,8 +416,7 @@ pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Pee
     Ok(Peek {
         format,
         objects,
-        skins: rig.skins,
-        animations: rig.animations,
+        graph,
         left_out,
     })
 }

@@ -10,12 +10,9 @@
 //! Reading restores everything: the order of all elements, every attribute with its rule, names, and materials with
 //! their content. Other programs do not read this format.
 
-use std::collections::BTreeMap;
-
-use scene::{NoArrays, Scene};
+use scene::{Graph, NoArrays, Scene};
 
 use crate::fault::Fault;
-use crate::peek::PeekRig;
 use crate::{
     Parsed, ParsedObject, PeekGeometry, PeekObject, Placements, Shape, SingleFile, WriteOptions,
 };
@@ -46,29 +43,14 @@ pub(crate) fn peek(
     bytes: &[u8],
     name: Option<&str>,
     placements: Placements,
-    rig: &mut PeekRig,
+    graph: &mut Graph,
 ) -> Result<Vec<PeekObject>, Fault> {
     let scene = scene_of(bytes, name, placements)?;
-    *rig = PeekRig::of(scene.graph());
-    // For each object, the number of its nodes, and the skin of the first one.
-    let mut nodes: BTreeMap<&str, (u64, Option<u64>)> = BTreeMap::new();
-    for node in scene.graph().nodes() {
-        if let Some(object) = &node.object {
-            let skin = node.skin.map(|skin| skin as u64);
-            nodes.entry(object.as_str()).or_insert((0, skin)).0 += 1;
-        }
-    }
     let objects = scene.objects().iter().map(|object| {
-        let of_object = nodes.get(object.name.as_str()).copied();
-        let (nodes, skin) = of_object.unwrap_or_default();
-        PeekObject {
-            materials: Some(object.materials.iter().map(|m| m.name.clone()).collect()),
-            name: object.name.clone(),
-            geometry: PeekGeometry::of(&object.geometry),
-            nodes,
-            skin,
-        }
+        let geometry = PeekGeometry::of(&object.geometry);
+        PeekObject::new(object.name.clone(), geometry).with_materials(&object.materials)
     });
+    graph.clone_from(scene.graph());
     Ok(objects.collect())
 }
 

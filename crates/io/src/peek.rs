@@ -12,30 +12,13 @@ pub struct Peek {
     pub format: Format,
     /// The objects that reading the file would give, in order and with their names.
     pub objects: Vec<PeekObject>,
-    /// The number of skins.
-    pub skins: u64,
-    /// The number of animations.
-    pub animations: u64,
+    /// The nodes, skins and animations, but not the arrays of numbers: all skins are without inverse bind matrices, and the
+    /// numbers of samplers have no meaning. In `.mws` files, the arrays are there too.
+    pub graph: Graph,
     /// The content that reading would leave out, as far as it is known without building the objects. Examples are
     /// unused elements of a PLY file, statements of an OBJ file that do not describe polygons, and missing images and
     /// material libraries. Reading can leave out more content.
     pub left_out: Vec<Note>,
-}
-
-/// The parts of a graph that deform and move objects.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct PeekRig {
-    pub(crate) skins: u64,
-    pub(crate) animations: u64,
-}
-
-impl PeekRig {
-    pub(crate) fn of(graph: &Graph) -> Self {
-        Self {
-            skins: graph.skins.len() as u64,
-            animations: graph.animations.len() as u64,
-        }
-    }
 }
 
 /// An object that reading a file would give.
@@ -45,22 +28,16 @@ pub struct PeekObject {
     pub name: String,
     /// The kind and the counts of its geometry.
     pub geometry: PeekGeometry,
-    /// The number of nodes that reference the object. 0 if no node does, as in a file without nodes.
-    pub nodes: u64,
-    /// The index of the skin of the first node that references the object.
-    pub skin: Option<u64>,
     /// The names of the materials of the object. `None` if the names are known only after reading.
     pub materials: Option<Vec<String>>,
 }
 
 impl PeekObject {
-    /// Creates an object that no node references.
+    /// Creates an object whose materials are unknown.
     pub(crate) fn new(name: String, geometry: PeekGeometry) -> Self {
         Self {
             name,
             geometry,
-            nodes: 0,
-            skin: None,
             materials: None,
         }
     }

@@ -74,8 +74,7 @@ pub use parameter::{
     Sharpness, Turn, Vector,
 };
 pub use plan::{
-    MeshPlan, Plan, PlanContext, PlannedAttribute, PlannedGeometry, PlannedNodes, PlannedObject,
-    Problem, Range,
+    MeshPlan, Plan, PlanContext, PlannedAttribute, PlannedGeometry, PlannedObject, Problem, Range,
 };
 pub use progress::{Cancelled, NoProgress, Progress};
 pub use readable::readable;

@@ -2,11 +2,12 @@
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use mesh::{
     CORNER_NORMAL, CORNER_TANGENT, DVec3, Domain, Rule, TANGENT, VERTEX_NORMAL, joint_of, morph_of,
 };
-use scene::{Geometry, Scene};
+use scene::{Geometry, Graph, Scene};
 
 use crate::{Files, Loss};
 
@@ -352,34 +353,13 @@ pub struct PlannedObject {
     pub name: String,
     /// The geometry.
     pub geometry: PlannedGeometry,
-    /// The nodes that reference the object.
-    pub shown: PlannedNodes,
-}
-
-/// The plan of the nodes that reference an object.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct PlannedNodes {
-    /// The number of nodes.
-    pub nodes: u64,
-    /// The index of the skin of the first node, counted over all loaded files.
-    pub skin: Option<u64>,
-}
-
-impl PlannedNodes {
-    /// No node.
-    pub const NONE: Self = Self {
-        nodes: 0,
-        skin: None,
-    };
-
-    /// Returns the number of instances of the object. An object that no node references has one instance.
-    pub fn instances(self) -> u64 {
-        self.nodes.max(1)
-    }
+    /// The number of root nodes that reference the object and are not in the graph of the plan, because their
+    /// placements are unknown.
+    pub unplaced_nodes: u64,
 }
 
 /// The plan of a scene at one point of a recipe. Each step changes the plan as it will change the scene.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Plan {
     objects: Vec<PlannedObject>,
     /// The index of each object by its name. The map is empty between [`objects_mut`](Self::objects_mut) and the next
@@ -392,10 +372,7 @@ pub struct Plan {
     pub outputs: Vec<PathBuf>,
     /// The data that the current step certainly loses, apart from attributes of meshes.
     pub losses: Vec<Loss>,
-    /// The number of skins in the scene.
-    pub skins: u64,
-    /// The number of animations in the scene.
-    pub animations: u64,
+    graph: Arc<Graph>,
     /// Whether an earlier step could not be read or planned. The scene can then have objects that are missing from
     /// the plan.
     pub incomplete: bool,
@@ -405,21 +382,9 @@ impl Plan {
     /// Creates the exact plan of an existing scene.
     pub fn of(scene: &Scene) -> Self {
         let mut plan = Self {
-            skins: scene.graph().skins.len() as u64,
-            animations: scene.graph().animations.len() as u64,
+            graph: Arc::new(scene.graph().clone()),
             ..Self::default()
         };
-        let mut shown: HashMap<&str, PlannedNodes> = HashMap::new();
-        for node in scene.graph().nodes() {
-            let Some(object) = node.object.as_deref() else {
-                continue;
-            };
-            let first = PlannedNodes {
-                nodes: 0,
-                skin: node.skin.map(|skin| skin as u64),
-            };
-            shown.entry(object).or_insert(first).nodes += 1;
-        }
         for object in scene.objects() {
             let geometry = match &object.geometry {
                 Geometry::Mesh(mesh) => PlannedGeometry::Mesh(MeshPlan {
@@ -435,8 +400,6 @@ impl Plan {
                 Geometry::Polylines(_) => PlannedGeometry::Polylines,
             };
             plan.insert(&object.name, geometry);
-            let shown = shown.get(object.name.as_str());
-            plan.set_nodes_of_last(shown.copied().unwrap_or(PlannedNodes::NONE));
         }
         plan
     }
@@ -483,17 +446,62 @@ impl Plan {
             self.objects.push(PlannedObject {
                 name: name.to_owned(),
                 geometry,
-                shown: PlannedNodes::NONE,
+                unplaced_nodes: 0,
             });
         }
         taken
     }
 
-    /// Sets the nodes that reference the object that was added last.
-    pub fn set_nodes_of_last(&mut self, shown: PlannedNodes) {
-        if let Some(object) = self.objects.last_mut() {
-            object.shown = shown;
+    /// Adds a copy of the object `from` with another geometry and the same nodes, or returns a problem if the name is
+    /// taken.
+    pub fn insert_copy(
+        &mut self,
+        from: &str,
+        to: &str,
+        geometry: PlannedGeometry,
+    ) -> Option<Problem> {
+        let unplaced_nodes = self.object(from).map_or(0, |o| o.unplaced_nodes);
+        let taken = self.insert(to, geometry);
+        if taken.is_none()
+            && let Some(copy) = self.objects.last_mut()
+        {
+            copy.unplaced_nodes = unplaced_nodes;
+            self.edit_graph(|graph| graph.copy_object(from, to));
         }
+        taken
+    }
+
+    /// Removes an object, and its nodes as [`Scene::remove`] does.
+    pub fn remove(&mut self, name: &str) {
+        self.objects_mut().retain(|o| o.name != name);
+        self.edit_graph(|graph| graph.remove_object(name));
+    }
+
+    /// Returns the nodes that place the objects, with their skins and animations. Scales, rotations and the hierarchy
+    /// are those that the scene will have. Translations can differ if they depend on points, and
+    /// [`Graph::arrays`] is incomplete.
+    pub fn graph(&self) -> &Graph {
+        &self.graph
+    }
+
+    /// Changes the nodes, if there are any.
+    pub fn edit_graph(&mut self, change: impl FnOnce(&mut Graph)) {
+        if !self.graph.is_empty() {
+            change(Arc::make_mut(&mut self.graph));
+        }
+    }
+
+    /// Adds the nodes of a file.
+    pub fn append_graph(&mut self, graph: Graph) {
+        if !graph.is_empty() {
+            Arc::make_mut(&mut self.graph).append(graph);
+        }
+    }
+
+    /// Returns the number of instances of an object. An object that no node references has one instance.
+    pub fn instances(&self, name: &str) -> u64 {
+        let unplaced = self.object(name).map_or(0, |o| o.unplaced_nodes);
+        (unplaced.saturating_add(self.graph.nodes_of(name).len() as u64)).max(1)
     }
 
     /// Returns a problem if an object already has this name. `field` is the parameter that contains the name.

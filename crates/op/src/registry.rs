@@ -3,7 +3,7 @@
 use std::fmt;
 
 use ron_tree::{Value, ValueKind};
-use scene::Scene;
+use scene::{Graph, Scene};
 use schemars::{Schema, SchemaGenerator};
 
 use crate::{Context, Loss, OpError, Operation, Plan, PlanContext, Problem, Report};
@@ -185,23 +185,18 @@ impl<T: Operation> Step for T {
     }
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
-        Operation::plan(self, plan, cx)
+        let channels = plan.graph().n_channels();
+        let problems = Operation::plan(self, plan, cx);
+        let lost = lost_channels(channels, plan.graph());
+        plan.losses.extend(lost);
+        problems
     }
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
         let channels = scene.graph().n_channels();
         let mut report = Operation::apply(self, scene, cx)?;
         report.notes.extend(cx.take_notes());
-        let lost = channels.saturating_sub(scene.graph().n_channels());
-        if lost > 0 {
-            let noun = if lost == 1 { "channel" } else { "channels" };
-            report.losses.push(Loss {
-                object: String::new(),
-                name: "animations".to_owned(),
-                what: format!("{lost} animation {noun}"),
-                reason: "the animated nodes were removed".to_owned(),
-            });
-        }
+        report.losses.extend(lost_channels(channels, scene.graph()));
         Ok(report)
     }
 
@@ -212,4 +207,16 @@ impl<T: Operation> Step for T {
     fn canonical(&self) -> String {
         ron::to_string(self).expect("parameters are plain data")
     }
+}
+
+/// Returns the loss of channels of animations. `before` is the number of channels before the step.
+fn lost_channels(before: usize, graph: &Graph) -> Option<Loss> {
+    let lost = before.saturating_sub(graph.n_channels());
+    let noun = if lost == 1 { "channel" } else { "channels" };
+    (lost > 0).then(|| Loss {
+        object: String::new(),
+        name: "animations".to_owned(),
+        what: format!("{lost} animation {noun}"),
+        reason: "the animated nodes were removed".to_owned(),
+    })
 }

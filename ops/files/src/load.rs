@@ -6,7 +6,7 @@ use mesh_io::{
     Placements, Policies, ReadOptions,
 };
 use op::prelude::*;
-use op::{Loss, Operation, PlannedNodes, ReadingChange, ReadingElements};
+use op::{Loss, Operation, ReadingChange, ReadingElements};
 
 /// Reads the objects of a file into the scene.
 ///
@@ -133,9 +133,6 @@ impl Operation for Load {
 
 impl Load {
     fn plan_objects(&self, peek: &Peek, plan: &mut Plan) -> Vec<Problem> {
-        let first_skin = plan.skins;
-        plan.skins = plan.skins.saturating_add(peek.skins);
-        plan.animations = plan.animations.saturating_add(peek.animations);
         let mut problems = Vec::new();
         for object in &peek.objects {
             let geometry = match object.geometry {
@@ -153,19 +150,15 @@ impl Load {
             let is_named_here = self.name.as_ref() == Some(&object.name);
             let field = if is_named_here { "name" } else { "path" };
             let taken = plan.insert(&object.name, geometry);
-            if taken.is_none() {
-                let skin = object.skin.map(|skin| first_skin.saturating_add(skin));
-                plan.set_nodes_of_last(PlannedNodes {
-                    nodes: object.nodes,
-                    skin,
-                });
-            }
             let help = if self.name.is_none() || is_named_here {
                 "give the object a different name with `name`, or rename the existing object"
             } else {
                 "the name is in the file, and `name` does not replace it: rename the existing object with `Rename`"
             };
             problems.extend(taken.map(|p| p.at([field]).help(help)));
+        }
+        if problems.is_empty() {
+            plan.append_graph(peek.graph.clone());
         }
         problems
     }
@@ -351,13 +344,10 @@ mod tests {
             let names: Vec<_> = scene.objects().iter().map(|o| o.name.as_str()).collect();
             let planned: Vec<_> = plan.objects().iter().map(|o| o.name.as_str()).collect();
             assert_eq!((&names[..], &planned[..]), (expected, expected));
-            let instances: u64 = plan.objects().iter().map(|o| o.shown.instances()).sum();
+            let instances: u64 = names.iter().map(|name| plan.instances(name)).sum();
             assert_eq!(instances, 3);
             assert_eq!(scene.instances().len(), 3);
-            let actual = Plan::of(&scene);
-            for (planned, actual) in plan.objects().iter().zip(actual.objects()) {
-                assert_eq!(planned.shown, actual.shown, "{text} {}", planned.name);
-            }
+            assert_eq!(plan.graph(), scene.graph(), "{text}");
         }
     }
 

@@ -60,8 +60,8 @@ impl Save {
             _ => 0,
         });
         let counts = [
-            ("skins", plan.skins),
-            ("animations", plan.animations),
+            ("skins", plan.graph().skins.len() as u64),
+            ("animations", plan.graph().animations.len() as u64),
             ("morph targets", morphs.sum()),
         ];
         for (name, count) in counts.into_iter().filter(|(_, count)| *count > 0) {

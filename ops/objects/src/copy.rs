@@ -31,11 +31,8 @@ impl Operation for Copy {
         let Some(object) = plan.object(&self.from) else {
             return Vec::from_iter(plan.missing(&self.from, ["from"]));
         };
-        let (geometry, shown) = (object.geometry.clone(), object.shown);
-        let taken = plan.insert(&self.to, geometry);
-        if taken.is_none() {
-            plan.set_nodes_of_last(shown);
-        }
+        let geometry = object.geometry.clone();
+        let taken = plan.insert_copy(&self.from, &self.to, geometry);
         Vec::from_iter(taken.map(|p| p.at(["to"])))
     }
 

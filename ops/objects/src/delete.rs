@@ -28,7 +28,7 @@ impl Operation for Delete {
         let mut problems = Vec::new();
         for (i, name) in self.objects.iter().enumerate() {
             problems.extend(plan.missing(name, ["objects", &i.to_string()]));
-            plan.objects_mut().retain(|o| o.name != *name);
+            plan.remove(name);
         }
         problems
     }

@@ -15,10 +15,10 @@ use std::sync::Arc;
 
 use mesh::Domain;
 use op::prelude::*;
-use op::{Operation, PlannedAttribute, PlannedNodes, PlannedObject, check_name, named_object};
-use scene::Object;
+use op::{Operation, PlannedAttribute, PlannedObject, check_name, named_object};
+use scene::{Graph, Object};
 
-use crate::join::skin::KeptSkin;
+use crate::join::skin::{KeptSkin, LostSkin};
 
 /// Joins meshes into one object.
 ///
@@ -64,8 +64,7 @@ impl Operation for Join {
             match plan.object(name).map(|o| &o.geometry) {
                 None => problems.extend(plan.missing(name, ["objects", &at])),
                 Some(PlannedGeometry::Mesh(mesh)) => {
-                    let shown = plan.object(name).map_or(PlannedNodes::NONE, |o| o.shown);
-                    parts.push((mesh.clone(), shown));
+                    parts.push((mesh.clone(), plan.instances(name)));
                 }
                 Some(other) => {
                     let message = not_a_mesh(name, other.kind());
@@ -85,9 +84,11 @@ impl Operation for Join {
             return problems;
         }
         let joined = self.joined_plan(&parts);
-        let nodes: Vec<PlannedNodes> = parts.iter().map(|(_, shown)| *shown).collect();
-        let (kept, loss) = skin::planned(&nodes, &self.name);
-        plan.losses.extend(loss);
+        let kept = skin::planned(plan, &self.objects);
+        if kept.is_err() {
+            plan.losses
+                .push(skin::lost_skin(&self.name, LostSkin::Different));
+        }
         let counts = [joined.edges.by(2), joined.vertices, joined.faces];
         let largest = counts.map(|n| n.min).into_iter().fold(0, u64::max);
         if largest > parts::MAX_ELEMENTS {
@@ -100,11 +101,9 @@ impl Operation for Join {
         *object.expect("checked above") = PlannedObject {
             name: self.name.clone(),
             geometry: PlannedGeometry::Mesh(joined),
-            shown: PlannedNodes {
-                nodes: u64::from(kept.is_some()),
-                skin: kept,
-            },
+            unplaced_nodes: 0,
         };
+        plan.edit_graph(|graph| self.join_nodes(graph, kept.ok().flatten().as_deref()));
         problems
     }
 
@@ -138,13 +137,9 @@ impl Operation for Join {
         let (first, others) = self.objects.split_first().expect("at least one");
         let (geometry, materials) = scene.parts_mut(first).expect("found above");
         (*geometry, *materials) = (joined.geometry, joined.materials);
-        match kept.ok().flatten() {
-            Some(kept) if kept.part == *first => {}
-            Some(kept) => {
-                scene.unplace(first);
-                scene.graph_mut().show_instead(&kept.part, first);
-            }
-            None => scene.unplace(first),
+        if !scene.graph().is_empty() {
+            let kept = kept.ok().flatten();
+            self.join_nodes(scene.graph_mut(), kept.as_ref().map(|kept| &*kept.part));
         }
         for name in others {
             scene.remove(name);
@@ -167,6 +162,21 @@ impl Join {
             }
         }
         problems
+    }
+
+    /// Replaces the nodes of the parts by the node of the part whose skin is kept. Without a skin, the result has no node.
+    fn join_nodes(&self, graph: &mut Graph, kept: Option<&str>) {
+        let first = &self.objects[0];
+        if kept != Some(first) {
+            graph.remove_object(first);
+        }
+        if let Some(kept) = kept.filter(|kept| kept != first) {
+            graph.show_instead(kept, first);
+        }
+        for name in &self.objects[1..] {
+            graph.remove_object(name);
+        }
+        graph.rename_object(first, &self.name);
     }
 
     /// Joins parts. All parts are meshes.
@@ -194,14 +204,13 @@ impl Join {
         Ok((object, report))
     }
 
-    /// Returns the plan of the result. Each part is given with the nodes that reference it.
-    fn joined_plan(&self, parts: &[(MeshPlan, PlannedNodes)]) -> MeshPlan {
+    /// Returns the plan of the result. Each part is given with the number of its instances.
+    fn joined_plan(&self, parts: &[(MeshPlan, u64)]) -> MeshPlan {
         let mut joined = parts[0].0.clone();
         let none = Range::exactly(0);
         (joined.vertices, joined.edges, joined.faces) = (none, none, none);
-        for (part, shown) in parts {
-            let instances = Range::exactly(shown.instances());
-            let counts = [part.vertices, part.edges, part.faces].map(|n| n.times(instances));
+        for (part, instances) in parts {
+            let counts = [part.vertices, part.edges, part.faces].map(|n| n.by(*instances));
             joined.grow(counts[0], counts[1], counts[2]);
             joined.has_unlisted_attributes |= part.has_unlisted_attributes;
             joined.degrees = joined.degrees.or(part.degrees);

@@ -34,6 +34,7 @@ impl Operation for Rename {
             && let Some(object) = plan.objects_mut().iter_mut().find(|o| o.name == self.from)
         {
             object.name.clone_from(&self.to);
+            plan.edit_graph(|graph| graph.rename_object(&self.from, &self.to));
         }
         Vec::from_iter(problem)
     }

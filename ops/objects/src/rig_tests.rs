@@ -9,7 +9,7 @@ use scene::{
     Placement, Scene, Skin,
 };
 
-use crate::{Copy, Delete, Join, Transform};
+use crate::{Copy, Delete, Join, Rename, Separate, Transform};
 
 fn moved(x: f64, y: f64) -> Placement {
     Placement::of(&DAffine3::from_translation(DVec3::new(x, y, 0.0))).unwrap()
@@ -281,15 +281,109 @@ fn a_deleted_object_keeps_joints_and_drops_channels() {
     assert_eq!(back, only);
 }
 
+fn on_all(files: &op::Files) -> op::PlanContext<'_> {
+    op::PlanContext {
+        files,
+        on: None,
+        budget: u64::MAX,
+    }
+}
+
+/// The plan of a step has the nodes, skins, animations and lost channels of the run.
+#[test]
+fn the_plan_has_the_nodes_of_the_run() {
+    fn check<T: op::Operation>(text: &str, scene: &mut Scene) {
+        let step: T = op::test::read(text).unwrap();
+        let step: &dyn op::Step = &step;
+        let files = op::Files::default();
+        let mut plan = op::Plan::of(scene);
+        assert_eq!(step.plan(&mut plan, &on_all(&files)), [], "{text}");
+        let mut cx = op::Context::new(&op::NoProgress, &files);
+        let report = step.apply(scene, &mut cx).unwrap();
+        assert_eq!(plan.graph(), scene.graph(), "{text}");
+        let of_graph = |losses: Vec<op::Loss>| {
+            let mut losses = losses;
+            losses.retain(|loss| ["skins", "animations"].contains(&&*loss.name));
+            losses
+        };
+        assert_eq!(
+            of_graph(plan.losses.clone()),
+            of_graph(report.losses),
+            "{text}"
+        );
+        let names = |names: Vec<&str>| names.join(" ");
+        let planned = plan.objects().iter().map(|o| &*o.name).collect();
+        let actual = scene.objects().iter().map(|o| &*o.name).collect();
+        assert_eq!(names(planned), names(actual), "{text}");
+    }
+    check::<Delete>(r#"(objects: ["body"])"#, &mut scene());
+    check::<Delete>(r#"(objects: ["hat", "body"])"#, &mut scene());
+    check::<Rename>(r#"(from: "body", to: "torso")"#, &mut scene());
+    check::<Separate>(r#"(object: "hat", count: 1)"#, &mut scene());
+    check::<Transform>("(scale: (2, 2, 2), move: (1, 2, 3))", &mut scene());
+    check::<Transform>("(move: (1, 2, 3), about: Center)", &mut scene());
+    for parts in [r#"["body", "hat"]"#, r#"["hat", "body"]"#, r#"["hat"]"#] {
+        let text = format!(r#"(objects: {parts}, name: "all")"#);
+        check::<Join>(&text, &mut scene());
+    }
+    // One step after another.
+    let mut scene = scene();
+    check::<Copy>(r#"(from: "body", to: "twin")"#, &mut scene);
+    check::<Copy>(r#"(from: "hat", to: "cap")"#, &mut scene);
+    check::<Join>(r#"(objects: ["cap", "hat"], name: "hats")"#, &mut scene);
+    check::<Separate>(r#"(object: "hats", count: 2)"#, &mut scene);
+    check::<Transform>("(rotate: [(axis: X, angle: 90)])", &mut scene);
+    check::<Rename>(r#"(from: "hats 2", to: "cap")"#, &mut scene);
+    check::<Join>(r#"(objects: ["twin", "body"], name: "all")"#, &mut scene);
+    check::<Delete>(r#"(objects: ["all"])"#, &mut scene);
+}
+
+/// A node that is turned below a scaled parent cannot store another scale.
+#[test]
+fn the_plan_names_a_shear() {
+    let turned = || {
+        let mut scene = Scene::new();
+        for name in ["wheel", "crate"] {
+            let object = Object::mesh(name, shapes::cube());
+            scene.insert(object).unwrap();
+        }
+        let turn = glam::DQuat::from_rotation_z(0.5);
+        let placement = Placement::of(&DAffine3::from_quat(turn)).unwrap();
+        scene.graph_mut().push(Node {
+            object: Some("wheel".to_owned()),
+            placement,
+            ..Node::default()
+        });
+        scene
+    };
+    let files = op::Files::default();
+    let uneven = "(scale: (1, 2, 1))";
+    for (text, is_refused) in [
+        (uneven, true),
+        ("(scale: (1, 2, 1), about: Center)", true),
+        ("(scale: (1, 2, 1), space: Object)", false),
+        ("(scale: (2, 2, 2))", false),
+    ] {
+        let step: Transform = op::test::read(text).unwrap();
+        let mut plan = op::Plan::of(&turned());
+        let problems = op::Operation::plan(&step, &mut plan, &on_all(&files));
+        let planned: Vec<String> = problems.into_iter().map(|p| p.message).collect();
+        let result = op::test::run(&step, &mut turned());
+        let actual: Vec<String> = result.err().iter().map(ToString::to_string).collect();
+        assert_eq!(planned, actual, "{text}");
+        assert_eq!(planned.len(), usize::from(is_refused), "{text}");
+    }
+    // An earlier step may have created more nodes, or other ones.
+    let step: Transform = op::test::read(uneven).unwrap();
+    let mut plan = op::Plan::of(&turned());
+    plan.incomplete = true;
+    let problems = op::Operation::plan(&step, &mut plan, &on_all(&files));
+    assert_eq!(problems, []);
+}
+
 #[test]
 fn the_plan_of_a_join_names_the_loss_of_different_skins() {
-    let shown = |nodes, skin| op::PlannedNodes { nodes, skin };
-    let [plain, skinned, other, twice] = [
-        shown(1, None),
-        shown(1, Some(0)),
-        shown(1, Some(1)),
-        shown(2, Some(0)),
-    ];
+    let [plain, skinned, other, twice] = [(1, None), (1, Some(0)), (1, Some(1)), (2, Some(0))];
     for (parts, kept, n_lost) in [
         ([plain, plain], None, 0),
         ([skinned, skinned], Some(0), 0),
@@ -297,24 +391,27 @@ fn the_plan_of_a_join_names_the_loss_of_different_skins() {
         ([skinned, other], None, 1),
         ([twice, plain], None, 1),
     ] {
-        let mut plan = op::Plan::default();
-        let mesh = op::MeshPlan::of(&shapes::cube());
-        for (name, nodes) in ["body", "twin"].into_iter().zip(parts) {
-            let geometry = op::PlannedGeometry::Mesh(mesh.clone());
-            assert_eq!(plan.insert(name, geometry), None);
-            plan.set_nodes_of_last(nodes);
+        let mut scene = scene();
+        let mut graph = scene::Graph::default();
+        graph.skins = vec![Skin::default(); 2];
+        for (name, (n, skin)) in ["body", "hat"].into_iter().zip(parts) {
+            for _ in 0..n {
+                graph.push(Node {
+                    object: Some(name.to_owned()),
+                    skin,
+                    ..Node::default()
+                });
+            }
         }
-        let step: Join = op::test::read(r#"(objects: ["body", "twin"], name: "all")"#).unwrap();
+        *scene.graph_mut() = graph;
+        let mut plan = op::Plan::of(&scene);
+        let step: Join = op::test::read(r#"(objects: ["body", "hat"], name: "all")"#).unwrap();
         let files = op::Files::default();
-        let cx = op::PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
-        let problems = op::Operation::plan(&step, &mut plan, &cx);
+        let problems = op::Operation::plan(&step, &mut plan, &on_all(&files));
         assert_eq!(problems, []);
         assert_eq!(plan.losses.len(), n_lost, "{parts:?}");
-        let nodes = u64::from(kept.is_some());
-        assert_eq!(plan.object("all").unwrap().shown, shown(nodes, kept));
+        let nodes = plan.graph().nodes().iter().filter(|n| n.object.is_some());
+        let skins: Vec<_> = nodes.map(|node| node.skin).collect();
+        assert_eq!(skins, Vec::from_iter(kept.map(Some)), "{parts:?}");
     }
 }

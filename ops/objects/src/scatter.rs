@@ -79,7 +79,7 @@ impl Operation for Scatter {
         let object = plan.objects_mut().iter_mut().find(|o| o.name == *name);
         if let Some(object) = object {
             // An object without a node has one instance, which disappears.
-            object.shown.nodes = object.shown.nodes.saturating_add(n);
+            object.unplaced_nodes = object.unplaced_nodes.saturating_add(n);
         }
         Vec::new()
     }
@@ -222,7 +222,6 @@ mod tests {
             on: None,
             budget: u64::MAX,
         };
-        let nodes = |plan: &Plan| plan.object("tree").unwrap().shown;
         for n_nodes in 0..3 {
             let mut scene = scene();
             for _ in 0..n_nodes {
@@ -236,13 +235,13 @@ mod tests {
             let step: Scatter = op::test::read(text).unwrap();
             assert_eq!(step.plan(&mut plan, &cx), []);
             op::test::run(&step, &mut scene).unwrap();
-            assert_eq!(nodes(&plan), nodes(&Plan::of(&scene)));
+            assert_eq!(plan.instances("tree"), Plan::of(&scene).instances("tree"));
 
             let text = r#"(objects: ["tree"], name: "tree")"#;
             let join: crate::Join = op::test::read(text).unwrap();
             assert_eq!(join.plan(&mut plan, &cx), []);
             op::test::run(&join, &mut scene).unwrap();
-            assert_eq!(nodes(&plan), nodes(&Plan::of(&scene)));
+            assert_eq!(plan.instances("tree"), 1);
             let PlannedGeometry::Mesh(planned) = &plan.object("tree").unwrap().geometry else {
                 panic!("a mesh");
             };

@@ -75,6 +75,7 @@ impl Operation for Separate {
         let Some(count) = self.count.map(Count::get) else {
             // The number of parts is unknown, so the names of the parts are unknown.
             plan.objects_mut().remove(place);
+            plan.edit_graph(|graph| graph.rename_object(&self.object, &self.name(1)));
             plan.incomplete = true;
             return Vec::new();
         };
@@ -89,14 +90,18 @@ impl Operation for Separate {
         if let Some(taken) = names.iter().find_map(|name| plan.taken(name, "object")) {
             return vec![taken];
         }
-        let shown = plan.objects()[place].shown;
-        let mut objects = names.into_iter().map(|name| PlannedObject {
-            name,
+        let unplaced_nodes = plan.objects()[place].unplaced_nodes;
+        let mut objects = names.iter().map(|name| PlannedObject {
+            name: name.clone(),
             geometry: PlannedGeometry::Mesh(part.clone()),
-            shown,
+            unplaced_nodes,
         });
         plan.objects_mut()[place] = objects.next().expect("at least one part");
         plan.objects_mut().extend(objects);
+        plan.edit_graph(|graph| {
+            graph.rename_object(&self.object, &names[0]);
+            show_parts(graph, &names);
+        });
         Vec::new()
     }
 
@@ -212,10 +217,15 @@ impl Separate {
         let objects = objects.collect();
         scene.append(objects, Graph::default()).expect(is_free);
         if !scene.graph().is_empty() {
-            for name in &names[1..] {
-                scene.graph_mut().add_part(&names[0], name);
-            }
+            show_parts(scene.graph_mut(), names);
         }
+    }
+}
+
+/// Adds nodes for all parts but the first, which has the nodes of the whole.
+fn show_parts(graph: &mut Graph, names: &[String]) {
+    for name in &names[1..] {
+        graph.add_part(&names[0], name);
     }
 }
 

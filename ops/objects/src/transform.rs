@@ -220,6 +220,7 @@ impl Operation for Transform {
                 problems.extend(self.curve_problem(&object.name));
             }
         }
+        problems.extend(self.plan_nodes(plan, cx));
         problems
     }
 

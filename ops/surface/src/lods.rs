@@ -70,7 +70,6 @@ impl Operation for Lods {
         let Some(object) = plan.object(&self.from) else {
             return Vec::from_iter(plan.missing(&self.from, ["from"]));
         };
-        let shown = object.shown;
         let PlannedGeometry::Mesh(mesh) = object.geometry.clone() else {
             let message = format!("Lods needs a mesh, but \"{}\" is not a mesh", self.from);
             return vec![Problem::error(message).at(["from"])];
@@ -84,11 +83,8 @@ impl Operation for Lods {
                 max: part(mesh.faces.max, ratio),
             };
             plan_goal(&mut copy, goal, self.on_refusal == OnRefusal::Error);
-            let taken = plan.insert(&self.name(i + 1), PlannedGeometry::Mesh(copy));
-            if taken.is_none() {
-                plan.set_nodes_of_last(shown);
-            }
-            problems.extend(taken);
+            let copy = PlannedGeometry::Mesh(copy);
+            problems.extend(plan.insert_copy(&self.from, &self.name(i + 1), copy));
         }
         problems
     }

@@ -26,8 +26,6 @@ pub(super) struct PlacedMesh {
     pub(super) posed_by: Option<usize>,
     /// The number of nodes that reference the object.
     pub(super) instances: u64,
-    /// The skin of the first node that references the object, unless the skin is applied to the points.
-    pub(super) skin: Option<usize>,
 }
 
 /// The objects of a scene and the nodes that place them.
@@ -184,7 +182,6 @@ fn baked(
             to_scene: node.to_scene,
             posed_by: Some(node.index),
             instances: 1,
-            skin: None,
         });
     }
     Ok(placed)
@@ -221,7 +218,6 @@ fn shared(
             to_scene: DAffine3::IDENTITY,
             posed_by: None,
             instances,
-            skin: document.nodes[node].skin,
         });
     }
     Ok(placed)

@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use gltf_json::Index;
 use gltf_json::mesh::{Mode, Semantic};
 use gltf_json::validation::Checked;
+use scene::Graph;
 
 use super::budget::Budget;
 use super::document::Document;
@@ -13,6 +14,7 @@ use super::materials::{image_paths, material_name};
 use super::nodes::placed_meshes;
 use super::primitives::attributes;
 use super::read::parse;
+use super::rig::RigReader;
 use super::rig_json::Deformers;
 use super::views::Reader;
 use crate::Placements;
@@ -20,7 +22,7 @@ use crate::assets::Assets;
 use crate::fault::Fault;
 use crate::images::note_missing;
 use crate::note::Notes;
-use crate::peek::{PeekGeometry, PeekMesh, PeekObject, PeekRig};
+use crate::peek::{PeekGeometry, PeekMesh, PeekObject};
 
 /// Returns the counts of the objects of a glTF file from its JSON, and notes on content that is left out.
 ///
@@ -32,24 +34,21 @@ pub(crate) fn peek(
     name: &str,
     placements: Placements,
     assets: &mut Assets,
-    rig: &mut PeekRig,
+    graph: &mut Graph,
     notes: &mut Notes,
 ) -> Result<Vec<PeekObject>, Fault> {
     let budget = Budget::of(json.len());
     let document = Document::new(&parse(json)?, &budget, notes)?;
-    if placements == Placements::Keep {
-        *rig = PeekRig {
-            skins: document.skins.len() as u64,
-            animations: document.animations.len() as u64,
-        };
-    }
     let reader = Reader::new(&document, &[], &budget);
     let mut meshes: BTreeMap<usize, (PeekMesh, BTreeSet<usize>)> = BTreeMap::new();
     let mut objects = Vec::new();
     let deformers = Deformers::of_meshes(&document);
-    let placed = placed_meshes(&document, placements, name, &budget, notes)?;
-    let nodes = placed.graph.nodes_of_objects();
-    for placed in placed.meshes {
+    let mut nodes = placed_meshes(&document, placements, name, &budget, notes)?;
+    *graph = std::mem::take(&mut nodes.graph);
+    if placements == Placements::Keep {
+        RigReader::without_numbers(&reader).fill(&nodes, graph, notes)?;
+    }
+    for placed in nodes.meshes {
         let (mesh, materials) = match meshes.entry(placed.mesh) {
             Entry::Occupied(known) => known.into_mut(),
             Entry::Vacant(new) => {
@@ -64,11 +63,7 @@ pub(crate) fn peek(
         };
         let names = materials.iter().map(|&i| material_name(&document, i));
         objects.push(PeekObject {
-            nodes: nodes
-                .get(&*placed.name)
-                .map_or(0, |nodes| nodes.len() as u64),
             name: placed.name,
-            skin: placed.skin.map(|skin| skin as u64),
             geometry: PeekGeometry::Mesh(*mesh),
             materials: Some(names.collect()),
         });

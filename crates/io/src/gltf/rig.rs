@@ -84,6 +84,7 @@ pub(super) struct RigReader<'a, 'r> {
     /// components of an element.
     known: BTreeMap<(usize, usize), usize>,
     arrays: Vec<Vec<f32>>,
+    has_numbers: bool,
 }
 
 impl<'a, 'r> RigReader<'a, 'r> {
@@ -92,6 +93,15 @@ impl<'a, 'r> RigReader<'a, 'r> {
             reader,
             known: BTreeMap::new(),
             arrays: Vec::new(),
+            has_numbers: true,
+        }
+    }
+
+    /// Reads everything except the arrays of numbers, which are not in the JSON.
+    pub(super) fn without_numbers(reader: &'a Reader<'r>) -> Self {
+        Self {
+            has_numbers: false,
+            ..Self::new(reader)
         }
     }
 
@@ -151,7 +161,7 @@ impl<'a, 'r> RigReader<'a, 'r> {
     ///
     /// If there are fewer matrices than joints, or a matrix is not affine.
     pub(super) fn matrices(&mut self, i: usize, skin: &SkinJson) -> Result<Option<usize>, Fault> {
-        let Some(accessor) = skin.inverse_bind_matrices else {
+        let Some(accessor) = skin.inverse_bind_matrices.filter(|_| self.has_numbers) else {
             return Ok(None);
         };
         let pointer = format!("/skins/{i}/inverseBindMatrices");
@@ -258,6 +268,15 @@ impl<'a, 'r> RigReader<'a, 'r> {
                 return Err(Fault::json(format!("{here}/interpolation"), message));
             }
         };
+        let with_arrays = |[input, output]: [usize; 2]| AnimationSampler {
+            input,
+            output,
+            interpolation,
+            extras: sampler.extras.as_ref().map(ToString::to_string),
+        };
+        if !self.has_numbers {
+            return Ok(Some(with_arrays([0, 0])));
+        }
         let (kind, n) = match property {
             AnimatedProperty::Translation | AnimatedProperty::Scale => (Type::Vec3, 1),
             AnimatedProperty::Rotation => (Type::Vec4, 1),
@@ -275,12 +294,7 @@ impl<'a, 'r> RigReader<'a, 'r> {
             && !times.is_empty()
             && times[0] >= 0.0
             && increases;
-        Ok(is_valid.then(|| AnimationSampler {
-            input,
-            output,
-            interpolation,
-            extras: sampler.extras.as_ref().map(ToString::to_string),
-        }))
+        Ok(is_valid.then(|| with_arrays([input, output])))
     }
 }
 

@@ -6,7 +6,7 @@ impl Graph {
     /// Removes an object from all nodes. A node that referenced the object is removed if it has no camera, no light and
     /// no remaining children, and is neither a joint nor the root of the joints of a skin. The channels that animate a
     /// removed node are removed too. The remaining nodes keep their order.
-    pub(crate) fn remove_object(&mut self, object: &str) {
+    pub fn remove_object(&mut self, object: &str) {
         self.labels.remove(object);
         let mut n_children = vec![0_usize; self.nodes.len()];
         for parent in self.nodes.iter().filter_map(|node| node.parent) {
@@ -35,7 +35,7 @@ impl Graph {
 
     /// Renames an object. A node or mesh with the old name gets the new name. If no node of the object has the old
     /// name, the mesh always gets the new name.
-    pub(crate) fn rename_object(&mut self, from: &str, to: &str) {
+    pub fn rename_object(&mut self, from: &str, to: &str) {
         let mut is_named = false;
         for node in &mut self.nodes {
             if node.object.as_deref() != Some(from) {

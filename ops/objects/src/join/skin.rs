@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use glam::DAffine3;
 use mesh::{Attributes, Column, Domain, Mesh, Rule, Value, joint_name};
-use op::{Loss, PlannedNodes, Report};
+use op::{Loss, Plan, Report};
 use scene::{Geometry, Instance, Object, Scene, transformed};
 
 /// Why a joined mesh loses the skins of its parts.
@@ -100,21 +100,26 @@ fn remove_joints(mesh: &mut Mesh) {
     }
 }
 
-/// Plans the skin of the joined mesh. If all skinned parts have the same skin and one instance each, returns this skin.
-/// If they do not, returns the loss of the skins.
-pub(super) fn planned(parts: &[PlannedNodes], joined: &str) -> (Option<u64>, Option<Loss>) {
-    let mut skinned = parts.iter().filter(|part| part.skin.is_some());
-    let Some(first) = skinned.next() else {
-        return (None, None);
-    };
-    if first.nodes == 1 && skinned.all(|other| other == first) {
-        (first.skin, None)
-    } else {
-        (None, Some(lost_skin(joined, LostSkin::Different)))
+/// Returns the first skinned part if all skinned parts have the same skin and one instance each; `None` if no part has a
+/// skin.
+pub(super) fn planned(plan: &Plan, parts: &[String]) -> Result<Option<String>, LostSkin> {
+    let mut kept: Option<(Option<usize>, &String)> = None;
+    for part in parts {
+        let nodes = plan.graph().nodes_of(part);
+        let skins = nodes.iter().map(|&i| plan.graph().nodes()[i].skin);
+        let Some(skin) = skins.clone().find(Option::is_some) else {
+            continue;
+        };
+        let is_same = kept.is_none_or(|(known, _)| known == skin);
+        if !is_same || plan.instances(part) > 1 {
+            return Err(LostSkin::Different);
+        }
+        kept = kept.or(Some((skin, part)));
     }
+    Ok(kept.map(|(_, part)| part.clone()))
 }
 
-fn lost_skin(joined: &str, why: LostSkin) -> Loss {
+pub(super) fn lost_skin(joined: &str, why: LostSkin) -> Loss {
     let reason = match why {
         LostSkin::Different => {
             "the parts have different skins or several instances, so they are joined in the pose of their joints"

@@ -9,10 +9,10 @@
 //! moves the parent, P' = M P, and the placement of the node does not change.
 
 use glam::{DAffine3, DVec3};
-use op::{Context, OpError, Report};
-use scene::{Instance, Placement, Scene};
+use op::{Context, OpError, Plan, PlanContext, Problem, Report};
+use scene::{Graph, Instance, Placement, Scene};
 
-use super::{About, Transform};
+use super::{About, Space, Transform};
 use crate::transform::map::Map;
 
 impl Transform {
@@ -62,28 +62,74 @@ impl Transform {
             n_points += object.as_mesh().map_or(0, |mesh| mesh.n_vertices());
         }
         if cx.on.is_none() && self.about != About::Center {
-            let affine = map.affine(self.center(std::iter::empty()));
-            for (map, node) in maps.iter_mut().zip(graph.nodes()) {
-                if node.parent.is_none() {
-                    *map = Some(affine);
-                }
-            }
+            move_roots(
+                graph,
+                &mut maps,
+                &map.affine(self.center(std::iter::empty())),
+            );
         }
-        let n_inserted = insert_parents(scene, &mut maps);
-        move_by(scene, &maps, map.only_moves())?;
+        let graph = scene.graph_mut();
+        let n_inserted = insert_parents(graph, &mut maps);
+        move_by(graph, &maps, map.only_moves())?;
         let what = "nodes inserted above animated nodes";
         Ok(Report::changed(n_points).count(what, n_inserted))
+    }
+
+    /// Moves the nodes of a plan. Returns a problem if a node certainly cannot store its new placement.
+    pub(super) fn plan_nodes(&self, plan: &mut Plan, cx: &PlanContext) -> Option<Problem> {
+        let graph = plan.graph();
+        if self.space == Space::Object || plan.incomplete || graph.nodes().is_empty() {
+            return None;
+        }
+        let map = Map::new(self);
+        // The center of an object is not known. It changes only translations.
+        let affine = map.affine(self.center(std::iter::empty()));
+        let mut maps: Vec<Option<DAffine3>> = vec![None; graph.nodes().len()];
+        let mut may_be_skinned = false;
+        for (i, node) in graph.nodes().iter().enumerate() {
+            let Some(name) = &node.object else {
+                continue;
+            };
+            if cx.on.is_some_and(|on| !on.contains(name)) {
+                continue;
+            }
+            maps[i] = Some(affine);
+            for &joint in node.skin.iter().flat_map(|&skin| &graph.skins[skin].joints) {
+                // The joints do not move if the mesh has no weights of joints, which is not always known.
+                (maps[joint], may_be_skinned) = (Some(affine), true);
+            }
+        }
+        if cx.on.is_none() && self.about != About::Center {
+            move_roots(graph, &mut maps, &affine);
+        }
+        let mut result = Ok(());
+        plan.edit_graph(|graph| {
+            insert_parents(graph, &mut maps);
+            result = move_by(graph, &maps, map.only_moves());
+        });
+        let error = result.err()?;
+        // The translations of the plan are not those of the run.
+        let is_certain = self.about != About::Center || matches!(error, OpError::Object(_));
+        (is_certain && !may_be_skinned).then(|| Problem::error(error.to_string()))
+    }
+}
+
+/// Moves the roots by a map.
+fn move_roots(graph: &Graph, maps: &mut [Option<DAffine3>], affine: &DAffine3) {
+    for (map, node) in maps.iter_mut().zip(graph.nodes()) {
+        if node.parent.is_none() {
+            *map = Some(*affine);
+        }
     }
 }
 
 /// Inserts a parent above each animated node that moves, because the animation replaces the placement of the node. The
 /// parent moves instead. Returns the number of new nodes.
-fn insert_parents(scene: &mut Scene, maps: &mut Vec<Option<DAffine3>>) -> usize {
-    let mut animated = scene.graph().animated_flags();
+fn insert_parents(graph: &mut Graph, maps: &mut Vec<Option<DAffine3>>) -> usize {
+    let mut animated = graph.animated_flags();
     if !animated.contains(&true) {
         return 0;
     }
-    let graph = scene.graph_mut();
     let before = maps.len();
     let mut moved: Vec<Option<DAffine3>> = Vec::new();
     while moved.len() < maps.len() {
@@ -102,9 +148,9 @@ fn insert_parents(scene: &mut Scene, maps: &mut Vec<Option<DAffine3>>) -> usize 
 
 /// Moves each node by its map in scene space. A node without a map moves with its parent. If `only_moves` is set,
 /// the maps neither scale nor rotate.
-fn move_by(scene: &mut Scene, maps: &[Option<DAffine3>], only_moves: bool) -> Result<(), OpError> {
-    let old = scene.graph().to_scene();
-    let nodes = scene.graph().nodes();
+fn move_by(graph: &mut Graph, maps: &[Option<DAffine3>], only_moves: bool) -> Result<(), OpError> {
+    let old = graph.to_scene();
+    let nodes = graph.nodes();
     let mut placements: Vec<Placement> = nodes.iter().map(|node| node.placement).collect();
     let mut new: Vec<DAffine3> = Vec::with_capacity(nodes.len());
     // For each node, the map in scene space by which the node has moved.
@@ -141,7 +187,6 @@ fn move_by(scene: &mut Scene, maps: &[Option<DAffine3>], only_moves: bool) -> Re
             return Err(OpError::overflow("Transform", "scale, rotate and move"));
         }
     }
-    let graph = scene.graph_mut();
     for (i, placement) in placements.into_iter().enumerate() {
         graph.set_placement(i, placement);
     }

@@ -83,7 +83,9 @@ impl MeshColors {
             }
             Domain::Corner => {
                 each_triangle(mesh, |_, corners| {
-                    corners.into_iter().for_each(|h| add(h.index()));
+                    for h in corners {
+                        add(h.index());
+                    }
                 });
                 Per::Corner
             }

@@ -317,3 +317,54 @@ fn a_rigged_character_is_converted_and_subdivided() {
         "{checked:#?}"
     );
 }
+
+/// Two triangles. The node of the first one is turned and animated.
+const CAR: &str = r#"{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}], 
+    "nodes": [{"name": "wheel", "mesh": 0, "rotation": [0, 0, 0.24740395925452294, 0.9689124217106447]}, {"name": "body", "mesh": 1}], 
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}, {"primitives": [{"attributes": {"POSITION": 0}}]}], 
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}, {"bufferView": 1, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]}, {"bufferView": 2, "componentType": 5126, "count": 2, "type": "VEC3"}], 
+    "animations": [{"name": "spin", "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}], "samplers": [{"input": 1, "output": 2}]}], 
+    "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 8}, {"buffer": 0, "byteOffset": 44, "byteLength": 24}], 
+    "buffers": [{"byteLength": 68, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAgD8AAAAAAACAPwAAAEAAAEBAAACAQAAAoEA="}]}"#;
+
+#[test]
+fn check_knows_what_becomes_of_nodes_and_animations() {
+    let recipe = |file: &str, step: &str| {
+        format!("(recipe: 1, on_loss: Error, steps: [Load(path: \"{file}\"), {step}])")
+    };
+    let mut still: serde_json::Value = serde_json::from_str(CAR).unwrap();
+    still.as_object_mut().unwrap().remove("animations");
+    let folder = Folder::new()
+        .with("car.gltf", CAR)
+        .with("still.gltf", still.to_string())
+        .with(
+            "lost.ron",
+            recipe("car.gltf", "Delete(objects: [\"wheel\"])"),
+        )
+        .with(
+            "kept.ron",
+            recipe("car.gltf", "Delete(objects: [\"body\"])"),
+        )
+        .with(
+            "shear.ron",
+            recipe("still.gltf", "Transform(scale: (1, 2, 1))"),
+        )
+        // The animated node gets a parent, which is scaled instead.
+        .with(
+            "parent.ron",
+            recipe("car.gltf", "Transform(scale: (1, 2, 1))"),
+        );
+    for (file, message) in [
+        ("lost.ron", "Delete loses 1 animation channel of the scene"),
+        ("shear.ron", "the node \"wheel\" cannot store the result"),
+    ] {
+        folder
+            .run(&format!("check {file}"))
+            .with_code(1)
+            .complains(&[message]);
+    }
+    for file in ["kept.ron", "parent.ron"] {
+        folder.run(&format!("check {file}")).with_code(0);
+        folder.run(&format!("run {file}")).with_code(0);
+    }
+}

@@ -45,11 +45,7 @@ impl Work<'_> {
             [a / 3.0 + b / 3.0 + c / 3.0]
                 .into_iter()
                 .chain(middles)
-                .any(|p| {
-                    let nearest = index.nearest(p, hint);
-                    hint = nearest.triangle;
-                    nearest.distance > limit
-                })
+                .any(|p| !index.is_within(p, limit, &mut hint))
         };
         gone.iter().any(is_far_from_new) || new.iter().any(is_far_from_original)
     }

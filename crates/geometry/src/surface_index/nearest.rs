@@ -52,13 +52,41 @@ impl SurfaceIndex {
     /// Returns an infinite or undefined distance if `p` is not finite, or if squared coordinates are too large for an
     /// `f64`.
     pub fn nearest(&self, p: DVec3, hint: u32) -> Nearest {
+        let (best, lower, visits) = self.nearest_below(p, hint, f64::INFINITY, 0.0);
+        best.found(lower, visits)
+    }
+
+    /// Whether a triangle is at most `radius` away from `p`. `hint` is as for [`nearest`](Self::nearest), and becomes a
+    /// triangle that was found within `radius`. This is faster than the search for the nearest point, because
+    /// the first such triangle ends the search.
+    pub(crate) fn is_within(&self, p: DVec3, radius: f64, hint: &mut u32) -> bool {
+        let squared = radius * radius;
+        let (best, ..) = self.nearest_below(p, *hint, squared.next_up(), squared);
+        let is_within = best.squared <= squared;
+        if is_within {
+            *hint = best.triangle;
+        }
+        is_within
+    }
+
+    /// Searches for the point of the surface nearest to `p` among the points whose squared distance is less than
+    /// `limit`. Stops as soon as a squared distance is at most `enough`. Returns the nearest point found, the squared lower
+    /// bound of [`Nearest::lower`] if the search was stopped early, and the number of visited nodes. If no point is
+    /// near enough, the squared distance of the result is `limit`.
+    fn nearest_below(
+        &self,
+        p: DVec3,
+        hint: u32,
+        limit: f64,
+        enough: f64,
+    ) -> (Best, Option<f64>, u32) {
         let hint = if (hint as usize) < self.n_triangles() {
             hint
         } else {
             0
         };
         let mut best = Best {
-            squared: f64::INFINITY,
+            squared: limit,
             point: p,
             triangle: hint,
         };
@@ -68,7 +96,7 @@ impl SurfaceIndex {
         let mut height = 1;
         stack[0] = (0, self.nodes[0].distance_squared(p));
         let mut visits = 0;
-        while height > 0 {
+        while height > 0 && best.squared > enough {
             height -= 1;
             let (i, squared) = stack[height];
             if squared >= best.squared {
@@ -95,7 +123,7 @@ impl SurfaceIndex {
                 }
             }
         }
-        best.found(None, visits)
+        (best, None, visits)
     }
 
     /// Returns the nearest point for each of the points, in their order. Runs in parallel; the result does not depend
@@ -164,7 +192,7 @@ impl SurfaceIndex {
 
     /// Continues the search and visits the nodes in order of their distances from `p`. If the search stops
     /// early, this order gives the best lower bound.
-    fn nearly_nearest(&self, p: DVec3, mut best: Best) -> Nearest {
+    fn nearly_nearest(&self, p: DVec3, mut best: Best) -> (Best, Option<f64>, u32) {
         // Squares are non-negative, so they have the same order as their bits.
         let mut waiting = BinaryHeap::from([Reverse((0_u64, 0_usize))]);
         let mut visits = MAX_NODES;
@@ -175,7 +203,7 @@ impl SurfaceIndex {
             }
             visits += 1;
             if visits > 3 * MAX_NODES {
-                return best.found(Some(squared), visits);
+                return (best, Some(squared), visits);
             }
             for (child, squared) in self.visit(p, i, &mut best).into_iter().flatten() {
                 let squared = self.slab_distance_squared(p, child, squared);
@@ -184,7 +212,7 @@ impl SurfaceIndex {
                 }
             }
         }
-        best.found(None, visits)
+        (best, None, visits)
     }
 
     /// Tests the triangles of a leaf, or returns the children of an inner node with their squared distances.

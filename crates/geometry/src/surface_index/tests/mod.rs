@@ -92,6 +92,33 @@ fn nearest_points_are_those_of_brute_force() {
     }
 }
 
+/// The radii are those at which the answer changes, and others.
+#[test]
+fn a_point_is_within_a_radius_if_the_nearest_point_is() {
+    let mut random = Random(5);
+    for round in 0..40 {
+        let mesh = soup(1 + round * 4, || random.point());
+        let index = SurfaceIndex::new(&mesh).unwrap();
+        let mut hint = 7;
+        for _ in 0..50 {
+            let p = 1.5 * random.point();
+            let n = u32::try_from(index.n_triangles()).unwrap();
+            let distances = (0..n).map(|i| index.to_triangle(p, i));
+            let distance = distances.fold(f64::INFINITY, f64::min);
+            for (radius, is_within) in [
+                (0.0, distance == 0.0),
+                (0.999 * distance, false),
+                (1.001 * distance, true),
+                (9.0, true),
+                (f64::INFINITY, true),
+            ] {
+                assert_eq!(index.is_within(p, radius, &mut hint), is_within, "{radius}");
+                assert!(!is_within || index.to_triangle(p, hint) <= radius);
+            }
+        }
+    }
+}
+
 #[test]
 fn each_triangle_of_each_face_is_in_the_index_once() {
     let mesh = shapes::cylinder(7, true);

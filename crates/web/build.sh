@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the package for browsers and Node in target/web, and tests it in Node. Then builds the page in target/web/page, and
-# tests it in Chromium.
+# Builds the package for browsers and Node in target/web, and tests it in Node. Builds the engine with threads in
+# target/ci/web/threads. Then builds the page in target/web/page, and tests it in Chromium.
 #
 # The standard library for WebAssembly comes from the installed toolchain if it has one. Otherwise a compiler and the
 # sources of its standard library are Debian packages, which are unpacked in target/ci/web. If a tool is not available, the
@@ -58,10 +58,30 @@ npm install --silent --no-audit --no-fund --prefix "$work/tools" binaryen@132.0.
 CARGO_INCREMENTAL=0 CARGO_TARGET_DIR=$work/target "${compiler[@]:-env}" "${build[@]}"
 (cd crates/web/bindgen && CARGO_INCREMENTAL=0 CARGO_TARGET_DIR=$work/bindgen cargo build --locked)
 
-rm -rf "$out" && mkdir -p "$out"
-"$work/bindgen/debug/meshwright-bindgen" "$work/target/$target/web/meshwright_web.wasm" "$out"
-"$work/tools/node_modules/.bin/wasm-opt" -O1 -o "$out/core_bg.wasm" "$out/core_bg.wasm"
-cp crates/web/package/* LICENSE-APACHE LICENSE-MIT "$out"
-node crates/web/tests/size.mjs "$out/core_bg.wasm"
+# Writes the package: package FOLDER-OF-CARGO FOLDER
+package() {
+    rm -rf "$2" && mkdir -p "$2"
+    "$work/bindgen/debug/meshwright-bindgen" "$1/$target/web/meshwright_web.wasm" "$2"
+    "$work/tools/node_modules/.bin/wasm-opt" -O1 -o "$2/core_bg.wasm" "$2/core_bg.wasm"
+    cp crates/web/package/* LICENSE-APACHE LICENSE-MIT "$2"
+    node crates/web/tests/size.mjs "$2/core_bg.wasm"
+}
+
+package "$work/target" "$out"
 node crates/web/tests/scenes.mjs "$out"
+
+# Threads need shared memory and atomic operations, also in the standard library, which is therefore built from its sources.
+if [ -n "${compiler:-}" ]; then
+    flags="-C target-feature=+atomics"
+    for argument in --shared-memory --import-memory --max-memory=4294967296 --export=__heap_base \
+        --export=__wasm_init_tls --export=__tls_size --export=__tls_align --export=__tls_base; do
+        flags+=" -C link-arg=$argument"
+    done
+    CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS=$flags CARGO_INCREMENTAL=0 CARGO_TARGET_DIR=$work/target-threads \
+        "${compiler[@]}" "${build[@]}"
+    package "$work/target-threads" "$work/threads"
+else
+    rm -rf "$work/threads"
+    echo "the engine with threads is not built: the sources of the standard library are missing"
+fi
 crates/web/page/build.sh

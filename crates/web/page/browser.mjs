@@ -7,13 +7,16 @@ import { extname, join, normalize } from "node:path";
 const TYPES = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm", ".svg": "image/svg+xml",
     ".png": "image/png", ".json": "application/json" };
 
+/// The headers that isolate a page from other origins, which threads need.
+const ISOLATED = { "cross-origin-opener-policy": "same-origin", "cross-origin-embedder-policy": "require-corp" };
+
 /// Serves a folder on a free port of this computer. Returns the server.
-export async function serve(folder) {
+export async function serve(folder, isolated = false) {
     const server = createServer(async (request, response) => {
         const path = normalize(decodeURIComponent(new URL(request.url, "http://localhost").pathname));
         try {
             const bytes = await readFile(join(folder, path.endsWith("/") ? `${path}index.html` : path));
-            response.writeHead(200, { "content-type": TYPES[extname(path)] ?? "text/html" }).end(bytes);
+            response.writeHead(200, { "content-type": TYPES[extname(path)] ?? "text/html", ...isolated ? ISOLATED : {} }).end(bytes);
         } catch {
             response.writeHead(404).end();
         }

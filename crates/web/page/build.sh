@@ -4,6 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/../../.."
 package=$PWD/target/web
+threads=$PWD/target/ci/web/threads
 tools=$PWD/target/ci/page
 out=$package/page
 
@@ -15,7 +16,7 @@ mkdir -p "$tools"
 cp crates/web/page/package.json crates/web/page/package-lock.json "$tools"
 npm ci --silent --no-audit --no-fund --ignore-scripts --prefix "$tools" ||
     skip "the page is not built: packages cannot be installed from npm"
-node crates/web/page/bundle.mjs "$package" "$tools" "$out"
+node crates/web/page/bundle.mjs "$package" "$threads" "$tools" "$out"
 
 chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome) ||
     skip "the page is not tested: chromium is missing"

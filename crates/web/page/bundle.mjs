@@ -1,10 +1,11 @@
-// Writes the page: bundles the scripts, copies the engine, and renders the gallery: bundle.mjs PACKAGE TOOLS OUT
-import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+// Writes the page: bundles the scripts, copies the engine, and renders the gallery: bundle.mjs PACKAGE THREADS TOOLS OUT. THREADS is
+// the folder of the package with threads, which may be missing.
+import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 
-const [engine, tools, out] = process.argv.slice(2).map((path) => resolve(path));
+const [engine, threaded, tools, out] = process.argv.slice(2).map((path) => resolve(path));
 const here = new URL(".", import.meta.url).pathname;
 const root = join(here, "../../..");
 const esbuild = createRequire(join(tools, "package.json"))("esbuild");
@@ -12,22 +13,31 @@ const esbuild = createRequire(join(tools, "package.json"))("esbuild");
 rmSync(out, { recursive: true, force: true });
 mkdirSync(join(out, "gallery"), { recursive: true });
 
-// The worker contains the package; the page gives it the compiled engine.
-await esbuild.build({
-    entryPoints: [join(here, "main.js"), join(here, "worker.js")],
-    outdir: out,
-    bundle: true,
-    minify: true,
-    format: "esm",
-    target: "es2022",
-    nodePaths: [join(tools, "node_modules")],
-    alias: { meshwright: join(engine, "meshwright.js") },
-    external: ["node:fs/promises"],
-    // The licenses of bundled packages.
-    legalComments: "eof",
-    logLevel: "warning",
-});
-for (const name of ["index.html", "style.css", "icon.svg"]) {
+/// Bundles scripts. Workers contain the package; the page gives them the compiled engine.
+function bundle(scripts, folder, engine) {
+    return esbuild.build({
+        entryPoints: scripts,
+        outdir: folder,
+        bundle: true,
+        minify: true,
+        format: "esm",
+        target: "es2022",
+        nodePaths: [join(tools, "node_modules")],
+        alias: { meshwright: join(engine, "meshwright.js"), core: join(engine, "core.js") },
+        external: ["node:fs/promises"],
+        // The licenses of bundled packages.
+        legalComments: "eof",
+        logLevel: "warning",
+    });
+}
+
+await bundle([join(here, "main.js"), join(here, "worker.js")], out, engine);
+if (existsSync(join(threaded, "core.js"))) {
+    const worker = { in: join(here, "threaded.js"), out: "worker" };
+    await bundle([worker, { in: join(here, "thread.js"), out: "thread" }], join(out, "threads"), threaded);
+    copyFileSync(join(threaded, "core_bg.wasm"), join(out, "threads/core_bg.wasm"));
+}
+for (const name of ["index.html", "download.js", "style.css", "icon.svg"]) {
     copyFileSync(join(here, name), join(out, name));
 }
 for (const name of ["core_bg.wasm", "LICENSE-APACHE", "LICENSE-MIT"]) {

@@ -1,11 +1,18 @@
 // The engine in its worker. The page keeps the files, so that a new worker can replace one that was canceled or has failed.
 
+/// More threads would need much memory, and save little time.
+const MAX_THREADS = 16;
+
 /// The engine was ended before it answered.
 export class Ended extends Error {}
 
 export class Engine {
     #module;
+    #folder = "";
     #worker;
+    #threads = [];
+    /// Settled once the worker and its threads can be used.
+    #ready;
     #waiting = new Map();
     #last = 0;
     /// Receives the events of runs.
@@ -13,17 +20,49 @@ export class Engine {
     /// The content of each file by its path. Outputs are not among them.
     files = new Map();
 
-    /// Downloads and compiles the engine, and starts a worker. Until then, files can be written, and nothing else.
-    async load(url) {
-        this.#module = await compile(url);
+    /// Compiles the engine, and starts a worker. `download` has the response with the engine and the folder of its worker. Until
+    /// then, files can be written, and nothing else.
+    async load(download) {
+        const { response, folder } = await download;
+        this.#folder = folder;
+        this.#module = await compile(response);
         await this.#start();
     }
 
+    /// How many threads a run uses.
+    get threads() {
+        return 1 + this.#threads.length;
+    }
+
     #start() {
-        this.#worker = new Worker(new URL("worker.js", import.meta.url), { type: "module" });
+        this.#worker = this.#open("worker.js");
         this.#worker.onmessage = ({ data }) => this.#receive(data);
         this.#worker.onerror = (event) => this.#end(new Ended(event.message || "the engine could not be started"));
-        return this.#call("start", this.#module, [...this.files]);
+        const started = this.#send("start", this.#module, [...this.files]);
+        this.#ready = this.#folder ? started.then(() => this.#startThreads()) : started;
+        return this.#ready;
+    }
+
+    #open(script) {
+        return new Worker(new URL(this.#folder + script, import.meta.url), { type: "module" });
+    }
+
+    /// Starts a thread for each further processor. The page starts them, since the worker cannot while it waits for them.
+    async #startThreads() {
+        const memory = await this.#send("memory");
+        const count = Math.min(navigator.hardwareConcurrency, MAX_THREADS) - 1;
+        const threads = Array.from({ length: count }, () => this.#open("thread.js"));
+        this.#threads = threads;
+        await Promise.all(threads.map((thread) => new Promise((resolve, reject) => {
+            thread.onerror = (event) => reject(new Error(event.message || "a thread could not be started"));
+            thread.onmessage = () => {
+                // Without the thread, the worker would wait forever.
+                thread.onerror = (event) => this.#threads === threads && this.#stopped(event.message);
+                resolve();
+            };
+            thread.postMessage({ module: this.#module, memory });
+        })));
+        await this.#send("threads", count);
     }
 
     #receive({ id, value, error, fatal, event }) {
@@ -37,22 +76,37 @@ export class Engine {
             resolve?.(value);
             return;
         }
-        reject?.(new Error(fatal ? `The engine stopped (${error}), probably because memory is exhausted. Another one was started.`
-            : error));
         if (fatal) {
-            this.restart().catch(() => {});
+            this.#waiting.set(id, { resolve, reject });
+            this.#stopped(error);
+        } else {
+            reject?.(new Error(error));
         }
     }
 
+    /// Starts another engine after a trap.
+    #stopped(error) {
+        this.#end(new Error(`The engine stopped (${error}), probably because memory is exhausted. Another one was started.`));
+        this.#start().catch(() => {});
+    }
+
     #end(reason) {
-        this.#worker.terminate();
+        for (const worker of [this.#worker, ...this.#threads]) {
+            worker.terminate();
+        }
+        this.#threads = [];
         for (const { reject } of this.#waiting.values()) {
             reject(reason);
         }
         this.#waiting.clear();
     }
 
-    #call(call, ...args) {
+    async #call(call, ...args) {
+        await this.#ready;
+        return this.#send(call, ...args);
+    }
+
+    #send(call, ...args) {
         this.#last += 1;
         const id = this.#last;
         return new Promise((resolve, reject) => {
@@ -121,10 +175,9 @@ export class Engine {
     }
 }
 
-async function compile(url) {
-    const response = await fetch(url);
+async function compile(response) {
     if (!response.ok) {
-        throw new Error(`${url} cannot be loaded: ${response.status}`);
+        throw new Error(`${response.url} cannot be loaded: ${response.status}`);
     }
     // Some servers do not know the type of WebAssembly files.
     return response.headers.get("content-type")?.startsWith("application/wasm")

@@ -12,7 +12,7 @@ import { Stage } from "./stage.js";
 import { STARTER } from "./starter.js";
 
 const engine = new Engine();
-const loaded = engine.load("core_bg.wasm");
+const loaded = engine.load(globalThis.download);
 
 /// Whether the engine is busy with a run, or not loaded yet.
 let running = true;

@@ -76,12 +76,13 @@ impl Session {
         let set = values(set)?;
         LISTENER.set(Some(listener));
         let result = self.0.run(path, text, &set, &|event| {
-            let heard = |listener: &Option<Listener>| {
-                let listener = listener.as_ref()?;
-                listener.event(&event.to_string()).ok()
-            };
-            // An exception of the listener ends the run, too.
-            LISTENER.with_borrow(heard).unwrap_or(false)
+            LISTENER.with_borrow(|listener| {
+                // Other threads have no listener, and do not report progress.
+                listener.as_ref().is_none_or(|listener| {
+                    // An exception ends the run, too.
+                    listener.event(&event.to_string()).unwrap_or(false)
+                })
+            })
         });
         LISTENER.set(None);
         Ok(result.to_string())
@@ -109,6 +110,11 @@ impl Session {
     /// Returns the arrays of a mesh.
     pub fn mesh(&self, object: &str) -> Option<View> {
         self.0.arrays(object).map(View)
+    }
+
+    /// Returns the placements of the instances of a mesh.
+    pub fn placements(&self, object: &str) -> Vec<f64> {
+        self.0.placements(object)
     }
 
     /// Returns the quantities that colors can show.

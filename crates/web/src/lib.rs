@@ -5,6 +5,7 @@
 //! arrays.rs   the arrays of a mesh that a view needs
 //! colors.rs   the colors of quantities for these arrays
 //! bindings.rs the same for JavaScript, through `wasm-bindgen`; only in WebAssembly
+//! threads.rs  Web Workers as threads; only in a build with atomic operations
 //! ```
 //!
 //! `build.sh` builds the package in `target/web`. `package/meshwright.js` adds types and objects to the bindings.
@@ -15,6 +16,8 @@ mod session;
 
 #[cfg(target_arch = "wasm32")]
 mod bindings;
+#[cfg(all(target_arch = "wasm32", target_feature = "atomics"))]
+mod threads;
 
 pub use arrays::Arrays;
 pub use colors::{Colors, MeshColors, Per};

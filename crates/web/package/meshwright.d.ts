@@ -149,6 +149,11 @@ export class Session {
     picture(options?: { width?: number; height?: number; wireframe?: boolean; up?: "auto" | "y" | "z" }): Uint8Array;
     /** Returns the arrays of a mesh of the last run; `undefined` if no mesh has this name. */
     mesh(object: string): MeshArrays | undefined;
+    /**
+     * Returns the placements of the instances of a mesh of the last run: for each instance, the map from the coordinates of the
+     * mesh to those of the scene, as 16 numbers column by column. A skinned mesh has the placement of its first joint.
+     */
+    placements(object: string): Float64Array;
     /** Returns the quantities of the meshes of the last run that `colors` can show. */
     quantities(): { title: string; quantity: Quantity }[];
     /** Returns a quantity of the meshes of the last run as colors. Throws if no mesh has it. */

@@ -75,6 +75,10 @@ export class Session {
         }
     }
 
+    placements(object) {
+        return this.#core.placements(object);
+    }
+
     quantities() {
         return JSON.parse(this.#core.quantities());
     }

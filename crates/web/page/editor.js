@@ -108,7 +108,10 @@ export class Editor {
             return false;
         }
         const comma = place.comma || place.empty ? "" : ",";
-        const insert = `${comma}\n        ${step},`;
+        const { text } = this.#view.state.doc.lineAt(place.end);
+        // The line of the last step, or the line that opens the list.
+        const indent = text.match(/^ */)[0] + (/\bsteps\s*:/.test(text) ? "    " : "");
+        const insert = `${comma}\n${indent}${step},`;
         const anchor = place.end + insert.length;
         this.#view.dispatch({ changes: { from: place.end, insert }, selection: { anchor }, scrollIntoView: true });
         return true;

@@ -15,14 +15,17 @@ export class Marks {
     #face = new THREE.MeshBasicMaterial({ color: COLOR, side: THREE.DoubleSide, transparent: true, opacity: 0.65,
         polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -1 });
 
-    /// Marks elements. `offset` returns the place of a mesh in the view.
-    show(picks, offset) {
+    /// Marks elements. `places` returns the maps of the instances of a mesh to the view.
+    show(picks, places) {
         this.clear();
         for (const pick of picks) {
-            const mark = this.#mark(pick);
-            mark.position.set(...offset(pick.mesh));
-            mark.renderOrder = 1;
-            this.group.add(mark);
+            for (const place of places(pick.mesh)) {
+                const mark = this.#mark(pick);
+                mark.matrixAutoUpdate = false;
+                mark.matrix.copy(place);
+                mark.renderOrder = 1;
+                this.group.add(mark);
+            }
         }
     }
 

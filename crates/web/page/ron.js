@@ -126,16 +126,21 @@ function token(stream, state) {
                 : stream.match(/^\s*:/, false) ? "propertyName" : "typeName";
     }
     const character = stream.next();
-    state.depth += "([{".includes(character) ? 1 : ")]}".includes(character) ? -1 : 0;
+    if ("([{".includes(character)) {
+        state.open.push(stream.indentation());
+    } else if (")]}".includes(character)) {
+        state.open.pop();
+    }
     return "punctuation";
 }
 
 /// The language for CodeMirror.
 export const ron = StreamLanguage.define({
     name: "ron",
-    startState: () => ({ comment: false, depth: 0 }),
+    // `open` has the indentation of the line of each open bracket.
+    startState: () => ({ comment: false, open: [] }),
     token,
-    indent: (state, after, cx) => Math.max(0, state.depth - (/^\s*[)\]}]/.test(after) ? 1 : 0)) * cx.unit,
+    indent: ({ open }, after, cx) => (open.length ? open.at(-1) + (/^\s*[)\]}]/.test(after) ? 0 : cx.unit) : 0),
     languageData: {
         commentTokens: { line: "//", block: { open: "/*", close: "*/" } },
         closeBrackets: { brackets: ["(", "[", "{", "\""] },

@@ -3,7 +3,7 @@ import { showLegend } from "./colors.js";
 import { byId, download, element, notify } from "./dom.js";
 import { numbered, selection } from "./pick.js";
 import { quoted } from "./ron.js";
-import { View } from "./view.js";
+import { MAX_INSTANCES, View } from "./view.js";
 
 /// Meshes with more faces are shown without edges at first.
 const MAX_FACES_WITH_EDGES = 5000;
@@ -57,11 +57,13 @@ export class Stage {
         byId("picture").hidden = true;
         byId("compare").hidden = rendered || !this.view?.hasEarlier;
         const note = byId("stage-note");
-        note.hidden = objects.length > 0 && Boolean(this.view) && meshes.length === objects.length;
+        const hides = meshes.some(({ placements }) => placements.length > 16 * MAX_INSTANCES);
+        note.hidden = objects.length > 0 && Boolean(this.view) && meshes.length === objects.length && !hides;
         note.textContent = objects.length === 0 ? "The scene is empty."
             : !this.view ? "This browser has no WebGL, so the engine renders the picture. The picture cannot be turned."
                 : meshes.length === 0 ? "Curves and patches are rendered by the engine. The picture cannot be turned."
-                    : "Curves and patches are not shown. Tessellate them to see them.";
+                    : hides ? `The first ${MAX_INSTANCES.toLocaleString("en")} instances of each mesh are shown.`
+                        : "Curves and patches are not shown. Tessellate them to see them.";
         if (rendered) {
             await this.#render();
         } else {

@@ -1,6 +1,6 @@
 // Tests the page in Chromium: test.mjs PAGE TOOLS CHROMIUM. Pictures of the page are written to TOOLS.
 import assert from "node:assert/strict";
-import { readFileSync, readdirSync } from "node:fs";
+import { existsSync, readFileSync, readdirSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { deflateRawSync } from "node:zlib";
 import { chromium, serve } from "./browser.mjs";
@@ -8,7 +8,7 @@ import { chromium, serve } from "./browser.mjs";
 const [folder, tools, executable] = process.argv.slice(2).map((path) => resolve(path));
 const root = new URL("../../../", import.meta.url).pathname;
 const server = await serve(folder);
-const origin = `http://127.0.0.1:${server.address().port}`;
+let origin = `http://127.0.0.1:${server.address().port}`;
 let browser = await chromium(tools, executable);
 
 /// Opens the page in a new profile, and records what must not happen: errors, and requests to other servers.
@@ -69,6 +69,14 @@ async function downloaded(page, action) {
     const waiting = page.waitForEvent("download");
     await action();
     return readFileSync(await (await waiting).path());
+}
+
+/// Returns the number of vertices that are outside of the view. Runs in the page.
+function outside() {
+    const { view, meshes: [mesh] } = meshwright.stage;
+    const box = document.querySelector("#canvas").getBoundingClientRect();
+    const places = Array.from({ length: mesh.positions.length / 3 }, (_, v) => view.project(mesh, v));
+    return places.filter(([x, y]) => x < box.left || x > box.right || y < box.top || y > box.bottom).length;
 }
 
 const screenshot = (page, name) => page.screenshot({ path: join(tools, `${name}.png`) });
@@ -296,6 +304,30 @@ const tests = {
         await page.waitForFunction(() => document.querySelector("#compare").hidden);
     },
 
+    async "a new line is indented like the list"(page) {
+        await ready(page);
+        for (const [start, expected] of [["(recipe: 1, steps: [", "\n    Cube"], ["(\n    recipe: 1,\n    steps: [", "\n        Cube"]]) {
+            await write(page, start);
+            await page.keyboard.press("Enter");
+            await page.keyboard.insertText("Cube(),");
+            assert((await page.evaluate(() => meshwright.editor.text)).includes(expected), expected);
+        }
+    },
+
+    async "instances are shown where nodes place them, and picked there"(page) {
+        await ready(page);
+        await write(page, "(recipe: 1, steps: [Grid(name: \"ground\", columns: 2, rows: 2), Cube(name: \"tree\"), " +
+            "Transform(scale: (0.1, 0.1, 0.1)), Scatter(surface: \"ground\", object: \"tree\", count: 9, seed: 3)])");
+        assert.notEqual(await run(page), "");
+        const [, tree] = await page.evaluate(() => meshwright.stage.meshes.map(({ placements }) => placements.length / 16));
+        assert.equal(tree, 9);
+        await page.locator("#fit").click();
+        const before = await page.evaluate(() => meshwright.stage.view.project(meshwright.stage.meshes[1], 7));
+        await page.mouse.click(...before);
+        assert.match(await text(page, "#picked"), /^Face \d of tree: vertices/);
+        await screenshot(page, "instances");
+    },
+
     async "quantities are shown as colors, with a legend"(page) {
         await ready(page);
         const picture = () => page.evaluate(async () => {
@@ -412,8 +444,12 @@ const tests = {
         assert.equal(await text(page, "#picked"), "2 faces");
         await screenshot(page, "faces");
         await page.locator("#add-step").selectOption({ label: "ExtrudeFaces" });
-        assert.match(await page.evaluate(() => meshwright.editor.text), /ExtrudeFaces\(faces: Faces\(\[\d, \d\]\), by: Distance\(0.5\)\),\n\]/);
+        assert.match(await page.evaluate(() => meshwright.editor.text), /\n    ExtrudeFaces\(faces: Faces\(\[\d, \d\]\), by: Distance\(0.5\)\),\n\]/);
         assert.notEqual(await run(page), "");
+        // What was in the view stays in the view, from the same direction.
+        await write(page, "(recipe: 1, steps: [Cube(name: \"cube\"),\n    Transform(scale: (1.5, 1.5, 1.5)),\n])");
+        assert.notEqual(await run(page), "");
+        assert.equal(await page.evaluate(outside), 0);
     },
 
     async "every scene of the gallery runs without a failure"(page) {
@@ -431,7 +467,7 @@ const tests = {
     },
 };
 
-for (const [name, test] of Object.entries(tests)) {
+async function check(name, test) {
     console.log(name);
     const page = await open();
     page.setDefaultTimeout(20_000);
@@ -443,6 +479,40 @@ for (const [name, test] of Object.entries(tests)) {
         console.log(page.failures);
         throw error;
     }
+}
+
+for (const [name, test] of Object.entries(tests)) {
+    await check(name, test);
+}
+
+/// Measures a step, the second time it runs.
+async function longest(page) {
+    await ready(page);
+    const recipe = "(recipe: 1, steps: [Cube(name: \"a\"), Triangulate(), LoopSubdivide(levels: 9)])";
+    const measure = async (recipe) => (await meshwright.engine.run(recipe, {})).steps.at(-1).milliseconds;
+    await page.evaluate(measure, recipe);
+    return page.evaluate(measure, recipe);
+}
+
+// On a server that isolates the page from other origins, the engine has threads.
+if (existsSync(join(folder, "threads"))) {
+    await check("a run without threads", async (page) => console.log(`  nine levels of Loop: ${Math.round(await longest(page))} ms`));
+    const first = origin;
+    const isolated = await serve(folder, true);
+    origin = `http://127.0.0.1:${isolated.address().port}`;
+    await check("a run with threads", async (page) => {
+        console.log(`  nine levels of Loop: ${Math.round(await longest(page))} ms`);
+        const [threads, processors] = await page.evaluate(() => [meshwright.engine.threads, navigator.hardwareConcurrency]);
+        assert.equal(threads, Math.min(processors, 16));
+        // The next engine has threads, too.
+        await page.evaluate(() => meshwright.engine.restart());
+        assert.equal(await page.evaluate(() => meshwright.engine.threads), threads);
+    });
+    for (const name of ["every scene of the gallery runs without a failure", "a run is canceled at once, and another can run"]) {
+        await check(`with threads: ${name}`, tests[name]);
+    }
+    isolated.close();
+    origin = first;
 }
 
 // The text can be edited and run while the engine is loading.
@@ -469,6 +539,9 @@ await ready(phone);
 for (const tab of ["recipe", "view", "results"]) {
     await phone.locator(`nav [data-tab=${tab}]`).click();
     await phone.waitForTimeout(300);
+    if (tab === "view") {
+        assert.equal(await phone.evaluate(outside), 0, "the meshes fit the pane");
+    }
     await screenshot(phone, `phone-${tab}`);
     assert.equal(await phone.evaluate(() => document.documentElement.scrollWidth), 390, "the page is not wider than the phone");
 }

@@ -8,6 +8,9 @@ import { Marks } from "./marks.js";
 /// Colors of the objects, which differ in lightness too.
 const COLORS = [0x8fa8c8, 0xd9b26f, 0x8fc0a0, 0xc98f8f, 0xb3a0cf, 0xb8b8a8];
 
+/// How many instances of a mesh are drawn. Each takes some time for each picture.
+export const MAX_INSTANCES = 1000;
+
 /// A vertical field of view as in the pictures of recipes, in degrees.
 const ANGLE = 25;
 
@@ -23,8 +26,7 @@ export class View {
     /// How much of the width shows the meshes of the run before, from 0 to 1.
     #split = 0;
     #marks = new Marks();
-    #meshes = [];
-    #center = [0, 0, 0];
+    #center = new THREE.Vector3();
     #radius = 1;
     #style = { smooth: false, edges: true, up: "y" };
     #waiting = false;
@@ -52,42 +54,50 @@ export class View {
         this.#resize();
     }
 
-    /// Shows meshes: `{ name, center, positions, triangles, faces, edges }`. The camera stays if `keep` is true and the size of
-    /// the scene is similar. `up` is the axis that points upwards: "y", "z", or "auto" for that of the pictures of recipes.
-    /// Returns the axis.
+    /// Shows meshes: `{ name, center, positions, triangles, faces, edges, placements }`. The camera stays if `keep` is true and the
+    /// size of the scene is similar. `up` is the axis that points upwards: "y", "z", or "auto" for that of the pictures of
+    /// recipes. Returns the axis.
     show(meshes, keep, up) {
         const before = this.#radius;
-        this.#meshes = meshes;
+        const sawAll = this.#seesAll();
         const box = new THREE.Box3();
         // Relative to the first center, since numbers of 32 bits are precise only near the origin.
-        const center = meshes[0]?.center ?? [0, 0, 0];
-        this.#retire(keep, new THREE.Vector3(...this.#center.map((x, axis) => x - center[axis])));
+        const center = meshes.length ? new THREE.Vector3(...meshes[0].center).applyMatrix4(placement(meshes[0], 0)) : new THREE.Vector3();
+        this.#retire(keep, this.#center.clone().sub(center));
         this.#center = center;
         meshes.forEach((mesh, i) => {
             const geometry = new THREE.BufferGeometry();
             geometry.setAttribute("position", new THREE.BufferAttribute(mesh.positions, 3));
             geometry.setIndex(new THREE.BufferAttribute(mesh.triangles, 1));
-            const surface = new THREE.Mesh(geometry, new THREE.MeshStandardMaterial({ color: COLORS[i % COLORS.length], roughness: 0.75,
-                side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));
             const lines = new THREE.BufferGeometry();
             lines.setAttribute("position", geometry.getAttribute("position"));
             lines.setIndex(new THREE.BufferAttribute(mesh.edges, 1));
-            const dark = new THREE.LineBasicMaterial({ color: 0x101418, transparent: true, opacity: 0.45 });
-            const group = new THREE.Group();
-            group.add(surface, new THREE.LineSegments(lines, dark));
-            group.position.set(...mesh.center.map((x, axis) => x - this.#center[axis]));
-            group.updateMatrixWorld();
-            this.#content.add(group);
-            box.expandByObject(surface);
+            const count = Math.min(mesh.placements.length / 16, MAX_INSTANCES);
+            for (let instance = 0; instance < count; instance += 1) {
+                const surface = new THREE.Mesh(geometry, new THREE.MeshStandardMaterial({ color: COLORS[i % COLORS.length],
+                    roughness: 0.75, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));
+                const dark = new THREE.LineBasicMaterial({ color: 0x101418, transparent: true, opacity: 0.45 });
+                const group = new THREE.Group();
+                group.add(surface, new THREE.LineSegments(lines, dark));
+                group.userData.mesh = mesh;
+                group.matrixAutoUpdate = false;
+                group.matrix.makeTranslation(...mesh.center).premultiply(placement(mesh, instance))
+                    .premultiply(new THREE.Matrix4().makeTranslation(center.clone().negate()));
+                group.updateMatrixWorld();
+                this.#content.add(group);
+                box.expandByObject(surface);
+            }
         });
         this.#radius = box.isEmpty() ? 1 : Math.max(box.getSize(new THREE.Vector3()).length() / 2, 1e-9);
         this.box = box;
         this.style({});
         if (!keep) {
-            this.#style.up = up !== "auto" ? up : stands(box, this.#center) ? "z" : "y";
-        }
-        if (!keep || this.#radius > 2 * before || this.#radius < before / 2) {
+            this.#style.up = up !== "auto" ? up : stands(box, center.toArray()) ? "z" : "y";
             this.fit();
+        } else if (this.#radius > 2 * before || this.#radius < before / 2) {
+            this.#refit();
+        } else {
+            this.#keepAll(sawAll);
         }
         this.#draw();
         return this.#style.up;
@@ -123,14 +133,16 @@ export class View {
 
     /// Colors the meshes: `[{ name, per, colors }]`. Meshes without an entry have their own color.
     color(found) {
-        this.#meshes.forEach(({ name }, i) => paint(this.#content.children[i], found.find((mesh) => mesh.name === name)));
+        for (const group of this.#content.children) {
+            paint(group, found.find(({ name }) => name === group.userData.mesh.name));
+        }
         this.style({});
     }
 
-    /// Moves the camera so that all meshes fit the view, seen from the front, a little from the side and from above.
-    fit() {
+    /// Moves the camera so that all meshes fit the view. `front` is the direction to the camera. Defaults to the front, a little
+    /// from the side and from above.
+    fit(front = this.#style.up === "z" ? new THREE.Vector3(0.55, -1, 0.5) : new THREE.Vector3(0.55, 0.5, 1)) {
         const up = this.#style.up === "z" ? new THREE.Vector3(0, 0, 1) : new THREE.Vector3(0, 1, 0);
-        const front = this.#style.up === "z" ? new THREE.Vector3(0.55, -1, 0.5) : new THREE.Vector3(0.55, 0.5, 1);
         const center = this.box?.isEmpty() === false ? this.box.getCenter(new THREE.Vector3()) : new THREE.Vector3();
         this.#camera.up.copy(up);
         this.#camera.position.copy(center).addScaledVector(front.normalize(), this.#distance(front, up, center));
@@ -147,13 +159,21 @@ export class View {
 
     /// Marks the elements of a mesh.
     mark(picks) {
-        this.#marks.show(picks, (mesh) => mesh.center.map((x, axis) => x - this.#center[axis]));
+        this.#marks.show(picks, (mesh) => this.#instances(mesh).map((group) => group.matrixWorld));
         this.#draw();
     }
 
-    /// Returns where a vertex is on the page, in pixels.
+    #instances(mesh) {
+        return this.#content.children.filter((group) => group.userData.mesh === mesh);
+    }
+
+    /// Returns where a vertex of the first instance of a mesh is on the page, in pixels.
     project(mesh, vertex) {
-        const group = this.#content.children[this.#meshes.indexOf(mesh)];
+        return this.#project(this.#instances(mesh)[0], vertex);
+    }
+
+    #project(group, vertex) {
+        const { mesh } = group.userData;
         const point = new THREE.Vector3().fromArray(mesh.positions, 3 * vertex).applyMatrix4(group.matrixWorld);
         point.project(this.#camera);
         const rect = this.#canvas.getBoundingClientRect();
@@ -166,6 +186,30 @@ export class View {
         return new Promise((resolve) => this.#canvas.toBlob(resolve));
     }
 
+    /// Moves the camera so that all meshes fit the view, without turning it.
+    #refit() {
+        this.fit(this.#camera.position.clone().sub(this.#controls.target));
+    }
+
+    /// Keeps all meshes in the view if they were there before a change.
+    #keepAll(sawAll) {
+        if (sawAll && !this.#seesAll()) {
+            this.#refit();
+        }
+    }
+
+    /// Whether the bounding box of the meshes is in the view.
+    #seesAll() {
+        const { min, max } = this.box ?? new THREE.Box3();
+        const ends = [min, max];
+        this.#camera.updateMatrixWorld();
+        const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => new THREE.Vector3(ends[i & 1].x, ends[(i >> 1) & 1].y, ends[i >> 2].z));
+        return corners.every((corner) => {
+            const { x, y } = corner.project(this.#camera);
+            return Math.abs(x) <= 1 && Math.abs(y) <= 1;
+        });
+    }
+
     /// Returns the least distance of the camera from which all vertices are visible, with a margin.
     #distance(front, up, center) {
         const right = new THREE.Vector3().crossVectors(up, front).normalize();
@@ -173,16 +217,15 @@ export class View {
         const tangent = Math.tan(THREE.MathUtils.degToRad(ANGLE) / 2) * 0.9;
         const point = new THREE.Vector3();
         let distance = this.#radius;
-        this.#meshes.forEach(({ positions }, i) => {
-            const { matrixWorld } = this.#content.children[i];
+        for (const { matrixWorld, userData: { mesh: { positions } } } of this.#content.children) {
             // Some of many vertices are enough.
-            const stride = 3 * Math.ceil(positions.length / 3e5);
+            const stride = 3 * Math.ceil((positions.length * this.#content.children.length) / 3e5);
             for (let k = 0; k < positions.length; k += stride) {
                 point.fromArray(positions, k).applyMatrix4(matrixWorld).sub(center);
                 const across = Math.max(Math.abs(point.dot(right)) / this.#camera.aspect, Math.abs(point.dot(upwards)));
                 distance = Math.max(distance, point.dot(front) + across / tangent);
             }
-        });
+        }
         return distance;
     }
 
@@ -197,7 +240,7 @@ export class View {
         for (const object of [...this.#content.children]) {
             // The legend is about the meshes of the last run only.
             paint(object);
-            object.position.add(move);
+            object.matrix.premultiply(new THREE.Matrix4().makeTranslation(move));
             this.#earlier.add(object);
         }
         if (!keep) {
@@ -230,9 +273,11 @@ export class View {
     #resize() {
         const { clientWidth: width, clientHeight: height } = this.#canvas.parentElement;
         if (width && height) {
+            const sawAll = this.#seesAll();
             this.#renderer.setSize(width, height, false);
             this.#camera.aspect = width / height;
             this.#camera.updateProjectionMatrix();
+            this.#keepAll(sawAll);
             this.#marks.resize(width, height);
             this.#draw();
         }
@@ -247,8 +292,9 @@ export class View {
         ray.setFromCamera(new THREE.Vector2(across, upwards), this.#camera);
         const surfaces = this.#content.children.map((group) => group.children[0]);
         const hit = ray.intersectObjects(surfaces, false)[0];
-        const mesh = hit && this.#meshes[surfaces.indexOf(hit.object)];
-        const place = (vertex) => this.project(mesh, vertex);
+        const group = hit?.object.parent;
+        const mesh = group?.userData.mesh;
+        const place = (vertex) => this.#project(group, vertex);
         this.onPick(hit ? { mesh, ...nearest(mesh, hit.faceIndex, this.kind, at, place) } : null, this.several || event.shiftKey);
     }
 
@@ -288,6 +334,11 @@ export class View {
         this.#controls.update();
         this.#draw();
     }
+}
+
+/// Returns the map from the coordinates of a mesh to those of the scene.
+function placement(mesh, instance) {
+    return new THREE.Matrix4().fromArray(mesh.placements, 16 * instance);
 }
 
 /// Returns whether a scene stands on the plane z = 0 and not on y = 0, as the pictures of recipes decide.

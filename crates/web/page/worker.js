@@ -4,7 +4,7 @@ import { Session } from "meshwright";
 
 let session;
 
-const calls = {
+export const calls = {
     async start(module, files) {
         session = await Session.create(module);
         for (const [path, bytes] of files) {
@@ -17,7 +17,7 @@ const calls = {
     run(recipe, set) {
         const result = session.run(recipe, { set, onEvent: (event) => postMessage({ event }) });
         const meshes = result.objects.filter((object) => object.kind === "mesh");
-        return { ...result, quantities: session.quantities(), meshes: meshes.map(({ name }) => ({ name, ...session.mesh(name) })) };
+        return { ...result, quantities: session.quantities(), meshes: meshes.map(({ name }) => ({ name, placements: session.placements(name), ...session.mesh(name) })) };
     },
     colors: (quantity) => session.colors(quantity),
     picture: (options) => session.picture(options),

@@ -10,6 +10,7 @@ use engine::{
     Diagnostic, Engine, Listener, Loaded, Memory, Options, Outcome, Run, Source, StepDone, Store,
     Values,
 };
+use glam::DMat4;
 use op::{Progress, Registry};
 use recipe::{LineIndex, Param, Parameter};
 use render::{Camera, Lines, Overlays, PictureError, Style, Up};
@@ -200,6 +201,15 @@ impl Session {
     pub fn arrays(&self, object: &str) -> Option<Arrays> {
         let mesh = self.scene.object(object)?.as_mesh()?;
         Some(Arrays::new(mesh))
+    }
+
+    /// Returns the placements of a mesh of the last run: for each of its instances, the map from the space of the mesh to the
+    /// scene, as 16 numbers column by column. A skinned mesh has the placement of its first joint.
+    pub fn placements(&self, object: &str) -> Vec<f64> {
+        let instances = self.scene.instances().into_iter();
+        let own = instances.filter(|instance| instance.object.name == object);
+        own.flat_map(|instance| DMat4::from(instance.to_scene).to_cols_array())
+            .collect()
     }
 
     /// Returns the quantities of the meshes of the last run that [`colors`](Self::colors) can show: the `title` and the

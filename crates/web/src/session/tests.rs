@@ -140,3 +140,22 @@ fn operations_and_schema_are_objects() {
     assert!(operations[0]["example"].is_string());
     assert!(session.schema().is_object());
 }
+
+#[test]
+fn each_instance_of_a_mesh_has_a_placement() {
+    let mut session = Session::new();
+    let text = r#"(recipe: 1, steps: [
+        Grid(name: "ground", columns: 4, rows: 4), Cube(name: "tree"), Cube(name: "alone"),
+        Scatter(surface: "ground", object: "tree", count: 5, seed: 1),
+    ])"#;
+    let result = run(&mut session, text);
+    assert_eq!(result["succeeded"], true, "{result}");
+    let trees = session.placements("tree");
+    assert_eq!(trees.len(), 5 * 16);
+    let places = trees.chunks(16).map(|m| [m[12], m[13], m[14]]);
+    let nodes = session.scene.graph().to_scene().into_iter();
+    assert!(places.eq(nodes.map(|map| map.translation.to_array())));
+    let alone = session.placements("alone");
+    assert_eq!(alone, DMat4::IDENTITY.to_cols_array());
+    assert!(session.placements("none").is_empty());
+}

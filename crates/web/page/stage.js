@@ -5,13 +5,15 @@ import { numbered, selection } from "./pick.js";
 import { quoted } from "./ron.js";
 import { MAX_INSTANCES, View } from "./view.js";
 
-/// Meshes with more faces are shown without edges at first.
+/// Meshes with more faces are shown without edges, unless the visitor wants edges.
 const MAX_FACES_WITH_EDGES = 5000;
 
 export class Stage {
     #engine;
     #editor;
     #picks = [];
+    /// Whether the visitor has switched the edges of this recipe on or off.
+    #choseEdges = false;
     #meshes = [];
     /// Finds the operations that take a selection. Set once the schema is known.
     completions = null;
@@ -39,7 +41,8 @@ export class Stage {
         this.#offer(meshes.length ? quantities : []);
         const faces = objects.reduce((sum, object) => sum + (object.faces ?? 0), 0);
         if (this.view) {
-            if (!keep) {
+            this.#choseEdges &&= keep;
+            if (!this.#choseEdges) {
                 this.#press("edges", faces <= MAX_FACES_WITH_EDGES);
             }
             const axis = this.view.show(meshes, keep, up);
@@ -137,7 +140,10 @@ export class Stage {
                 this.#render();
             }
         });
-        toggle("edges", (edges) => (byId("picture").hidden ? this.view?.style({ edges }) : this.#render()));
+        toggle("edges", (edges) => {
+            this.#choseEdges = true;
+            return byId("picture").hidden ? this.view?.style({ edges }) : this.#render();
+        });
         byId("compare-share").addEventListener("input", ({ target }) => this.view.compare(target.valueAsNumber / 100));
         byId("color-by").addEventListener("change", () => this.#color());
         byId("fit").addEventListener("click", () => this.view.fit());

@@ -215,8 +215,8 @@ fn a_lost_graphics_device_closes_the_window_and_the_next_start_offers_the_text()
     let unsaved = window.text();
     let device = device.get().unwrap();
     device.destroy();
-    // The loss is noticed with the next commands for the device.
-    device.poll(wgpu::PollType::Poll).ok();
+    // The loss is reported when the commands given before are done.
+    device.poll(wgpu::PollType::wait_indefinitely()).unwrap();
     let mut closes = false;
     for _ in 0..3 {
         window.harness.run_steps(1);

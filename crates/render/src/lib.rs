@@ -70,7 +70,7 @@ pub use error::PictureError;
 pub use image::{Image, LARGEST_SIDE, checked_size};
 pub use raster::{Look, PlacedLabel, Rendered, bytes_needed, pixel_bytes, render};
 pub use style::{Background, Ids, Lines, Shading, Style};
-pub use texture::{Alpha, Texture};
+pub use texture::{Alpha, Texture, TextureCache};
 
 /// Renders a picture of a scene. Returns the picture, and a message for each texture that cannot be drawn.
 ///
@@ -91,7 +91,8 @@ pub fn picture(
     images: &mut dyn FnMut(&str) -> Option<Vec<u8>>,
 ) -> Result<(Rendered, Vec<String>), PictureError> {
     PictureError::check_budget(pixel_bytes(size), budget)?;
-    let (drawing, missing) = build_within(scene, style, overlays, budget, images)?;
+    let textures = &mut TextureCache::default();
+    let (drawing, missing) = build_within(scene, style, overlays, budget, textures, images)?;
     let look = style.look();
     let view = View::new(camera, &|each| drawing.each_point(each), size)?;
     PictureError::check_budget(bytes_needed(&drawing, &view, size, &look), budget)?;

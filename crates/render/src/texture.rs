@@ -3,7 +3,10 @@
 //! Where colors are averaged, transparent pixels have less weight, so that the color of invisible pixels hardly bleeds
 //! into visible ones. If alpha is ignored, all pixels have the same weight.
 
+use std::sync::Arc;
+
 use glam::DVec2;
+use rayon::prelude::*;
 use scene::{Filter, Sampler, TextureTransform, Wrap};
 
 use crate::Image;
@@ -18,6 +21,33 @@ pub struct Texture {
     sampler: Sampler,
     transform: TextureTransform,
     alpha: Alpha,
+}
+
+/// Textures that are decoded, so that a texture is decoded once for several drawings.
+#[derive(Clone, Debug, Default)]
+pub struct TextureCache(Vec<(scene::Texture, Alpha, Arc<Texture>)>);
+
+impl TextureCache {
+    pub(crate) fn get(&self, source: &scene::Texture, alpha: Alpha) -> Option<Arc<Texture>> {
+        let known = self.0.iter().find(|(of, a, _)| of == source && *a == alpha);
+        known.map(|(_, _, texture)| texture.clone())
+    }
+
+    pub(crate) fn insert(
+        &mut self,
+        source: &scene::Texture,
+        alpha: Alpha,
+        decoded: Texture,
+    ) -> Arc<Texture> {
+        let decoded = Arc::new(decoded);
+        self.0.push((source.clone(), alpha, decoded.clone()));
+        decoded
+    }
+
+    /// Removes the textures for which this returns false.
+    pub fn retain(&mut self, mut keep: impl FnMut(&Arc<Texture>) -> bool) {
+        self.0.retain(|(_, _, texture)| keep(texture));
+    }
 }
 
 /// How the alpha of a texture affects the opacity of the surface.
@@ -109,6 +139,51 @@ impl Texture {
         })
     }
 
+    /// Returns how the texture continues outside of its image, and how it is magnified.
+    pub fn sampler(&self) -> Sampler {
+        self.sampler
+    }
+
+    /// Returns the width and the height of the image in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        let side = |n| u32::try_from(n).unwrap_or(u32::MAX);
+        [self.levels[0].width, self.levels[0].height].map(side)
+    }
+
+    /// Returns the position in the image of texture coordinates with v upwards. The image reaches from 0 to 1 in both
+    /// axes, and the second axis points downwards.
+    pub fn position(&self, uv: DVec2) -> DVec2 {
+        self.scale_and_rotate(DVec2::new(uv.x, 1.0 - uv.y)) + DVec2::from(self.transform.offset)
+    }
+
+    /// Returns the image with its width and height divided by 2 to the power of `level` and rounded down, but at least 1,
+    /// as graphics cards store it. Alpha is the fraction of a pixel that the surface covers. The colors are multiplied by
+    /// alpha, so that the color of invisible pixels hardly bleeds into visible ones when pixels are interpolated.
+    pub fn level(&self, level: u32) -> Image {
+        let [width, height] = self
+            .size()
+            .map(|n| n.checked_shr(level).unwrap_or(0).max(1));
+        let exact = f64::from(level).min((self.levels.len() - 1) as f64);
+        let pixel = |i: u32| {
+            let (x, y) = (f64::from(i % width) + 0.5, f64::from(i / width) + 0.5);
+            let footprint = Footprint {
+                position: DVec2::new(x / f64::from(width), y / f64::from(height)),
+                level: whole(exact),
+                t: 0.0,
+                is_nearest: false,
+            };
+            let [r, g, b, a] = self.weighted(&footprint);
+            let [r, g, b] = [r, g, b].map(to_srgb);
+            [r, g, b, byte(a)]
+        };
+        let pixels = (0..width * height).into_par_iter().map(pixel).collect();
+        Image {
+            width,
+            height,
+            pixels,
+        }
+    }
+
     /// Whether the whole texture is opaque.
     pub(crate) fn is_opaque(&self) -> bool {
         self.alpha == Alpha::Ignored
@@ -122,14 +197,20 @@ impl Texture {
             let light = |[r, g, b, _]: [u8; 4]| [r, g, b].map(to_linear);
             return footprint.interpolate(|level| self.at_level(level, &footprint, light));
         }
-        let [r, g, b, weight] = footprint.interpolate(|level| {
-            self.at_level(level, &footprint, |[r, g, b, a]| {
+        let [r, g, b, weight] = self.weighted(&footprint);
+        [r, g, b].map(|c| c / weight)
+    }
+
+    /// Returns linear red, green and blue, multiplied by their weight, and the weight: the coverage of the surface, but never
+    /// 0.
+    fn weighted(&self, footprint: &Footprint) -> [f32; 4] {
+        footprint.interpolate(|level| {
+            self.at_level(level, footprint, |[r, g, b, a]| {
                 let weight = self.alpha.coverage(level, unit(a)).max(MIN_WEIGHT);
                 let [r, g, b] = [r, g, b].map(|c| to_linear(c) * weight);
                 [r, g, b, weight]
             })
-        });
-        [r, g, b].map(|c| c / weight)
+        })
     }
 
     /// Returns the coverage of the surface, from 0 to 1, at texture coordinates with v upwards. `steps` are the
@@ -150,26 +231,28 @@ impl Texture {
     /// Returns the footprint of a pixel of the picture. The footprint is between the two mipmap levels whose pixels are
     /// closest in size to the pixel of the picture (Williams, "Pyramidal Parametrics", 1983).
     fn footprint(&self, uv: DVec2, steps: [DVec2; 2]) -> Footprint {
-        let (sin, cos) = libm::sincos(self.transform.rotation);
-        let [sx, sy] = self.transform.scale;
-        // Applies the transform without its offset. Here v points downwards.
-        let scale_and_rotate = |d: DVec2| {
-            let (x, y) = (d.x * sx, d.y * sy);
-            DVec2::new(cos * x + sin * y, cos * y - sin * x)
-        };
-        let offset = DVec2::from(self.transform.offset);
-        let position = scale_and_rotate(DVec2::new(uv.x, 1.0 - uv.y)) + offset;
-        let size = DVec2::new(self.levels[0].width as f64, self.levels[0].height as f64);
-        let [a, b] = steps.map(|d| (scale_and_rotate(DVec2::new(d.x, -d.y)) * size).length());
+        let [width, height] = self.size().map(f64::from);
+        let size = DVec2::new(width, height);
+        let [a, b] = steps.map(|d| (self.scale_and_rotate(DVec2::new(d.x, -d.y)) * size).length());
         // The width of a pixel of the picture, in pixels of the image.
         let width = a.max(b).max(1.0);
         let level = libm::log2(width).min((self.levels.len() - 1) as f64);
         Footprint {
-            position,
+            position: self.position(uv),
             level: whole(level),
             t: narrow(level.fract()),
             is_nearest: width <= 1.0 && self.sampler.magnify == Some(Filter::Nearest),
         }
+    }
+
+    /// Applies the transform without its offset to texture coordinates with v downwards.
+    fn scale_and_rotate(&self, uv: DVec2) -> DVec2 {
+        let (sin, cos) = libm::sincos(self.transform.rotation);
+        let (x, y) = (
+            uv.x * self.transform.scale[0],
+            uv.y * self.transform.scale[1],
+        );
+        DVec2::new(cos * x + sin * y, cos * y - sin * x)
     }
 
     /// Interpolates between the pixels of a level at the position of `footprint`. `texel` converts a pixel to the
@@ -344,6 +427,51 @@ mod tests {
         let light = plain.at(DVec2::splat(0.3), [DVec2::splat(9.0); 2]);
         let half = to_srgb(0.5);
         assert_eq!(light.map(to_srgb), [half; 3]);
+    }
+
+    #[test]
+    fn levels_for_graphics_cards_are_rounded_down() {
+        let image = Image {
+            width: 5,
+            height: 2,
+            pixels: vec![RED; 10],
+        };
+        let bytes = image.to_png(&[]).unwrap();
+        let (sampler, transform) = (Sampler::default(), TextureTransform::default());
+        let texture = Texture::decode(&bytes, sampler, transform, Alpha::Ignored).unwrap();
+        for (level, size) in [[5, 2], [2, 1], [1, 1], [1, 1]].into_iter().enumerate() {
+            let found = texture.level(u32::try_from(level).unwrap());
+            assert_eq!([found.width, found.height], size);
+            assert!(found.pixels.iter().all(|p| *p == RED), "{level}");
+        }
+        let plain = self::texture(sampler, transform);
+        assert_eq!(plain.level(0).pixels, [RED, GREEN, BLUE, WHITE]);
+        assert_eq!(
+            plain.level(1).pixels,
+            [[to_srgb(0.5), to_srgb(0.5), to_srgb(0.5), 255]]
+        );
+    }
+
+    #[test]
+    fn colors_of_levels_are_multiplied_by_the_coverage() {
+        let image = Image {
+            width: 2,
+            height: 1,
+            pixels: vec![[255, 255, 255, 128], [255, 0, 0, 0]],
+        };
+        let bytes = image.to_png(&[]).unwrap();
+        let (sampler, transform) = (Sampler::default(), TextureTransform::default());
+        for (alpha, expected) in [
+            (Alpha::Blended, [to_srgb(128.0 / 255.0), 128]),
+            (Alpha::Cut(0.5), [255, 255]),
+        ] {
+            let texture = Texture::decode(&bytes, sampler, transform, alpha).unwrap();
+            let [white, clear] = texture.level(0).pixels[..] else {
+                panic!()
+            };
+            assert_eq!([white[0], white[3]], expected, "{alpha:?}");
+            assert!(clear[0] < 5 && clear[3] == 0, "{clear:?}");
+        }
     }
 
     #[test]

@@ -5,8 +5,8 @@ use progress::Progress;
 use render::figure::label::{Label, draw_labels};
 use render::figure::legend::{Corner, Legend, covered_pixels, draw_legend};
 use render::{
-    Camera, Drawing, Image, Overlays, PictureError, Style, View, build_within, bytes_needed,
-    pixel_bytes, render,
+    Camera, Drawing, Image, Overlays, PictureError, Style, TextureCache, View, build_within,
+    bytes_needed, pixel_bytes, render,
 };
 use scene::Scene;
 
@@ -69,7 +69,8 @@ impl<'s> Subject<'s> {
             overlays.colorings = numbers.colorings;
             numbers.scale
         });
-        let (drawing, missing) = build_within(scene, style, &overlays, budget, images)?;
+        let textures = &mut TextureCache::default();
+        let (drawing, missing) = build_within(scene, style, &overlays, budget, textures, images)?;
         let subject = Self {
             drawing,
             scale,

@@ -15,6 +15,7 @@ use crate::color::Color;
 use crate::colormap::ColorMap;
 use crate::drawing::{Drawing, Label, Line};
 use crate::style::Style;
+use crate::texture::TextureCache;
 
 /// Additions to the geometry of a scene.
 #[derive(Clone, Debug, Default)]
@@ -141,10 +142,12 @@ pub fn build<'s>(
     overlays: &Overlays,
     images: &mut dyn FnMut(&str) -> Option<Vec<u8>>,
 ) -> Result<(Drawing<'s>, Vec<String>), PictureError> {
-    build_within(scene, style, overlays, u64::MAX, images)
+    let textures = &mut TextureCache::default();
+    build_within(scene, style, overlays, u64::MAX, textures, images)
 }
 
-/// Converts a scene to a drawing like [`build()`], with a memory budget in bytes.
+/// Converts a scene to a drawing like [`build()`], with a memory budget in bytes. Textures that are in `textures` are not
+/// decoded again; others are added to it.
 ///
 /// # Errors
 ///
@@ -156,6 +159,7 @@ pub fn build_within<'s>(
     style: &Style,
     overlays: &Overlays,
     budget: u64,
+    textures: &mut TextureCache,
     images: &mut dyn FnMut(&str) -> Option<Vec<u8>>,
 ) -> Result<(Drawing<'s>, Vec<String>), PictureError> {
     style.check()?;
@@ -164,6 +168,7 @@ pub fn build_within<'s>(
     let mut builder = Builder {
         style,
         overlays,
+        textures,
         images,
         budget,
         texture_bytes: 0,
@@ -204,6 +209,7 @@ fn min_bytes(scene: &Scene, style: &Style) -> u64 {
 struct Builder<'s, 'a> {
     style: &'a Style,
     overlays: &'a Overlays,
+    textures: &'a mut TextureCache,
     images: &'a mut dyn FnMut(&str) -> Option<Vec<u8>>,
     /// The memory budget in bytes.
     budget: u64,

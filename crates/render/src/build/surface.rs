@@ -39,7 +39,7 @@ impl Builder<'_, '_> {
         if let (Some(texture), None) = (&material.base_color_texture, self.style.color) {
             match self.decode(texture, texture_alpha)? {
                 Ok(decoded) => {
-                    surface.texture = Some(Arc::new(decoded));
+                    surface.texture = Some(decoded);
                     surface.uv_set = texture.uv_set as usize;
                 }
                 Err(why) => self.missing.push(why),
@@ -53,7 +53,10 @@ impl Builder<'_, '_> {
         &mut self,
         texture: &scene::Texture,
         alpha: Alpha,
-    ) -> Result<Result<Texture, String>, PictureError> {
+    ) -> Result<Result<Arc<Texture>, String>, PictureError> {
+        if let Some(known) = self.textures.get(texture, alpha) {
+            return Ok(Ok(known));
+        }
         let (name, bytes) = match &texture.image {
             scene::Image::File(path) => match (self.images)(path) {
                 Some(bytes) => (path.as_str(), bytes),
@@ -69,6 +72,7 @@ impl Builder<'_, '_> {
             self.texture_bytes += Texture::BYTES * n;
         }
         let decoded = Texture::decode(&bytes, texture.sampler, texture.transform, alpha);
+        let decoded = decoded.map(|decoded| self.textures.insert(texture, alpha, decoded));
         Ok(decoded.map_err(|why| format!("{name}: {why}")))
     }
 }
@@ -289,6 +293,28 @@ mod tests {
                 assert!(darkest > Some(230), "{mode:?}, {n}: {darkest:?}");
             }
         }
+    }
+
+    #[test]
+    fn a_texture_is_decoded_once_for_several_drawings() {
+        let scene = square(material(
+            checkerboard(4, [WHITE, CLEAR]),
+            AlphaMode::Blend,
+            Filter::Nearest,
+        ));
+        let (style, overlays) = (Style::default(), Overlays::default());
+        let mut textures = crate::TextureCache::default();
+        let mut drawn = || {
+            let images = &mut |_: &str| None;
+            let built =
+                crate::build_within(&scene, &style, &overlays, 1 << 20, &mut textures, images);
+            built.unwrap().0.parts[0].materials[0]
+                .texture
+                .clone()
+                .unwrap()
+        };
+        let [first, second] = [drawn(), drawn()];
+        assert!(std::sync::Arc::ptr_eq(&first, &second));
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use eframe::egui_wgpu::RenderState;
 
 /// The number of storage buffers from which a vertex shader reads a surface.
-const N_STORAGE_BUFFERS: u32 = 4;
+const N_STORAGE_BUFFERS: u32 = 5;
 
 /// Whether a [`Painter`](super::Painter) can draw with this device. OpenGL adapters lack features that it needs.
 pub fn can_draw(state: &RenderState) -> bool {

@@ -1,10 +1,12 @@
 //! Converts an object of a scene to the arrays that the graphics card draws.
 
+use std::sync::Arc;
+
 use bytemuck::{Pod, Zeroable};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use mesh::{FaceId, Mesh};
 use rayon::prelude::*;
-use render::{Channel, Drawing, Part, to_srgb};
+use render::{Channel, Drawing, Part, Texture, to_srgb};
 
 /// The largest number of triangles that are drawn by one command.
 pub(super) const CHUNK: usize = 1 << 20;
@@ -39,6 +41,10 @@ pub(super) struct Chunk {
     pub(super) normals: Vec<u32>,
     /// sRGB colors. Empty if the colors are those of the points.
     pub(super) colors: Vec<u32>,
+    /// The texture, if the surface has texture coordinates for it.
+    pub(super) texture: Option<Arc<Texture>>,
+    /// The position of each corner in the image of the texture. Empty without a texture.
+    pub(super) uvs: Vec<[f32; 2]>,
     /// The appearance, with the fields of the uniform `Object` of the shader except for `offset`.
     pub(super) look: SurfaceLook,
 }
@@ -50,6 +56,8 @@ pub(super) struct SurfaceLook {
     pub(super) color: [f32; 4],
     pub(super) back: [f32; 4],
     pub(super) modes: [u32; 4],
+    pub(super) emissive: [f32; 3],
+    pub(super) roughness: f32,
 }
 
 /// A line or a dot.
@@ -82,6 +90,14 @@ impl LineInstance {
     reason = "the graphics card computes in single precision"
 )]
 pub(super) fn narrow(p: DVec3) -> [f32; 3] {
+    p.to_array().map(|x| x as f32)
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the graphics card computes in single precision"
+)]
+fn narrow_pair(p: DVec2) -> [f32; 2] {
     p.to_array().map(|x| x as f32)
 }
 
@@ -200,6 +216,14 @@ fn chunk_of(part: &Part, mesh: Option<&Mesh>, material: usize, triangles: &[u32]
             }),
         }
     };
+    let surface = part.materials.get(material);
+    let texture = surface.and_then(|s| s.texture.as_ref().zip(part.uvs.get(s.uv_set)));
+    let uvs = texture.map_or_else(Vec::new, |(texture, uvs)| {
+        map(3 * triangles.len(), |i| {
+            let corner = part.corners[triangles[i / 3] as usize][i % 3];
+            narrow_pair(texture.position(uvs[corner as usize]))
+        })
+    });
     Chunk {
         triangles: map(triangles.len(), |i| {
             let t = triangles[i] as usize;
@@ -208,7 +232,9 @@ fn chunk_of(part: &Part, mesh: Option<&Mesh>, material: usize, triangles: &[u32]
         }),
         normals: values(&part.normals, encode_normal),
         colors: values(&part.colors, encode_color),
-        look: look(part, part.materials.get(material)),
+        look: look(part, surface, texture.is_some()),
+        texture: texture.map(|(texture, _)| texture.clone()),
+        uvs,
     }
 }
 
@@ -241,7 +267,7 @@ fn by_material(part: &Part, all: Vec<u32>) -> Vec<(usize, Vec<u32>)> {
     groups.filter(|(_, group)| !group.is_empty()).collect()
 }
 
-fn look(part: &Part, surface: Option<&render::Surface>) -> SurfaceLook {
+fn look(part: &Part, surface: Option<&render::Surface>, has_texture: bool) -> SurfaceLook {
     let base = if let Channel::All(color) = part.colors {
         color
     } else {
@@ -255,9 +281,10 @@ fn look(part: &Part, surface: Option<&render::Surface>) -> SurfaceLook {
         Channel::Corner(_) => 3,
     };
     let [r, g, b] = std::array::from_fn(|i| base[i] * of_material[i]);
+    let alpha = of_material[3];
     let back = part.back.unwrap_or_default();
     SurfaceLook {
-        color: [r, g, b, 1.0],
+        color: [r, g, b, alpha],
         back: [
             back[0],
             back[1],
@@ -268,8 +295,10 @@ fn look(part: &Part, surface: Option<&render::Surface>) -> SurfaceLook {
             mode(&part.normals),
             mode(&part.colors),
             u32::from(surface.is_some_and(|s| s.unlit)),
-            0,
+            u32::from(has_texture),
         ],
+        emissive: surface.map_or([0.0; 3], |s| s.emissive),
+        roughness: surface.map_or(1.0, |s| s.roughness).clamp(0.0, 1.0),
     }
 }
 

@@ -17,6 +17,7 @@ mod painter;
 mod patch;
 mod pipelines;
 mod target;
+mod textures;
 
 use glam::DVec3;
 

@@ -14,6 +14,7 @@ use wgpu::util::DeviceExt;
 use super::geometry::{self, LineInstance, SurfaceLook};
 use super::patch::Simple;
 use super::pipelines::Pipelines;
+use super::textures::Textures;
 use super::{Look, Wireframe};
 
 /// A corner of a colored triangle on a surface.
@@ -136,6 +137,7 @@ pub(super) struct ChunkBuffers {
     pub(super) group: wgpu::BindGroup,
     pub(super) n_corners: u32,
     pub(super) look: SurfaceLook,
+    pub(super) texture: Option<Arc<render::Texture>>,
 }
 
 /// The buffers of an object.
@@ -199,6 +201,7 @@ fn vertices<T: Pod>(device: &wgpu::Device, elements: &[T]) -> Option<(wgpu::Buff
 pub(super) fn upload(
     device: &wgpu::Device,
     pipelines: &Pipelines,
+    textures: &mut Textures,
     object: &Object,
     key: Key,
     look: &Look,
@@ -209,7 +212,15 @@ pub(super) fn upload(
         colorings: coloring.cloned().into_iter().collect(),
         ..Overlays::default()
     };
-    let (drawing, missing) = render::build(&scene, &key.style, &overlays, &mut |_| None)?;
+    let decoded = &mut textures.decoded;
+    let (drawing, missing) = render::build_within(
+        &scene,
+        &key.style,
+        &overlays,
+        u64::MAX,
+        decoded,
+        &mut |_| None,
+    )?;
     let mut bounds = None;
     drawing.each_point(&mut |p| {
         let [min, max] = bounds.unwrap_or([p, p]);
@@ -236,7 +247,7 @@ pub(super) fn upload(
         let surfaces = geometry::surfaces(part, mesh, center);
         let is_one = drawing.parts.len() == 1 && surfaces.len() == 1 && lines.is_empty();
         for surface in surfaces {
-            let (new, buffers) = buffers(device, pipelines, &surface);
+            let (new, buffers) = buffers(device, pipelines, textures, &surface);
             chunks.extend(new);
             simple = (is_one && is_simple(part)).then_some(buffers);
         }
@@ -280,12 +291,13 @@ fn is_simple(part: &Part) -> bool {
 fn buffers(
     device: &wgpu::Device,
     pipelines: &Pipelines,
+    textures: &mut Textures,
     surface: &geometry::Surface,
 ) -> (Vec<ChunkBuffers>, Simple) {
     let storage = |label, contents: &[u8]| {
         // A binding must not be empty.
         let contents = if contents.is_empty() {
-            &[0; 4]
+            &[0; 8]
         } else {
             contents
         };
@@ -320,13 +332,16 @@ fn buffers(
             triangles,
             own("normals", &chunk.normals, &normals),
             own("colors", &chunk.colors, &colors),
+            storage("texture coordinates", bytemuck::cast_slice(&chunk.uvs)),
         ];
+        let (image, sampler) = textures.get(chunk.texture.as_ref());
+        let resources = all.iter().map(wgpu::Buffer::as_entire_binding).chain([
+            wgpu::BindingResource::TextureView(&image),
+            wgpu::BindingResource::Sampler(&sampler),
+        ]);
         let entries: Vec<wgpu::BindGroupEntry> = (0..)
-            .zip(&all)
-            .map(|(binding, buffer)| wgpu::BindGroupEntry {
-                binding,
-                resource: buffer.as_entire_binding(),
-            })
+            .zip(resources)
+            .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
             .collect();
         ChunkBuffers {
             group: device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -336,6 +351,7 @@ fn buffers(
             }),
             n_corners: u32::try_from(3 * chunk.triangles.len()).unwrap_or(0),
             look: chunk.look,
+            texture: chunk.texture.clone(),
         }
     };
     let chunks = surface.chunks.iter().map(chunk).collect();

@@ -1,5 +1,7 @@
 //! Draws a scene into a texture.
 
+use std::sync::Arc;
+
 use bytemuck::{Pod, Zeroable};
 use eframe::wgpu;
 use glam::{DVec2, DVec3};
@@ -13,6 +15,7 @@ use super::objects::{self, Key, Uploaded};
 use super::patch::patch;
 use super::pipelines::Pipelines;
 use super::target::Target;
+use super::textures::Textures;
 use super::{Look, Overlay, OverlayLine, Wireframe};
 use crate::camera::{Camera, UpAxis};
 
@@ -46,6 +49,7 @@ pub struct Painter {
     device: wgpu::Device,
     queue: wgpu::Queue,
     pipelines: Pipelines,
+    textures: Textures,
     globals: wgpu::Buffer,
     globals_group: wgpu::BindGroup,
     objects: Vec<Uploaded>,
@@ -82,6 +86,7 @@ impl Painter {
             device: device.clone(),
             queue: queue.clone(),
             pipelines,
+            textures: Textures::new(device, queue),
             globals,
             globals_group,
             objects: Vec::new(),
@@ -177,7 +182,9 @@ impl Painter {
                 continue;
             }
             self.n_uploads += 1;
-            match objects::upload(&self.device, &self.pipelines, object, key, look, coloring) {
+            let (device, pipelines) = (&self.device, &self.pipelines);
+            let textures = &mut self.textures;
+            match objects::upload(device, pipelines, textures, object, key, look, coloring) {
                 Ok((uploaded, missing)) => {
                     messages.extend(missing);
                     self.objects.push(uploaded);
@@ -185,6 +192,10 @@ impl Painter {
                 Err(error) => messages.push(format!("\"{}\": {error}", object.name)),
             }
         }
+        let chunks = self.objects.iter().flat_map(|object| &object.chunks);
+        let used: Vec<_> = chunks.filter_map(|c| c.texture.as_ref()).collect();
+        self.textures
+            .retain(|texture| used.iter().any(|u| Arc::ptr_eq(u, texture)));
         let bounds = self.objects.iter().filter_map(|o| o.bounds);
         self.bounds = bounds.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]);
         messages

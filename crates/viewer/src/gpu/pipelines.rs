@@ -66,7 +66,23 @@ impl Pipelines {
         };
         let globals_layout = layout("globals", &[uniform(false)]);
         let object_layout = layout("object", &[uniform(true)]);
-        let chunk_layout = layout("chunk", &[storage(0), storage(1), storage(2), storage(3)]);
+        let of_fragments = |binding, ty| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::FRAGMENT,
+            ty,
+            count: None,
+        };
+        let texture = wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Float { filterable: true },
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled: false,
+        };
+        let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
+        let buffers = (0..5).map(storage);
+        let chunk_entries: Vec<_> = buffers
+            .chain([of_fragments(5, texture), of_fragments(6, sampler)])
+            .collect();
+        let chunk_layout = layout("chunk", &chunk_entries);
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: None,
             bind_group_layouts: &[
@@ -195,6 +211,8 @@ fn create(
         }),
         multisample: wgpu::MultisampleState {
             count: SAMPLES,
+            // An opaque surface has the alpha 1.
+            alpha_to_coverage_enabled: !kind.blends,
             ..wgpu::MultisampleState::default()
         },
         fragment: Some(wgpu::FragmentState {
@@ -204,7 +222,8 @@ fn create(
             targets: &[Some(wgpu::ColorTargetState {
                 format: FORMAT,
                 blend: kind.blends.then_some(wgpu::BlendState::ALPHA_BLENDING),
-                write_mask: wgpu::ColorWrites::ALL,
+                // The picture stays opaque where a surface is not.
+                write_mask: wgpu::ColorWrites::COLOR,
             })],
         }),
         multiview_mask: None,

@@ -23,8 +23,10 @@ struct Object {
     // The color of the back, if w is 1.
     back: vec4f,
     // Where normals and colors are stored: 0 one for all, 1 per triangle, 2 per point, 3 per corner. Then whether the
-    // surface is shown without lighting.
+    // surface is shown without lighting, and whether it has a texture.
     modes: vec4u,
+    emissive: vec3f,
+    roughness: f32,
 }
 
 @group(0) @binding(0) var<uniform> globals: Globals;
@@ -33,6 +35,9 @@ struct Object {
 @group(2) @binding(1) var<storage, read> triangles: array<u32>;
 @group(2) @binding(2) var<storage, read> normals: array<u32>;
 @group(2) @binding(3) var<storage, read> colors: array<u32>;
+@group(2) @binding(4) var<storage, read> uvs: array<vec2f>;
+@group(2) @binding(5) var image: texture_2d<f32>;
+@group(2) @binding(6) var image_sampler: sampler;
 
 // Stands for "no normal": the normal of the triangle is used.
 const NO_NORMAL: u32 = 0x80008000u;
@@ -69,6 +74,8 @@ struct Surface {
     @location(2) color: vec3f,
     @location(3) weights: vec3f,
     @location(4) @interpolate(flat) flags: u32,
+    // Inside of the triangle, so that no pixel at a border shows another part of the image.
+    @location(5) @interpolate(perspective, centroid) uv: vec2f,
 }
 
 @vertex
@@ -95,6 +102,9 @@ fn surface_vertex(@builtin(vertex_index) i: u32) -> Surface {
     if object.modes.y != 0u {
         out.color *= to_linear(unpack4x8unorm(colors[place(object.modes.y, i, point)]).rgb);
     }
+    if object.modes.w != 0u {
+        out.uv = uvs[i];
+    }
     return out;
 }
 
@@ -120,7 +130,8 @@ fn lit(color: vec3f, n: vec3f, to_eye: vec3f) -> vec3f {
     if globals.modes.x == 1u {
         // Blinn, "Models of Light Reflection for Computer Synthesized Pictures", 1977.
         let half_way = normalize(normalize(KEY) + to_eye);
-        light += pow(max(dot(n, half_way), 0.0), 48.0) * 0.5;
+        let exponent = 40.0 + 200.0 * (1.0 - object.roughness);
+        light += pow(max(dot(n, half_way), 0.0), exponent) * (0.45 + 0.4 * (1.0 - object.roughness));
     }
     return light;
 }
@@ -145,6 +156,10 @@ fn surface_fragment(in: Surface, @builtin(front_facing) is_front: bool) -> @loca
     // Derivatives are computed before any branch.
     let flat_normal = cross(dpdx(in.at), dpdy(in.at));
     let line = wire(in.weights, in.flags);
+    var texel = vec4f(1.0);
+    if object.modes.w != 0u {
+        texel = textureSample(image, image_sampler, in.uv);
+    }
     var to_eye = vec3f(0.0, 0.0, 1.0);
     if globals.modes.z == 1u {
         to_eye = normalize(-in.at);
@@ -166,23 +181,28 @@ fn surface_fragment(in: Surface, @builtin(front_facing) is_front: bool) -> @loca
         }
         n = m;
     }
-    var color = in.color;
+    // The colors of the image are multiplied by alpha.
+    var color = in.color * texel.rgb / max(texel.a, 0.001);
+    var alpha = object.color.a * texel.a;
     if !is_front && object.back.w == 1.0 {
         color = object.back.rgb;
     }
     if globals.modes.x != 3u && object.modes.z == 0u {
         color = lit(color, n, to_eye);
     }
+    color += object.emissive;
     let opacity = line * globals.wire.a;
     if globals.modes.y == 1u {
         color = mix(color, globals.wire.rgb, opacity);
+        alpha = max(alpha, opacity);
     } else if globals.modes.y == 2u {
         let t = in.position.y / globals.size.y;
         color = mix(mix(globals.background_top.rgb, globals.background.rgb, t), globals.wire.rgb, opacity);
+        alpha = 1.0;
     } else if globals.modes.y == 3u {
         return vec4f(globals.wire.rgb, opacity);
     }
-    return vec4f(color, 1.0);
+    return vec4f(color, alpha);
 }
 
 struct Background {

@@ -22,7 +22,7 @@ pub(crate) fn scene(mesh: Mesh) -> Scene {
     scene
 }
 
-fn bare() -> Look {
+pub(crate) fn bare() -> Look {
     Look {
         wireframe: Wireframe::None,
         boundary: false,
@@ -56,6 +56,37 @@ impl Stage {
         self.painter.draw(&self.camera, look, overlay, SIZE, 1.0);
         self.painter.read().unwrap()
     }
+
+    /// Returns the picture of the renderer without a graphics card, with a transparent background.
+    pub(crate) fn expected(&self, scene: &Scene, shading: Shading) -> Image {
+        let camera = render::Camera::LookAt {
+            from: self.camera.eye().to_array(),
+            to: self.camera.target.to_array(),
+            up: render::Up::Y,
+            projection: render::Projection::Perspective { angle: 25.0 },
+        };
+        let style = render::Style {
+            shading,
+            occlusion: 0.0,
+            background: render::Background::Transparent,
+            ..render::Style::default()
+        };
+        let overlays = render::Overlays::default();
+        let images = &mut |_: &str| None;
+        let drawn = render::picture(scene, &camera, &style, &overlays, SIZE, 1 << 30, images);
+        drawn.unwrap().0.image
+    }
+}
+
+/// Checks that `percent` of the pixels that a surface covers have the expected color.
+pub(crate) fn assert_near(found: &Image, expected: &Image, percent: usize) {
+    let inside = expected.pixels.iter().zip(&found.pixels);
+    let inside: Vec<_> = inside.filter(|(e, _)| e[3] == 255).collect();
+    assert!(inside.len() > 8000, "{}", inside.len());
+    let near = |(e, f): &&(&[u8; 4], &[u8; 4])| (0..3).all(|i| e[i].abs_diff(f[i]) <= 3);
+    let n_near = inside.iter().filter(near).count();
+    let n = inside.len();
+    assert!(n_near * 100 >= n * percent, "{n_near} of {n}");
 }
 
 fn picture(state: &RenderState, scene: &Scene, look: &Look) -> Image {
@@ -63,7 +94,7 @@ fn picture(state: &RenderState, scene: &Scene, look: &Look) -> Image {
 }
 
 /// Keeps a picture for people to look at.
-fn keep(name: &str, image: &Image) {
+pub(crate) fn keep(name: &str, image: &Image) {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("viewer");
     std::fs::create_dir_all(&folder).unwrap();
     std::fs::write(
@@ -103,40 +134,8 @@ fn a_cube_has_the_colors_of_the_renderer_without_a_graphics_card() {
         let mut stage = Stage::new(&state, &scene, &look);
         let found = stage.draw(&look, &Overlay::default());
         keep(&format!("cube-{shading:?}"), &found);
-        let camera = render::Camera::LookAt {
-            from: stage.camera.eye().to_array(),
-            to: stage.camera.target.to_array(),
-            up: render::Up::Y,
-            projection: render::Projection::Perspective { angle: 25.0 },
-        };
-        let style = render::Style {
-            shading,
-            occlusion: 0.0,
-            background: render::Background::Transparent,
-            ..render::Style::default()
-        };
-        let overlays = render::Overlays::default();
-        let (expected, _) = render::picture(
-            &scene,
-            &camera,
-            &style,
-            &overlays,
-            SIZE,
-            1 << 30,
-            &mut |_| None,
-        )
-        .unwrap();
-        let inside = expected.image.pixels.iter().zip(&found.pixels);
-        let inside: Vec<_> = inside.filter(|(e, _)| e[3] == 255).collect();
-        assert!(inside.len() > 8000, "{}", inside.len());
-        let near = |(e, f): &&(&[u8; 4], &[u8; 4])| (0..3).all(|i| e[i].abs_diff(f[i]) <= 3);
-        let n_near = inside.iter().filter(near).count();
         // The edges between faces are blended differently.
-        assert!(
-            n_near * 100 >= inside.len() * 97,
-            "{shading:?}: {n_near} of {}",
-            inside.len()
-        );
+        assert_near(&found, &stage.expected(&scene, shading), 97);
     }
 }
 

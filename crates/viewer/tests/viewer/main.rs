@@ -3,6 +3,7 @@
 mod adapter;
 mod drawing;
 mod editing;
+mod textures;
 mod times;
 mod tools;
 mod window;

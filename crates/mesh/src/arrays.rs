@@ -301,8 +301,8 @@ impl Mesh {
             .and_then(|c| T::of(&c.values))
     }
 
-    /// Returns the values of an attribute mutably, or `None` as [`get`](Self::get) does. If a
-    /// [journal](Self::begin) is open, all values are first copied to it.
+    /// Returns the values of an attribute mutably; `None` if the mesh has no attribute with this name, domain and
+    /// type. If a [journal](Self::begin) is open, all values are first copied to it.
     pub fn get_mut<I: Id, T: Value>(&mut self, attribute: Attribute<I, T>) -> Option<&mut [T]> {
         let column = self.attributes.column_mut(I::DOMAIN, attribute.name)?;
         if let Some(journal) = &mut self.journal {

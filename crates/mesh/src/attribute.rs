@@ -31,8 +31,8 @@ pub const CORNER_NORMAL: Attribute<HalfEdgeId, DVec3> = Attribute::new("normal",
 /// Unit vectors at vertices that are tangent to the surface. The direction in the tangent plane is arbitrary.
 pub const TANGENT: Attribute<VertexId, DVec3> = Attribute::new("tangent", Rule::Normal);
 /// Tangents of corners for normal maps. The first three numbers are the tangent t, a unit vector along the u
-/// axis of the texture coordinates. The fourth number is a sign s, 1 or -1: if n is the normal, the bitangent
-/// along the v axis, which points upwards in the texture, is s (n x t).
+/// axis of the texture coordinates. The fourth number is a sign s, 1 or -1. If n is the normal, s (n x t) is the
+/// bitangent, a vector along the v axis of the texture coordinates. The v axis points upwards in the texture.
 pub const CORNER_TANGENT: Attribute<HalfEdgeId, DVec4> = Attribute::new("tangent", Rule::Drop);
 /// Red, green, blue and alpha of vertices, from 0 to 1.
 pub const COLOR: Attribute<VertexId, DVec4> = Attribute::new("color", Rule::Interpolate);
@@ -48,8 +48,8 @@ pub const VERTEX_SHARPNESS: Attribute<VertexId, f64> = Attribute::new("corner", 
 /// What an edit or an operation does with the values of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {
-    /// A new element gets the weighted mean of the values of its source elements. Whole numbers and tags are not
-    /// averaged: the new element gets the value with the largest weight.
+    /// A new element gets the weighted mean of the values of its source elements. Whole numbers and tags (named
+    /// selections) are not averaged: the new element gets the value with the largest weight.
     Interpolate,
     /// The values are unit vectors. New values are interpolated, then scaled to length 1. Transforms treat them as
     /// normals of the surface. Subdivision drops the column, because the vectors would be wrong. Many other operations

@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-/// The number of terms that one task adds. The number is fixed, because the order of the additions determines
-/// the last bits of a sum.
+/// The number of terms in a block. One thread adds the terms of a block. The number does not depend on the number
+/// of threads, because the order of the additions determines the last bits of a sum.
 pub const BLOCK: usize = 4096;
 
 /// Returns the sum of `term(i)` for i from 0 to n - 1. Blocks of [`BLOCK`] terms are summed in

@@ -70,7 +70,7 @@ fn each<I: Id, T>(kept: &[I], value: impl Fn(I) -> T) -> Vec<T> {
     kept.iter().map(|&id| value(id)).collect()
 }
 
-/// Returns, for each old index below `n`, its position in `kept`.
+/// Returns, for each old index below `n`, its position in `kept`; `NONE` if `kept` does not contain the index.
 fn inverse<I: Id>(kept: &[I], n: usize) -> Vec<I> {
     let mut map = vec![I::NONE; n];
     for (new, old) in kept.iter().enumerate() {

@@ -11,9 +11,10 @@
 //!
 //! The journal is a stack of entries. Elements that were added after the innermost level was opened need no
 //! entries: an undo truncates the arrays to their old lengths. An undo in turn records the values that it
-//! overwrites; this record is the change that redoes the edits. Between edits, entries that take more memory than the
-//! mesh, apart from copies of whole arrays, are replaced by one copy of the mesh. A level that has a copy needs no
-//! further entries.
+//! overwrites; this record is the change that redoes the edits.
+//!
+//! If the entries, not counting copies of whole arrays, take more memory than the mesh and 64 KiB together, one copy of
+//! the mesh replaces them before the next edit starts. A level that has a copy of the mesh needs no further entries.
 
 use bytemuck::cast_slice_mut;
 use glam::DVec3;
@@ -43,8 +44,8 @@ impl Change {
     }
 }
 
-/// If a journal takes more memory than its mesh and this number of bytes together, a copy of the mesh replaces
-/// the journal.
+/// If the entries of a journal take more memory than the mesh and this number of bytes together, a copy of the mesh
+/// replaces the entries.
 const JOURNAL_ALLOWANCE: usize = 1 << 16;
 
 /// The open journal of a mesh.
@@ -278,7 +279,7 @@ impl Mesh {
 
     /// Undoes a change, and returns the change that redoes it.
     ///
-    /// The mesh must be in the state in which the change was committed: revert later changes first.
+    /// The mesh must be in the state that it had when the change was committed: revert later changes first.
     ///
     /// # Panics
     ///

@@ -49,17 +49,19 @@
 //! | whole meshes | [`reverse`](Mesh::reverse) |
 //!
 //! The documentation of the edits writes V, E and F for the numbers of vertices, edges and faces. An element that an
-//! edit removes is marked dead ("dies"). No id is reused until [`Mesh::compact`] renumbers the elements or an undo
-//! removes new elements. [`Mesh::begin`] starts to record edits, [`Mesh::rollback`] undoes them and ends the recording,
-//! and [`Mesh::commit`] ends the recording and returns a [`Change`]. [`Mesh::revert`] applies a change later: once to
-//! undo, a second time to redo. Operations on a whole mesh build new arrays ([`Mesh::from_arrays`]) or polygons
-//! ([`build()`]) and store them with [`Mesh::replace`].
+//! edit removes is marked dead ("dies"). The id of a dead element is not reused until [`Mesh::compact`] renumbers the
+//! elements. If an edit that added elements is undone, later edits reuse the ids of these elements.
+//!
+//! [`Mesh::begin`] starts to record edits, [`Mesh::rollback`] undoes them and ends the recording, and [`Mesh::commit`]
+//! ends the recording and returns a [`Change`]. [`Mesh::revert`] undoes the change later, and returns another change,
+//! which redoes it. Operations on a whole mesh build a new mesh from arrays ([`Mesh::from_arrays`]) or from polygons
+//! ([`build()`]), and replace the old mesh with [`Mesh::replace`].
 //!
 //! # Read in this order
 //!
-//! These 19 files explain the data structure and how it is edited. The other edits follow the pattern of flip
-//! and split. Of the other files of `build`, `polygons.rs`, `buckets.rs` and `star.rs` are used for all
-//! polygons; `orient.rs`, `split.rs` and `report.rs` handle polygons that do not form a manifold.
+//! These 19 files explain the data structure and how it is edited. The edits in other files follow the pattern of
+//! `flip.rs` and `split.rs`. Of the other files in `build`, `polygons.rs`, `buckets.rs` and `star.rs` are used for all
+//! input; `orient.rs`, `split.rs` and `report.rs` handle polygons that do not form a manifold.
 //!
 //! | files | contents |
 //! | --- | --- |

@@ -45,7 +45,7 @@ pub enum Defect {
     #[error("the half-edges of {0} are not one loop")]
     FaceHalfEdge(FaceId),
     /// The half-edge of a vertex leaves a different vertex, or a vertex with edges has no half-edge.
-    #[error("the half-edge of {0} does not leave {0}")]
+    #[error("the half-edge of {0} is missing or does not leave {0}")]
     VertexHalfEdge(VertexId),
     /// The half-edge of a boundary vertex has a face.
     #[error("the half-edge of the boundary vertex {0} has a face")]
@@ -66,7 +66,7 @@ pub enum Defect {
     },
 }
 
-/// The smallest number of elements that one task checks.
+/// The smallest number of elements that one parallel job checks.
 const BLOCK: usize = 1 << 14;
 
 /// A callback that receives each broken invariant.
@@ -157,7 +157,7 @@ impl Mesh {
         })
     }
 
-    /// Returns the sum over all living elements, computed in parallel; `None` if there is a defect.
+    /// Returns the sum of `term` over all living elements, computed in parallel; `None` if `term` returns a defect.
     fn sum<I: Id>(&self, term: impl Fn(I) -> Result<usize, Defect> + Sync + Send) -> Option<usize> {
         let term = |id| {
             if self.is_living(id) {

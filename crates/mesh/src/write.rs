@@ -51,7 +51,8 @@ impl Mesh {
         v
     }
 
-    /// Adds an edge between two vertices, with zero values. `face` and `next` of its halves are not set yet.
+    /// Adds an edge between two vertices, with zero attribute values. The caller must set `face` and `next` of both
+    /// halves.
     pub(crate) fn push_edge(&mut self, origin: VertexId, target: VertexId) -> EdgeId {
         let e = EdgeId::new(self.connectivity.next.len() / 2);
         self.connectivity.next.extend([HalfEdgeId::NONE; 2]);
@@ -62,7 +63,7 @@ impl Mesh {
         e
     }
 
-    /// Adds a face with `h` as its half-edge and with zero values.
+    /// Adds a face with `h` as its half-edge and with zero attribute values.
     pub(crate) fn push_face(&mut self, h: HalfEdgeId) -> FaceId {
         let f = FaceId::new(self.connectivity.face_half_edge.len());
         self.connectivity.face_half_edge.push(h);
@@ -124,7 +125,7 @@ impl Mesh {
         self.attributes.of(I::DOMAIN).iter().map(mean).collect()
     }
 
-    /// Sets the interpolated values of element `to` to `means`, which has a value for each column. Columns whose rule
+    /// Sets the interpolated values of element `to` to `means`, which has one value for each column. Columns whose rule
     /// does not interpolate stay as they are.
     pub(crate) fn set_means<I: Id>(&mut self, to: I, means: &[Values]) {
         let columns = self.attributes.of_mut(I::DOMAIN);
@@ -174,7 +175,7 @@ impl Mesh {
         !self.attributes.of(Domain::Corner).is_empty()
     }
 
-    /// Changes the values of an element in all columns, after an open journal has recorded them.
+    /// Changes the values of an element in all columns. If a journal is open, the old values are first recorded.
     #[inline]
     fn edit_values<I: Id>(&mut self, element: I, edit: impl Fn(&mut Column)) {
         let columns = self.attributes.of_mut(I::DOMAIN);

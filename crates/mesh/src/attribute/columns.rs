@@ -36,8 +36,8 @@ impl IntoIterator for Attributes {
     }
 }
 
-/// For each element of a new mesh, the element of the old mesh whose values the new element gets. `NONE` stands
-/// for zero values.
+/// For each element of a new mesh, the element of the old mesh whose values the new element gets. If an entry is
+/// `NONE`, the new element gets zero values.
 #[derive(Clone, Copy, Debug)]
 pub struct Sources<'a> {
     /// The old vertex for each new vertex.
@@ -56,7 +56,8 @@ impl Attributes {
         &self.columns[domain as usize]
     }
 
-    /// Iterates over all columns with their domains: domain by domain, sorted by name.
+    /// Iterates over all columns with their domains, in the order of [`Domain::ALL`]. The columns of one domain are
+    /// sorted by name.
     pub fn iter(&self) -> impl Iterator<Item = (Domain, &Column)> {
         Domain::ALL
             .into_iter()

@@ -22,17 +22,18 @@ pub fn morph_name(target: usize) -> String {
     format!("{MORPH}{target}")
 }
 
-/// Returns the joint whose weights the attribute with this name stores.
+/// Returns the joint whose weights the attribute with this name stores; `None` if the name is not that of a joint.
 pub fn joint_of(name: &str) -> Option<usize> {
     number(name.strip_prefix(JOINT)?)
 }
 
-/// Returns the morph target whose deltas the attribute with this name stores.
+/// Returns the morph target whose deltas the attribute with this name stores; `None` if the name is not that of a
+/// morph target.
 pub fn morph_of(name: &str) -> Option<usize> {
     number(name.strip_prefix(MORPH)?)
 }
 
-/// Parses a number that is written without leading zeros.
+/// Parses a number that is written without leading zeros; `None` for any other text.
 fn number(digits: &str) -> Option<usize> {
     let n: u32 = digits.parse().ok()?;
     (n.to_string() == digits).then_some(n as usize)

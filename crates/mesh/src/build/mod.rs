@@ -17,14 +17,16 @@
 //!
 //! - Two polygons that share an edge have a consistent orientation if their sides run along the edge in opposite
 //!   directions. Polygons that are connected through edges with exactly two sides form a part, and each part is
-//!   treated separately. If reversing some of its polygons makes all neighbors consistent, the minority
-//!   is reversed. In a tie, the polygons that agree with the first one are not reversed. If no choice of polygons
-//!   makes all neighbors consistent, none is reversed. The first corner of a reversed polygon stays the first.
+//!   treated separately. If all neighbors in a part can be made consistent, its polygons form two groups: those
+//!   that have the same orientation as the first polygon of the part, and those that have the opposite
+//!   orientation. The smaller group is reversed. If both groups have the same size, the second one is reversed. If
+//!   the part cannot be made consistent, none of its polygons is reversed. The first corner of a reversed polygon
+//!   stays the first.
 //! - Two vertices a and b can have more than two sides between them, or two sides that run in the same
 //!   direction even after these reversals. In this case, the k-th side from a to b is paired with the k-th side
 //!   from b to a, in the order of the corners. Unpaired sides become boundary edges.
-//! - If the faces around a vertex form several fans, the fan of the first corner keeps the vertex. Each
-//!   other fan gets a copy of the vertex, appended after all other vertices.
+//! - If the faces around a vertex form several fans, the fan that contains the first corner at the vertex keeps the
+//!   vertex. Each other fan gets a copy of the vertex, appended after all other vertices.
 //! - A polygon that has fewer than three corners, or that contains a vertex twice, is dropped.
 
 mod assemble;
@@ -73,19 +75,21 @@ pub enum BuildError {
         "the offsets of the faces must be in ascending order, from 0 to the number of corners, {0}"
     )]
     BadOffsets(usize),
-    /// This polygon has fewer than three corners, or contains a vertex twice, and non-manifold input is refused.
+    /// The polygon with this index has fewer than three corners, or contains a vertex twice. Returned only if
+    /// non-manifold input is refused.
     #[error(
         "the faces are not a manifold: face {0} has fewer than three corners, or contains a vertex twice"
     )]
     Degenerate(usize),
     /// More than two polygons have a side between these vertices, or the sides of two polygons run in
-    /// the same direction, and non-manifold input is refused.
+    /// the same direction. Returned only if non-manifold input is refused.
     #[error(
-        "the faces are not a manifold: the edge {}-{} has more than two faces, or two with the same direction",
+        "the faces are not a manifold: the edge {}-{} has more than two faces, or two faces that run along it in \
+         the same direction",
         .0[0], .0[1]
     )]
     NonManifoldEdge([VertexId; 2]),
-    /// The polygons around this vertex form several fans, and non-manifold input is refused.
+    /// The polygons around this vertex form several fans. Returned only if non-manifold input is refused.
     #[error("the faces are not a manifold: {0} joins faces that are not connected by edges")]
     NonManifoldVertex(VertexId),
 }
@@ -208,7 +212,8 @@ pub fn build(
     build_without(positions, offsets, corners, degenerate, non_manifold)
 }
 
-/// Builds a mesh without the polygons listed in `dropped`; these polygons map to `NONE` in the result.
+/// Builds a mesh without the polygons listed in `dropped`. The maps of the result have `NONE` for these polygons and
+/// for their corners.
 fn build_without(
     positions: Vec<DVec3>,
     offsets: &[u32],

@@ -9,7 +9,9 @@
 //! ```
 //!
 //! Neighbors are polygons that share an edge with exactly two sides. In each part that is connected through
-//! these edges, the minority is reversed; in a tie, the polygons that agree with the first polygon are not reversed.
+//! these edges, the smaller of two groups is reversed: the polygons that have the same orientation as the first
+//! polygon of the part, or those that have the opposite orientation. If both groups have the same size, the second
+//! one is reversed.
 
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
@@ -89,7 +91,7 @@ impl Orientation {
     }
 }
 
-/// Returns, for each side, the other side of its edge if the edge has exactly two sides, in any direction;
+/// Returns, for each side, the other side of its edge if the edge has exactly two sides, whatever their directions;
 /// otherwise `NONE`.
 fn opposite_sides(polygons: &Polygons, buckets: &Buckets) -> Vec<u32> {
     let opposite_sides: Vec<AtomicU32> = (0..polygons.corners.len())

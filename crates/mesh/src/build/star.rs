@@ -13,17 +13,19 @@ use super::polygons::{NONE, Polygons, to_id};
 /// The maximum number of corners that are matched by comparing all pairs; more corners are sorted.
 const MAX_COMPARED: usize = 32;
 
-/// The corners at one vertex. In this struct, a corner is identified by its index in the input
-/// order, counted from 0.
+/// The corners at one vertex. Each list has one entry for each corner, in the order of the corners passed to
+/// [`set`](Self::set).
 #[derive(Default)]
 pub(super) struct Star {
-    /// For each corner, the corner before it in its polygon.
+    /// For each corner, the corner before it in its polygon, as an index into the corners of all polygons.
     pub(super) before: Vec<u32>,
+    /// For each corner, the vertex of the corner before it in its polygon.
     from: Vec<u32>,
+    /// For each corner, the vertex of the corner after it in its polygon.
     to: Vec<u32>,
-    /// For each corner, the index of the corner that follows clockwise, or `NONE` on the boundary.
+    /// For each corner, the index in these lists of the corner that follows clockwise, or `NONE` on the boundary.
     pub(super) after: Vec<u32>,
-    /// A corner that has no predecessor, at the start of a fan; 0 if all fans are closed.
+    /// The index in these lists of a corner that has no predecessor, at the start of a fan; 0 if all fans are closed.
     start: usize,
     is_closed: bool,
     /// Whether an edge at the vertex is not a manifold edge. Can be false if all sides along such an edge end at the

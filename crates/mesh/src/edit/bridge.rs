@@ -14,8 +14,7 @@ impl Mesh {
     /// If the holes belong to one component of the mesh, this component gets a handle. If they belong to two
     /// components, these become one. If one loop has n edges and the other m, with n at least m, the band has n
     /// new edges and n faces: m quads, and n - m triangles spread evenly between them. Each triangle is at an
-    /// edge of the longer loop. If the loops are rotated against each other, the band is twisted: choose `h` and
-    /// `g` so that they face each other.
+    /// edge of the longer loop. Choose `h` and `g` so that they face each other; otherwise the band is twisted.
     ///
     /// All existing ids stay the same. New edges and faces are numbered along the longer loop (that of `h` if
     /// both have the same length). The first face is f. The first edge is a-d, or b-c if the loop of `g` is
@@ -23,7 +22,7 @@ impl Mesh {
     /// vertex of one of the loops. If its face has an edge of this loop, the corner gets the values of the
     /// existing corner at the same vertex, in the face on the other side of this edge. A triangle has no edge
     /// of the shorter loop; its corner at that loop uses the edge of the last quad before the triangle. New
-    /// edges have zero values.
+    /// edges have zero attribute values.
     ///
     /// Returns the new faces.
     ///

@@ -3,8 +3,8 @@
 use crate::{EditError, FaceId, HalfEdgeId, Mesh};
 
 /// Returns the parts into which diagonals divide a polygon with `n` corners, each part as a list of half-edges
-/// in order. Corners are numbered from 0 along the face. Half-edge i below `n` is the side that starts at
-/// corner i; half-edge n + 2k is diagonal k from its first corner to its second, and n + 2k + 1 is its twin.
+/// in order. Corners are numbered from 0 along the face. For i from 0 to n - 1, half-edge i is the side that starts
+/// at corner i. Half-edge n + 2k is diagonal k from its first corner to its second, and n + 2k + 1 is its twin.
 ///
 /// ```text
 ///    3 --- 2 --- 2        n = 4, diagonals [[0, 2]]:

@@ -23,8 +23,9 @@ impl Mesh {
     ///    |           |        |           |
     /// ```
     ///
-    /// When faces are merged, the one with the lowest id remains and keeps its values. The same applies to edges.
-    /// `v` and its other edges die. V - E + F stays the same. All other ids and values stay the same. This edit
+    /// Of the merged faces, the one with the lowest id remains and keeps its values; the others die. If two edges
+    /// become one, the edge with the lower id remains and keeps its values. `v` and its other edges die.
+    /// V - E + F stays the same. All other ids and values stay the same. This edit
     /// is the inverse of [`poke_face`](Self::poke_face), and of [`split_edge`](Self::split_edge) if the split
     /// cut no triangles.
     ///
@@ -36,8 +37,8 @@ impl Mesh {
     /// - [`EditError::FewEdges`] with `v` if `v` is isolated or has a single edge. This error is also returned, with
     ///   a neighbor of `v`, if that neighbor would be left with a single edge inside the merged face (remove the
     ///   neighbor first).
-    /// - [`EditError::RepeatedVertex`] if a face contains `v` twice, or two of the merged faces have another vertex in
-    ///   common.
+    /// - [`EditError::RepeatedVertex`] if a face contains `v` twice, if the merged face would contain another vertex
+    ///   twice, or if `v` has two edges and both lead to the same vertex.
     /// - [`EditError::DuplicateEdge`] if two edges would become one edge, but its ends already share an edge.
     /// - [`EditError::FewCorners`] if a face would be left with fewer than three corners.
     /// - [`EditError::Seam`] with an edge at `v` if, at the other end of this edge, corner attributes differ between

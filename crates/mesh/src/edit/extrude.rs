@@ -19,8 +19,8 @@ impl Mesh {
     ///      +-------- +               +------ +
     /// ```
     ///
-    /// The rim consists of the half-edges h of `faces` whose twin has no face, or a face that is not listed.
-    /// If the rim has n half-edges, V, E and F grow by n, 2n and n.
+    /// The rim consists of the half-edges h of `faces` whose twin has no face, or has a face that is not listed in
+    /// `faces`. If the rim has n half-edges, V, E and F grow by n, 2n and n.
     ///
     /// **Ids.** The faces keep their ids and the order of their corners, so that the same faces can be extruded
     /// again. The edges and vertices inside the faces keep their ids too. The vertices and edges of the rim
@@ -143,7 +143,7 @@ pub(super) struct Rim {
     /// All half-edges of the faces, in order.
     half_edges: Vec<HalfEdgeId>,
     /// The half-edges of the rim, in the order of `half_edges`. These half-edges are called bases here. The
-    /// twin of a base has no face, or a face outside of the set.
+    /// twin of a base has no face, or has a face outside of the set.
     pub(super) bases: Vec<HalfEdgeId>,
     /// The index in `bases` of each base.
     index_of_base: BTreeMap<HalfEdgeId, usize>,

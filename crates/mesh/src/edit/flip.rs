@@ -111,8 +111,9 @@ impl Mesh {
         Ok(())
     }
 
-    /// Returns the half-edge before `h` on its face or its hole. Walks around the face and around the origin of `h` at the same
-    /// time, so the time is proportional to the smaller of degree and valence.
+    /// Returns the half-edge before `h` around its face, or around its hole. Walks around the face (or the hole) and
+    /// around the origin of `h` at the same time. So the time is proportional to the smaller of two numbers: the
+    /// number of edges of the face or the hole, and the valence of the origin.
     #[inline]
     pub(super) fn prev_on_face(&self, h: HalfEdgeId) -> HalfEdgeId {
         let (mut before, mut around) = (self.next(h), h.twin());

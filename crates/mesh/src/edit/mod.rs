@@ -76,7 +76,8 @@ pub enum EditError {
     /// A face contains this vertex twice, or would contain it twice.
     #[error("a face would contain {0} twice")]
     RepeatedVertex(VertexId),
-    /// No face has both vertices as corners that a new edge could join.
+    /// No face has both vertices as corners, or the two vertices are the same. [`Mesh::cut_face`] returns this error,
+    /// with the ends of the first diagonal, if diagonals cross, repeat or follow a side.
     #[error("no face can be cut from {0} to {1}")]
     NoCut(VertexId, VertexId),
     /// Several faces have both vertices as corners, or one face contains a vertex several times.
@@ -102,8 +103,8 @@ pub enum EditError {
     /// A coordinate, length or fraction is not finite, or is out of range.
     #[error("{0} is not finite, or is out of the range of this edit")]
     BadNumber(f64),
-    /// The edit would leave two fans of faces at a vertex. Also returned if a hole to be filled contains the vertex
-    /// twice, or if both ends of a diagonal are at the vertex.
+    /// The edit would leave several fans of faces at the vertex. Also returned if a hole to be filled contains the
+    /// vertex twice, or if both ends of a diagonal are at the vertex.
     #[error("the faces around {0} would form two separate fans")]
     Pinch(VertexId),
     /// The corner does not belong to the required face or vertex.
@@ -279,7 +280,7 @@ fn sorted_unique<T: Ord>(ids: impl Iterator<Item = T>) -> Vec<T> {
     sorted
 }
 
-/// Returns `refusal` unless the condition holds.
+/// Returns `refusal` as an error unless `is_allowed` is true.
 fn require(is_allowed: bool, refusal: EditError) -> Result<(), EditError> {
     if is_allowed { Ok(()) } else { Err(refusal) }
 }

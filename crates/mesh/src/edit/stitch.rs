@@ -21,8 +21,8 @@ impl Mesh {
     /// vertex with the lower id remains and keeps its position and values; the other vertex dies. The edge with the
     /// lower id remains, keeps its values and gets both faces; the other edge dies. Corners keep their values, so
     /// different UVs form a seam. If the boundary edges next to `h` and `g` would become a hole with two edges,
-    /// they are stitched too, because a list of polygons cannot represent such a hole. A cut can be closed edge by
-    /// edge, from its end.
+    /// they are stitched too, because a list of polygons cannot represent such a hole. To close a cut, stitch one pair
+    /// of edges after the other, starting at an end of the cut.
     ///
     /// The order of `h` and `g` does not matter. The orientation of the faces always matches, because both
     /// half-edges have the surface on their right.

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 /// Returns the Gaussian curvature at each vertex, by vertex index, in 1 / scene unit². The curvature is 1 / r²
 /// on a sphere of radius r, and 0 on a cylinder. The value is NaN for dead vertices, for isolated vertices, and
-/// for vertices whose faces have zero area.
+/// for vertices whose faces all have zero area.
 ///
 /// The curvature is the angle defect divided by the [vertex area](vertex_area). The angle defect is 2π (π on
 /// the boundary) minus the sum of the corner angles. Source: Meyer, Desbrun, Schröder, Barr, "Discrete
@@ -28,7 +28,7 @@ pub fn gaussian_curvatures(mesh: &Mesh) -> Vec<f64> {
 
 /// Returns the mean curvature at each vertex, by vertex index, in 1 / scene unit. The curvature is 1 / r on an
 /// outward-facing sphere of radius r, 1 / (2r) on a cylinder, and negative where the surface is concave. The
-/// value is NaN for dead vertices, for isolated vertices, and for vertices whose faces have zero area.
+/// value is NaN for dead vertices, for isolated vertices, and for vertices whose faces all have zero area.
 ///
 /// Each edge contributes half of its signed dihedral angle times its length, shared equally by its two ends.
 /// The sum at a vertex is divided by the [vertex area](vertex_area). Source: Cohen-Steiner, Morvan, "Restricted
@@ -43,15 +43,15 @@ pub fn mean_curvatures(mesh: &Mesh) -> Vec<f64> {
     })
 }
 
-/// Returns the principal curvatures at each vertex, the smaller one first, by vertex index, in 1 / scene unit: both are
-/// 1 / r on an outward-facing sphere of radius r, and 0 and 1 / r on a cylinder. The values are NaN where the [mean
-/// curvature](mean_curvatures) is NaN.
+/// Returns the two principal curvatures at each vertex, the smaller one first, by vertex index, in 1 / scene unit. On
+/// an outward-facing sphere of radius r, both are 1 / r. On an outward-facing cylinder, they are 0 and 1 / r. The
+/// values are NaN where the [mean curvature](mean_curvatures) is NaN.
 ///
 /// The principal curvatures are the eigenvalues of the curvature tensor of the vertex in the plane perpendicular to its
 /// normal. The normal is the sum of the area vectors of the faces around the vertex. Each edge at the vertex adds half
 /// its signed dihedral angle times its length times u uᵀ to the tensor, where u is the unit vector along the edge. The
-/// sum is divided by the [vertex area](vertex_area): Cohen-Steiner, Morvan, "Restricted Delaunay Triangulations and
-/// Normal Cycle", 2003. Where the surface is nearly flat around the vertex, the mean of the principal curvatures is
+/// sum is divided by the [vertex area](vertex_area). Source: Cohen-Steiner, Morvan, "Restricted Delaunay Triangulations
+/// and Normal Cycle", 2003. Where the surface is nearly flat around the vertex, the mean of the principal curvatures is
 /// close to the mean curvature.
 pub fn principal_curvatures(mesh: &Mesh) -> Vec<[f64; 2]> {
     let none = [f64::NAN; 2];

@@ -37,9 +37,9 @@ const SHAPE_WEIGHT: f64 = 1e-6;
 /// closest to equilateral is used. Source: Barequet and Sharir, "Filling gaps in the boundary of a polyhedron", 1995.
 /// The time is proportional to n³ for n edges.
 ///
-/// In larger holes, the corner whose neighbors are nearest to each other is cut off repeatedly. This takes time
-/// proportional to n log n. Corners that are straight or reflex, as seen along the mean normal, are cut off
-/// last. In a hole that is far from convex, the triangles can overlap.
+/// In larger holes, corners are cut off one after another: next is always the corner whose two neighbors are nearest to
+/// each other. This takes time proportional to n log n. Corners that are straight or reflex, as seen along the mean
+/// normal, are cut off last. In a hole that is far from convex, the triangles can overlap.
 ///
 /// A new edge never connects two vertices that already share an edge.
 ///

@@ -1,13 +1,13 @@
 //! The cotangent Laplacian of a surface, and the areas of its vertices.
 //!
 //! ```text
-//!            k                    The weight of the edge i-j is (cot α + cot β) / 2: the stiffness matrix of linear
-//!           /α\                   finite elements. Row i of the matrix times the values u is
+//!            k                    The weight w(i, j) of the edge i-j is (cot α + cot β) / 2. These weights form the
+//!           /α\                   stiffness matrix of linear finite elements. Row i of the matrix times values u is
 //!          /   \
-//!         i-----j                     sum over j of w(i, j) (u(i) - u(j))
+//!         i-----j                     sum over j of w(i, j) (u(i) - u(j)).
 //!          \   /
-//!           \β/                   which approximates minus the Laplacian of u, times the area of the vertex i.
-//!            l
+//!           \β/                   This sum approximates -a(i) times the Laplacian of u at the vertex i, where a(i) is
+//!            l                    the area of the vertex.
 //! ```
 //!
 //! Sources: Pinkall, Polthier, "Computing Discrete Minimal Surfaces and Their Conjugates", 1993, for the
@@ -24,8 +24,10 @@ use crate::triangulate::Cutter;
 /// The largest number of corners of a polygon that gets a virtual vertex. Polygons with more corners are cut
 /// into triangles.
 const MAX_CORNERS: usize = 16;
-/// The slack in the triangle inequality after edges were lengthened, relative to the mean edge length.
+/// The slack with which every triangle inequality holds after all edges were lengthened by the same length, relative to
+/// the mean edge length.
 const SLACK: f64 = 1e-5;
+/// The number of faces in a block. One thread computes the entries of the faces of a block.
 const FACES: usize = 4096;
 
 /// The cotangent Laplacian of a surface with the areas of its vertices.
@@ -60,16 +62,16 @@ impl Laplacian {
     ///
     /// A polygon with 4 to 16 corners is divided by a virtual vertex at the mean of its corners. The value at
     /// the virtual vertex is the mean of the values at the corners. So the result does not depend on a
-    /// triangulation. Linear functions on a flat polygon keep their exact gradient. Polygons with more corners
+    /// triangulation, and the gradient of a linear function on a flat polygon is exact. Polygons with more corners
     /// are cut into triangles.
     ///
-    /// If a triangle is degenerate, the same small length is added to the lengths of all edges, so that the
-    /// triangle inequality holds with a slack of 1e-5 times the mean edge length. All entries are therefore
-    /// finite for any finite positions. If all triangles have this slack, nothing is added.
+    /// If a triangle is degenerate or almost degenerate, the same small length is added to the lengths of all edges, so
+    /// that every triangle inequality holds with a slack of 1e-5 times the mean edge length. All entries are therefore
+    /// finite for any finite positions. If all triangles already have this slack, nothing is added.
     ///
     /// # Errors
     ///
-    /// Returns [`Cancelled`] if `progress` cancels.
+    /// Returns [`Cancelled`] if `progress` asks to stop.
     pub fn new(mesh: &Mesh, progress: &dyn Progress) -> Result<Self, Cancelled> {
         let exponent = exponent(mesh.positions());
         let points: Vec<DVec3> = mesh

@@ -6,8 +6,8 @@
 //! | [`area`], [`volume`], [`bounds`], [`genus`], [`components`] | measures of whole meshes |
 //! | [`gaussian_curvatures`], [`mean_curvatures`], [`principal_curvatures`] | discrete curvature |
 //! | [`min_angle`], [`aspect_ratio`] | the shape of faces |
-//! | [`geodesic_distances`], [`thickness`], [`occlusion`] | distances along the surface and through the solid;
-//! how enclosed each vertex is |
+//! | [`geodesic_distances`], [`thickness`] | distances along the surface and through the solid |
+//! | [`occlusion`] | ambient occlusion |
 //! | [`distance`] | the distance between two surfaces |
 //! | [`surface_index`] | nearest points, rays, intersections and winding numbers of a surface |
 //! | [`predicates`] | exact tests of the side of a line or plane |
@@ -16,7 +16,7 @@
 //! | [`remesh`](mod@remesh) | nearly equilateral triangles of a given size |
 //! | [`simplify`] | fewer triangles for nearly the same surface |
 //! | [`bisect`], [`symmetrize`], [`bevel`] | cutting along a plane, mirroring one half, beveling |
-//! | [`deform`] | moving points by closed formulas, falloff, noise |
+//! | [`deform`] | bending, twisting, tapering, lattices, falloff, noise |
 //! | [`smooth`](mod@smooth) | smoothing and denoising |
 //! | [`Laplacian`], [`sparse`] | the cotangent Laplacian; sparse symmetric matrices and their solver |
 //! | [`samples`] | evenly spread points on a surface |

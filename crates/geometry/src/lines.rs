@@ -17,8 +17,9 @@ pub(crate) enum Kind {
     Fixed,
 }
 
-/// Returns, for each edge, whether it is a part of a line: a boundary, a seam, a border between face tags, materials or
-/// other whole numbers of faces, an edge with a tag or a crease, or one of the `features`. The mesh must be dense.
+/// Returns, for each edge, whether it is a part of a line. These edges are parts of lines: boundary edges, seams, edges
+/// between faces with different tags, materials or other whole numbers, edges with a tag or a crease, and the
+/// `features`. The mesh must be dense.
 pub(crate) fn lines(mesh: &Mesh, features: &[EdgeId]) -> Vec<bool> {
     let faces: Vec<&Column> = labels(mesh, Domain::Face).collect();
     let tags: Vec<&[bool]> = labels(mesh, Domain::Edge)

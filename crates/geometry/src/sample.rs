@@ -25,8 +25,8 @@ const CANDIDATES: usize = 5;
 /// Returns exactly `count` points on a surface, spread evenly at random. Polygons are triangulated. Returns no points
 /// if the area of the surface is zero or not finite.
 ///
-/// First, five times as many random points as requested are distributed by area. Then the most crowded point is
-/// removed, until `count` points are left (Yuksel, "Sample Elimination for Generating Poisson Disk Sample Sets", 2015).
+/// First, 5 × `count` random points are distributed by area. Then the most crowded point is removed, again and again,
+/// until `count` points are left (Yuksel, "Sample Elimination for Generating Poisson Disk Sample Sets", 2015).
 /// Distances are Euclidean, not along the surface. The points are in the order in which they were drawn. They depend
 /// only on the mesh, `count` and the seed.
 ///
@@ -45,7 +45,7 @@ pub fn samples(
     }
     // The largest radius of `count` disks in a plane of this area, in the densest arrangement.
     let radius = (area / (2.0 * 3.0_f64.sqrt() * count as f64)).sqrt();
-    // Points that are closer are treated as if they had this distance, which improves the result.
+    // Two points that are closer than `least` are treated as if they had this distance, which improves the result.
     let ratio = 1.0 / CANDIDATES as f64;
     let least = 2.0 * radius * (1.0 - ratio * ratio.sqrt()) * 0.65;
     let grid = Grid::new(&candidates, 2.0 * radius);

@@ -30,9 +30,9 @@ pub struct Tangents {
 /// and from its corner normals or, if there are none, its vertex normals. Returns `None` if the mesh has no
 /// normals.
 ///
-/// The computation uses 32-bit numbers. Polygons are triangulated in the same way as by the glTF writer. Corners share
-/// a tangent if they have the same position, normal and texture coordinates, and their faces are connected and both or
-/// neither mirrored in the texture.
+/// The computation uses 32-bit numbers. Polygons are triangulated in the same way as by the glTF writer. Two corners
+/// share a tangent if they have the same position, normal and texture coordinates, if their faces are connected, and if
+/// the texture is mirrored on both faces or on neither of them.
 pub fn tangents(mesh: &Mesh, uvs: &[DVec2]) -> Option<Tangents> {
     let normals = match (mesh.get(CORNER_NORMAL), mesh.get(VERTEX_NORMAL)) {
         (Some(normals), _) => Normals::Corners(normals),

@@ -93,16 +93,16 @@ impl Cut {
 /// Triangulates faces one after another, and reuses its buffers.
 ///
 /// A quadrilateral is cut along its shorter diagonal. If both diagonals are equally long (relative difference
-/// of the squared lengths at most 1e-12), the quadrilateral is cut along the diagonal at its lowest vertex. A
-/// diagonal is avoided if one of its triangles has zero area or is flipped, as seen along the face normal. If
-/// both diagonals have this problem, neither is avoided. A quadrilateral with a reflex corner is therefore cut
-/// at that corner.
+/// of the squared lengths at most 1e-12), the quadrilateral is cut along the diagonal at its vertex with the
+/// lowest id. A diagonal is avoided if one of its triangles has zero area or is flipped, as seen along the face
+/// normal. If both diagonals have this problem, neither is avoided. A quadrilateral with a reflex corner is
+/// therefore cut at that corner.
 ///
 /// A larger face is projected along its normal and cut by ear clipping (Held, "FIST: Fast Industrial-Strength
 /// Triangulation of Polygons", 2001, as implemented by the crate `earcut`). Then diagonals are flipped until
 /// the result is a constrained Delaunay triangulation. Ear clipping can fail if the area of the face is zero or
 /// its sides cross. It is not tried for faces with more than ten million corners. In these cases the face
-/// becomes a fan around its lowest vertex.
+/// becomes a fan around its vertex with the lowest id.
 ///
 /// # Examples
 ///
@@ -204,7 +204,7 @@ fn doubled_area(points: &[DVec3]) -> DVec3 {
         .sum()
 }
 
-/// Returns how to cut a quadrilateral whose lowest vertex is at corner `lowest`.
+/// Returns how to cut a quadrilateral. Corner `lowest` is at the vertex with the lowest id.
 fn quad(points: [DVec3; 4], lowest: u32) -> Cut {
     let [a, b, c, d] = points;
     let normal = doubled_area(&points);
@@ -328,14 +328,17 @@ fn is_triangulation(n: usize, triangles: &[Triangle]) -> bool {
         return false;
     }
     let n = u32::try_from(n).expect("corners fit 32 bits");
-    // There are two lists: the sides whose corner indices ascend, and the sides whose corner indices descend. In
-    // both lists, the lower corner of a side comes first.
+    // Each triangle has two sides that run from a lower to a higher corner index, and one side that runs from a higher
+    // to a lower index. The sides of the two kinds are in two lists. In both lists, the lower corner of a side comes
+    // first.
     let mut ascending: Vec<[u32; 2]> = triangles
         .iter()
         .flat_map(|&[a, b, c]| [[a, b], [b, c]])
         .collect();
     let mut descending: Vec<[u32; 2]> = triangles.iter().map(|&[a, _, c]| [a, c]).collect();
-    // The side from corner n - 1 to corner 0 descends, and all other sides of the polygon ascend.
+    // Removes the side of the polygon from corner n - 1 to corner 0 from the second list, and adds all other sides of
+    // the polygon to it. If the triangles are a triangulation, the two lists are then equal: each diagonal is in both
+    // lists, because its two triangles use it in opposite directions.
     let whole = [0, n - 1];
     let Some(place) = descending.iter().position(|&side| side == whole) else {
         return false;

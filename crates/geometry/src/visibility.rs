@@ -14,21 +14,21 @@ use crate::surface_index::SurfaceIndex;
 const OFFSET: f64 = 1e-7;
 /// Rays start at a distance from the vertex of at most twice this fraction of the shorter edge of the corner.
 const INWARD: f64 = 1e-3;
-/// The number of vertices that one task processes.
+/// The number of vertices in a block. One thread processes a block.
 const BLOCK: usize = 256;
 
 /// Returns the thickness of the solid at each vertex, by index, in scene units. For each face around the vertex, a ray
-/// starts at the vertex and runs inward at a right angle to the face until it leaves the solid. The thickness is the
-/// length of the shortest ray. The thickness is infinite if no ray meets the surface again, as for a sheet, and for
-/// vertices whose faces have zero area.
+/// starts on the face near the vertex and runs inward at a right angle to the face until it leaves the solid. The
+/// thickness is the length of the shortest ray. The thickness is infinite if no ray meets the surface again, as for a
+/// sheet, and for vertices whose faces all have zero area.
 ///
 /// In a plate, the thickness is the distance between the two sides of the plate, even at its edges and corners. Where
-/// parts of the surface overlap, a ray does not end when it enters another part. Walls thinner than 1e-7 of the
-/// bounding box are not found. The mesh must be dense.
+/// parts of the surface overlap, a ray does not end when it enters another part. Walls thinner than 1e-7 times the
+/// diagonal of the bounding box are not found. The mesh must be dense.
 ///
 /// # Errors
 ///
-/// Returns [`Cancelled`] if `progress` cancels.
+/// Returns [`Cancelled`] if `progress` asks to stop.
 pub fn thickness(mesh: &Mesh, progress: &dyn Progress) -> Result<Vec<f64>, Cancelled> {
     let Some(index) = SurfaceIndex::with_progress(mesh, progress)? else {
         return Ok(vec![f64::INFINITY; mesh.n_vertices()]);
@@ -75,12 +75,12 @@ fn behind(mesh: &Mesh, index: &SurfaceIndex, h: HalfEdgeId, f: FaceId, offset: f
 /// The occlusion is NaN for vertices without a normal.
 ///
 /// The directions of the rays are distributed about the normal, with a density proportional to the cosine of their
-/// angle to the normal. They form a lattice that is turned by a random angle at each vertex; the angles depend on
-/// `seed`. The mesh must be dense.
+/// angle to the normal. The same set of directions is used at each vertex, turned about the normal by a random angle
+/// that depends on `seed`. The mesh must be dense.
 ///
 /// # Errors
 ///
-/// Returns [`Cancelled`] if `progress` cancels.
+/// Returns [`Cancelled`] if `progress` asks to stop.
 pub fn occlusion(
     mesh: &Mesh,
     rays: u32,

@@ -14,8 +14,8 @@ use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 
 use super::values::{Blend, blended};
 
-/// The smallest sine that is used to compute the length of a cut. An edge that is almost parallel to a beveled edge
-/// would have to be cut far from its end to reach the width.
+/// The smallest sine of an angle that is used to compute where an edge is cut. Smaller sines are replaced by this
+/// value: an edge that is almost parallel to a beveled edge would have to be cut far from its end to reach the width.
 const LEAST_SINE: f64 = 0.25;
 
 /// Why an edge cannot be beveled.
@@ -44,21 +44,23 @@ pub struct Beveled {
 ///
 /// `width` is the distance, in scene units, between a beveled edge and the new edges in both of its faces. Edges that
 /// meet at a vertex are beveled together, so the result does not depend on their order. The result has the symmetries
-/// that the mesh and the set of edges have in common. Each remaining edge at an end of a beveled edge is cut at the
-/// distance from this end that gives the width, or at the distance `width` if the edge is not next to a beveled edge.
-/// The distance is at most four times the width, so the bevel is narrower next to an edge at a small angle.
+/// that the mesh and the set of edges have in common. The other edges at the ends of beveled edges are cut. If such an
+/// edge is next to a beveled edge, it is cut where its distance from the beveled edge is `width`; otherwise it is cut
+/// at the distance `width` from its end. A cut is at most four times the width away from the end of its edge, so the
+/// bevel is narrower next to an edge at a small angle.
 ///
-/// The ends of beveled edges are removed. The other vertices come first, in their old order, followed by the new
-/// vertices. Faces keep their ids. The new faces of edges follow in the order of the edges, and then the new faces of
-/// vertices in the order of the vertices. All edges get new ids; edges that remain keep their values.
+/// The ends of beveled edges are removed. In the result, the remaining vertices come first, in their old order,
+/// followed by the new vertices. Faces keep their ids. They are followed by the new faces of edges, in the order of the
+/// edges, and then by the new faces of vertices, in the order of the vertices. All edges get new ids; edges that remain
+/// keep their values.
 ///
-/// New vertices and corners have the values that the old faces have at their positions; values that cannot be averaged
-/// are copied from one corner. The new face of an edge has the values of the face of the edge's first half-edge. The
-/// new face of a vertex has the values of one of the faces around the vertex.
+/// Values of new vertices and corners are interpolated in the old faces, at the positions of the new vertices. Values
+/// that cannot be averaged are copied from one corner. The new face of an edge has the values of the face of the edge's
+/// first half-edge. The new face of a vertex has the values of one of the faces around the vertex.
 ///
-/// Edges that cannot be beveled are left out and returned. If the bevels at the two ends of an edge of a face would
-/// overlap, all beveled edges at these two ends are left out. If the result would not be a manifold, no edge is
-/// beveled.
+/// Edges that cannot be beveled do not change, and are listed in [`Beveled::refused`]. If the bevels at the two ends of
+/// an edge of a face would overlap, no edge at these two ends is beveled. If the result would not be a manifold, no
+/// edge is beveled.
 ///
 /// # Panics
 ///
@@ -131,7 +133,7 @@ struct Bevel<'m> {
     n_kept: usize,
     /// For each half-edge, the new vertex near its origin.
     points: Vec<Option<Point>>,
-    /// For each half-edge, the index of this vertex.
+    /// For each half-edge, the index of the new vertex near its origin; `u32::MAX` if there is none.
     numbers: Vec<u32>,
 }
 
@@ -189,7 +191,7 @@ impl<'m> Bevel<'m> {
         self.mesh.face(h.twin()).map(|_| self.mesh.next(h.twin()))
     }
 
-    /// Returns the cut of an edge that remains.
+    /// Returns the point at which an edge that is not beveled is cut.
     fn slide(&self, h: HalfEdgeId) -> Point {
         let along = self.direction(h);
         let length = along.length();

@@ -1,4 +1,4 @@
-//! Bevels: the widths of vertex bevels, which can cut an edge from both ends, and beveling a set of edges.
+//! Bevels a set of edges at once, and computes where separate bevels cut an edge that they shorten from both ends.
 
 mod edges;
 mod values;

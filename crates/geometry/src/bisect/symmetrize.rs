@@ -9,8 +9,8 @@ use crate::{merge_clusters, parts};
 /// The result of [`symmetrize`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Symmetrized {
-    /// The number of faces of the mesh before of which no part is in front of the plane. Faces in the plane and faces
-    /// that only touch the plane are counted; faces that cross the plane are not.
+    /// The number of faces of the original mesh that have no part in front of the plane. Faces in the plane are
+    /// counted, and so are faces behind the plane that touch it. Faces that cross the plane are not counted.
     pub removed: usize,
     /// The number of vertices on the plane at which the two halves are joined.
     pub joined: usize,
@@ -40,10 +40,10 @@ pub enum SymmetrizeError {
 /// ```
 ///
 /// The mesh is cut as by [`bisect`]. Faces behind the plane and faces in the plane are removed. The remaining vertices
-/// that count as on the plane are moved onto it, by at most the tolerance of `bisect`. The two halves share the
+/// that count as on the plane are moved onto the plane, by at most the tolerance of `bisect`. The two halves share the
 /// boundary vertices on the plane. The original half comes first and keeps its order; the elements of the second half
 /// follow in the same order. Values are copied; deltas of morph targets are mirrored, and normals are removed. Like
-/// `bisect`, this can connect two vertices on the plane by a second edge.
+/// `bisect`, this function can connect two vertices on the plane by a second edge.
 ///
 /// # Errors
 ///
@@ -119,7 +119,8 @@ pub fn symmetrize(
     })
 }
 
-/// Returns the elements of two dense meshes with the same attributes, in order.
+/// Returns a mesh with the elements of `a`, followed by those of `b`. Both meshes must be dense and have the same
+/// attributes.
 fn both(a: &Mesh, b: &Mesh) -> Mesh {
     let mut connectivity = a.connectivity().clone();
     connectivity.append(b.connectivity());

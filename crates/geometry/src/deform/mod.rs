@@ -1,4 +1,4 @@
-//! Deformations: closed formulas that move points.
+//! Deformations: closed-form formulas for the new position of a point, and weights and directions for moving vertices.
 //!
 //! | items | contents |
 //! | --- | --- |

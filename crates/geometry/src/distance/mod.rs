@@ -69,7 +69,7 @@ pub struct SurfacePoint {
 /// The default tolerance, as a fraction of the diagonal of the bounding box of both surfaces.
 pub const TOLERANCE: f64 = 1e-5;
 
-/// The name of this work in progress reports.
+/// The text that progress reports show for the measurement.
 const WHAT: &str = "measure the distance";
 
 /// Asks the progress listener whether to continue. The measurement calls this function at least every few
@@ -160,11 +160,11 @@ impl std::fmt::Display for SurfacePoint {
 /// The approximate number of samples for the mean distance of a surface with few large triangles.
 const SAMPLES: f64 = 50_000.0;
 
-/// The number of vertices or faces that one task measures. The number is fixed, so that sums do not depend on
-/// the number of threads.
+/// The number of faces in a block. One thread measures the faces of a block. The number does not depend on the number
+/// of threads, so that the sums do not depend on it either.
 const BLOCK: usize = 1024;
 
-/// The result of one task.
+/// The result of measuring one block of faces.
 #[derive(Default)]
 struct Block {
     /// The pieces whose bound exceeds the largest distance of a vertex by more than the tolerance.
@@ -294,7 +294,7 @@ impl Block {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
-            reason = "a small number: a triangle has at most the area of the mesh, unless faces are not flat"
+            reason = "the number is positive and at most the square root of `SAMPLES`"
         )]
         let n = rows.min(SAMPLES.sqrt()) as u32;
         let third = 1.0 / 3.0;

@@ -31,7 +31,7 @@ pub(super) struct Farthest {
     pub(super) sample: Sample,
 }
 
-/// The number of pieces cut by one task.
+/// The number of pieces that one thread cuts at a time.
 const BLOCK: usize = 64;
 
 /// The maximum number of pieces in a round. If there are more pieces, those with the largest bounds are kept.
@@ -80,11 +80,11 @@ impl Piece {
     ///
     /// 1. The largest distance from a corner of the piece to one triangle of the other surface. The distance
     ///    to a triangle is a convex function, so its maximum over the piece is at a corner.
-    /// 2. If the nearest points of the corners lie on two triangles with a common edge, the sum of two
-    ///    distances d and e. d is the largest distance from a corner to its nearest point. No point of the
-    ///    piece is further than d from the triangle that the three nearest points span. e is the largest
-    ///    distance from the common edge to a side of the spanned triangle that leads from one of the two
-    ///    triangles to the other. No point of such a side is further than e from the two triangles.
+    /// 2. d + e, if the nearest points of the three corners lie on two triangles with a common edge. d is the
+    ///    largest distance from a corner to its nearest point. So no point of the piece is further than d from
+    ///    the triangle that the three nearest points span. Two sides of this spanned triangle lead from one of
+    ///    the two triangles to the other. e is the larger of the distances of these two sides from the common
+    ///    edge. So no point of the spanned triangle is further than e from the two triangles.
     /// 3. The largest distance of a corner, plus 1/√3 times the longest side. No point of the piece is further
     ///    than 1/√3 times the longest side from the nearest corner.
     fn bound(&self, to: &SurfaceIndex) -> f64 {
@@ -153,7 +153,7 @@ impl Piece {
         Sample { at, hit }
     }
 
-    /// Lowers the upper bound if the triangle nearest to the center gives a smaller one. `middle` is
+    /// Lowers the upper bound if the triangle nearest to the center of the piece gives a smaller bound. `middle` is
     /// the sample at the center.
     pub(super) fn lower(&mut self, middle: &Sample, to: &SurfaceIndex) {
         self.upper = self.upper.min(self.to_triangle(to, middle.hit.triangle));
@@ -189,10 +189,10 @@ impl Piece {
 }
 
 /// Cuts pieces until no piece can be further away than the furthest sample by more than `tolerance`, or until
-/// [`MAX_VISITS`] nodes were visited. Leaves out pieces that cutting cannot improve and, if a round has too many
-/// pieces, those with the smallest bounds; the returned bound holds for them too. Returns the furthest sample and an
-/// upper bound of the distances of all points of the surface. `ceiling` is an upper bound for the points that are not
-/// in one of the `pieces`.
+/// [`MAX_VISITS`] nodes were visited. Pieces that cutting cannot improve are not cut. If a round has too many pieces,
+/// those with the smallest bounds are not cut either. Returns the furthest sample and an upper bound of the distances
+/// of all points of the surface, including the points of pieces that were not cut. `ceiling` is an upper bound for the
+/// points that are not in one of the `pieces`.
 pub(super) fn refine(
     mut pieces: Vec<Piece>,
     mut farthest: Farthest,

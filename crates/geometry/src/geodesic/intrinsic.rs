@@ -19,7 +19,8 @@ use crate::triangulate::Cutter;
 
 /// Marks a side that is not glued to another side.
 const NONE: u32 = u32::MAX;
-/// The least slack of the triangle inequality after mollification, relative to the mean length.
+/// The slack with which every triangle inequality holds after all sides were lengthened by the same length, relative to
+/// the mean length of a side.
 const SLACK: f64 = 1e-5;
 /// The largest number of flips, divided by the number of sides of all triangles.
 const MAX_FLIPS: usize = 100;
@@ -101,6 +102,8 @@ impl Intrinsic {
         if n == 0 { 0.0 } else { sum / (3 * n) as f64 }
     }
 
+    /// Adds the same length to all sides, so that every triangle inequality holds with a slack of [`SLACK`] times the
+    /// mean length.
     fn mollify(&mut self) {
         let mean = self.mean_length();
         let slack = if mean > 0.0 { SLACK * mean } else { 1.0 };
@@ -140,7 +143,8 @@ impl Intrinsic {
         Ok(())
     }
 
-    /// Flips the edge of a side if it is not Delaunay. Returns the other sides of the two triangles.
+    /// Flips the edge of a side if the edge is not Delaunay. Returns the other sides of the two triangles; `None` if
+    /// the edge was not flipped.
     fn flip_if_not_delaunay(&mut self, side: u32) -> Option<[u32; 4]> {
         let (t, k) = place(side);
         let other = self.glued[t][k];

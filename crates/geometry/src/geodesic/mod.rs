@@ -23,7 +23,7 @@ use crate::laplacian::exponent;
 use crate::sparse::{Factor, SolveError, SymmetricMatrix};
 use intrinsic::{Intrinsic, area, cotangent, scaled_points};
 
-/// The smallest heat at which directions are accurate, well above the smallest positive numbers.
+/// The smallest heat at which directions are accurate. It is well above the smallest positive `f64`.
 const LEAST_HEAT: f64 = 1e-280;
 
 /// Returns the distance along the surface from each vertex to the nearest source, by vertex index, in scene units.
@@ -103,8 +103,8 @@ fn laplacian(surface: &Intrinsic, n: usize) -> (SymmetricMatrix, Vec<f64>) {
     (SymmetricMatrix::from_entries(n, entries), areas)
 }
 
-/// Returns the heat of the vertices after a short time, while the pinned vertices keep their heat in `start`. All
-/// sources are therefore equally hot, even at the ends of a line of sources.
+/// Returns the heat of the vertices after a short time. During this time, the pinned vertices keep the heat that they
+/// have in `start`. All sources are therefore equally hot, even at the ends of a line of sources.
 ///
 /// The time is the square of the mean length of an edge. If a vertex is so far away that no heat arrives, the time is
 /// increased.

@@ -21,7 +21,8 @@ use super::union_find::UnionFind;
 
 /// The maximum number of points in a box that is not split, because comparing all pairs is faster.
 const LEAF: usize = 8;
-/// The maximum number of points in a box that is not processed in a separate task.
+/// The maximum number of points in a box whose halves are processed one after the other. The halves of larger boxes are
+/// processed in parallel.
 const TASK: usize = 8192;
 
 /// Returns for each point the lowest index of the points in its cluster. A cluster is a set of points that are

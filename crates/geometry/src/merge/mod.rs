@@ -99,15 +99,16 @@ pub fn merge_vertices(
 /// cluster, as returned by [`clusters`]. The mesh must be dense.
 ///
 /// The merged vertex has the position and the values of the lowest vertex. The other vertices are removed, and ids are
-/// renumbered without gaps. Edges between the same two vertices become one edge with the values of the lowest edge.
+/// renumbered without gaps. Edges between the same two vertices become one edge, with the values of the edge with the
+/// lowest id.
 /// Faces keep their order and values, and corners keep their values, so that seams are preserved. Columns with
 /// [`Rule::Drop`](mesh::Rule::Drop) are removed.
 ///
 /// A face loses each corner that merges with the next corner of the face. The face is dropped if fewer than
-/// three corners are left or if it would contain a vertex twice. If connected faces then have opposite
-/// orientations, and reversing some of them makes all orientations agree, the minority is reversed and normals
-/// are dropped. If the result is still non-manifold, it is split in the same way as in [`build()`]: the third
-/// face at an edge gets a copy of the edge.
+/// three corners are left or if it would contain a vertex twice. If connected faces then have opposite orientations,
+/// and reversing some of them makes all orientations agree, [`build()`] reverses the smaller group of faces, and
+/// normals are dropped. If the result is still not a manifold, `build` splits edges and vertices. For example, the
+/// third face at an edge gets a copy of the edge.
 ///
 /// # Errors
 ///

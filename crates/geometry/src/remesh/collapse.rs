@@ -136,7 +136,8 @@ impl Work<'_> {
         Ok(merged)
     }
 
-    /// Returns the relative length of the longest edge that a collapse to `point` would make.
+    /// Returns the relative length of the longest edge that a collapse to `point` would make. If the collapse is not
+    /// allowed, returns the reason as an error.
     fn longest_after(&self, e: EdgeId, point: DVec3) -> Result<f64, Refused> {
         let ends = self.mesh.edge_vertices(e);
         let size = self.sizes[ends[0].index()].min(self.sizes[ends[1].index()]);

@@ -1,7 +1,8 @@
 //! The limit on the distance between the original surface and the result.
 //!
-//! While the mesh changes, samples of new triangles are compared with the original surface, and removed points with the
-//! new triangles. At the end, the distance is measured for all points of both surfaces.
+//! While the mesh changes, the distances from samples of new triangles to the original surface are limited, and so are
+//! the distances from removed points to the new triangles. At the end, the distance is measured for all points of both
+//! surfaces.
 
 use mesh::{DVec3, FaceId, Mesh};
 use progress::{Cancelled, Progress};
@@ -17,17 +18,17 @@ use crate::surface_index::triangle::nearest_on_triangle;
 /// points between the samples.
 const SHARE: f64 = 0.7;
 
-/// The largest distance of samples of a new triangle from the original surface, as a fraction of the target length. It
-/// also applies if there is no limit, and keeps edges from crossing ridges that are not features.
+/// The largest distance of samples of a new triangle from the original surface, as a fraction of the target length.
+/// This bound also applies if there is no error limit. It keeps edges from crossing ridges that are not features.
 const SOFT: f64 = 0.1;
 
 /// The tolerance of the measured distance, as a fraction of the limit.
 const TOLERANCE: f64 = 0.01;
 
 impl Work<'_> {
-    /// Whether a step that replaces triangles could exceed the limit, or move far from the original surface relative to
-    /// the target length. `new` are the new triangles, each with a face of the same chart, and `gone` are points of the
-    /// old triangles.
+    /// Whether a step that replaces triangles could move the surface further than the limit allows, or further than
+    /// [`SOFT`] times the target length. `new` are the new triangles, each with a face of the same chart, and `gone`
+    /// are points of the old triangles.
     pub(super) fn is_far(&self, new: &[(FaceId, [DVec3; 3])], gone: &[DVec3]) -> bool {
         let sizes = new.iter().flat_map(|&(f, _)| self.mesh.face_vertices(f));
         let size = sizes.fold(f64::INFINITY, |size, v| size.min(self.sizes[v.index()]));
@@ -51,8 +52,8 @@ impl Work<'_> {
     }
 }
 
-/// Measures the distance between the original and the result. Returns a bound of this distance if the bound is
-/// above the limit.
+/// Measures the distance between the original and the result. If an upper bound of this distance is above the limit,
+/// returns the bound; otherwise `None`.
 pub(super) fn excess(
     source: &Mesh,
     result: &Mesh,

@@ -1,9 +1,9 @@
 //! Remeshing: nearly equilateral triangles of a given size for the same surface.
 //!
 //! Each pass splits long edges, collapses short edges, flips edges so that vertices have six edges, and moves vertices
-//! along the surface: Botsch, Kobbelt, "A Remeshing Approach to Multiresolution Modeling", 2004. After each movement, a
-//! vertex is placed at a point of its chart or its line, so the vertices lie on the original surface. Only a new vertex
-//! whose movements are all refused stays beside it.
+//! along the surface: Botsch, Kobbelt, "A Remeshing Approach to Multiresolution Modeling", 2004. Each movement ends at
+//! a point of the original chart or line of the vertex, so the vertices lie on the original surface. The only
+//! exceptions are new vertices whose movements are all refused.
 //!
 //! ```text
 //!     +---+-----------+            +-----+-----+
@@ -35,14 +35,15 @@ use original::Original;
 use size::Sizes;
 use work::Work;
 
-/// The name of this work in progress reports.
+/// The text that progress reports show during remeshing.
 const WHAT: &str = "remesh";
 
 /// A pass is the last one if it changes no edge and moves no vertex by more than this fraction of the target
 /// length at the vertex.
 const QUIET: f64 = 0.05;
 
-/// The number of attempts. If the result is too far from the original, remeshing starts again with shorter edges.
+/// The largest number of attempts. If the result is too far from the original, remeshing starts again with shorter
+/// edges.
 const ATTEMPTS: u32 = 4;
 
 /// The target length of edges, in scene units. Most edges of the result are between 4/5 and 4/3 of this length.
@@ -72,8 +73,8 @@ pub struct Options<'a> {
     /// guaranteed bound. If the bound is above the limit, remeshing starts again with shorter edges where the distance
     /// is too large. Remeshing fails after four attempts.
     pub error: Option<f64>,
-    /// Edges that are preserved as lines, in addition to boundaries, seams, borders of face tags, materials and other
-    /// whole numbers of faces, tagged edges and creases.
+    /// Edges that are preserved as lines. These edges are always preserved: boundaries, seams, edges between faces with
+    /// different tags, materials or other whole numbers, tagged edges, and creases.
     pub features: &'a [EdgeId],
     /// Vertices that keep their positions.
     pub pinned: &'a [VertexId],
@@ -110,8 +111,8 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// Returns the number of splits, collapses and flips that were refused in the last pass, for each reason. Flips
-    /// that would not improve the mesh are not counted.
+    /// Returns each reason for which splits, collapses or flips were refused in the last pass, with the number of
+    /// refused steps. Flips that would not improve the mesh are not counted.
     pub fn refused(&self) -> impl Iterator<Item = (Refused, usize)> {
         let counts = Refused::ALL.into_iter().zip(self.refused);
         counts.filter(|&(_, count)| count > 0)
@@ -198,16 +199,20 @@ pub enum RemeshError {
 /// Remeshes a mesh of triangles: replaces its triangles by nearly equilateral triangles with edges of a target length.
 ///
 /// The topology is preserved: the Euler characteristic, the boundary loops and the graph of lines do not change. No
-/// step turns a triangle by more than 60°. These vertices keep their exact positions: the ends, meeting points and
-/// corners of lines (a corner is a turn by more than 40°), pinned vertices, vertices with sharpness, and vertices with
-/// a tag, unless all corners of an adjacent triangle or both neighbors on a line have the tag too. Isolated vertices
-/// are preserved.
+/// step turns a triangle by more than 60°. Isolated vertices are preserved. These vertices keep their exact positions:
+///
+/// - the ends and meeting points of lines, and the corners of lines, where a line turns by more than 40°;
+/// - vertices on a line at which the attributes of the edges of the line change;
+/// - pinned vertices and vertices with sharpness;
+/// - vertices with a tag, unless all corners of an adjacent triangle have the tag too, or the vertex is on a line and
+///   both of its neighbors on the line have the tag too.
 ///
 /// Attributes are taken from the same location on the original surface, and never from the other side of a line. Vertex
 /// and corner attributes are interpolated at this location. A new vertex has a tag if all original vertices around its
 /// location have the tag; integers are taken from the nearest of these vertices. A new face gets the values of the
-/// original face at its center. An edge on a line has the values of the line; other edges have the values of the
-/// nearest edge that is not on a line.
+/// original face at its center. An edge on a line has the values of the original edge of the line at its midpoint.
+/// Other edges have the values of the edge that is nearest to their midpoint, among the edges of the original triangle
+/// there that are not on a line. If the triangle has no such edge, the values are zero.
 ///
 /// All elements get new ids.
 ///

@@ -22,9 +22,9 @@ pub(super) enum Sizes {
 }
 
 impl Sizes {
-    /// Returns the target lengths for a kind of length. `error` is the largest allowed distance between the surfaces,
-    /// if there is one. Where edges of the target length would exceed this distance, the target length is reduced, but
-    /// not below `min` or, for a uniform length, below `error`.
+    /// Computes the target lengths from the requested `length`. `error` is the largest allowed distance between the
+    /// surfaces, if there is one. Where edges of the target length would exceed this distance, the target length is
+    /// reduced, but not below `min` or, for a uniform length, below `error`.
     pub(super) fn new(original: &Original, length: Length, error: Option<f64>) -> Self {
         let (error, min, max) = match (length, error) {
             (Length::Uniform(length), None) => return Self::Uniform(length * original.scale),
@@ -53,8 +53,9 @@ impl Sizes {
         *self = Self::Varying(sizes);
     }
 
-    /// Returns an estimate of the largest number of faces during remeshing: the faces of the original, plus twice the
-    /// number of triangles of the target length that cover the area and of splits along the longest side of each face.
+    /// Returns an estimate of the largest number of faces during remeshing. The estimate is a sum over the original
+    /// faces. The term of a face is 1 + 2 (m + s), where m is the number of triangles of the target length that cover
+    /// its area, and s is the number of splits along its longest side.
     pub(super) fn n_faces(&self, original: &Original) -> f64 {
         let mesh = &original.mesh;
         mesh::blocks::sum(mesh.n_faces(), |f| {
@@ -112,9 +113,10 @@ fn chord(curvature: f64, error: f64) -> f64 {
     if squared > 0.0 { squared.sqrt() } else { 0.0 }
 }
 
-/// Returns the largest absolute normal curvature at each vertex of the original surface: |H| + √(H² - K). Vertices on
-/// lines get the mean of their neighbors inside charts, because the surface bends across many lines, or the curvature
-/// of the line if it is larger. The other values are averaged once with their neighbors.
+/// Returns the largest absolute normal curvature at each vertex of the original surface: |H| + √(H² - K). Each value is
+/// averaged once with the values of the neighbors. A vertex on a line has no curvature of its own, because the surface
+/// bends across many lines. It gets the mean of the values of its neighbors inside charts, or the curvature of the
+/// line, whichever is larger.
 fn curvatures(original: &Original) -> Vec<f64> {
     let mesh = &original.mesh;
     let (gaussian, mean) = (gaussian_curvatures(mesh), mean_curvatures(mesh));

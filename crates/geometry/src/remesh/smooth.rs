@@ -21,10 +21,10 @@ struct Step {
 }
 
 impl Work<'_> {
-    /// Moves all vertices once. A vertex inside a chart moves in the tangent plane to the mean of the triangles around
-    /// it, and then to the nearest point of the original surface. A vertex on a line moves towards the middle between
-    /// its neighbors on the line. Movements that turn a triangle or move the surface too far are undone. Returns the
-    /// largest movement, as a fraction of the target length.
+    /// Moves all vertices once. A vertex inside a chart moves in the tangent plane to the weighted mean of the centers
+    /// of the triangles around it, and then to the nearest point of the original surface. A vertex on a line moves
+    /// halfway towards the middle between its neighbors on the line. Movements that turn a triangle too far or move the
+    /// surface too far are undone. Returns the largest movement, as a fraction of the target length.
     pub(super) fn smooth(&mut self, progress: &dyn Progress) -> Result<f64, Cancelled> {
         progress.report(WHAT, self.counts.passes, self.counts.max_passes)?;
         let n = self.places.len();

@@ -151,11 +151,12 @@ pub(super) fn is_turned(before: DVec3, after: DVec3) -> bool {
     before != DVec3::ZERO && !is_kept
 }
 
-/// The cosine of the angle between two triangles above which the surface is bent: 20°. With 37°, the largest distance on a
-/// rocker arm is 0.31 % of the diagonal instead of 0.21 %.
+/// The cosine of 20°. If the angle between two triangles is larger than 20°, the surface counts as bent. With 37°
+/// instead of 20°, the largest distance on a model of a rocker arm is 0.31 % of the diagonal instead of 0.21 %.
 const BENT: f64 = 0.94;
 
-/// Whether the angle between two triangles is large. The arguments are their [`cross`] products.
+/// Whether the surface is bent between two triangles; see [`BENT`]. The arguments are the [`cross`] products of the
+/// triangles.
 pub(super) fn is_bent(a: DVec3, b: DVec3) -> bool {
     a.dot(b) < BENT * (a.length_squared() * b.length_squared()).sqrt()
 }

@@ -1,9 +1,9 @@
 //! Attributes in the cost of a collapse.
 //!
 //! Texture coordinates, normals, colors and other numbers are linear functions on each original triangle. The error of
-//! a value s at a point p is the mean squared difference between s and these functions at p, over the triangles that the
-//! vertex represents. For each p, one s has the least error, and this least error is a quadric in p. Source: Hoppe, "New
-//! Quadric Metric for Simplifying Meshes with Appearance Attributes", 1999.
+//! a value s at a point p is the mean squared difference between s and these functions at p, over the triangles that
+//! the vertex represents. For each p, one s has the least error, and this least error is a quadric in p. Source: Hoppe,
+//! "New Quadric Metric for Simplifying Meshes with Appearance Attributes", 1999.
 //!
 //! ```text
 //!           \   w0  /
@@ -27,10 +27,10 @@ use crate::lines::inverse_power_of_two;
 /// triangles have the same total area in the texture as on the surface.
 const TEXTURE: f64 = 0.5;
 
-/// The weight of the difference of two unit normals, relative to the size of the mesh. The weight is small, because normals
-/// follow from the surface: with five times this weight, the mean distance to a model of a rocker arm doubles. For the same
-/// reason, normals do not move vertices: when they did, the largest distance to this model was 3.9e-3 of the diagonal; now it
-/// is 3.3e-3.
+/// The weight of the difference of two unit normals, relative to the size of the mesh. The weight is small, because
+/// normals follow from the surface. With five times this weight, the mean distance to a model of a rocker arm doubles.
+/// For the same reason, normals do not affect the positions of vertices. If they did, the largest distance to this
+/// model would be 3.9e-3 of the diagonal instead of 3.3e-3.
 const NORMAL: f64 = 0.002;
 
 /// The weight of all attributes except texture coordinates and normals. An error as large as the difference between the
@@ -43,8 +43,9 @@ struct Taken {
     column: Column,
     /// A power of two, so that scaled values can be scaled back exactly.
     weight: f64,
-    /// The number of the first component.
+    /// The index of the first component of the column among the components of all columns.
     first: usize,
+    /// The number of components of the column.
     n: usize,
 }
 
@@ -69,13 +70,13 @@ pub(super) struct Appearance {
     areas: Vec<f64>,
     /// By wedge: the integral of the sum of the squared linear functions, without normals.
     placing: Vec<Quadric>,
-    /// By wedge: the same for normals.
+    /// By wedge: the integral of the sum of the squared linear functions of normals.
     normals: Vec<Quadric>,
     /// By wedge and component: the integral of the gradient and the offset of the linear functions.
     fits: Vec<DVec4>,
     /// By wedge and component: the value, times the weight of its column.
     values: Vec<f64>,
-    /// By component: a value that is subtracted in the linear functions, so that rounding errors are small.
+    /// By component: a value that is subtracted from the linear functions, so that rounding errors are small.
     bases: Vec<f64>,
 }
 
@@ -225,8 +226,9 @@ impl Appearance {
         self.areas[a as usize] + self.areas[b as usize]
     }
 
-    /// Returns the linear function of a component, for the union of two wedges: the integral of the component for any
-    /// point in the place of the vertex.
+    /// Returns, for the union of two wedges, the sum over the triangles of the linear function of a component, times
+    /// the area that the triangle contributes to the wedge. The sum is also a linear function of the point. The first
+    /// three numbers are its gradient, and the fourth is its offset.
     fn fit(&self, [a, b]: Pair, i: usize) -> DVec4 {
         self.fits[self.n * a as usize + i] + self.fits[self.n * b as usize + i]
     }
@@ -351,8 +353,8 @@ impl Appearance {
         Around(faces)
     }
 
-    /// Whether a collapse would turn a triangle over in the texture. `merged` are the pairs of wedges that become one, with
-    /// their new values.
+    /// Whether a collapse would turn a triangle over in the texture. `merged` are the pairs of wedges that become one,
+    /// with their new values.
     pub(super) fn turns(&self, around: &Around, merged: &[(Pair, Vec<f64>)]) -> bool {
         let new = |wedge: u32| {
             let merged = merged.iter().find(|(pair, _)| pair.contains(&wedge));
@@ -418,7 +420,8 @@ impl Appearance {
         }
     }
 
-    /// Puts the values back into the mesh, in which only elements were removed since they were taken.
+    /// Puts the values back into the mesh. Since the values were taken out, elements may have been removed from the
+    /// mesh, but not added or renumbered.
     pub(super) fn put_back(mut self, mesh: &mut Mesh) {
         for taken in std::mem::take(&mut self.taken) {
             let mut column = taken.column;

@@ -6,7 +6,8 @@
 //! 1. The cost of an edge is computed again if one of its ends has changed.
 //! 2. Edges are chosen whose cost is low enough, and that are not near an edge chosen before in this pass.
 //! 3. For each chosen edge, the new position and values are computed, and whether the collapse is allowed.
-//! 4. The chosen edges are collapsed. They are so far from each other that the third stage remains true.
+//! 4. The chosen edges are collapsed. They are so far from each other that no collapse changes the results of the third
+//!    stage for another edge.
 
 use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Progress};
@@ -21,11 +22,11 @@ use super::queue::{Entry, Queue};
 use super::target::Target;
 use super::{Blocked, Options};
 
-/// The number of edges in a batch. With smaller batches, threads wait for each other more often: with 1024 edges, a torus of
-/// 1,000,000 triangles takes 1.3 times as long on two processors.
+/// The number of edges in a batch. With smaller batches, threads wait for each other more often: with 1024 edges, a
+/// torus of 1,000,000 triangles takes 1.3 times as long on two processors.
 const BATCH: usize = 16_384;
 
-/// The least number of edges for which a thread is worthwhile.
+/// The smallest number of edges that one parallel job handles.
 const PER_THREAD: usize = 64;
 
 /// The state of an edge in the queue.
@@ -63,9 +64,9 @@ pub(super) struct Collapser<'a> {
     /// very large meshes give the same result.
     center: DVec3,
     pub(super) scale: f64,
-    /// By vertex.
+    /// The node of each vertex.
     pub(super) nodes: Vec<Node>,
-    /// By vertex.
+    /// The mark of each vertex.
     marks: Vec<Mark>,
     /// If there is an error limit, a bound on the distance between each face and the original surface, by face
     /// index.
@@ -82,7 +83,7 @@ pub(super) struct Collapser<'a> {
 /// The faces around an edge, and the wedges that become one with their values.
 pub(super) type Values = (Around, Vec<(Pair, Vec<f64>)>);
 
-/// What is computed for an allowed collapse before the mesh changes.
+/// The data that is computed for an allowed collapse before the mesh changes.
 struct Plan {
     target: Target,
     /// The faces that remain, with new bounds on their distance to the original surface.
@@ -386,8 +387,8 @@ fn nodes(
     kinds.into_par_iter().enumerate().map(node).collect()
 }
 
-/// Returns the squared distance to the plane that contains the side from `a` to `b` of a triangle and is perpendicular to
-/// the triangle. This quadric keeps vertices near a line.
+/// Returns the squared distance to the plane that contains the side from `a` to `b` of a triangle and is perpendicular
+/// to the triangle, times the squared length of the side. This quadric keeps vertices near a line.
 fn across_line([a, b, c]: [DVec3; 3]) -> Quadric {
     let along = b - a;
     let across = along.cross(c - a).cross(along).try_normalize();

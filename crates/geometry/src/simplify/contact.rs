@@ -15,8 +15,9 @@ const EMPTY: Bounds = [DVec3::INFINITY, DVec3::NEG_INFINITY];
 pub(super) struct Contacts {
     /// The children of node i are 2 i and 2 i + 1. The second half of the nodes are the leaves.
     boxes: Vec<Bounds>,
-    /// The face of each leaf, in the order of a spatial index, and the leaf of each face.
+    /// The face of each leaf, in the order of a spatial index.
     faces: Vec<FaceId>,
+    /// The leaf of each face, as an index into `boxes`.
     leaf_of_face: Vec<usize>,
 }
 

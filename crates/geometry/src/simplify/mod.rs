@@ -1,13 +1,15 @@
 //! Simplification: fewer triangles for nearly the same surface.
 //!
-//! Edges are collapsed, the cheapest first. The cost of a collapse is the squared distance from the new vertex to the
-//! planes of all original triangles that this vertex represents, after Garland, Heckbert, "Surface Simplification Using
-//! Quadric Error Metrics", 1997. The distance is integrated over the area of these triangles, and divided by the square
-//! root of the area. Small details therefore count more than in the integral, and less than in the mean. On a model of a
-//! rocker arm with 20,088 triangles reduced to a tenth, the largest distance is 0.5 % of the diagonal with the integral,
-//! and 0.3 % with the mean and with this cost; the mean distance is 5 % smaller than with the mean. A small weight
-//! on the distance to the area itself keeps triangles round, similar to Trettner, Kobbelt, "Fast and Robust QEM
-//! Simplification of Large Meshes Using Probabilistic Quadrics", 2020.
+//! Edges are collapsed, the cheapest first. The main part of the cost is the squared distance from the new vertex to
+//! the planes of all original triangles that this vertex represents, after Garland, Heckbert, "Surface Simplification
+//! Using Quadric Error Metrics", 1997. The squared distance is integrated over the area of these triangles, and divided by
+//! the square root of the area. Small details therefore count more than in the integral, which is not divided, and
+//! less than in the mean, which is divided by the area. For example, consider a model of a rocker arm that is reduced
+//! from 20,088 triangles to a tenth. The largest distance is 0.5 % of the diagonal with the integral as the cost, 0.3 %
+//! with the mean, and 0.3 % with this cost. The mean distance is 5 % smaller with this cost than with the mean. A small
+//! part of the cost is the squared distance to the triangles themselves instead of their planes. This part keeps
+//! triangles round, similar to Trettner, Kobbelt, "Fast and Robust QEM Simplification of Large Meshes Using
+//! Probabilistic Quadrics", 2020.
 //!
 //! Texture coordinates, normals, colors and other numbers are a part of the cost; see `appearance.rs`.
 //!
@@ -46,8 +48,8 @@ pub struct Options<'a> {
     /// collapsed edge. These sums overestimate the distance: the true distance is usually between a third of the
     /// limit and the limit.
     pub error: Option<f64>,
-    /// Edges that are preserved as lines, in addition to boundaries, seams, borders of face tags and materials,
-    /// tagged edges and creases.
+    /// Edges that are preserved as lines. These edges are always preserved: boundaries, seams, edges between faces with
+    /// different tags, materials or other whole numbers, tagged edges, and creases.
     pub features: &'a [EdgeId],
     /// Vertices that keep their positions.
     pub pinned: &'a [VertexId],
@@ -99,7 +101,7 @@ impl std::fmt::Display for Blocked {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
             Self::Error => "could exceed the error",
-            Self::Lines => "would merge lines, or move the end of a line",
+            Self::Lines => "would merge lines or move the end of a line",
             Self::Labels => "join vertices with different tags or sharpness",
             Self::Turned => "would turn a triangle over",
             Self::Topology => "would change the topology",
@@ -121,13 +123,15 @@ pub enum SimplifyError {
 
 /// Simplifies a mesh of triangles by collapsing edges.
 ///
-/// Keeps the topology: the Euler characteristic, the boundary loops and the graph of lines stay. No triangle is
-/// turned by more than 78° in one collapse, and none is turned over in a texture. The positions of remaining vertices
-/// change, except at pinned vertices and at ends and meeting points of lines.
+/// The topology is preserved: the Euler characteristic, the boundary loops and the graph of lines do not change. No
+/// triangle is turned by more than 78° in one collapse, and none is turned over in a texture. Remaining vertices can
+/// move, except pinned vertices, the ends and meeting points of lines, and vertices on a line at which the attributes
+/// of the edges of the line change.
 ///
 /// Interpolated attributes of vertices and corners, including normals, are a part of the cost of a collapse. A vertex
-/// inside a region gets the values with the least error, within the range of the values around it. A vertex on a line gets
-/// the values at the nearest point on the collapsed edge, on each side of a seam separately. Isolated vertices stay.
+/// inside a region gets the values with the least error, within the range of the values around it. A vertex on a line
+/// gets the values at the nearest point on the collapsed edge, on each side of a seam separately. Isolated vertices are
+/// preserved.
 ///
 /// # Errors
 ///
@@ -158,7 +162,8 @@ pub fn simplify(
     if let Some(f) = mesh.faces().find(|&f| !mesh.is_triangle(f)) {
         return Err(SimplifyError::NotTriangle(f));
     }
-    // In a thread of the pool, each parallel loop starts without waiting for another thread.
+    // The whole simplification runs in a thread of the pool. From there, a parallel loop starts without waiting for
+    // another thread.
     let collapser = rayon::scope(|_| {
         let mut collapser = Collapser::new(mesh.clone(), options);
         collapser.run(progress).map(|()| collapser)

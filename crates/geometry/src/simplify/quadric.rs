@@ -49,15 +49,16 @@ impl Quadric {
         self.diagonal * p + mixed
     }
 
-    /// Returns the point with the lowest value. If many points have nearly this value, returns one of them where `weak`, a
-    /// quadric with small coefficients, is low. Returns `None` if many points have the lowest value of the sum.
+    /// Returns the point with the lowest value. If many points have nearly this value, returns one of them where
+    /// `weak`, a quadric with small coefficients, is low. Returns `None` if many points have the lowest value of the
+    /// sum of both quadrics.
     pub(super) fn lowest(&self, weak: &Self) -> Option<DVec3> {
         let sum = *self + *weak;
         let inverse = sum.inverse()?;
         let solve = |p: DVec3| p.x * inverse[0] + p.y * inverse[1] + p.z * inverse[2];
         let lowest = -solve(sum.b);
-        // `weak` moves the point a little in all directions. A Newton step of this quadric with the matrix of the sum moves the
-        // point back, except in directions in which this quadric hardly changes.
+        // `weak` moves the point a little in all directions. A Newton step of this quadric with the matrix of the sum
+        // moves the point back, except in directions in which this quadric hardly changes.
         Some(lowest - solve(self.times(lowest) + self.b))
     }
 
@@ -92,8 +93,8 @@ impl Add for Quadric {
     }
 }
 
-/// The area of the original surface that a vertex represents, with the mean squared distance of this area from
-/// a point.
+/// The area of the original surface that a vertex represents, and the integrals from which the squared distance of this
+/// area from any point is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Spread {
     pub(super) area: f64,

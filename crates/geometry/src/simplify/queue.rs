@@ -56,7 +56,8 @@ impl Queue {
         level_of(cost) > self.level
     }
 
-    /// Begins the next pass, and exchanges `edges` with its edges. Returns whether there are any.
+    /// Begins the next pass, and replaces the contents of `edges` by the edges of this pass. Returns whether the pass
+    /// has any edges.
     pub(super) fn next_pass(&mut self, edges: &mut Vec<Entry>) -> bool {
         edges.clear();
         self.pass += 1;

@@ -30,12 +30,14 @@ pub(super) struct Target {
     pub(super) point: DVec3,
     /// The end of the edge that keeps its position; `None` if both ends move.
     pub(super) end: Option<VertexId>,
-    /// The place on the edge, from 0 at its first end to 1, whose values the vertex gets; `None` for the values with the
-    /// least error.
+    /// The place on the edge whose values the vertex gets, from 0 at the first end of the edge to 1 at its second end.
+    /// If `None`, the vertex gets the values with the least error.
     t: Option<f64>,
-    /// The integrals of the squared distance from the point to the planes of the original triangles that the vertex
-    /// represents, of the squared error of its values, and, with a small weight, of the squared distance to these
-    /// triangles; all divided by the square root of their area.
+    /// The cost of the collapse: a sum, divided by the square root of the area of the original triangles that the
+    /// vertex represents. The terms are the integral of the squared distance from the point to the planes of these
+    /// triangles, the integral of the squared error of the values of the vertex, the [error of the
+    /// line](Collapser::line_error) if the edge is on a line, and, with the weight [`ROUNDNESS`], the integral of the
+    /// squared distance to these triangles.
     pub(super) cost: f64,
 }
 
@@ -108,9 +110,10 @@ impl Collapser<'_> {
         })
     }
 
-    /// Returns the largest squared distance from an end of an edge of a line to the line after the collapse of the edge to
-    /// `point`, times the sum of the squared lengths of the two edges of the line that change. If a short edge joins
-    /// two long edges of different directions, each of its ends can leave one of them without a cost in the quadrics.
+    /// Returns the error of a line if `e`, an edge of the line, collapses to `point`. The error is the largest squared
+    /// distance from an end of `e` to the line after the collapse, times the sum of the squared lengths of the two
+    /// edges of the line that change. This term is needed if a short edge joins two long edges of different directions:
+    /// each end of the short edge could then leave one of the long edges without a cost in the quadrics.
     fn line_error(&self, e: EdgeId, point: DVec3) -> f64 {
         let ends = self.mesh.edge_vertices(e);
         let neighbors = ends.map(|v| {
@@ -134,7 +137,7 @@ impl Collapser<'_> {
         largest * (lengths[0] + lengths[1])
     }
 
-    /// Returns the faces around an edge, and the wedges that its collapse merges with their new values.
+    /// Returns the faces around an edge, and the wedges that its collapse merges, with their new values.
     pub(super) fn values_after(
         &self,
         e: EdgeId,
@@ -164,7 +167,7 @@ impl Collapser<'_> {
         self.nodes[v.index()].point
     }
 
-    /// Checks whether the labels, the lines and the directions of the triangles allow to collapse an edge.
+    /// Checks whether the labels, the lines and the directions of the triangles allow the collapse of an edge.
     pub(super) fn check(&self, e: EdgeId, target: &Target) -> Result<(), Blocked> {
         let [a, b] = self.mesh.edge_vertices(e);
         if self.labels_differ(a, b) {
@@ -221,9 +224,9 @@ fn along([a, b]: [DVec3; 2], point: DVec3) -> f64 {
     if t.is_nan() { 0.5 } else { t.clamp(0.0, 1.0) }
 }
 
-/// Returns the point where `quadric` is lowest; `weak` decides between points with nearly the same value. If there is no
-/// single lowest point, or if it is far from the edge between `ends`, returns the lowest of three points: the two ends and
-/// their middle.
+/// Returns the point where `quadric` is lowest; `weak` decides between points with nearly the same value. If there is
+/// no single lowest point, or if it is far from the edge between `ends`, returns the lowest of three points: the two
+/// ends and their middle.
 fn lowest_near(quadric: &Quadric, weak: &Quadric, ends: [DVec3; 2]) -> DVec3 {
     let [a, b] = ends;
     let middle = 0.5 * (a + b);

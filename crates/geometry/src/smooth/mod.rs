@@ -3,13 +3,13 @@
 //! | method | idea | file |
 //! | --- | --- | --- |
 //! | [`Method::Laplacian`] | move each vertex towards the mean of its neighbors | `explicit.rs` |
-//! | [`Method::Taubin`] | a low-pass filter: steps that shrink the mesh alternate with steps that expand it |
-//! `explicit.rs` |
+//! | [`Method::Taubin`] | a low-pass filter that alternates shrinking and expanding steps | `explicit.rs` |
 //! | [`Method::Implicit`] | one backward Euler step of mean curvature flow | `implicit.rs` |
 //! | [`Method::Denoise`] | filter the normals of the faces, then fit the vertices | `denoise.rs` |
 //!
-//! Except in the implicit method, each new position is computed by one thread, from the positions of the previous
-//! iteration only. The result is therefore identical bit for bit for any number of threads.
+//! The result is identical bit for bit for any number of threads. The implicit method uses the solver of
+//! [`sparse`](crate::sparse), which guarantees this. In the other methods, each new position is computed by one thread,
+//! from the positions of the previous iteration only.
 
 mod denoise;
 mod explicit;
@@ -132,8 +132,8 @@ pub enum SmoothError {
     NotClosed,
     /// No distance along the normals restores the volume.
     #[error(
-        "the volume was {before}, and moving the free vertices along their normals gives {after} at best; smooth less, or \
-         do not keep the volume"
+        "the volume was {before}, and moving the free vertices along their normals gives {after} at best; smooth \
+         less, or do not keep the volume"
     )]
     Volume {
         /// The volume before smoothing.
@@ -143,8 +143,8 @@ pub enum SmoothError {
     },
     /// The factors of [`Method::Taubin`] amplify the highest frequency.
     #[error(
-        "this factor and pass band amplify noise: (1 - 2 factor)(1 - 2 μ) must be between -1 and 1; use a factor of at most \
-         0.6"
+        "this factor and pass band amplify noise: (1 - 2 factor)(1 - 2 μ) must be between -1 and 1, where \
+         1 / μ = pass_band - 1 / factor; use a factor of at most 0.6"
     )]
     Unstable,
     /// A coordinate would not be finite.

@@ -28,7 +28,7 @@ const MAX_RESIDUAL: f64 = 1e-9;
 /// decreases.
 const GOOD_RESIDUAL: f64 = 1e-14;
 const REFINEMENTS: usize = 3;
-/// The task in progress reports.
+/// The text that progress reports show for the factorization.
 const TASK: &str = "factor the matrix";
 
 /// The factorization of a symmetric positive definite matrix, for any number of right-hand sides. Unknowns can be
@@ -305,7 +305,7 @@ fn f64_max(a: f64, b: f64) -> f64 {
     if a > b || a.is_nan() { a } else { b }
 }
 
-/// A subtree that one task computes, or one supernode above all subtrees.
+/// A subtree whose supernodes one thread eliminates, or one supernode above all subtrees.
 struct Unit {
     range: std::ops::Range<usize>,
     is_subtree: bool,

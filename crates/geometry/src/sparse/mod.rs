@@ -9,8 +9,8 @@
 //! | L and D | multifrontal method with dense fronts: Duff, Reid, 1983 | `factor.rs` |
 //! | solutions | substitution, then refinement until the residual is small | `factor.rs` |
 //!
-//! Each number is computed by one task with additions in a fixed order. The result is identical bit for bit for any
-//! number of threads.
+//! Each number is computed by one thread, with additions in a fixed order. The result is therefore identical bit for
+//! bit for any number of threads.
 
 mod factor;
 mod order;
@@ -92,7 +92,7 @@ pub enum SolveError {
     },
     /// The solution does not satisfy the equations.
     #[error(
-        "the solution is not accurate: the residual is {0:e} of the size of the terms, more than 1e-9"
+        "the solution is not accurate: the residual is {0:e} times the size of the terms, but at most 1e-9 is accepted"
     )]
     Residual(f64),
     /// The factor would have more entries than are supported.

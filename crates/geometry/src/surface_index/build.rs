@@ -10,10 +10,10 @@ use crate::triangulate::Cutter;
 /// The maximum number of triangles of a leaf.
 const LEAF: usize = 4;
 
-/// One task builds a subtree with at most this number of triangles.
+/// A subtree with at most this number of triangles is built by one thread.
 const TASK: usize = 4096;
 
-/// The name of this work in progress reports.
+/// The text that progress reports show while the index is built.
 const WHAT: &str = "build the spatial index";
 
 /// The center of a triangle, and the index of the triangle in the order of the faces.
@@ -92,7 +92,7 @@ impl SurfaceIndex {
     }
 }
 
-/// A part of the tree that one task builds.
+/// A part of the tree that is to be built.
 struct Subtree<'a> {
     keys: &'a mut [Key],
     nodes: &'a mut [Node],
@@ -104,7 +104,7 @@ struct Subtree<'a> {
 }
 
 impl Subtree<'_> {
-    /// Builds the nodes, and returns the sum of the normals of all triangles times twice their areas.
+    /// Builds the nodes. Returns the sum over all triangles of the unit normal times twice the area.
     fn build(
         self,
         triangles: &[Triangle],

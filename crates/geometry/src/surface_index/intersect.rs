@@ -51,9 +51,10 @@ pub fn self_intersecting_faces(
 /// Whether two triangles intersect: whether they have a common point that is not on a common corner or side.
 ///
 /// Corners at the same position are common, and so are sides between two common corners. Neighbors in a mesh therefore
-/// intersect only if they have other common points: if their planes are equal and they lie on the same side of the
-/// common side, or if one passes through the other beside the common corner. Two triangles with the same three corners
-/// intersect. A zero-area triangle has no intersections, because its sides are usually also sides of its neighbors.
+/// intersect only if they have other common points. Two triangles with a common side intersect if they overlap in the
+/// same plane. Two triangles with one common corner intersect if they also meet at another point. Two triangles with
+/// the same three corners intersect. A zero-area triangle has no intersections, because its sides are usually also
+/// sides of its neighbors.
 ///
 /// The answer is exact for coordinates up to 1e150 in magnitude, if the differences are not below 1e-90 times the
 /// largest coordinate.

@@ -12,9 +12,8 @@
 //! ```
 //!
 //! The index is a binary tree of axis-aligned boxes. The triangles of a node are sorted by their centers along the
-//! longest side of the box of the centers; each child gets half of them. A node also has a slab: two parallel planes around
-//! its triangles. The tree depends only on the mesh: it is
-//! the same for any number of threads.
+//! longest side of the box of the centers; each child gets half of the triangles. A node also has a slab: two parallel
+//! planes around its triangles. The tree depends only on the mesh, not on the number of threads.
 //!
 //! A face with more than three corners is divided into triangles: four corners into a fan, more corners by ear
 //! clipping ([`triangulate`](mod@crate::triangulate)).
@@ -43,7 +42,7 @@ pub use winding::Winding;
 #[derive(Clone, Debug)]
 pub struct SurfaceIndex {
     nodes: Vec<Node>,
-    /// By node.
+    /// The slab of each node.
     slabs: Vec<Slab>,
     /// The corners of the triangles, in the order of the tree.
     positions: Vec<[DVec3; 3]>,

@@ -30,13 +30,13 @@ pub struct Nearest {
 /// this number, it accepts an inexact answer. A search usually visits at most a few hundred nodes.
 const MAX_NODES: u32 = 1000;
 
-/// After this number of visited nodes, slabs are used too. Most searches are finished by then.
+/// After this number of visited nodes, slabs are used too. Most searches visit fewer nodes.
 const BOXES_ONLY: u32 = 64;
 
-/// The number of points of one task. Each task starts without a hint.
+/// The number of points in a block. One thread searches for all points of a block, and starts without a hint.
 const BLOCK: usize = 1024;
 
-/// The name of this work in progress reports.
+/// The text that progress reports show for the search.
 const WHAT: &str = "find the nearest points";
 
 impl SurfaceIndex {
@@ -44,10 +44,9 @@ impl SurfaceIndex {
     /// them. `hint` is the index of a triangle that is probably near `p`, for example the result of the previous
     /// search. A good hint saves time. A hint that is out of range counts as 0.
     ///
-    /// If `p` is the center of a sphere, all triangles are equally near and the search would visit all of them.
-    /// The search stops after a few thousand nodes and returns the nearest point found so far. [`Nearest::lower`] is a
-    /// lower bound on the true distance. For a sphere, the bound differs from the distance only by the difference
-    /// between the triangles and their boxes.
+    /// If `p` is the center of a sphere, all triangles are almost equally near, and a complete search would visit all
+    /// of them. Therefore the search stops after a few thousand nodes and returns the nearest point found so far.
+    /// [`Nearest::lower`] is then a lower bound on the true distance.
     ///
     /// Returns an infinite or undefined distance if `p` is not finite, or if squared coordinates are too large for an
     /// `f64`.
@@ -56,9 +55,9 @@ impl SurfaceIndex {
         best.found(lower, visits)
     }
 
-    /// Whether a triangle is at most `radius` away from `p`. `hint` is as for [`nearest`](Self::nearest), and becomes a
-    /// triangle that was found within `radius`. This is faster than the search for the nearest point, because
-    /// the first such triangle ends the search.
+    /// Whether a triangle is at most `radius` away from `p`. `hint` is as for [`nearest`](Self::nearest); if a triangle
+    /// is found within `radius`, `hint` is set to its index. This is faster than the search for the nearest point,
+    /// because the first such triangle ends the search.
     pub(crate) fn is_within(&self, p: DVec3, radius: f64, hint: &mut u32) -> bool {
         let squared = radius * radius;
         let (best, ..) = self.nearest_below(p, *hint, squared.next_up(), squared);
@@ -70,9 +69,9 @@ impl SurfaceIndex {
     }
 
     /// Searches for the point of the surface nearest to `p` among the points whose squared distance is less than
-    /// `limit`. Stops as soon as a squared distance is at most `enough`. Returns the nearest point found, the squared lower
-    /// bound of [`Nearest::lower`] if the search was stopped early, and the number of visited nodes. If no point is
-    /// near enough, the squared distance of the result is `limit`.
+    /// `limit`. Stops as soon as a squared distance is at most `enough`. Returns the nearest point found, the number of
+    /// visited nodes, and, if the search was stopped early, the square of [`Nearest::lower`]. If no point is near
+    /// enough, the squared distance of the result is `limit`.
     fn nearest_below(
         &self,
         p: DVec3,

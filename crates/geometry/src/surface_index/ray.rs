@@ -26,8 +26,8 @@ pub struct RayHit {
 
 impl SurfaceIndex {
     /// Returns the first point where a ray meets the surface. If the ray meets several triangles at the same point, the
-    /// triangle with the lowest index is returned. `direction` need not have length 1. A point at the origin of the ray
-    /// counts as met.
+    /// triangle with the lowest index is returned. `direction` need not have length 1. If the surface contains the
+    /// origin of the ray, the ray meets the surface there.
     ///
     /// The test is watertight: if a ray passes through the surface at an inner edge or vertex, it meets exactly one of
     /// the triangles there. So a ray from outside meets a closed surface an even number of times. Triangles parallel to
@@ -83,7 +83,8 @@ impl SurfaceIndex {
         Ok(hits)
     }
 
-    /// Calls `visit` for hits of the ray. `visit` returns the largest distance at which further hits matter.
+    /// Calls `visit` for hits of the ray, in any order. `visit` returns the largest distance at which further hits
+    /// matter: hits beyond this distance may be skipped.
     fn visit_ray(&self, origin: DVec3, direction: DVec3, visit: &mut dyn FnMut(RayHit) -> f64) {
         let Some(ray) = Ray::new(origin, direction) else {
             return;

@@ -2,9 +2,9 @@
 //!
 //! ```text
 //!   +-----------+      From a distant point in the upper right, the corner of the box is much nearer than the surface.
-//!   |\  \       |      All boxes up to a distance of about √(size of the box · radius of the surface) from the nearest
-//!   |  \  \     |      point would be visited: hundreds of them in a fine mesh. The slab, parallel to the surface, shows
-//!   |    \  \   |      that their triangles are too far away.
+//!   |\  \       |      All boxes up to a distance of about √(size of the box · radius of curvature) from the nearest
+//!   |  \  \     |      point would be visited: hundreds of boxes in a fine mesh. The slab, parallel to the surface,
+//!   |    \  \   |      shows that the triangles of a box are too far away.
 //!   +-----------+
 //! ```
 
@@ -12,16 +12,16 @@ use mesh::DVec3;
 
 use super::SurfaceIndex;
 
-/// Larger nodes have no slab, because their triangles seldom lie near a plane.
+/// Nodes with more triangles than this number have no slab, because their triangles seldom lie near a plane.
 const MOST: usize = 512;
 
-/// The number of improvements of a bound.
+/// The maximum number of values of λ for which a bound is computed; see [`SurfaceIndex::slab_distance_squared`].
 const STEPS: usize = 3;
 
 /// All points of a node satisfy `low <= normal · point <= high`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slab {
-    /// The sum of the normals of the triangles times their areas, with length 1 up to rounding.
+    /// The direction of the sum over the triangles of normal times area, with length 1 up to rounding.
     normal: [f32; 3],
     low: f64,
     high: f64,
@@ -35,7 +35,8 @@ impl Slab {
         high: f64::INFINITY,
     };
 
-    /// Returns the slab of triangles, whose sum of normals times areas is `normal`.
+    /// Returns the slab of `n` triangles. `normal` is the sum over the triangles of normal times area, or a multiple of
+    /// this sum.
     pub(super) fn of<'a>(
         triangles: impl Iterator<Item = &'a [DVec3; 3]>,
         n: usize,
@@ -58,12 +59,13 @@ impl Slab {
 }
 
 impl SurfaceIndex {
-    /// Returns a lower bound on the squared distance from `p` to the triangles of a node. `squared` is the squared distance to
-    /// its box.
+    /// Returns a lower bound on the squared distance from `p` to the triangles of a node. `squared` is the squared
+    /// distance to the box of the node.
     ///
-    /// The bound is the distance to the part of the box in the slab. For λ ≥ 0, no point x of this part is nearer than
-    /// the minimum over the box of |p - x|² + 2 λ (n·x - high), at x = p - λ n, clamped to the box. λ is improved by
-    /// Newton steps. Every λ gives a bound: Boyd, Vandenberghe, "Convex Optimization", 2004, §5.1.3.
+    /// The triangles lie in the part of the box that is in the slab. Each λ ≥ 0 gives a lower bound on the squared
+    /// distance from `p` to this part: the minimum of |p - x|² + 2 λ (n·x - high) over all points x of the box. The
+    /// minimum is at x = p - λ n, clamped to the box. Newton steps improve λ. Source: Boyd, Vandenberghe, "Convex
+    /// Optimization", 2004, §5.1.3.
     pub(super) fn slab_distance_squared(&self, p: DVec3, i: usize, squared: f64) -> f64 {
         let (node, slab) = (&self.nodes[i], &self.slabs[i]);
         let [x, y, z] = slab.normal.map(f64::from);

@@ -32,16 +32,17 @@ pub struct Winding<'a> {
 /// A part of the surface is far if it is further away than this factor times its radius.
 const FAR: f64 = 2.0;
 
-/// The number of nodes or points of one task.
+/// The number of nodes or points in a block. One thread processes a block.
 const BLOCK: usize = 256;
 
-/// Integrals over the triangles of a node, for the Taylor series about the center c: with the unit normal n and
-/// x = p − c,
+/// Integrals over the points p of the triangles of a node, for the Taylor series about the center c. Here n is the unit
+/// normal of a triangle, and x = p − c. Of the tensors M and T, only the symmetric parts are stored, with their
+/// components in the given order.
 ///
 /// ```text
 /// normal   N_i  = ∫ n_i dA
-/// first    M_ij = ∫ n_i x_j dA                    its symmetric part: xx yy zz yz zx xy
-/// second   T_ijk = ∫ n_i x_j x_k dA               its symmetric part: xxx yyy zzz, xxy xxz yyx yyz zzx zzy, xyz
+/// first    M_ij = ∫ n_i x_j dA                    stored as xx yy zz yz zx xy
+/// second   T_ijk = ∫ n_i x_j x_k dA               stored as xxx yyy zzz, xxy yyz zzx, xxz yyx zzy, and xyz separately
 /// trace    u_k  = Σ_i 2 T_iik + T_kii
 /// ```
 #[derive(Clone, Copy, Debug, Default)]

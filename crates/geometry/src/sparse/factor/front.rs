@@ -4,8 +4,8 @@ use rayon::prelude::*;
 
 use crate::sparse::symbolic::Supernode;
 
-/// The number of columns that are updated at a time. This is also the number of columns that are subtracted from
-/// them at a time.
+/// The number of columns of a tile. The columns of a tile are updated together, and this is also the number of columns
+/// that are subtracted from a tile at a time.
 const TILE: usize = 4;
 /// The number of pivot columns that are updated in parallel.
 const BLOCK: usize = 64;

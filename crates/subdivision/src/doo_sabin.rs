@@ -144,7 +144,7 @@ impl<'a> DooSabin<'a> {
         FaceId::new(self.n_faces + self.n_edges + self.faceless.rank_outside(v.index()))
     }
 
-    /// Returns the twin of across(k), where k comes after `h` counter-clockwise around its origin.
+    /// Returns the twin of across(k), where k is the half-edge after `h` counter-clockwise around the origin of `h`.
     #[inline]
     fn after(&self, h: HalfEdgeId) -> HalfEdgeId {
         self.across(self.mesh.prev(h).twin()).twin()

@@ -5,9 +5,9 @@
 //! smoothed as on a boundary, from values of this piece only, or interpolated linearly:
 //!
 //! ```text
-//!            \   |   /                     a: the value at v in the upper piece becomes
-//!         ---- \ | / ----                     3/4 a + 1/8 (values at both ends of the seam, in this piece)
-//!         b ==== v ==== c    seam             or stays, if v is a corner of the piece
+//!            \   |   /                     The value at v in the upper piece is x. If v is not a corner of this
+//!         ---- \ | / ----                  piece, x becomes 3/4 x + 1/8 (y + z), where y and z are the values at b
+//!         b ==== v ==== c    seam          and c in the same piece. If v is a corner of the piece, x stays.
 //!         ---- / | \ ----
 //!            /   |   \
 //! ```
@@ -147,7 +147,8 @@ impl<'a> Field<'a> {
         if sharp >= 1.0 {
             return (self.of(h) + self.of(self.mesh.next(h))) * 0.5;
         }
-        // The values on both sides are sums in the same order, so that they are identical bit for bit.
+        // The terms are added in the same order for both halves of the edge, so that the values on its two sides are
+        // identical bit for bit.
         let halves = e.half_edges();
         let ends = self.of(halves[0]) + self.of(self.mesh.next(halves[0]));
         let [smooth_end, sides] = if self.scheme == Scheme::CatmullClark {
@@ -176,7 +177,7 @@ impl<'a> Field<'a> {
         self.pieces(v, start).value(self, h)
     }
 
-    /// Whether the values at a boundary vertex without seams follow a different rule from positions.
+    /// Whether the values at a boundary vertex without seams follow a different rule than positions.
     fn is_irregular_boundary(&self, v: VertexId, start: HalfEdgeId) -> bool {
         match self.rule {
             FaceVarying::None => false,
@@ -279,7 +280,7 @@ impl VertexPieces {
         let own = field.of(h);
         let is_own = |piece: &Piece| field.of(piece.ends[0]) == own;
         let Some(i) = self.pieces.iter().position(is_own) else {
-            return own; // The value is NaN.
+            return own; // The value is NaN, which is not equal to itself, so no piece is found.
         };
         let piece = &self.pieces[i];
         let crease = || {

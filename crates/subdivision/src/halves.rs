@@ -18,9 +18,9 @@
 //! if the old half-edge is. The half-edge of a new vertex is the second part of one half-edge of the old edge: of
 //! the boundary half-edge, if there is one.
 //!
-//! One task for each old edge writes four half-edges and a vertex, and no task reads what another task
-//! writes. The idea is from Vanhoey and Dupuy, "A Halfedge Refinement Rule for Parallel Loop Subdivision",
-//! 2022, adapted to half-edges stored in pairs.
+//! The four half-edges and the vertex of each old edge are computed from the old mesh only, so all old edges can
+//! be processed in parallel. The idea is from Vanhoey and Dupuy, "A Halfedge Refinement Rule for Parallel Loop
+//! Subdivision", 2022, adapted to half-edges stored in pairs.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};

@@ -10,7 +10,7 @@
 //! | [`CatmullClark`](Scheme::CatmullClark) | a quad for each corner | move | smooth, curvature continuous except at valence ≠ 4 |
 //! | [`Midpoint`](Scheme::Midpoint) | 4 triangles, or a quad for each corner | stay | the mesh itself |
 //! | [`Butterfly`](Scheme::Butterfly) | 4 triangles each | stay | smooth, through all vertices |
-//! | [`Sqrt3`](Scheme::Sqrt3) | 3 triangles each, turned | move | smooth |
+//! | [`Sqrt3`](Scheme::Sqrt3) | 3 triangles each, then old edges are flipped | move | smooth |
 //! | [`DooSabin`](Scheme::DooSabin) | one face each, plus one face for each old edge and vertex | are replaced by faces | smooth |
 //!
 //! A level is not a sequence of edits. The arrays of a level are computed directly from the old arrays, each
@@ -47,10 +47,10 @@
 //!        0     1     2     3     4     5     6     7     8   level
 //! ```
 //!
-//! `+` is a torus of regular valence, `o` is an icosahedron, and `*` marks both at the same position. On the torus,
-//! the distance is quadratic in the edge length, so each level divides the distance by four. Around the vertices of
-//! valence 5 of the icosahedron, each level scales the surface, and eventually also the distance, by the
-//! subdominant eigenvalue 3/8 + cos(2π/5)/4 = 0.452.
+//! `+` is a torus of regular valence, and `o` is an icosahedron. `*` is a place in the diagram where both coincide. On
+//! the torus, the distance is quadratic in the edge length, so each level divides the distance by four. Around the
+//! vertices of valence 5 of the icosahedron, each level scales the surface by the subdominant eigenvalue
+//! 3/8 + cos(2π/5)/4 = 0.452. After the first levels, the distance is scaled by the same factor.
 //!
 //! # Examples
 //!

@@ -76,7 +76,7 @@ pub enum Boundary {
     /// The boundary becomes a smooth curve that depends on boundary vertices only.
     #[default]
     EdgesOnly,
-    /// Like `EdgesOnly`, but vertices with one face stay in place.
+    /// Like `EdgesOnly`, but boundary vertices with one face stay in place.
     EdgesAndCorners,
     /// Boundary vertices stay in place, and new vertices on the boundary lie in the middle of their edges.
     Fixed,
@@ -91,9 +91,9 @@ pub enum Creasing {
     #[default]
     Uniform,
     /// The sharpness is averaged with the sharpness of the neighboring edges of the crease, then decreases
-    /// by 1. So sharpness varies smoothly along a crease. This is OpenSubdiv's rule after Chaikin's curves, with
-    /// one difference: if one half of an edge with sharpness above 1 becomes smooth, the new vertex stays in
-    /// the middle, while OpenSubdiv moves the vertex beyond the middle.
+    /// by 1. So sharpness varies smoothly along a crease. This is OpenSubdiv's Chaikin rule, with one difference:
+    /// if one half of an edge with sharpness above 1 becomes smooth, the new vertex on the edge lies in the middle
+    /// of the edge, while OpenSubdiv moves this vertex beyond the middle.
     Chaikin,
 }
 

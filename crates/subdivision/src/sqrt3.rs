@@ -171,7 +171,7 @@ impl<'a> Sqrt3<'a> {
         cut.map_or(0, |cut| cut.below(h.twin().index()))
     }
 
-    /// Returns the half-edge from c to y, if the edge of `h` is cut.
+    /// Returns the half-edge from c to y. The edge of `h` must be one that is cut.
     #[inline]
     fn second_spoke(&self, h: HalfEdgeId) -> HalfEdgeId {
         HalfEdgeId::new(2 * (self.n_edges + 3 * self.n_faces + self.rank(h)))
@@ -189,7 +189,7 @@ impl<'a> Sqrt3<'a> {
         VertexId::new(self.n_vertices + i)
     }
 
-    /// Returns the half-edge from the target of `h`, whose edge is flipped, to `end(h)`.
+    /// Returns the half-edge from the target of `h` to `end(h)`. The edge of `h` must be one that is flipped.
     #[inline]
     fn spoke_at_target(&self, h: HalfEdgeId) -> HalfEdgeId {
         let before = self.prev(h);
@@ -246,7 +246,7 @@ impl<'a> Sqrt3<'a> {
         [half, Link(self.end(h), next, face)]
     }
 
-    /// Returns the links of both halves of the edge from c to y, if the edge of `h` is cut.
+    /// Returns the links of both halves of the edge from c to y. The edge of `h` must be one that is cut.
     #[inline]
     fn edge_second_spoke(&self, h: HalfEdgeId) -> [Link; 2] {
         let after = self.mesh.next(h);

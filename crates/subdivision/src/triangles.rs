@@ -18,7 +18,8 @@
 //!         first(h0)  second(h0)
 //! ```
 //!
-//! One task for each old face writes six half-edges and four faces.
+//! The six new half-edges inside each old face and its four new faces are computed from the old mesh only, so all old
+//! faces can be processed in parallel.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh};
 use progress::{Cancelled, Meter};

@@ -2,13 +2,14 @@
 //!
 //! Edges are collapsed, the cheapest first. The main part of the cost is the squared distance from the new vertex to
 //! the planes of all original triangles that this vertex represents, after Garland, Heckbert, "Surface Simplification
-//! Using Quadric Error Metrics", 1997. The squared distance is integrated over the area of these triangles, and divided by
-//! the square root of the area. Small details therefore count more than in the integral, which is not divided, and
+//! Using Quadric Error Metrics", 1997. The squared distance is integrated over the area of these triangles, and divided
+//! by the square root of the area. Small details therefore count more than in the integral, which is not divided, and
 //! less than in the mean, which is divided by the area. For example, consider a model of a rocker arm that is reduced
 //! from 20,088 triangles to a tenth. The largest distance is 0.5 % of the diagonal with the integral as the cost, 0.3 %
-//! with the mean, and 0.3 % with this cost. The mean distance is 5 % smaller with this cost than with the mean. A small
-//! part of the cost is the squared distance to the triangles themselves instead of their planes. This part keeps
-//! triangles round, similar to Trettner, Kobbelt, "Fast and Robust QEM Simplification of Large Meshes Using
+//! with the mean, and 0.3 % with this cost. The mean distance is 5 % smaller with this cost than with the mean.
+//!
+//! A small part of the cost is the squared distance to the triangles themselves instead of their planes. This part
+//! keeps triangles round, similar to Trettner, Kobbelt, "Fast and Robust QEM Simplification of Large Meshes Using
 //! Probabilistic Quadrics", 2020.
 //!
 //! Texture coordinates, normals, colors and other numbers are a part of the cost; see `appearance.rs`.

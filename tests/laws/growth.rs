@@ -49,8 +49,7 @@ const SIZES: [usize; 2] = [1000, 64_000];
 
 /// Operations that are not tested, because their samples fit no generated scene, or because their work does not grow
 /// with the mesh.
-const OTHER: &str =
-    "Load Polygons MoveControlPoint CurveLevels SampleCurve CurveFigure HalfEdgeFigure";
+const OTHER: &str = "Load Polygons MoveControlPoint MovePatchPoint CurveLevels SampleCurve CurveFigure HalfEdgeFigure";
 
 /// Steps whose time may grow faster, with the maximum growth. The comment gives the reason.
 const STEEPER: &[(&str, f64)] = &[

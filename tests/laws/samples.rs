@@ -22,6 +22,7 @@ const MORE_STEPS: &[&str] = &[
     "SampleCurve(segments: 9)",
     "CurveLevels(t: 0.25)",
     "MoveControlPoint(index: 99, to: (0, 0))",
+    "MovePatchPoint(index: 4000000000, to: (0, 0, 0))",
     r#"Copy(from: "curve", to: "new")"#,
     r#"Delete(objects: ["patches", "curve"])"#,
     r#"Rename(from: "mesh", to: "other")"#,

@@ -1,11 +1,12 @@
 //! Control points of curves and patches.
 
-use bezier::Curve;
+use glam::DAffine3;
 use mesh::{DVec2, DVec3};
-use scene::{Geometry, Object};
+use scene::{Geometry, Object, Scene};
 
 use crate::edit::{Command, CommandError, Editor};
 use crate::panel::number;
+use crate::pick::{PICK_RADIUS, Projection};
 
 /// Returns the control points of a curve or of patches, in the space of the object. A patch has 16 points, row by row. Empty
 /// for other objects.
@@ -20,60 +21,100 @@ pub fn control_points(object: &Object) -> Vec<DVec3> {
     }
 }
 
-/// Returns the segments of the control net of a curve or of patches, as pairs of indices of
-/// [`control_points`].
-pub fn control_net(object: &Object) -> Vec<[usize; 2]> {
-    match &object.geometry {
-        Geometry::Curve(curve) => (1..curve.points().len()).map(|i| [i - 1, i]).collect(),
-        Geometry::Patches(patches) => {
-            let of_patch = |p: usize| {
-                let at = move |row: usize, column: usize| 16 * p + 4 * row + column;
-                let rows = (0..4).flat_map(move |r| (0..3).map(move |c| [at(r, c), at(r, c + 1)]));
-                rows.chain((0..4).flat_map(move |c| (0..3).map(move |r| [at(r, c), at(r + 1, c)])))
-            };
-            (0..patches.len()).flat_map(of_patch).collect()
-        }
-        Geometry::Mesh(_) | Geometry::Polylines(_) => Vec::new(),
+/// A control point in the view.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ControlPoint {
+    /// The name of the object.
+    pub object: String,
+    /// The index in [`control_points`] of the object.
+    pub index: usize,
+    /// The position in scene space.
+    pub point: DVec3,
+    to_scene: DAffine3,
+    is_of_curve: bool,
+}
+
+impl ControlPoint {
+    /// Returns the position in the space of the object, if the control point is dragged to a pixel: in the plane of the
+    /// curve, or for patches in the plane through the control point that is parallel to the picture. `None` if the pixel
+    /// shows no point of the plane.
+    pub fn dragged_to(&self, view: &Projection, pixel: DVec2) -> Option<DVec3> {
+        let of_object = view.of_object(self.to_scene);
+        let at = if self.is_of_curve {
+            let (near, along) = of_object.ray(pixel);
+            let t = -near.z / along.z;
+            (0.0..=1.0)
+                .contains(&t)
+                .then(|| (near + along * t).with_z(0.0))?
+        } else {
+            let (_, depth) = view.to_pixel(self.point)?;
+            of_object.from_pixel(pixel, depth)
+        };
+        at.is_finite().then_some(at)
     }
 }
 
-/// Returns all levels of de Casteljau's algorithm on a curve at `t`: the control points first, the point of the curve last.
-pub fn de_casteljau(curve: &Curve<DVec2>, t: f64) -> Vec<Vec<DVec2>> {
-    curve.levels(t)
+/// Returns the control point that is nearest to a pixel, within [`PICK_RADIUS`]; of several at the same place, the nearest to
+/// the camera.
+pub fn pick_control_point(scene: &Scene, view: &Projection, pixel: DVec2) -> Option<ControlPoint> {
+    let mut best: Option<([f64; 2], ControlPoint)> = None;
+    for instance in scene.instances() {
+        let object = instance.object;
+        for (index, point) in control_points(object).into_iter().enumerate() {
+            let point = instance.to_scene.transform_point3(point);
+            let Some((at, depth)) = view.to_pixel(point) else {
+                continue;
+            };
+            let key = [at.distance(pixel), depth];
+            let is_nearer = best.as_ref().is_none_or(|(known, _)| key < *known);
+            if key[0] <= PICK_RADIUS && is_nearer {
+                let found = ControlPoint {
+                    object: object.name.clone(),
+                    index,
+                    point,
+                    to_scene: instance.to_scene,
+                    is_of_curve: matches!(object.geometry, Geometry::Curve(_)),
+                };
+                best = Some((key, found));
+            }
+        }
+    }
+    best.map(|(_, found)| found)
 }
 
 impl Editor {
-    /// Moves a control point of a curve of the scene at the cursor. If the step before the cursor moves the same control
-    /// point, its `to` is changed, so that dragging gives one step. With `is_preview`, the text stays as it is.
+    /// Moves a control point of a curve or of patches of the scene at the cursor, by a step `MoveControlPoint` or
+    /// `MovePatchPoint`. `to` is in the space of the object; curves lie in the plane z = 0. If the step before the cursor
+    /// moves the same control point, its `to` is changed, so that dragging gives one step. With `is_preview`, the text stays
+    /// as it is.
     ///
     /// # Errors
     ///
-    /// [`CommandError::NotCurve`] if the object is not a curve; other errors as [`Editor::apply`].
+    /// [`CommandError::NoControlPoints`] if the object is neither a curve nor patches; other errors as [`Editor::apply`].
     pub fn move_control_point(
         &mut self,
         object: &str,
         index: usize,
-        to: DVec2,
+        to: DVec3,
         is_preview: bool,
     ) -> Result<(), CommandError> {
-        let view = self.view();
-        let curves = view
-            .scene
-            .objects()
-            .iter()
-            .filter(|o| matches!(o.geometry, Geometry::Curve(_)));
-        let is_one = curves.clone().count() == 1;
-        if !curves.clone().any(|curve| curve.name == object) {
-            return Err(CommandError::NotCurve(object.to_owned()));
-        }
-        let to = format!("({}, {})", number(to.x), number(to.y));
+        let scene = self.view().scene;
+        let found = scene.object(object).map(|o| &o.geometry);
+        let [x, y, z] = to.to_array().map(number);
+        let (operation, to) = match found {
+            Some(Geometry::Curve(_)) => ("MoveControlPoint", format!("({x}, {y})")),
+            Some(Geometry::Patches(_)) => ("MovePatchPoint", format!("({x}, {y}, {z})")),
+            _ => return Err(CommandError::NoControlPoints(object.to_owned())),
+        };
+        let is_same_kind = |o: &&Object| Some(o.geometry.kind()) == found.map(Geometry::kind);
+        let is_one = scene.objects().iter().filter(is_same_kind).count() == 1;
         if let Some(step) = self.cursor().checked_sub(1) {
             let written = &self.outline().steps[step];
             let is_on = written
                 .on
                 .as_ref()
                 .map_or(is_one, |on| on.as_slice() == [object]);
-            let is_same = written.name == "MoveControlPoint"
+            let is_same = written.name == operation
                 && is_on
                 && written.enabled
                 && self.parameter(step, &["index"]) == Some(index.to_string().as_str());
@@ -83,7 +124,7 @@ impl Editor {
                 return self.set_parameter(step, &["to"], Some(&to));
             }
         }
-        let mut command = Command::new("MoveControlPoint")
+        let mut command = Command::new(operation)
             .with("index", &index.to_string())
             .with("to", &to);
         command.on = (!is_one).then(|| object.to_owned());

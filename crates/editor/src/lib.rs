@@ -16,7 +16,7 @@
 //! | the results | [`RunState`], [`StepState`], [`ExpectationState`], [`Snapshot`] |
 //! | operations | [`Command`], [`Panel`], [`FieldKind`] |
 //! | picking | [`pick`], [`pick_area`], [`Projection`], [`Indexes`], [`Picked`], [`propose`] |
-//! | curves and patches | [`control_points`], [`control_net`], [`Editor::move_control_point`] |
+//! | curves and patches | [`control_points`], [`pick_control_point`], [`Editor::move_control_point`] |
 //! | half-edges | [`walk`], [`HalfEdgeInfo`], [`Play`] |
 //! | recovery after a crash | [`recoverable`], [`Editor::recover`] |
 //! | keys | [`Keys`], [`Action`] |
@@ -34,7 +34,7 @@ mod run;
 mod select;
 mod text;
 
-pub use curve::{control_net, control_points, de_casteljau};
+pub use curve::{ControlPoint, control_points, pick_control_point};
 pub use document::{Conflict, Document, FileChange};
 pub use edit::{Command, CommandError, Editor, OpenError, SelectionText, Settings, Update, View};
 pub use half_edge::{AttributeInfo, HalfEdgeInfo, Walk, of_element, walk};

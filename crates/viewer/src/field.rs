@@ -157,8 +157,15 @@ fn widget(ui: &mut Ui, field: &Field) -> Option<Change> {
     let name = of.name.clone();
     match (kind, current) {
         (FieldKind::Number(limits), FieldValue::Number(mut x)) => {
+            let before = x;
             let response = match range(limits) {
-                Some((min, max)) => ui.add(Slider::new(&mut x, min..=max).max_decimals(4)),
+                Some((min, max)) => {
+                    let slider = ui.add(Slider::new(&mut x, min..=max).max_decimals(4));
+                    if let Some(change) = by_wheel(ui, &slider, before, [min, max]) {
+                        return Some(change);
+                    }
+                    slider
+                }
                 None => ui.add(unlimited(&mut x, limits)),
             };
             dragged(
@@ -262,6 +269,27 @@ fn dragged(
     } else {
         Change::Set(text)
     })
+}
+
+/// Returns the change of a slider by the wheel: live while the wheel turns, and final when it stops.
+fn by_wheel(ui: &Ui, slider: &Response, x: f64, [min, max]: [f64; 2]) -> Option<Change> {
+    let id = slider.id.with("wheel");
+    let last: Option<f64> = ui.data(|data| data.get_temp(id));
+    let turned = if slider.hovered() {
+        ui.input_mut(|input| std::mem::take(&mut input.smooth_scroll_delta.y))
+    } else {
+        0.0
+    };
+    if turned == 0.0 {
+        let last = last?;
+        ui.data_mut(|data| data.remove_temp::<f64>(id));
+        return Some(Change::Set(FieldValue::Number(last).to_ron()));
+    }
+    let x = last.unwrap_or(x) + f64::from(turned) * (max - min) / 2000.0;
+    let x = rounded(x.clamp(min, max));
+    ui.data_mut(|data| data.insert_temp(id, x));
+    ui.ctx().request_repaint();
+    Some(Change::Drag(FieldValue::Number(x).to_ron()))
 }
 
 /// Returns the range of a slider. Fractions without a written range are rare: they get a number field.

@@ -7,7 +7,7 @@ use crate::app::Parts;
 use crate::theme::Colors;
 
 /// How the mouse is used.
-const MOUSE: [(&str, &str); 8] = [
+const MOUSE: [(&str, &str); 9] = [
     ("Drag", "turn the view"),
     ("Right or middle drag", "move the view"),
     ("Wheel", "zoom to the cursor"),
@@ -19,6 +19,7 @@ const MOUSE: [(&str, &str); 8] = [
     ("Shift+Drag", "pick all elements in a box"),
     ("Ctrl+Drag", "pick all elements in a lasso"),
     ("Double click", "pick an edge loop"),
+    ("Drag a control point", "move it (curves and patches)"),
 ];
 
 pub(crate) fn ui(ctx: &Context, parts: &mut Parts) {

@@ -196,11 +196,13 @@ pub(crate) fn status(ui: &mut Ui, parts: &mut Parts) {
                     .color(colors.weak),
                 );
                 ui.add_space(12.0);
-                let hovered = parts
-                    .view
-                    .hovered
-                    .as_ref()
-                    .map(|hit| format!("{} of {}", word(hit.element), hit.object));
+                let view = &parts.view;
+                let element = view.hovered.as_ref();
+                let element = element.map(|hit| format!("{} of {}", word(hit.element), hit.object));
+                let point = view.hovered_point.as_ref();
+                let point =
+                    point.map(|hit| format!("control point {} of {}", hit.index, hit.object));
+                let hovered = point.or(element);
                 let text = match (parts.description(), hovered) {
                     ("", Some(hovered)) => hovered,
                     (text, _) => text.to_owned(),

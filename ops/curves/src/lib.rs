@@ -2,6 +2,7 @@
 
 mod curve_levels;
 mod move_control_point;
+mod move_patch_point;
 mod sample_curve;
 mod tessellate;
 
@@ -9,6 +10,7 @@ use op::Registry;
 
 pub use curve_levels::CurveLevels;
 pub use move_control_point::{MoveControlPoint, PlanePoint};
+pub use move_patch_point::MovePatchPoint;
 pub use sample_curve::SampleCurve;
 pub use tessellate::{Faces, Tessellate};
 
@@ -20,4 +22,5 @@ pub fn register(registry: Registry) -> Registry {
         .with::<SampleCurve>()
         .with::<CurveLevels>()
         .with::<MoveControlPoint>()
+        .with::<MovePatchPoint>()
 }

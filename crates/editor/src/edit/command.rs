@@ -62,9 +62,9 @@ pub enum CommandError {
     /// The scene at the cursor is not known, because the run goes on or has failed.
     #[error("the scene at the cursor is not known: wait for the run, or correct the recipe")]
     NoScene,
-    /// The object is not a curve, or does not exist.
-    #[error("\"{0}\" is not a curve of the scene at the cursor")]
-    NotCurve(String),
+    /// The object is neither a curve nor patches, or does not exist.
+    #[error("\"{0}\" is not a curve or patches of the scene at the cursor")]
+    NoControlPoints(String),
     /// The text cannot be edited.
     #[error(transparent)]
     Text(#[from] TextError),

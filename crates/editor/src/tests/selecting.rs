@@ -224,20 +224,16 @@ fn dragging_a_control_point_is_one_step() {
     let points = |editor: &Editor| crate::control_points(&editor.view().scene.objects()[0]);
     let name = editor.view().scene.objects()[0].name.clone();
     assert_eq!(points(&editor)[1], DVec3::new(1.0, 2.0, 0.0));
-    assert_eq!(
-        crate::control_net(&editor.view().scene.objects()[0]),
-        [[0, 1], [1, 2]]
-    );
     for x in [1.5, 1.75] {
         editor
-            .move_control_point(&name, 1, DVec2::new(x, 3.0), true)
+            .move_control_point(&name, 1, DVec3::new(x, 3.0, 0.0), true)
             .unwrap();
         settled(&mut editor);
         assert_eq!(editor.outline().steps.len(), 1);
     }
     for x in [2.0, 2.5] {
         editor
-            .move_control_point(&name, 1, DVec2::new(x, 3.0), false)
+            .move_control_point(&name, 1, DVec3::new(x, 3.0, 0.0), false)
             .unwrap();
         settled(&mut editor);
         assert_eq!(points(&editor)[1], DVec3::new(x, 3.0, 0.0));
@@ -252,7 +248,84 @@ fn dragging_a_control_point_is_one_step() {
     assert_eq!(editor.outline().steps.len(), 2);
     assert!(
         editor
-            .move_control_point("other", 1, DVec2::ZERO, false)
+            .move_control_point("other", 1, DVec3::ZERO, false)
             .is_err()
     );
+}
+
+#[test]
+fn a_control_point_under_the_cursor_is_dragged_in_its_plane() {
+    use bezier::{Curve, Patch};
+    use glam::{DMat4, DQuat, DVec4};
+    use scene::{Geometry, Object, Scene};
+
+    let size = DVec2::new(400.0, 300.0);
+    // A camera at (2, 3, 9) that looks along -z, slightly turned.
+    let (near, far) = (0.5, 30.0);
+    let lens = DMat4::from_cols(
+        DVec4::new(2.4, 0.0, 0.0, 0.0),
+        DVec4::new(0.0, 3.2, 0.0, 0.0),
+        DVec4::new(0.0, 0.0, far / (near - far), -1.0),
+        DVec4::new(0.0, 0.0, near * far / (near - far), 0.0),
+    );
+    let turned = DMat4::from_quat(DQuat::from_xyzw(0.14, -0.1, 0.02, 0.98).normalize());
+    let camera = turned * DMat4::from_translation(DVec3::new(-2.0, -3.0, -9.0));
+    let view = crate::Projection::new(lens * camera, size);
+    let steps = [0.0, 0.5, 1.0, 1.5];
+    let corners = steps.map(|y| steps.map(|x| DVec3::new(x, y, 0.2 * x * y)));
+    let curve = [[0.0, 0.0], [1.0, 2.0], [2.0, 0.0]].map(DVec2::from);
+    for (geometry, index) in [
+        (Geometry::Curve(Curve::new(curve.to_vec()).unwrap()), 1),
+        (Geometry::Patches(vec![Patch::new(corners).unwrap()]), 7),
+    ] {
+        let is_curve = matches!(geometry, Geometry::Curve(_));
+        let mut scene = Scene::new();
+        scene.insert(Object::new("a", geometry)).unwrap();
+        let point = crate::control_points(&scene.objects()[0])[index];
+        let (pixel, depth) = view.to_pixel(point).unwrap();
+        let near = pixel + DVec2::new(3.0, -2.0);
+        let hit = crate::pick_control_point(&scene, &view, near).unwrap();
+        assert_eq!(
+            (hit.object.as_str(), hit.index, hit.point),
+            ("a", index, point)
+        );
+        assert!(hit.dragged_to(&view, pixel).unwrap().distance(point) < 1e-9);
+        // The new position is below the cursor, in the plane z = 0 or at the same depth.
+        let to = hit
+            .dragged_to(&view, pixel + DVec2::new(40.0, 25.0))
+            .unwrap();
+        let (at, new_depth) = view.to_pixel(to).unwrap();
+        assert!(at.distance(pixel + DVec2::new(40.0, 25.0)) < 1e-6);
+        if is_curve {
+            assert_eq!(to.z, 0.0);
+        } else {
+            assert!((new_depth - depth).abs() < 1e-9);
+        }
+        let beside = pixel + DVec2::new(0.0, -9.0);
+        assert_eq!(crate::pick_control_point(&scene, &view, beside), None);
+    }
+}
+
+#[test]
+fn dragging_a_control_point_of_patches_is_one_step() {
+    let (mut editor, store) = editor();
+    let teapot = include_bytes!("../../../../scenes/assets/teapot.bez");
+    store.write(Path::new("teapot.bez"), teapot).unwrap();
+    editor.open(Path::new("teapot.bez")).unwrap();
+    settled(&mut editor);
+    let points = |editor: &Editor| crate::control_points(&editor.view().scene.objects()[0]);
+    let to = DVec3::new(0.25, -1.5, 3.0);
+    for y in [-1.0, to.y] {
+        let to = to.with_y(y);
+        editor.move_control_point("teapot", 3, to, false).unwrap();
+        settled(&mut editor);
+    }
+    let text = editor.text();
+    assert!(
+        text.contains("MovePatchPoint(index: 3, to: (0.25, -1.5, 3)),"),
+        "{text}"
+    );
+    assert_eq!(editor.outline().steps.len(), 2);
+    // The first point of the next patch is at the same position.
+    assert_eq!([points(&editor)[3], points(&editor)[16]], [to; 2]);
 }

@@ -57,6 +57,15 @@ impl Parts {
                 let result = self.editor.move_picked(offset, !is_done);
                 self.report(result);
             }
+            ViewEvent::MoveControlPoint {
+                object,
+                index,
+                to,
+                is_done,
+            } => {
+                let moved = self.editor.move_control_point(&object, index, to, !is_done);
+                self.report(moved);
+            }
         }
     }
 

@@ -156,7 +156,7 @@ fn arrow(ui: &Ui, [p, q]: [Pos2; 2], stroke: Stroke, name: &str) {
 }
 
 /// Rounds a length to a multiple of a power of ten that is at most half of a pixel.
-fn round(length: f64, pixel: f64) -> f64 {
+pub(super) fn round(length: f64, pixel: f64) -> f64 {
     let size = 0.5 * pixel;
     if !(size > 0.0 && size.is_finite()) {
         return 0.0;
@@ -175,7 +175,7 @@ fn round(length: f64, pixel: f64) -> f64 {
     clippy::cast_possible_truncation,
     reason = "positions on the screen are small"
 )]
-fn narrow(x: f64) -> f32 {
+pub(super) fn narrow(x: f64) -> f32 {
     x as f32
 }
 

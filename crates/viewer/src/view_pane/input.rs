@@ -144,7 +144,7 @@ impl ViewPane {
     }
 
     /// Returns the map from the scene to points of the view.
-    fn projection(&self) -> Projection {
+    pub(super) fn projection(&self) -> Projection {
         let extent = self.gpu.as_ref().and_then(|gpu| gpu.painter.extent());
         let (center, radius) = extent.unwrap_or((self.camera.target, self.camera.distance));
         Projection::new(

@@ -1,5 +1,6 @@
 //! The view: draws the scene, turns the camera, and finds what is under the cursor.
 
+mod control_points;
 mod decorations;
 mod gizmo;
 mod input;
@@ -7,7 +8,7 @@ mod loss;
 
 use std::sync::Arc;
 
-use editor::{Hit, Indexes, PickMode, Picked};
+use editor::{ControlPoint, Hit, Indexes, PickMode, Picked};
 use eframe::egui::{self, Align2, Color32, FontId, Pos2, Rect, Role, Sense, Ui, WidgetInfo};
 use eframe::{egui_wgpu, wgpu};
 use glam::DVec2;
@@ -19,6 +20,7 @@ use crate::camera::{Camera, Side};
 use crate::gpu::{Look, Overlay, Painter, can_draw};
 use crate::overlay;
 use crate::theme::Colors;
+use control_points::PointDrag;
 use gizmo::Drag;
 use input::Outline;
 pub(crate) use loss::Loss;
@@ -46,6 +48,17 @@ pub(crate) enum ViewEvent {
     Move {
         /// How far the elements have moved since the start of the drag, in scene units.
         offset: DVec3,
+        /// Whether the drag has ended.
+        is_done: bool,
+    },
+    /// A drag of a control point of a curve or of patches.
+    MoveControlPoint {
+        /// The name of the object.
+        object: String,
+        /// The index of the control point.
+        index: usize,
+        /// The new position, in the space of the object.
+        to: DVec3,
         /// Whether the drag has ended.
         is_done: bool,
     },
@@ -93,6 +106,8 @@ pub(crate) struct ViewPane {
     pub(crate) shows_arrows: bool,
     /// The element under the cursor.
     pub(crate) hovered: Option<Hit>,
+    /// The control point under the cursor.
+    pub(crate) hovered_point: Option<ControlPoint>,
     /// The device. `None` if there is no graphics adapter that can draw scenes.
     gpu: Option<Gpu>,
     /// What goes wrong with the device.
@@ -110,6 +125,8 @@ pub(crate) struct ViewPane {
     area: Option<Outline>,
     /// The arrow that is being dragged.
     drag: Option<Drag>,
+    /// The control point that is being dragged.
+    point_drag: Option<PointDrag>,
     size: DVec2,
     legend: Option<(String, ColorMap, [f64; 2])>,
     /// The places of the shown overlay.
@@ -140,6 +157,7 @@ impl ViewPane {
             mode: PickMode::Any,
             shows_arrows: false,
             hovered: None,
+            hovered_point: None,
             gpu: state.filter(|state| can_draw(state)).map(|state| Gpu {
                 state: state.clone(),
                 painter: Painter::new(&state.device, &state.queue),
@@ -153,6 +171,7 @@ impl ViewPane {
             fit_requested: false,
             area: None,
             drag: None,
+            point_drag: None,
             size: DVec2::new(640.0, 480.0),
             legend: None,
             overlay_key: None,
@@ -213,7 +232,8 @@ impl ViewPane {
         }
         self.upload(shown);
         let mut events = Vec::new();
-        let is_moving = self.gizmo(ui, rect, &response, shown.base, &mut events);
+        let is_moving = self.gizmo(ui, rect, &response, shown.base, &mut events)
+            || self.drag_control_point(ui, rect, &response, shown, &mut events);
         if !is_moving {
             self.pick(ui, rect, &response, shown, &mut events);
             self.navigate(ui, rect, &response);
@@ -309,6 +329,7 @@ impl ViewPane {
             decorations::outline(ui, area, &colors);
         }
         self.paint_gizmo(ui, rect, shown.base);
+        self.paint_control_point(ui, rect);
         decorations::axes(ui, rect, &self.camera);
         if let Some((title, map, range)) = &self.legend {
             decorations::legend(ui, rect, title, *map, *range, &colors);

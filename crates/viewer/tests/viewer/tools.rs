@@ -293,3 +293,82 @@ fn the_layout_of_the_window_is_remembered() {
     window.settle();
     assert!((width(&window).left() - after.left()).abs() < 3.0);
 }
+
+#[test]
+fn dragging_a_control_point_is_one_step_and_one_undo() {
+    let curve = "3\n0 0\n1 2\n2 0\n";
+    let teapot = include_str!("../../../../scenes/assets/teapot.bez");
+    for (name, content, index) in [("a.bzc", curve, 1), ("a.bez", teapot, 3)] {
+        let Some(mut window) = Window::open(name, content) else {
+            return;
+        };
+        let points = |window: &Window| {
+            let scene = window.harness.state().editor().view().scene;
+            editor::control_points(&scene.objects()[0])
+        };
+        let before = points(&window);
+        let at = window.at(before[index]);
+        let text = window.text();
+        let through = [(0.0, 0.0), (10.0, 2.0), (30.0, -20.0), (24.0, -40.0)];
+        let through = through.map(|(x, y)| at + Vec2::new(x, y));
+        window.drag(&through, Modifiers::NONE);
+        let outline = editor::Outline::of(&window.text());
+        assert_eq!(outline.steps.len(), 2, "{}", window.text());
+        // The control point is below the cursor.
+        let moved = points(&window)[index];
+        assert!(moved.distance(before[index]) > 0.1, "{moved}");
+        assert!(window.at(moved).distance(through[3]) < 1.5, "{moved}");
+        // The camera stays where it was.
+        assert!(window.at(before[index]).distance(at) < 1e-3);
+        window.press_with(Modifiers::COMMAND, Key::Z);
+        assert_eq!(window.text(), text);
+        assert_eq!(points(&window), before);
+    }
+}
+
+#[test]
+fn the_wheel_over_a_slider_changes_its_number_in_one_step_of_the_history() {
+    let recipe = "(
+    recipe: 1,
+    steps: [
+        Load(path: \"a.bzc\"),
+        CurveLevels(t: 0.5),
+    ],
+)
+";
+    let Some(mut window) = Window::open("a.ron", recipe) else {
+        return;
+    };
+    std::fs::write(window.path("a.bzc"), "3\n0 0\n1 2\n2 0\n").unwrap();
+    let at = window
+        .harness
+        .get_by_role_and_label(Role::Slider, "t")
+        .rect()
+        .center();
+    window.harness.hover_at(at);
+    window.harness.run_steps(2);
+    for _ in 0..2 {
+        window.harness.event(eframe::egui::Event::MouseWheel {
+            unit: eframe::egui::MouseWheelUnit::Line,
+            delta: Vec2::new(0.0, 1.0),
+            phase: eframe::egui::TouchPhase::Move,
+            source: eframe::egui::MouseWheelSource::Wheel,
+            modifiers: Modifiers::NONE,
+        });
+        window.harness.run_steps(1);
+    }
+    window.harness.run_steps(60);
+    window.settle();
+    let changed = editor::Outline::of(&window.text());
+    let t: f64 = changed
+        .run_of(1)
+        .unwrap()
+        .field("t")
+        .unwrap()
+        .to_string()
+        .parse()
+        .unwrap();
+    assert!(t > 0.51 && t < 0.7, "{t}");
+    window.press_with(Modifiers::COMMAND, Key::Z);
+    assert_eq!(window.text(), recipe);
+}

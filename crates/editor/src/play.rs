@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mesh::{Change, EdgeId, EditError, FaceId, HalfEdgeId, Mesh, VertexId};
+use mesh::{Change, Domain, EdgeId, EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 use op::{EdgeSelection, Elements, Selected};
 use recipe::{read_selection, resolve};
 use ron_tree::{Value, ValueKind};
@@ -12,6 +12,9 @@ use crate::edit::Editor;
 
 /// The maximum number of edits that are played.
 const MAX_EDITS: usize = 10_000;
+
+/// The operation whose level is played as splits, flips and moves.
+const LOOP: &str = "LoopSubdivide";
 
 /// The local edits of a step, at one moment between two of them.
 #[derive(Debug)]
@@ -28,8 +31,8 @@ pub struct Play {
 pub struct PlayedEdit {
     /// What the edit does: `flip e7`.
     pub name: String,
-    /// The edge.
-    pub edge: EdgeId,
+    /// The edge; `None` for an edit that moves vertices.
+    pub edge: Option<EdgeId>,
     /// Why the edit is refused, if it is.
     pub refused: Option<EditError>,
     /// The half-edges around the edge whose pointers change, in the order of their numbers.
@@ -80,24 +83,80 @@ impl Play {
             Some(_) => return None,
         };
         let edges = edges(&selection, scene, object, mesh, label)?;
-        let mut play = Self {
-            mesh: (**mesh).clone(),
-            edits: Vec::new(),
-            changes: Vec::new(),
-            at: 0,
-        };
+        let mut play = Self::new(mesh);
         for &edge in edges.iter().take(MAX_EDITS) {
             let place = selection.place_on(&play.mesh, edge, at);
             play.record(edit, edge, place);
         }
-        play.at = play.edits.len();
-        while play.back() {}
-        Some(play)
+        Some(play.from_start())
+    }
+
+    /// Returns one level of Loop subdivision as local edits: all edges are split, then the new edges between an old and a new
+    /// vertex are flipped, then all vertices move. The moment is before the first edit.
+    ///
+    /// `None` if `after` is not one level of Loop subdivision of all faces of `before`, or if there are more than 10 000
+    /// edits.
+    pub fn of_loop_level(before: &Mesh, after: &Mesh) -> Option<Self> {
+        let (n_vertices, n_edges) = (before.n_vertices(), before.n_edges());
+        let is_one_level = before.is_dense()
+            && before.faces().all(|f| before.is_triangle(f))
+            && after.n_vertices() == n_vertices + n_edges
+            && after.n_faces() == 4 * before.n_faces();
+        // The splits add three edges inside of each triangle. At most all of them are flipped.
+        let n_edits = n_edges + 3 * before.n_faces() + 1;
+        if !is_one_level || n_edits > MAX_EDITS {
+            return None;
+        }
+        let mut play = Self::new(before);
+        let mut new_edges = Vec::new();
+        for edge in before.edges() {
+            let [v, w] = before.edge_vertices(edge);
+            play.record(Edit::Split, edge, 0.5);
+            let middle = VertexId::new(play.mesh.domain_len(Domain::Vertex) - 1);
+            let across = play.mesh.vertex_half_edges(middle);
+            let across = across.filter(|&h| ![v, w].contains(&play.mesh.target(h)));
+            new_edges.extend(across.map(HalfEdgeId::edge));
+        }
+        for edge in new_edges {
+            let ends = play.mesh.edge_vertices(edge);
+            let is_new = |v: VertexId| v.index() >= n_vertices;
+            if is_new(ends[0]) != is_new(ends[1]) {
+                play.record(Edit::Flip, edge, 0.5);
+            }
+        }
+        play.mesh.begin();
+        for (i, &to) in after.positions().iter().enumerate() {
+            play.mesh.set_position(VertexId::new(i), to);
+        }
+        play.edits.push(PlayedEdit {
+            name: "move all vertices".to_owned(),
+            edge: None,
+            refused: None,
+            pointers: Vec::new(),
+        });
+        play.changes.push(play.mesh.commit());
+        Some(play.from_start())
+    }
+
+    fn new(mesh: &Mesh) -> Self {
+        Self {
+            mesh: mesh.clone(),
+            edits: Vec::new(),
+            changes: Vec::new(),
+            at: 0,
+        }
+    }
+
+    /// Undoes all recorded edits.
+    fn from_start(mut self) -> Self {
+        self.at = self.edits.len();
+        while self.back() {}
+        self
     }
 
     /// Whether the edits of an operation can be played.
     pub fn plays(operation: &str) -> bool {
-        Edit::of(operation).is_some()
+        operation == LOOP || Edit::of(operation).is_some()
     }
 
     /// Does an edit and records it.
@@ -105,7 +164,7 @@ impl Play {
         let mesh = &mut self.mesh;
         let around = half_edges_around(mesh, edge);
         let before: Vec<_> = around.iter().map(|&h| pointers(mesh, h)).collect();
-        let first_new = mesh.domain_len(mesh::Domain::Corner);
+        let first_new = mesh.domain_len(Domain::Corner);
         mesh.begin();
         let result = match edit {
             Edit::Flip => mesh.flip_edge(edge),
@@ -120,7 +179,7 @@ impl Play {
             mesh.rollback();
             None
         };
-        let new = (first_new..mesh.domain_len(mesh::Domain::Corner)).map(HalfEdgeId::new);
+        let new = (first_new..mesh.domain_len(Domain::Corner)).map(HalfEdgeId::new);
         let known = around.into_iter().zip(before);
         let all = known.chain(new.map(|h| (h, None)));
         let changed = all.map(|(half_edge, before)| PointerChange {
@@ -130,7 +189,7 @@ impl Play {
         });
         self.edits.push(PlayedEdit {
             name: format!("{} {edge}", edit.word()),
-            edge,
+            edge: Some(edge),
             refused: result.err(),
             pointers: changed
                 .filter(|change| change.before != change.after)
@@ -192,7 +251,7 @@ impl Editor {
 
     /// Returns the edits of a step of the text, and the name of the object that they change: the object of `on`, or else the
     /// picked object, or else the first mesh. `None` if the scene before the step is not known, and in the cases of
-    /// [`Play::of_step`].
+    /// [`Play::of_step`] and, for `LoopSubdivide`, of [`Play::of_loop_level`].
     pub fn play(&self, step: usize) -> Option<(String, Play)> {
         let text = self.outline().steps.get(step)?;
         if !text.enabled || !self.is_run_current() {
@@ -209,7 +268,14 @@ impl Editor {
             Some(_) => named.into_iter().find(is_mesh)?,
             None => picked.into_iter().chain(all).find(is_mesh)?,
         };
-        let play = Play::of_step(&scene, object, self.outline().run_of(step)?, label)?;
+        let run = self.outline().run_of(step)?;
+        let play = if text.name == LOOP {
+            let after = self.scene_before(step + 1)?;
+            let [before, after] = [&scene, &after].map(|scene| scene.object(object)?.as_mesh());
+            Play::of_loop_level(before?, after?)?
+        } else {
+            Play::of_step(&scene, object, run, label)?
+        };
         Some((object.to_owned(), play))
     }
 }

@@ -40,7 +40,7 @@ impl Player {
     /// Returns the object and the edge of the edit that was done last or, before the first edit, is done next. `None` if the
     /// edit has removed the edge.
     pub(crate) fn edge(&self) -> Option<(&str, EdgeId)> {
-        let edge = self.shown()?.edge;
+        let edge = self.shown()?.edge?;
         (self.play.mesh().has_edge(edge)).then_some((self.object.as_str(), edge))
     }
 
@@ -71,7 +71,7 @@ impl Parts {
     pub(crate) fn play(&mut self, step: usize) {
         let Some((object, play)) = self.editor.play(step) else {
             self.inform(
-                "These edits cannot be played: the step must flip, split or collapse edges of a mesh, without `until`.",
+                "These edits cannot be played: the step must flip, split or collapse edges of a mesh, without `until`, or be one level of Loop subdivision of a small mesh.",
             );
             return;
         };

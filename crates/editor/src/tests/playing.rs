@@ -45,3 +45,54 @@ fn playing_the_edits_gives_the_mesh_of_the_step_and_back() {
     let other = parse("PokeFaces()").value;
     assert!(Play::of_step(&scene, "a", &other, "PokeFaces").is_none());
 }
+
+#[test]
+fn splits_flips_and_moves_give_one_level_of_loop_subdivision() {
+    let registry = ops_all::registry();
+    let engine = Engine::new(&registry);
+    for shape in [
+        "Icosahedron(name: \"a\")",
+        "Tetrahedron(name: \"a\")",
+        "Cube(name: \"a\", triangles: true)",
+        // With a boundary.
+        "Grid(name: \"a\", columns: 3, rows: 2), Triangulate()",
+    ] {
+        let scene_of = |steps: &str| {
+            let recipe = format!("(recipe: 1, steps: [{shape}, {steps}])");
+            let loaded = engine.load(&Source::new("a.ron", recipe), &Options::default());
+            loaded.run(Run::default(), &Silent).scene.unwrap()
+        };
+        let mesh = |scene: &Scene| scene.objects()[0].as_mesh().unwrap().clone();
+        let before = mesh(&scene_of(""));
+        let after = mesh(&scene_of("LoopSubdivide()"));
+        let mut play = Play::of_loop_level(&before, &after).unwrap();
+        assert_eq!((play.mesh(), play.position()), (&*before, 0), "{shape}");
+        assert!(play.edits().iter().all(|edit| edit.refused.is_none()));
+        while play.forward() {
+            assert_eq!(play.mesh().defects(), [], "{shape}");
+        }
+        // The faces may begin at other corners and have other numbers.
+        let faces = |mesh: &mesh::Mesh| {
+            let corners = |f| -> Vec<usize> {
+                let mut corners: Vec<usize> = mesh.face_vertices(f).map(|v| v.index()).collect();
+                let first = corners
+                    .iter()
+                    .enumerate()
+                    .min_by_key(|(_, v)| **v)
+                    .unwrap()
+                    .0;
+                corners.rotate_left(first);
+                corners
+            };
+            mesh.faces()
+                .map(corners)
+                .collect::<std::collections::BTreeSet<_>>()
+        };
+        assert_eq!(faces(play.mesh()), faces(&after), "{shape}");
+        assert_eq!(play.mesh().positions(), after.positions(), "{shape}");
+        while play.back() {}
+        assert_eq!(play.mesh(), &*before);
+        let twice = mesh(&scene_of("LoopSubdivide(levels: 2)"));
+        assert!(Play::of_loop_level(&before, &twice).is_none());
+    }
+}

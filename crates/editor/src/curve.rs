@@ -48,7 +48,7 @@ impl ControlPoint {
                 .then(|| (near + along * t).with_z(0.0))?
         } else {
             let (_, depth) = view.to_pixel(self.point)?;
-            of_object.from_pixel(pixel, depth)
+            of_object.point_at(pixel, depth)
         };
         at.is_finite().then_some(at)
     }

@@ -88,7 +88,7 @@ impl Play {
             let place = selection.place_on(&play.mesh, edge, at);
             play.record(edit, edge, place);
         }
-        Some(play.from_start())
+        Some(play.rewound())
     }
 
     /// Returns one level of Loop subdivision as local edits: all edges are split, then the new edges between an old and a new
@@ -135,7 +135,7 @@ impl Play {
             pointers: Vec::new(),
         });
         play.changes.push(play.mesh.commit());
-        Some(play.from_start())
+        Some(play.rewound())
     }
 
     fn new(mesh: &Mesh) -> Self {
@@ -148,7 +148,8 @@ impl Play {
     }
 
     /// Undoes all recorded edits.
-    fn from_start(mut self) -> Self {
+    #[must_use]
+    fn rewound(mut self) -> Self {
         self.at = self.edits.len();
         while self.back() {}
         self

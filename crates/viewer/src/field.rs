@@ -156,24 +156,7 @@ fn widget(ui: &mut Ui, field: &Field) -> Option<Change> {
     };
     let name = of.name.clone();
     match (kind, current) {
-        (FieldKind::Number(limits), FieldValue::Number(mut x)) => {
-            let before = x;
-            let response = match range(limits) {
-                Some((min, max)) => {
-                    let slider = ui.add(Slider::new(&mut x, min..=max).max_decimals(4));
-                    if let Some(change) = by_wheel(ui, &slider, before, [min, max]) {
-                        return Some(change);
-                    }
-                    slider
-                }
-                None => ui.add(unlimited(&mut x, limits)),
-            };
-            dragged(
-                &response.accessible_name(name),
-                || FieldValue::Number(rounded(x)),
-                limits.allows(x),
-            )
-        }
+        (FieldKind::Number(limits), FieldValue::Number(x)) => number(ui, name, x, limits),
         (FieldKind::Integer(limits), FieldValue::Integer(mut n)) => {
             let response = if let Some((min, max)) =
                 range(limits).filter(|(min, max)| max - min <= MAX_SLIDER)
@@ -249,6 +232,26 @@ fn unlimited<'a>(x: &'a mut f64, limits: &Limits) -> DragValue<'a> {
         .speed(speed)
         .range(low..=high)
         .custom_formatter(|x, _| format!("{}", rounded(x)))
+}
+
+/// A slider, or a number field if the number has no range.
+fn number(ui: &mut Ui, name: String, before: f64, limits: &Limits) -> Option<Change> {
+    let mut x = before;
+    let response = match range(limits) {
+        Some((min, max)) => {
+            let slider = ui.add(Slider::new(&mut x, min..=max).max_decimals(4));
+            if let Some(change) = by_wheel(ui, &slider, before, [min, max]) {
+                return Some(change);
+            }
+            slider
+        }
+        None => ui.add(unlimited(&mut x, limits)),
+    };
+    dragged(
+        &response.accessible_name(name),
+        || FieldValue::Number(rounded(x)),
+        limits.allows(x),
+    )
 }
 
 /// Returns the change of a slider or number field: live while it is dragged, and final at the end.

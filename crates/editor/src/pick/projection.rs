@@ -45,13 +45,13 @@ impl Projection {
     /// Returns the ray through a pixel: a point on the near plane, and a direction away from the viewer whose end is on
     /// the far plane.
     pub fn ray(&self, pixel: DVec2) -> (DVec3, DVec3) {
-        let near = self.from_pixel(pixel, 0.0);
-        (near, self.from_pixel(pixel, 1.0) - near)
+        let near = self.point_at(pixel, 0.0);
+        (near, self.point_at(pixel, 1.0) - near)
     }
 
     /// Returns the point at a pixel with this depth, from 0 (near) to 1. Points of the same depth lie in a plane that is
     /// parallel to the picture.
-    pub fn from_pixel(&self, pixel: DVec2, depth: f64) -> DVec3 {
+    pub fn point_at(&self, pixel: DVec2, depth: f64) -> DVec3 {
         let flat = DVec2::new(
             2.0 * pixel.x / self.size.x - 1.0,
             1.0 - 2.0 * pixel.y / self.size.y,

@@ -74,7 +74,8 @@ fn splits_flips_and_moves_give_one_level_of_loop_subdivision() {
         // The faces may begin at other corners and have other numbers.
         let faces = |mesh: &mesh::Mesh| {
             let corners = |f| -> Vec<usize> {
-                let mut corners: Vec<usize> = mesh.face_vertices(f).map(|v| v.index()).collect();
+                let mut corners: Vec<usize> =
+                    mesh.face_vertices(f).map(mesh::VertexId::index).collect();
                 let first = corners
                     .iter()
                     .enumerate()

@@ -481,6 +481,32 @@ class SceneOperations:
         """
         return self._apply('MoveControlPoint', {'index': index, 'to': to}, on, id)
 
+    def move_patch_point(
+        self,
+        index: int | Arg | Ron,
+        to: Sequence[float] | NDArray[Any] | Arg | Ron,
+        *,
+        on: str | Sequence[str] | None = None,
+        id: str | None = None,
+    ) -> Self:
+        """Moves one control point of Bezier patches.
+
+        Acts on all objects that consist of patches, or on the objects in ``on``. Control points of the same object that
+        are at the same position move together, so that patches with a common side stay joined. The point of a patch at
+        the parameters (u, v) moves by the offset of the control point, multiplied by the values at u and v of the
+        Bernstein polynomials of the control point. The report counts the objects.
+
+        Example: ``scene.move_patch_point(index=5, to=(1, 2, 0.5))``, in a recipe ``MovePatchPoint(index: 5, to: (1, 2,
+        0.5))``
+
+        :param index: The index of the control point, from 0: 16 times the index of the patch, plus 4 times the row,
+            plus the column. Every object on which the step acts must have a control point with this index.
+        :param to: The new position ``(x, y, z)``, in scene units.
+        :param on: The objects that the step acts on. If omitted, all that it supports.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        """
+        return self._apply('MovePatchPoint', {'index': index, 'to': to}, on, id)
+
     def copy(
         self,
         from_: str | Arg | Ron,
@@ -2972,6 +2998,30 @@ class MeshOperations:
         :returns: The new mesh. This mesh does not change.
         """
         return self._apply('MoveControlPoint', {'index': index, 'to': to}, None, id)
+
+    def move_patch_point(
+        self,
+        index: int | Ron,
+        to: Sequence[float] | NDArray[Any] | Ron,
+        *,
+        id: str | None = None,
+    ) -> Self:
+        """Moves one control point of Bezier patches.
+
+        Acts on all objects that consist of patches, or on the objects in ``on``. Control points of the same object that
+        are at the same position move together, so that patches with a common side stay joined. The point of a patch at
+        the parameters (u, v) moves by the offset of the control point, multiplied by the values at u and v of the
+        Bernstein polynomials of the control point. The report counts the objects.
+
+        Example: ``mesh.move_patch_point(index=5, to=(1, 2, 0.5))``
+
+        :param index: The index of the control point, from 0: 16 times the index of the patch, plus 4 times the row,
+            plus the column. Every object on which the step acts must have a control point with this index.
+        :param to: The new position ``(x, y, z)``, in scene units.
+        :param id: The id of the step, which seeds its random choices. Defaults to the name of the operation.
+        :returns: The new mesh. This mesh does not change.
+        """
+        return self._apply('MovePatchPoint', {'index': index, 'to': to}, None, id)
 
     def transform(
         self,

@@ -4,7 +4,8 @@ use std::f64::consts::PI;
 
 use mesh::{FaceId, Mesh};
 
-/// Returns the smallest corner angle of a face, in radians: π / 3 for an equilateral triangle, nearly 0 for a needle.
+/// Returns the smallest corner angle of a face, in radians: π / 3 for an equilateral triangle, nearly 0 for a very thin
+/// triangle.
 pub fn min_angle(mesh: &Mesh, f: FaceId) -> f64 {
     let angles = mesh.face_half_edges(f).map(|h| mesh.corner_angle(h));
     angles.fold(f64::INFINITY, f64::min)

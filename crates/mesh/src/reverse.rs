@@ -78,7 +78,7 @@ impl Mesh {
         reversed
     }
 
-    /// Reverses the orientation of every face in place, as [`reversed`](Self::reversed) does.
+    /// Reverses the orientation of every face in place. The result is that of [`reversed`](Self::reversed).
     pub fn reverse(&mut self) {
         self.replace(self.reversed());
     }

@@ -21,9 +21,9 @@
 //! ```
 //!
 //! Without smoothing, each piece is similar to its old triangle, or is half of a triangle that is similar to the old
-//! triangle. Angles therefore do not become smaller with each level: the cotangent of the smallest angle grows by at
-//! most a factor of three over all levels. Source: Bank, Sherman and Weiser, "Refinement Algorithms and Data Structures
-//! for Regular Local Mesh Refinement", 1983.
+//! triangle. So the number of levels does not matter for the smallest angle: over all levels, its cotangent grows by at
+//! most a factor of three. Source: Bank, Sherman and Weiser, "Refinement Algorithms and Data Structures for Regular
+//! Local Mesh Refinement", 1983.
 //!
 //! # Polygons
 //!
@@ -84,7 +84,7 @@ use smoothed::{LocalMasks, SmoothedElements};
 ///
 /// Returns [`SubdivisionError::WholeMesh`] for Butterfly, Sqrt3 and Doo-Sabin, [`SubdivisionError::FlagCount`]
 /// unless `faces` has one flag for each face, [`SubdivisionError::NotTriangle`] if the scheme needs triangles
-/// and a face has more corners, [`SubdivisionError::TooLarge`] if a level would have more elements than there
+/// and a face is not a triangle, [`SubdivisionError::TooLarge`] if a level would have more elements than there
 /// are ids or take more than `budget` bytes, [`SubdivisionError::TooFar`] if a coordinate is too large,
 /// [`SubdivisionError::Cancelled`] if the progress listener asks to stop.
 pub fn refine_faces(

@@ -63,7 +63,7 @@ pub struct Size<N = u64> {
     pub isolated: N,
     /// The number of inner vertices of valence 2.
     pub inner_of_valence_2: N,
-    /// The bytes of all attributes of one vertex, one corner, one edge and one face.
+    /// The number of bytes that all attributes together take for one vertex, one corner, one edge and one face.
     pub attributes: [u64; 4],
 }
 

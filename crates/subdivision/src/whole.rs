@@ -35,7 +35,7 @@ use crate::size::Size;
 ///
 /// # Errors
 ///
-/// Returns [`SubdivisionError::NotTriangle`] if the scheme needs triangles and a face has more corners,
+/// Returns [`SubdivisionError::NotTriangle`] if the scheme needs triangles and a face is not a triangle,
 /// [`SubdivisionError::TooLarge`] if the result would have more elements than there are ids,
 /// [`SubdivisionError::TooFar`] if a coordinate is too large, [`SubdivisionError::Cancelled`] if the progress
 /// listener asks to stop.

@@ -23,7 +23,7 @@ const LEAST_SINE: f64 = 0.25;
 pub enum BevelRefusal {
     /// The edge does not have a face on both sides.
     Boundary,
-    /// This end of the edge has too few other edges.
+    /// The vertex at this end of the edge has too few other edges: fewer than two new vertices would replace it.
     FewEdges(VertexId),
     /// The bevels at the two ends of an edge of a face would overlap.
     TooWide,
@@ -119,8 +119,9 @@ struct Corner {
 #[derive(Clone, Copy)]
 struct Point {
     position: DVec3,
-    /// The weight of the target of the half-edge, and the weight of the origin of the half-edge before it in the face.
+    /// The weight of the target of the half-edge, for the interpolation of values.
     along: f64,
+    /// The weight of the origin of the half-edge before it in the face.
     before: f64,
 }
 

@@ -24,7 +24,7 @@ pub struct Cuts {
 
 impl Cuts {
     /// Converts `fraction` of the length that `e` had before all bevels to a fraction of its current length. The
-    /// result is 1 or more if the current length is too short.
+    /// result is 1 or more if the current length is too short for the cut.
     pub fn fraction(&self, e: EdgeId, fraction: f64) -> f64 {
         fraction / self.remaining.get(e.index()).unwrap_or(&1.0)
     }

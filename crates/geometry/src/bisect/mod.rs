@@ -15,7 +15,7 @@ pub use symmetrize::{SymmetrizeError, Symmetrized, symmetrize};
 /// A vertex counts as on the plane if its distance is at most this fraction of the largest extent of the mesh.
 const RELATIVE_TOLERANCE: f64 = 1e-9;
 /// A vertex also counts as on the plane if its distance is at most this fraction of the largest absolute coordinate of
-/// the mesh and the point of the plane, because rounding errors of coordinates far from the origin have this size.
+/// the mesh and of the point of the plane. Coordinates far from the origin have rounding errors of this size.
 const ROUNDING_TOLERANCE: f64 = 1e-14;
 
 /// The result of [`bisect`].

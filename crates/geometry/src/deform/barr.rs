@@ -46,9 +46,9 @@ impl Frame {
     }
 }
 
-/// Rotates points around the axis, by an angle that grows with the height: (x, y, z) moves to (x cos θ - y sin
-/// θ, x sin θ + y cos θ, z), where θ grows linearly from 0 at `from` to the angle at `to`. The twist preserves
-/// volume. The inverse of a twist is the twist by the opposite angle.
+/// Rotates points around the axis, by an angle that changes with the height. A point (x, y, z) moves to
+/// (x cos θ - y sin θ, x sin θ + y cos θ, z), where θ changes linearly from 0 at `from` to the angle at `to`. The
+/// twist preserves volume. The inverse of a twist is the twist by the opposite angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Twist {
     /// The coordinates.
@@ -67,7 +67,7 @@ impl Twist {
     }
 }
 
-/// Scales points around the axis, by a factor that changes with the height: (x, y, z) moves to (s x, s y, z),
+/// Scales points around the axis, by a factor that changes with the height. A point (x, y, z) moves to (s x, s y, z),
 /// where s changes linearly from 1 at `from` to the factor at `to`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Taper {

@@ -116,7 +116,7 @@ impl Distance {
         self.forth.largest >= self.back.largest
     }
 
-    /// Returns the direction with the larger distance.
+    /// Returns the distances in one direction: from the surface whose largest distance to the other surface is larger.
     pub fn worst(&self) -> &OneSided {
         if self.is_worst_forth() {
             &self.forth

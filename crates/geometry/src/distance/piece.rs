@@ -126,8 +126,8 @@ impl Piece {
         self.corners.iter().map(distance).fold(0.0, f64::max)
     }
 
-    /// Whether cutting the piece can lower its bound enough. Cutting does not help if the distance of a corner is
-    /// inexact and the bound exceeds the largest corner distance by at most `tolerance`.
+    /// Whether it is useful to cut the piece. Cutting does not help if the distance of a corner is inexact and the
+    /// bound exceeds the largest corner distance by at most `tolerance`.
     fn can_improve(&self, tolerance: f64) -> bool {
         let hits = self.corners.map(|s| s.hit);
         let far = hits.iter().fold(0.0, |d, hit| hit.distance.max(d));

@@ -8,7 +8,7 @@
 //!
 //! Sources: Crane, Weischedel, Wardetzky, "Geodesics in Heat", 2013, and Sharp, Crane, "A Laplacian for Nonmanifold
 //! Triangle Meshes", 2020, for the Laplacian of the intrinsic Delaunay triangulation, which is accurate even if
-//! triangles are needles.
+//! triangles are very thin.
 
 mod intrinsic;
 #[cfg(test)]

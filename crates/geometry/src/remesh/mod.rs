@@ -188,7 +188,7 @@ pub enum RemeshError {
     TooFar {
         /// The bound of the distance in the last attempt, in scene units.
         reached: f64,
-        /// The limit.
+        /// The allowed error, in scene units.
         limit: f64,
     },
     /// The caller asked to stop.

@@ -332,7 +332,7 @@ fn fixed_kinds(source: &Mesh, mesh: &Mesh, lines: &[bool], pinned: &[VertexId]) 
         let is_straight = x.dot(y) > STRAIGHT * (x.length_squared() * y.length_squared()).sqrt();
         !is_straight
     };
-    // A new vertex gets a tag if all vertices beside it have the tag.
+    // A new vertex gets a tag only if all original vertices around its location have the tag.
     let loses_tag = |v: VertexId, kind: Kind| {
         tags.iter().any(|tag| {
             tag[v.index()]

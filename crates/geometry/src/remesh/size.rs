@@ -65,7 +65,7 @@ impl Sizes {
             let lengths = mesh.face_half_edges(f).map(|h| mesh.length(h));
             let longest = lengths.fold(0.0, f64::max);
             let share = mesh.face_area(f) / (0.25 * 3.0_f64.sqrt() * size * size);
-            // A needle has a small area, but must be split along its length.
+            // A very thin triangle has a small area, but must be split along its length.
             let splits = longest / (LONG * size);
             1.0 + 2.0 * (share + splits.floor())
         })

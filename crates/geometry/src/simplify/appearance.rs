@@ -64,7 +64,7 @@ pub(super) struct Appearance {
     n: usize,
     /// The number of components of columns that are not normals.
     n_placing: usize,
-    /// By half-edge with a face: the wedge of this corner.
+    /// By half-edge with a face: the wedge of its corner.
     wedges: Vec<u32>,
     /// By wedge: a third of the area of its triangles.
     areas: Vec<f64>,

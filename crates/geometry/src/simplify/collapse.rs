@@ -80,7 +80,8 @@ pub(super) struct Collapser<'a> {
     pub(super) options: &'a Options<'a>,
 }
 
-/// The faces around an edge, and the wedges that become one with their values.
+/// The faces around an edge before its collapse, and the pairs of wedges that the collapse merges, with their new
+/// values.
 pub(super) type Values = (Around, Vec<(Pair, Vec<f64>)>);
 
 /// The data that is computed for an allowed collapse before the mesh changes.

@@ -42,7 +42,7 @@ pub use factor::Factor;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SymmetricMatrix {
-    /// The entries of row i are from `starts[i]` to `starts[i + 1]`.
+    /// The entries of row i are from `starts[i]` to `starts[i + 1]`, exclusive.
     starts: Vec<usize>,
     /// The column of each entry, ascending in a row.
     columns: Vec<u32>,

@@ -15,8 +15,8 @@
 //! longest side of the box of the centers; each child gets half of the triangles. A node also has a slab: two parallel
 //! planes around its triangles. The tree depends only on the mesh, not on the number of threads.
 //!
-//! A face with more than three corners is divided into triangles: four corners into a fan, more corners by ear
-//! clipping ([`triangulate`](mod@crate::triangulate)).
+//! A face with four corners is divided into a fan of two triangles. A face with more corners is divided by ear clipping
+//! ([`triangulate`](mod@crate::triangulate)).
 
 mod build;
 mod intersect;

@@ -59,8 +59,8 @@ impl SurfaceIndex {
         hits
     }
 
-    /// Returns the first point of each ray, given by origin and direction, as [`ray`](Self::ray) finds it. Runs in
-    /// parallel.
+    /// Returns, for each ray, the first point where it meets the surface, as [`ray`](Self::ray) does. Each ray is given
+    /// by its origin and its direction. Runs in parallel.
     ///
     /// # Errors
     ///
@@ -129,7 +129,7 @@ impl SurfaceIndex {
     }
 }
 
-/// A ray, and the shear that moves it into the axis `axes[2]`.
+/// A ray, and the shear that makes it parallel to the axis `axes[2]`.
 struct Ray {
     origin: DVec3,
     direction: DVec3,
@@ -206,7 +206,8 @@ impl Ray {
         };
         let depth = weights[0] * moved[0][z] + weights[1] * moved[1][z] + weights[2] * moved[2][z];
         let along = depth / self.direction[z];
-        // The order of the axes is right-handed, so a triangle whose corners turn left faces the positive last axis.
+        // The order of the axes is right-handed, so a triangle whose corners turn left faces in the positive direction
+        // of the last axis.
         let is_front = (side == Less) == (self.direction[z] > 0.0);
         (along >= 0.0).then(|| RayHit {
             t: along,

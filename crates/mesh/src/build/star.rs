@@ -28,8 +28,8 @@ pub(super) struct Star {
     /// The index in these lists of a corner that has no predecessor, at the start of a fan; 0 if all fans are closed.
     start: usize,
     is_closed: bool,
-    /// Whether an edge at the vertex is not a manifold edge. Can be false if all sides along such an edge end at the
-    /// vertex; the star at the other end of the edge then has the flag.
+    /// Whether any edge at the vertex is known to be non-manifold. If all sides along a non-manifold edge end at the
+    /// vertex, the flag can be false here; it is then true in the star of the vertex at the other end of the edge.
     pub(super) has_non_manifold_edge: bool,
 }
 

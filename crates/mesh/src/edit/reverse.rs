@@ -19,7 +19,7 @@ impl Mesh {
     /// reverse order. Values of corners stay with their vertex and face. Normals (columns of
     /// [`Rule::Normal`]) of the vertices and corners are negated. Other components do not change.
     ///
-    /// To reverse the whole mesh, [`reverse`](Self::reverse) is faster.
+    /// To reverse the whole mesh, use [`reverse`](Self::reverse), which is faster.
     ///
     /// [`Rule::Normal`]: crate::Rule::Normal
     ///

@@ -59,7 +59,7 @@ fn normal([a, b]: &[DVec3; 2]) -> DVec3 {
 /// # Errors
 ///
 /// Returns [`SubdivisionError::NoLimit`] for other schemes, [`SubdivisionError::NotTriangle`] if the scheme needs
-/// triangles and a face has more corners, [`SubdivisionError::TooFar`] if a coordinate is too large, and
+/// triangles and a face is not a triangle, [`SubdivisionError::TooFar`] if a coordinate is too large, and
 /// [`SubdivisionError::Cancelled`] if the progress listener asks to stop.
 ///
 /// # Examples

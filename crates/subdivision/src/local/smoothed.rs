@@ -38,7 +38,7 @@ pub(super) struct LocalMasks<'a> {
 }
 
 impl LocalMasks<'_> {
-    /// Returns the id that vertex `i` would have if all faces were cut, or `None` if it is not smoothed.
+    /// Returns the id that vertex `i` would have if all faces were cut, or `None` if the vertex is not smoothed.
     fn index_in_full_level(&self, i: usize) -> Option<usize> {
         let pieces = self.pieces;
         let (n_vertices, n_edges) = (pieces.mesh.n_vertices(), pieces.mesh.n_edges());

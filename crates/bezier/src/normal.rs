@@ -41,7 +41,8 @@ use crate::patch::size;
 ///
 /// The value is well above the rounding errors of the coefficients (1e-14), and above the coefficients at an
 /// edge that is collapsed only within the tolerance of [`tessellate`](crate::tessellate()). Near a pole (within
-/// 1e-10 times the size of the patch), the next coefficient gives a better normal anyway.
+/// 1e-10 times the size of the patch), a coefficient below this value is inaccurate, and the next coefficient gives a
+/// more accurate normal.
 pub const VANISHING: f64 = 1e-10;
 
 /// Returns the limit of the normals along a line into the patch from `uv`; `None` if the normals are zero along all

@@ -11,9 +11,9 @@
 //!                                 +-> u   that du x dv points to
 //! ```
 //!
-//! Vertex ids increase along u first, then along v, then from patch to patch. Patches share no vertices; weld
-//! the result to join them. If two patches have the same control points on a common boundary, in either
-//! direction, their positions there are equal bit for bit.
+//! Vertex ids increase along u first, then along v, then from patch to patch. Patches share no vertices; to join the
+//! patches, weld the vertices of the result. If two patches have the same control points on a common boundary, in
+//! either direction, their positions there are equal bit for bit.
 //!
 //! A collapsed side, whose points coincide (as at the pole of a teapot's lid), becomes one vertex, and adjacent
 //! collapsed sides together become one vertex. A cell with one collapsed side becomes a triangle; a cell with more

@@ -255,7 +255,7 @@ fn a_change_of_any_key_ingredient_runs_a_step_again() {
         ),
         (
             with("(id: \"y\", run: Lift(by: 1))"),
-            "its id changed, which seeds random choices",
+            "its id changed, and the id seeds random choices",
         ),
         (
             with("(id: \"x\", run: Lift(by: 1), on: [\"b\"])"),

@@ -1,4 +1,4 @@
-//! Failure capsules: folders that contain everything needed to reproduce the failure of a step.
+//! Failure capsules: folders with a recipe and a scene that reproduce the failure of a step.
 //!
 //! ```text
 //! capsule/recipe.ron     loads before.mws, then runs the step that failed and the steps after it
@@ -6,8 +6,8 @@
 //! ```
 //!
 //! `recipe.ron` is an ordinary recipe in which parameters are replaced by their values, and calls and repetitions by
-//! their steps. Steps keep their labels, so that random choices are the same. Files are read from their original
-//! locations.
+//! their steps. Steps keep their labels, so that they make the same random choices as in the original run. The files
+//! that the steps read are not copied: `recipe.ron` refers to their original locations.
 
 use std::path::{Path, PathBuf};
 
@@ -84,7 +84,7 @@ fn line(step: &RecipeStep, value: &Value) -> String {
     format!("({})", fields.join(", "))
 }
 
-/// Rewrites the paths of input files from one folder to another.
+/// Rewrites the paths of input files: a path relative to `folders.from` becomes relative to `folders.to`.
 fn rebase_inputs(value: &mut Value, folders: Rebase, inputs: &[PathBuf]) {
     match &mut value.kind {
         ValueKind::String(text) if inputs.contains(&folders.from.join(&**text)) => {

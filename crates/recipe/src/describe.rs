@@ -32,7 +32,7 @@ pub struct VariantDoc {
     pub fields: Vec<FieldDoc>,
 }
 
-/// Returns the parameters of an operation, in the order of its struct.
+/// Returns the parameters of an operation, in the order of the fields of its struct.
 pub fn fields(schema: &Json) -> Vec<FieldDoc> {
     fields_of(&Schema::root(schema), true)
 }
@@ -114,7 +114,8 @@ pub fn selections() -> Vec<TypeDoc> {
     all
 }
 
-/// Describes the kind of value: the name of its type if it has one and is not a tuple, or else its form.
+/// Describes the kind of value that a schema allows: the name of the type if the type has a name and is not a tuple, or
+/// else the form of the value.
 fn kind(schema: &Schema) -> String {
     match schema.reference() {
         Some(name) if schema.list("prefixItems").is_empty() => name.to_owned(),
@@ -220,8 +221,8 @@ fn default_of(schema: &Schema, value: &Json) -> String {
     }
 }
 
-/// Formats a JSON value as RON. An object whose only key is capitalized is a variant, and an array of 1 to 4 numbers is
-/// a tuple.
+/// Formats a JSON value as RON. An object with one key, which is capitalized, is a variant, and an array of 1 to 4
+/// numbers is a tuple.
 fn to_ron(value: &Json) -> String {
     match value {
         Json::Null => "none".to_owned(),

@@ -42,7 +42,7 @@ pub enum JobEnd<T> {
     Done(T),
     /// The job panicked with this message.
     Panicked(String),
-    /// The job was not started, because of `stop`.
+    /// The job was not started, because [`Jobs::stop`] returned `true`.
     NotRun,
 }
 
@@ -51,7 +51,7 @@ pub enum JobEnd<T> {
 #[error("cannot start the threads: {0}")]
 pub struct JobsError(#[from] ThreadPoolBuildError);
 
-/// A list of jobs. Each job is given by its index.
+/// A list of jobs. Each job is identified by its index.
 #[derive(Clone, Copy, Debug)]
 pub struct Jobs<B, S, W> {
     /// The number of jobs.
@@ -278,8 +278,9 @@ impl<T> InOrder<T> {
     }
 }
 
-/// The estimated memory for each byte of input files, if a forecast has no upper limit for its meshes: the file itself,
-/// the mesh (from the size of the file for text to three times the size for binary files), and an edited copy.
+/// The estimated memory, in bytes, for each byte of the input files if a forecast has no upper limit for its meshes.
+/// The memory holds the file itself, its mesh, and an edited copy of the mesh. A mesh is about as large as its file if
+/// the file is text, and up to three times as large if the file is binary.
 const BYTES_FOR_EACH_BYTE_READ: u64 = 8;
 
 impl Forecast {

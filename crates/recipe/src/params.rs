@@ -63,8 +63,8 @@ pub enum Param {
         doc: Option<String>,
     },
     /// The path of an input file. The default is relative to the recipe's folder; a path set on the command line is
-    /// relative to the working directory. Output paths can contain `{name.stem}` and `{name.name}`, which stand for
-    /// the file name without and with its extension.
+    /// relative to the working directory. Output paths can contain `{p.stem}` and `{p.name}`, where `p` is the name of
+    /// the parameter. They stand for the file name without and with its extension.
     Path {
         /// The default value.
         default: String,
@@ -167,7 +167,7 @@ impl Param {
                 Ok(value(ValueKind::String(text.clone())))
             }
             (Self::Path { .. }, ValueKind::String(text)) => {
-                // The same file has the same path, however it is given.
+                // A file gets the same path, whether it is given as an absolute or as a relative path.
                 let rebased = |f: Rebase| {
                     let path = rebase_path(f.store, text, f.from, f.to);
                     below(&path, f.to).unwrap_or(path)

@@ -163,7 +163,7 @@ pub struct RecipeStep {
     pub value: Value,
     /// For each repetition around the step, from the outside in, the number of the current repetition, counted from 1.
     pub(crate) turns: Vec<u32>,
-    /// The label without its repetitions.
+    /// The label without the numbers of the repetitions.
     pub(crate) stem: String,
 }
 

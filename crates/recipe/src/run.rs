@@ -68,7 +68,7 @@ pub fn run_from(
     settings: Settings,
     listener: &dyn Listener,
 ) -> Outcome {
-    // The cache accesses inputs and outputs directly on disk.
+    // The cache accesses inputs and outputs directly on disk, so it does not work with files in a different store.
     let is_usable = first == 0 && settings.files.store.is_disk();
     let cache = settings.cache.filter(|_| is_usable);
     let mut runner = Runner {

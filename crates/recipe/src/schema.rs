@@ -1,4 +1,4 @@
-//! JSON schemas of whole recipes, for editors, and of their parts, for the reader.
+//! JSON schemas: of whole recipes, for editors, and of the parts of recipes, for the reader of recipes.
 
 use std::collections::HashMap;
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
@@ -101,7 +101,7 @@ fn flow_fields(kind: Kind, step: &Json) -> Json {
                 "with": {
                     "type": "object",
                     "additionalProperties": {},
-                    "description": "Values for its parameters. The other parameters keep their defaults.",
+                    "description": "Values for parameters of the called recipe. The others keep their defaults.",
                 },
             }),
             json!(["recipe"]),
@@ -139,7 +139,7 @@ fn flow_fields(kind: Kind, step: &Json) -> Json {
     })
 }
 
-/// Returns the schema of the fields around an expectation, in which the expectation can be anything.
+/// Returns the schema of `(after: .., on: .., that: ..)`, in which `that` can be anything.
 pub(crate) fn expectation_envelope() -> Json {
     expectation_fields(&json!({}))
 }
@@ -274,8 +274,8 @@ fn reference<T: JsonSchema>(defined: &mut SchemaGenerator) -> Json {
     defined.subschema_for::<T>().to_value()
 }
 
-/// Extends each enumeration marked with `x-shorthand` by the contents of its variants, because its outer name can be
-/// omitted.
+/// Extends each enumeration marked with `x-shorthand` by the contents of its variants, because the name of the variant
+/// can be omitted.
 fn allow_shorthand(schema: &mut Json) {
     match schema {
         Json::Object(object) => {

@@ -61,7 +61,7 @@ pub fn read_step<T: DeserializeOwned + JsonSchema>(source: &str) -> Result<T, Ve
     T::deserialize(parameters).map_err(|error| vec![shape::unread(step.span, error)])
 }
 
-/// Returns a text that starts with the name of a variant of `T`, with the case of the name corrected: `front` becomes
+/// Returns `text` with the case of the name at its start corrected, if the name is a variant of `T`: `front` becomes
 /// `Front`.
 pub fn with_case_of<T: JsonSchema>(text: &str) -> String {
     let end = text.find(|c: char| !(c.is_alphanumeric() || c == '_'));

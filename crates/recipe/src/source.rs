@@ -96,7 +96,8 @@ pub(crate) fn rebase_path(store: &dyn Store, text: &str, from: &Path, to: &Path)
     }
 }
 
-/// Returns an absolute path relative to a folder; `None` if the path does not begin with the path of the folder.
+/// Converts an absolute path to a path relative to `folder`. `None` if the path does not begin with the path of the
+/// folder.
 pub(crate) fn below(path: &Path, folder: &Path) -> Option<PathBuf> {
     let absolute = if folder.has_root() {
         folder.to_owned()

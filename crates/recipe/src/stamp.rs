@@ -4,9 +4,9 @@
 //! meshwright 0.1.0, recipe 1f0c..e2, {"file":"teapot.ron","set":{"levels":"2"},"inputs":{"a.bez":"9a.."}}
 //! ```
 //!
-//! The digest of the recipe comes before the details of the run, so that formats that store only a short text keep it.
-//! The stamp contains no absolute paths. A file is given by its path relative to the recipe's folder, or only by its
-//! name if its path is absolute and leads out of this folder.
+//! The digest of the recipe comes before the details of the run, so that a format that stores only a short text still
+//! stores the digest. The stamp contains no absolute paths. A file is given by its path relative to the recipe's
+//! folder, or only by its name if its path is absolute and leads out of this folder.
 
 use std::fmt;
 use std::path::Path;
@@ -45,7 +45,7 @@ pub struct Run {
     pub inputs: Pairs,
 }
 
-/// Names with strings, sorted by name.
+/// A map from names to strings, sorted by name.
 pub type Pairs = std::collections::BTreeMap<String, String>;
 
 impl Stamp {

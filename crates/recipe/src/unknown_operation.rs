@@ -25,7 +25,7 @@ pub fn suggest_operations(name: &str, registry: &Registry) -> String {
     let mut also_called: Vec<&str> = also_called.map(|entry| entry.name).collect();
     also_called.retain(|name| !suggestions.contains(name));
     if !also_called.is_empty() {
-        // A similar name is only a guess.
+        // A similar name is only a guess, so only the most similar name is kept.
         suggestions.truncate(1);
     }
     suggestions.extend(also_called);

@@ -22,7 +22,8 @@ pub struct Update {
     pub changes: Vec<Change>,
     /// The reference files to write, with their contents.
     pub files: BTreeMap<PathBuf, Vec<u8>>,
-    /// The failures that the update does not fix, in the order of the run. The help of an expectation gives the reason.
+    /// The failures that the update does not fix, in the order of the run. For an expectation, the help text gives the
+    /// reason.
     pub left: Vec<Diagnostic>,
 }
 

@@ -1,9 +1,9 @@
 //! Checks the attributes of meshes from step to step: the meshes must have the attributes that a step needs, and a step
 //! must not lose attributes unless `on_loss` allows it.
 //!
-//! The plan of each step states which attributes the step keeps, provides and drops. An attribute is lost if a mesh
-//! certainly has it before a step but not after the step. An attribute is missing if all attributes of the mesh are
-//! known and the attribute is not one of them.
+//! The plan of each step states which attributes the step keeps, provides and drops. An attribute counts as lost if a
+//! mesh certainly has it before a step and the plan does not list it after the step. An attribute is missing if all
+//! attributes of the mesh are known and the attribute is not one of them.
 
 use std::collections::HashSet;
 
@@ -30,7 +30,7 @@ struct DroppedAttribute {
     step: String,
 }
 
-/// For each mesh, the name of the mesh and the attributes that the mesh certainly has.
+/// The name of each mesh that certainly has attributes, with these attributes.
 pub(super) type CertainAttributes = Vec<(String, Vec<PlannedAttribute>)>;
 
 fn key(attribute: &PlannedAttribute) -> (Domain, &str) {
@@ -38,7 +38,7 @@ fn key(attribute: &PlannedAttribute) -> (Domain, &str) {
 }
 
 impl Attributes {
-    /// Reports attributes that a step certainly loses although `on_loss` does not allow it.
+    /// Records the attributes that a step certainly loses, and reports those that `on_loss` does not allow it to lose.
     pub(super) fn losses(
         &mut self,
         step: &RecipeStep,
@@ -47,7 +47,8 @@ impl Attributes {
         found: &mut Vec<Diagnostic>,
     ) {
         for (object, had) in before {
-            // If the step removes the whole object, this is deliberate and is not reported as a loss.
+            // If the step removes the whole object, the removal is deliberate, so the attributes of the object do not
+            // count as lost.
             let Some(PlannedGeometry::Mesh(mesh)) = plan.object(object).map(|o| &o.geometry) else {
                 continue;
             };
@@ -71,8 +72,8 @@ impl Attributes {
         }
     }
 
-    /// Reports errors in the selections of a step: each `Tagged(..)` and each `Where(..)` whose tag or attribute one of
-    /// the meshes certainly lacks, and each `Where(..)` without a bound.
+    /// Reports errors in the selections of a step: each `Tagged(..)` and each `Where(..)` with a tag or an attribute
+    /// that one of the meshes certainly does not have, and each `Where(..)` without a bound.
     pub(super) fn needs(&self, step: &RecipeStep, plan: &Plan, found: &mut Vec<Diagnostic>) {
         // If the recipe expects a refusal, the missing tag may be the reason for the refusal.
         if plan.incomplete || step.refused.is_some() {
@@ -152,7 +153,7 @@ impl Attributes {
         let mut names: Vec<&str> = attributes.map(|a| a.name.as_str()).collect();
         names.dedup();
         if names.is_empty() {
-            return "no earlier step creates one".to_owned();
+            return format!("no earlier step creates \"{name}\"");
         }
         did_you_mean(name, names)
     }
@@ -205,7 +206,7 @@ struct Needed<'v> {
     name: &'v str,
     span: Span,
     is_tag: bool,
-    /// Whether it is a `Where` without a bound.
+    /// Whether the selection is a `Where` without a bound.
     is_unbounded: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Checks a recipe without running it: plans every step on the forecast of the scene before it.
+//! Checks a recipe without running it: plans every step on the forecast of the scene before the step.
 
 mod attributes;
 mod selections;
@@ -123,7 +123,7 @@ pub fn check_from(recipe: &Recipe, scene: &Scene, files: &Files, budget: u64) ->
         forecast.add(recipe, placed.scope, found);
     }
     forecast.diagnostics.sort_by_key(|d| (d.source, d.span));
-    // Each repetition of a step gives the same diagnostics.
+    // Each repetition of a step can give the same diagnostic, so duplicates are removed.
     forecast.diagnostics.dedup();
     forecast.outputs = plan.outputs;
     forecast.inputs = plan.inputs;
@@ -161,7 +161,7 @@ fn plan_step(
     };
     if step.refused.is_some() {
         // The recipe expects that the step is refused. A refused step changes nothing, so its plan is discarded, and
-        // problems are not errors.
+        // the problems of the plan are not reported.
         operation.plan(&mut plan.clone(), &cx);
         return;
     }
@@ -210,7 +210,7 @@ fn exceeds_budget(step: &RecipeStep, bytes: u64, budget: u64) -> Diagnostic {
     Diagnostic::error(step.span, message).with_help("raise the budget with --budget")
 }
 
-/// Formats a number of bytes in MiB, or a small number in KiB.
+/// Formats a number of bytes in MiB, or in KiB if the number is less than 0.1 MiB.
 pub fn mebibytes(bytes: u64) -> String {
     let mebi = bytes as f64 / f64::from(1 << 20);
     if mebi < 0.1 {

@@ -19,8 +19,8 @@ enum Named<'v> {
     Object(&'v str),
 }
 
-/// Reports each element and each material in the selections of a step that one of its meshes certainly does not have,
-/// and each object that does not exist.
+/// Reports each element and each material that a selection of the step names but that one of the step's meshes
+/// certainly does not have. Also reports each object that a selection names but that does not exist.
 pub(super) fn missing_elements(step: &RecipeStep, plan: &Plan, found: &mut Vec<Diagnostic>) {
     // If the recipe expects a refusal, the missing element may be the reason for the refusal.
     if plan.incomplete || step.refused.is_some() {
@@ -52,7 +52,8 @@ pub(super) fn missing_elements(step: &RecipeStep, plan: &Plan, found: &mut Vec<D
 }
 
 impl Named<'_> {
-    /// Returns the error message if a mesh certainly lacks the element or the material, and a suggestion.
+    /// If a mesh certainly does not have the element or the material, returns the error message and, for some errors, a
+    /// help text.
     fn missing_in(&self, object: &str, mesh: &MeshPlan) -> Option<(String, Option<String>)> {
         match *self {
             Self::Vertex(number) => mesh.missing_vertex_message(number).map(|m| (m, None)),

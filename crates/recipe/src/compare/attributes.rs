@@ -34,7 +34,7 @@ pub enum ColumnDifference {
     Values {
         /// The number of values that differ.
         count: usize,
-        /// The largest difference between two numbers. Tags that differ count as 1.
+        /// The largest difference between two corresponding numbers. Two different tags have the difference 1.
         by: f64,
         /// The element of the first mesh with the largest difference, such as `v12`.
         element: String,
@@ -42,7 +42,8 @@ pub enum ColumnDifference {
 }
 
 impl AttributeDifference {
-    /// Whether both meshes have the attribute and no value differs by more than `tolerance`.
+    /// Whether both meshes have the attribute with the same type and the same edit rule, and no value differs by more
+    /// than `tolerance`. `false` if the values cannot be compared.
     pub fn is_within(&self, tolerance: f64) -> bool {
         match &self.difference {
             ColumnDifference::None => true,
@@ -52,7 +53,8 @@ impl AttributeDifference {
     }
 }
 
-/// Compares the attributes of two meshes. Values are compared only if the orders of the elements are given.
+/// Compares the attributes of two meshes. Values are compared only if `orders` gives the corresponding elements of the
+/// two meshes.
 pub(super) fn differences(
     [a, b]: [&Mesh; 2],
     orders: Option<&[Order; 2]>,

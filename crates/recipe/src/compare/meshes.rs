@@ -13,14 +13,14 @@ use geometry::distance::Distance;
 pub struct MeshDifference {
     /// The element counts and the sizes of the first and the second mesh.
     pub counts: [Counts; 2],
-    /// Whether the faces have the same vertices.
+    /// Whether corresponding faces of the two meshes have the same vertices.
     pub connectivity: Connectivity,
-    /// The vertices that moved. `None` if no vertex moved or the connectivity differs.
+    /// The vertices that moved. `None` if no vertex moved or `connectivity` is not [`Connectivity::Same`].
     pub moved: Option<Moved>,
     /// The attributes of both meshes. For each domain, the attributes of the first mesh come first, then the attributes
     /// that only the second mesh has.
     pub attributes: Vec<AttributeDifference>,
-    /// The distance between the surfaces. `None` if the meshes are identical or one has no faces.
+    /// The distance between the surfaces. `None` if the meshes are identical or one of them has no faces.
     pub distance: Option<Distance>,
 }
 
@@ -48,7 +48,7 @@ pub struct Counts {
 /// Whether the faces of two meshes have the same vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Connectivity {
-    /// Faces with the same id have vertices with the same ids.
+    /// The vertices have the same ids. In the order of their ids, the faces have the same vertices.
     Same,
     /// The vertices have the same positions and the faces are the same, but ids differ.
     Reordered,
@@ -119,9 +119,9 @@ impl Counts {
 pub(super) struct Order {
     pub(super) vertices: Vec<VertexId>,
     pub(super) faces: Vec<FaceId>,
-    /// Sorted by face. Within a face, the corner at the lowest vertex comes first.
+    /// Sorted by face. Within a face, the corner at the vertex with the lowest id comes first.
     pub(super) corners: Vec<HalfEdgeId>,
-    /// Sorted by the lower vertex of each edge, then by the higher vertex.
+    /// Sorted by the lower vertex id of each edge, then by the higher vertex id.
     pub(super) edges: Vec<EdgeId>,
 }
 

@@ -14,8 +14,8 @@ pub use meshes::{Connectivity, Counts, MeshDifference, Moved};
 /// The comparison of two scenes.
 #[derive(Clone, Debug)]
 pub struct Difference {
-    /// Whether both scenes have the same graph, and the same objects in the same order. If the two remaining objects
-    /// are compared with each other, their names are ignored.
+    /// Whether both scenes have the same graph, and the same objects in the same order. If two objects with different
+    /// names are compared, their names are ignored.
     pub identical: bool,
     /// Objects that only the first scene has.
     pub only_first: Vec<String>,
@@ -103,8 +103,8 @@ impl Difference {
     }
 
     /// Whether the scenes have the same objects with the same elements in the same order, and no position or attribute
-    /// value of a mesh differs by more than `tolerance`. Materials, and objects that are not meshes, must be equal. The
-    /// unit of `tolerance` is the unit of each value.
+    /// value of a mesh differs by more than `tolerance`. Materials, and objects that are not meshes, must be equal.
+    /// `tolerance` is in the unit of the compared value.
     pub fn is_within(&self, tolerance: f64) -> bool {
         self.identical
             || (self.only_first.is_empty()

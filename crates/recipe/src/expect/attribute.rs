@@ -99,7 +99,7 @@ fn column<'m>(
     })
 }
 
-/// Returns the elements of a domain, or those of a selection.
+/// Returns the elements that the selection `of` matches or, if there is no selection, all elements of the domain.
 fn elements(
     domain: Domain,
     of: Option<&Elements>,

@@ -13,12 +13,13 @@ use super::{Expectation, OtherMesh, PlacedSubject, attribute, output, same, symm
 use geometry::distance::{Distance, TOLERANCE, diagonal};
 
 impl Expectation {
-    /// Checks the expectation against a scene. An expectation that measures in space is checked against every instance
-    /// of an object, in scene space.
+    /// Checks the expectation against a scene. An expectation about positions or sizes of meshes, such as `Bounds` or
+    /// `Area`, is checked against every instance of an object, in scene space.
     ///
     /// # Errors
     ///
-    /// The expected and the actual value, if the expectation does not hold or cannot be checked.
+    /// A [`Violation`], whose message gives the expected and the actual value if the expectation does not hold, or the
+    /// reason if the expectation cannot be checked.
     pub fn check(&self, subject: Subject) -> Result<(), Violation> {
         if self.measures_space() && !subject.scene.graph().is_empty() {
             let placed = PlacedSubject::new(subject, self.other_object())?;

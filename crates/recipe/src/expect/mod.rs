@@ -1,4 +1,4 @@
-//! Expectations: what must hold for the scene after a step or at the end.
+//! Expectations: conditions on the scene after a step or at the end of the recipe.
 
 mod attribute;
 mod check;
@@ -165,9 +165,8 @@ pub enum Expectation {
         /// The highest valence is at most this number.
         max: Option<u64>,
     },
-    /// The dihedral angle, in degrees, of every selected edge between two faces: the angle between the
-    /// face normals, 0 if the faces are coplanar. Edges beside a zero-area face are skipped. Fails if no
-    /// selected edge has an angle.
+    /// The dihedral angle, in degrees, of every selected edge between two faces: the angle between the face normals, 0
+    /// if the faces are coplanar. Edges of a zero-area face are skipped. Fails if no selected edge has an angle.
     DihedralAngle {
         /// Which edges.
         #[serde(default)]
@@ -199,8 +198,8 @@ pub enum Expectation {
         /// At most this value.
         max: Option<f64>,
     },
-    /// The mean of the smallest corner angles of the selected faces, in degrees; 60 for equilateral triangles. Fails
-    /// if the selection is empty.
+    /// The mean, over the selected faces, of the smallest corner angle of each face, in degrees. It is 60 for
+    /// equilateral triangles. Fails if the selection is empty.
     MeanMinAngle {
         /// Which faces.
         #[serde(default)]
@@ -211,7 +210,7 @@ pub enum Expectation {
         max: Option<f64>,
     },
     /// The thickness of the solid at each selected vertex, in scene units, as `Measure(of: Thickness, ..)` measures it.
-    /// Infinite where the surface is a sheet. Fails if the selection is empty.
+    /// Infinite where the surface has no opposite side, as on an open sheet. Fails if the selection is empty.
     Thickness {
         /// Which vertices.
         #[serde(default)]
@@ -221,8 +220,8 @@ pub enum Expectation {
         /// At most this value.
         max: Option<f64>,
     },
-    /// The number of faces that intersect another face of the same object. Neighbors intersect only if they have more
-    /// points in common than their common vertices and edges.
+    /// The number of faces that intersect another face of the same object. Neighboring faces intersect only if they
+    /// have points in common beyond their shared vertices and edges.
     SelfIntersections {
         /// Exactly this number.
         eq: Option<u64>,
@@ -252,7 +251,7 @@ pub enum Expectation {
         #[schemars(range(min = 0.0))]
         tolerance: f64,
     },
-    /// The position of one point of a polyline. Nodes do not place polylines.
+    /// The position of one point of a polyline, in object space, because nodes place only meshes.
     Point {
         /// The index of the polyline in its object, counted from 0.
         #[serde(default)]
@@ -471,7 +470,7 @@ impl Expectation {
         }
     }
 
-    /// Returns the name of the expectation if it is not about objects, so that it cannot be checked for some objects only.
+    /// If the expectation is not about objects and therefore does not take `on`, returns its name.
     pub(crate) fn without_objects(&self) -> Option<&'static str> {
         match self {
             Self::Digest(_) => Some("Digest"),

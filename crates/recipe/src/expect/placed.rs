@@ -1,4 +1,4 @@
-//! The instances of a scene, for expectations that measure in space.
+//! The instances of a scene, for expectations about positions or sizes of meshes.
 
 use std::borrow::Cow;
 
@@ -6,7 +6,8 @@ use scene::Scene;
 
 use super::subject::{Subject, Violation};
 
-/// The largest size of all instances together, in bytes. Many nodes can reference the same mesh.
+/// The maximum total size of all instances, in bytes. A limit is necessary, because many nodes can reference the same
+/// mesh.
 const MAX_BYTES: u64 = 1 << 36;
 
 /// A subject whose objects are the instances of another subject, in scene space.
@@ -26,7 +27,10 @@ impl<'a> PlacedSubject<'a> {
         let scene = subject.scene;
         let bytes = scene.placed_bytes();
         if bytes > MAX_BYTES {
-            return Err(format!("the instances of all objects need {bytes} bytes").into());
+            return Err(format!(
+                "the instances of all objects need {bytes} bytes, expected at most {MAX_BYTES}"
+            )
+            .into());
         }
         let instances = scene.instances();
         let n = instances
@@ -37,7 +41,8 @@ impl<'a> PlacedSubject<'a> {
             let message = format!("expected 1 instance of \"{other}\", found {n}");
             return Err(message.into());
         }
-        // Every object has at least one instance, so a name without instances is unknown and stays in the list.
+        // Every object has at least one instance, so a name without instances is not the name of an object. It stays in
+        // the list, so that the check reports it.
         let on = subject.on.map(|on| {
             let names = on.iter().flat_map(|name| {
                 let of_object = instances.iter().filter(|i| i.object.name == *name);

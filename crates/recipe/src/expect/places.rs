@@ -20,8 +20,7 @@ impl Expectation {
             Self::Same { .. } | Self::DistanceTo { .. } | Self::SymmetricUnder { .. }
         );
         if compares && !subject.scene.graph().is_empty() {
-            // Locations must be in object space, but expectations that measure in space compare instances in scene
-            // space.
+            // Locations must be in object space, but these expectations compare instances in scene space.
             return places;
         }
         for (object, mesh) in subject.meshes().unwrap_or_default() {
@@ -86,7 +85,7 @@ impl CheckedMesh<'_> {
                 let mut off: Vec<(f64, FaceId)> = angles
                     .filter(|(angle, _)| !within(*angle, *min, None))
                     .collect();
-                // The message names the smallest angle, so its face comes first.
+                // The message gives the smallest angle, so the face with this angle comes first.
                 off.sort_by(|a, b| a.0.total_cmp(&b.0));
                 self.locations(off.into_iter().map(|(_, f)| f))
             }
@@ -182,7 +181,7 @@ impl CheckedMesh<'_> {
         places
     }
 
-    /// Returns where two surfaces are farthest apart: the element of this mesh, and the line between the surfaces.
+    /// Returns where two surfaces are farthest apart: the element of this mesh, and the line between the two points.
     fn farthest(&self, found: &Distance) -> Vec<ErrorLocation> {
         let worst = found.worst();
         let on = if found.is_worst_forth() {

@@ -112,8 +112,9 @@ fn middle(part: &Range<usize>) -> usize {
 /// The vertices of a k-d tree that have not been taken.
 struct FreeVertices {
     is_free: Vec<bool>,
-    /// The bounding box of the free vertices in the part of the tree that a vertex splits. A search that looked at all
-    /// vertices would visit the same taken vertices again and again.
+    /// For each vertex, the bounding box of the free vertices in the part of the tree that the vertex splits. With the
+    /// boxes, a search skips parts without free vertices. Without them, every search would visit the same taken
+    /// vertices again.
     boxes: Vec<[DVec3; 2]>,
 }
 
@@ -140,7 +141,7 @@ impl FreeVertices {
         }
     }
 
-    /// Computes the box of a part of the tree from those of its halves.
+    /// Computes the box of a part of the tree from the boxes of its halves.
     fn update(&mut self, index: &PositionIndex, part: Range<usize>) {
         let middle = middle(&part);
         let own = if self.is_free[middle] {
@@ -155,7 +156,8 @@ impl FreeVertices {
             .fold(own, |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
     }
 
-    /// Returns the distance from `p` to the box of the part that a vertex splits; infinity if no vertex of it is free.
+    /// Returns the distance from `p` to the box of the part that a vertex splits. Infinite if no vertex of the part is
+    /// free.
     fn distance(&self, i: usize, p: DVec3) -> f64 {
         let [min, max] = self.boxes[i];
         if min.x > max.x {
@@ -244,7 +246,7 @@ pub(super) fn check(
     let (n, m) = (mesh.n_vertices(), other.n_vertices());
     if n != m {
         return Err(format!(
-            "the mesh has {}, the other mesh {m}",
+            "the mesh has {}, the other mesh has {m}",
             counted(n, "vertices")
         ));
     }

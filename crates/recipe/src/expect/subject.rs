@@ -42,7 +42,7 @@ pub trait Reader: Sync {
 pub struct Violation {
     /// The expected and the actual value, in one line.
     pub message: String,
-    /// The actual value, if the expectation holds after the expected value is replaced by it.
+    /// The actual value, if the expectation would hold with this value in place of the expected value.
     pub found: Option<ActualValue>,
     /// Whether the expectation could not be checked. If so, `Not(..)` of the expectation does not hold either.
     pub(super) is_unknown: bool,
@@ -508,8 +508,8 @@ fn singular_if_one(n: u64, what: &str) -> Cow<'_, str> {
     }
 }
 
-/// Checks a number against `eq`, within the tolerance, `min` and `max`. `what` is a noun with its article, such as
-/// "an area".
+/// Checks a number against `eq` (within the tolerance), `min` and `max`. `what` is a noun with its article, such as "an
+/// area".
 pub(super) fn check_number(
     what: impl fmt::Display,
     found: f64,

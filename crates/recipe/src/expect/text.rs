@@ -1,12 +1,12 @@
-//! Writes an expectation as a recipe writes it.
+//! Formats an expectation in the form in which it is written in a recipe.
 
 use ron_tree::{Value, ValueKind, parse};
 
 use super::Expectation;
 
 impl Expectation {
-    /// Returns the expectation in one line, as a recipe writes it: optional values without `Some(..)`, and without the
-    /// fields that have their default values.
+    /// Returns the expectation in one line, in the form in which it is written in a recipe: optional values have no
+    /// `Some(..)`, and fields with default values are omitted.
     pub(super) fn as_written(&self) -> String {
         let canonical = self.to_string();
         let mut value = parse(&canonical).value;
@@ -40,8 +40,8 @@ fn n_fields(value: &Value) -> usize {
     own + value.parts().map(n_fields).sum::<usize>()
 }
 
-/// Removes the field with this number. The fields are counted as in [`n_fields`], those of a struct before those of its
-/// parts. If the value has fewer fields, their number is subtracted from `number`.
+/// Removes the field with this number. The fields are counted as in [`n_fields`]: the fields of a struct come before
+/// the fields of its parts. If the value has fewer fields, their number is subtracted from `number`.
 fn remove_field(value: &mut Value, number: &mut usize) {
     if let ValueKind::Struct(body) = &mut value.kind {
         if *number < body.fields.len() {

@@ -30,7 +30,7 @@ pub(super) fn stretch(subject: Subject, name: &str) -> Result<f64, Violation> {
     Ok(aspects.fold(1.0, f64::max))
 }
 
-/// Returns the number of faces that overlap others of their mesh.
+/// Returns the number of faces that overlap another face of the same mesh.
 pub(super) fn n_overlapping(subject: Subject, name: &str) -> Result<u64, Violation> {
     let mut n = 0;
     for (mesh, uvs) in textured(subject, name)? {

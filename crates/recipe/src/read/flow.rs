@@ -3,7 +3,8 @@
 //! ```text
 //! Call(recipe: "clean.ron", with: {"distance": 1e-6})    runs the steps of another recipe
 //! Repeat(times: 3, steps: [..])                          runs the steps 3 times
-//! If(param: "smooth", steps: [..], otherwise: [..])      runs the steps if a parameter is true, or equals `is`
+//! If(param: "smooth", steps: [..], otherwise: [..])      runs `steps` if the parameter is true, else `otherwise`
+//! If(param: "mode", is: Fast, steps: [..])               runs the steps if the parameter equals `is`
 //! ```
 //!
 //! Such a step is replaced by its inner steps while the recipe is read. A called recipe works on the current scene,
@@ -25,8 +26,8 @@ use ron_tree::{Span, Value, ValueKind};
 /// The maximum nesting depth of calls.
 const MAX_CALLS: usize = 32;
 
-/// How many steps each call counts as, in addition to the steps of the called recipe. This limits the time for
-/// reading called recipes.
+/// The number of steps that each call counts as, in addition to the steps of the called recipe. With this count, the
+/// maximum number of steps also limits the time for reading called recipes.
 const STEPS_PER_CALL: usize = 20;
 
 /// Returns the kind of a step that contains steps, or `None` for other steps.

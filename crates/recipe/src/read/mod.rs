@@ -155,7 +155,7 @@ fn canonical(store: &dyn Store, path: &Path) -> PathBuf {
 struct Draft {
     step: RecipeStep,
     /// The ids of everything that ends with this step: the step itself, and each call, repetition and condition that
-    /// ends with it. Contains only ids of this text.
+    /// ends with it. Contains only ids that are written in the same text as the step.
     ends: Vec<String>,
     /// The expectations that are checked after the step.
     then: Vec<RecipeExpectation>,

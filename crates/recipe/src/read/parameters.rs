@@ -143,7 +143,7 @@ impl Reader<'_, '_> {
             .with_help(did_you_mean(name, known))
     }
 
-    /// Replaces each `arg(..)` in a value by the value of its parameter. Returns whether all parameters have values.
+    /// Replaces each `arg(..)` in a value by the value of its parameter. Returns whether every `arg(..)` was replaced.
     pub(super) fn fill(&mut self, value: &mut Value) -> bool {
         let mut used = Vec::new();
         // The uses of parameters whose declarations have errors. The errors in the declarations were already reported.

@@ -48,8 +48,8 @@ impl Reader<'_, '_> {
         self.fill(enabled) && enabled.kind == ValueKind::Bool(false)
     }
 
-    /// Reads a disabled step, so that its ids are known and its parameters count as used, and drops it with its
-    /// problems.
+    /// Reads a disabled step, so that its ids are known and the parameters in it count as used. Then discards the step
+    /// and the errors and warnings in it.
     fn disabled(&mut self, item: Value) {
         let before = (
             self.diagnostics.len(),
@@ -204,7 +204,7 @@ impl Reader<'_, '_> {
     }
 }
 
-/// Returns the operation of a step, without the fields around it.
+/// Returns the operation of a step, without the other fields of the step, such as `id` and `on`.
 fn run_of(mut written: Value) -> Value {
     let is_envelope = matches!(written.kind, ValueKind::Struct(_));
     match written.field_mut("run").filter(|_| is_envelope) {

@@ -16,8 +16,8 @@ pub trait StepCache: fmt::Debug + Sync {
     fn begin(&self) -> Box<dyn CachedRun + '_>;
 }
 
-/// A run with a cache: looks up steps, stores the results of steps that ran, and loads scenes. For each step, the run
-/// calls [`look_up`](Self::look_up). If the lookup fails, the run runs the step and calls
+/// A run with a cache: looks up steps, stores the results of steps that ran, and loads scenes. For each step,
+/// [`run`](crate::run()) calls [`look_up`](Self::look_up). If the lookup fails, it runs the step and calls
 /// [`record_step`](Self::record_step).
 pub trait CachedRun {
     /// Looks up the next step. If `stage` is given, the files that the step wrote are restored into this folder, which
@@ -107,7 +107,7 @@ pub struct CompletedStep<'a> {
     pub stage: Option<&'a Path>,
 }
 
-/// Why a step ran. Displayed as the end of a sentence that begins with "because".
+/// Why a step ran. The displayed text is a clause that can follow "because".
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RerunReason {
     /// No cache is used.
@@ -116,7 +116,7 @@ pub enum RerunReason {
     /// The cache has no record of an earlier run of this step.
     #[error("it has not run before")]
     New,
-    /// The program has a different version, or is a different build of it.
+    /// The program has a different version, or is a different build of the same version.
     #[error("the program is a different version or build")]
     Program,
     /// The version of the operation changed.
@@ -133,8 +133,8 @@ pub enum RerunReason {
     /// The list of objects in `on` changed.
     #[error("`on` changed")]
     On,
-    /// The id changed, which seeds the random choices of the step.
-    #[error("its id changed, which seeds random choices")]
+    /// The id changed, and the id seeds the random choices of the step.
+    #[error("its id changed, and the id seeds random choices")]
     Id,
     /// The expected refusal changed.
     #[error("`refused` changed")]
@@ -167,17 +167,19 @@ pub enum RerunReason {
     #[error("its result in the cache is damaged: {0}")]
     Damaged(String),
     /// The result was not stored, because computing it took less time than storing it would have taken, or because a
-    /// mesh has removed elements.
+    /// mesh of the scene contains removed elements.
     #[error(
-        "its result was not stored: it is faster to compute than to store, or has removed elements"
+        "its result was not stored: it is faster to compute than to store, or a mesh contains removed elements"
     )]
     NotKept,
     /// The input files of the step could not be determined: a path and the reason.
     #[error("its input files cannot be determined ({}: {})", .0.display(), .1)]
     Unknown(PathBuf, String),
-    /// The identity of the scene before the step is unknown, because an earlier step with unknown input files left
-    /// removed elements in the scene.
-    #[error("an earlier step with unknown input files left removed elements in the scene")]
+    /// The scene before the step cannot be identified, because the input files of an earlier step could not be
+    /// determined and that step left removed elements in a mesh.
+    #[error(
+        "the input files of an earlier step cannot be determined, and it left removed elements in a mesh"
+    )]
     NoState,
 }
 

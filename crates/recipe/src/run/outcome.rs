@@ -29,7 +29,7 @@ pub struct Outcome {
     /// The digest of the scene at the end.
     pub digest: Digest,
     /// The files that were written. If a file cannot be moved to the output folder, the run fails and this list has the
-    /// files that were moved before it.
+    /// files that were moved before that file.
     pub written: Vec<PathBuf>,
     /// The problem that prevents the cache from storing anything, if any.
     pub cache_problem: Option<String>,

@@ -110,7 +110,7 @@ impl Checker {
             let fits = matches!(key.kind, ValueKind::String(_) | ValueKind::Error);
             if schema.has_text_keys() && !fits {
                 let message = format!(
-                    "expected a string `\"..\"` as key{}, found {}",
+                    "expected a string `\"..\"` as the key{}, found {}",
                     place.of(),
                     key.describe()
                 );

@@ -165,7 +165,7 @@ struct Checker {
     more: usize,
     /// The old names that were found.
     renames: Vec<Rename>,
-    /// The values whose outer names were omitted.
+    /// The values for which the name of the variant was omitted.
     shorts: Vec<Short>,
 }
 

@@ -61,7 +61,7 @@ impl Checker {
             let text = number.text();
             let named = text.ends_with("inf") || text.ends_with("NaN");
             let message = format!("expected a finite number{}, found {text}", place.of());
-            let help = (!named).then(|| format!("the largest is {largest:e}"));
+            let help = (!named).then(|| format!("the largest number is {largest:e}"));
             return self.report(value, value.span, message, help);
         }
         let bounds = Bounds::of(schema);

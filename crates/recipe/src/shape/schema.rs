@@ -159,7 +159,7 @@ impl<'s> Schema<'s> {
         self.all(keyword).next().is_some()
     }
 
-    /// Whether the outer name of a value can be omitted.
+    /// Whether the name of the variant can be omitted.
     pub(super) fn is_shorthand(&self) -> bool {
         self.all("x-shorthand").any(|is| is == &Json::Bool(true))
     }
@@ -244,7 +244,7 @@ impl<'s> Schema<'s> {
         }
         let length = (self.count("minItems")? == most).then_some(most)?;
         let item = self.child("items")?;
-        // `serde` supports arrays of up to 32 items.
+        // The limit prevents huge lists for invalid schemas. `serde` itself supports arrays of up to 32 items.
         Some(vec![
             item;
             usize::try_from(length).ok().filter(|&n| n <= 64)?

@@ -1,5 +1,5 @@
-//! Checks enumerations in which the outer name can be omitted if the content fits only one variant. The schema of these
-//! enumerations has the keyword `x-shorthand`. An example is [`op::Elements`].
+//! Checks enumerations in which the name of the variant can be omitted if the content fits only one variant. The schema
+//! of these enumerations has the keyword `x-shorthand`. An example is [`op::Elements`].
 //!
 //! ```text
 //! Sharp(above: 30)   exists only for edges                ---> Edges(Sharp(above: 30))
@@ -13,7 +13,7 @@ use super::schema::{Choice, Schema};
 use super::{Checker, Place, Rename, did_you_mean};
 use ron_tree::{Call, Diagnostic, Name, Span, Value, ValueKind};
 
-/// A value whose outer name was omitted.
+/// A value for which the name of the variant was omitted.
 #[derive(Clone, Debug)]
 pub(super) struct Short {
     /// The span of the value.
@@ -93,9 +93,9 @@ impl Checker {
                 Some(help),
             );
         }
-        // The best variant is the one that knows most of the names. If several variants know equally many names, the
-        // one with the fewest errors is best. If several variants also have equally many errors, the first of these
-        // variants is best.
+        // The variant that fits best is the one whose content can have most of the names in the value. If several
+        // variants are equal in this, the one with the fewest errors fits best. If they also have equally many errors,
+        // the first of them fits best.
         let fit = |((_, _, trial), names): &((&str, Schema, Self), Vec<String>)| {
             (n_known(value, names), Reverse(trial.diagnostics.len()))
         };

@@ -283,7 +283,7 @@ fn a_wrong_type_tells_what_was_expected_and_found() {
         ),
         (
             "map: {a: 1}",
-            "a: expected a string `\"..\"` as key for `map`, found `a`",
+            "a: expected a string `\"..\"` as the key for `map`, found `a`",
         ),
         (
             "map: {\"k\": true}",
@@ -447,7 +447,7 @@ fn values_must_be_in_range() {
         (
             "single: 1e39",
             "1e39: expected a finite number for `single`, found 1e39",
-            "the largest is 3.4028234663852886e38",
+            "the largest number is 3.4028234663852886e38",
         ),
     ] {
         assert_eq!(problem(parameter), message);

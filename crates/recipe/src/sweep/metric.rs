@@ -58,7 +58,7 @@ pub enum Metric {
         /// attribute.
         on: Option<String>,
     },
-    /// The time that the steps took, in seconds. The only metric that differs between equal runs.
+    /// The time that the steps took, in seconds. This is the only metric that can differ if the same run is repeated.
     Seconds,
     /// The digest of the scene.
     Digest,
@@ -81,7 +81,7 @@ pub enum Statistic {
 pub enum Measured {
     /// A whole number.
     Whole(i64),
-    /// A number. It is infinite if there is nothing to measure, such as the distance to a mesh without faces.
+    /// A number. It is infinite if there is nothing to measure, for example for the distance to a mesh without faces.
     Number(f64),
     /// A string.
     Text(String),

@@ -14,10 +14,9 @@
 //! ```
 //!
 //! [`read_sweep`] reads the text, and [`Sweep::grid`] checks its values against the parameters that the recipe
-//! declares. Both functions report all errors at once. The cells are all combinations of the values in the lists of
-//! `over`, in the order of the text; the value from the last list changes fastest. The lists of `zip` have the same
-//! length. Their values are taken together, like the values of one further list after those of `over`, so they change
-//! fastest.
+//! declares. Both functions report all errors at once. The lists of `zip` have the same length, and the values at the
+//! same position in all of them form a row. The cells are all combinations of one value from each list of `over` and
+//! one row of `zip`. From cell to cell, the row of `zip` changes fastest, then the value from the last list of `over`.
 
 mod metric;
 mod values;
@@ -57,7 +56,7 @@ pub struct Sweep {
     set: Vec<Entry>,
 }
 
-/// A parameter with the value that the sweep has for it.
+/// A parameter with its value or values, as written in the sweep.
 #[derive(Clone, Debug)]
 struct Entry {
     name: String,

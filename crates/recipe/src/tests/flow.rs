@@ -380,7 +380,7 @@ fn a_tag_that_no_element_can_have_is_an_error_before_the_run() {
         [(
             "Tagged(\"rim\")",
             "no element of \"sheet\" is tagged \"rim\"",
-            "no earlier step creates one"
+            "no earlier step creates \"rim\""
         )]
     );
 }

@@ -89,7 +89,7 @@ fn a_mesh_with_different_vertices_or_faces_is_not_the_same() {
     );
     assert_eq!(
         check("Same(as: Object(\"tetrahedron\"))"),
-        Err("the mesh has 8 vertices, the other mesh 4".to_owned())
+        Err("the mesh has 8 vertices, the other mesh has 4".to_owned())
     );
     assert_eq!(
         check("Same(as: Object(\"sphere\"))"),

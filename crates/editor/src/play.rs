@@ -97,16 +97,10 @@ impl Play {
     /// `None` if `after` is not one level of Loop subdivision of all faces of `before`, or if there are more than 10 000
     /// edits.
     pub fn of_loop_level(before: &Mesh, after: &Mesh) -> Option<Self> {
-        let (n_vertices, n_edges) = (before.n_vertices(), before.n_edges());
-        let is_one_level = before.is_dense()
-            && before.faces().all(|f| before.is_triangle(f))
-            && after.n_vertices() == n_vertices + n_edges
-            && after.n_faces() == 4 * before.n_faces();
-        // The splits add three edges inside of each triangle. At most all of them are flipped.
-        let n_edits = n_edges + 3 * before.n_faces() + 1;
-        if !is_one_level || n_edits > MAX_EDITS {
+        if !is_loop_level(before, after) {
             return None;
         }
+        let n_vertices = before.n_vertices();
         let mut play = Self::new(before);
         let mut new_edges = Vec::new();
         for edge in before.edges() {
@@ -153,11 +147,6 @@ impl Play {
         self.at = self.edits.len();
         while self.back() {}
         self
-    }
-
-    /// Whether the edits of an operation can be played.
-    pub fn plays(operation: &str) -> bool {
-        operation == LOOP || Edit::of(operation).is_some()
     }
 
     /// Does an edit and records it.
@@ -250,17 +239,39 @@ impl Editor {
         }
     }
 
+    /// Whether a step of the text does edits that can be played. Apart from the number of levels, its parameters are not checked:
+    /// [`play`](Self::play) may return `None`.
+    pub fn has_edits(&self, step: usize) -> bool {
+        let operation = self.outline().steps.get(step).map(|text| &*text.name);
+        operation.is_some_and(|name| match Edit::of(name) {
+            Some(_) => true,
+            None => name == LOOP && self.loop_level(step).is_some(),
+        })
+    }
+
     /// Returns the edits of a step of the text, and the name of the object that they change: the object of `on`, or else the
     /// picked object, or else the first mesh. `None` if the scene before the step is not known, and in the cases of
     /// [`Play::of_step`] and, for `LoopSubdivide`, of [`Play::of_loop_level`].
     pub fn play(&self, step: usize) -> Option<(String, Play)> {
         let text = self.outline().steps.get(step)?;
+        if text.name == LOOP {
+            let (object, [before, after]) = self.loop_level(step)?;
+            return Some((object, Play::of_loop_level(&before, &after)?));
+        }
+        let (object, scene) = self.played_object(step)?;
+        let mut steps = self.run().steps.iter().filter(|state| state.item == step);
+        let label = &steps.next()?.label;
+        let play = Play::of_step(&scene, &object, self.outline().run_of(step)?, label)?;
+        Some((object, play))
+    }
+
+    /// Returns the name of the object whose edits are played, and the scene before the step.
+    fn played_object(&self, step: usize) -> Option<(String, Arc<Scene>)> {
+        let text = self.outline().steps.get(step)?;
         if !text.enabled || !self.is_run_current() {
             return None;
         }
         let scene = self.scene_before(step)?;
-        let mut steps = self.run().steps.iter().filter(|state| state.item == step);
-        let label = &steps.next()?.label;
         let is_mesh = |name: &&str| scene.object(name).is_some_and(|o| o.as_mesh().is_some());
         let named = text.on.iter().flatten().map(String::as_str);
         let picked = self.picked().map(|picked| picked.object.as_str());
@@ -269,16 +280,28 @@ impl Editor {
             Some(_) => named.into_iter().find(is_mesh)?,
             None => picked.into_iter().chain(all).find(is_mesh)?,
         };
-        let run = self.outline().run_of(step)?;
-        let play = if text.name == LOOP {
-            let after = self.scene_before(step + 1)?;
-            let [before, after] = [&scene, &after].map(|scene| scene.object(object)?.as_mesh());
-            Play::of_loop_level(before?, after?)?
-        } else {
-            Play::of_step(&scene, object, run, label)?
-        };
-        Some((object.to_owned(), play))
+        Some((object.to_owned(), scene))
     }
+
+    /// Returns the mesh before and after a level of Loop subdivision that can be played, and its name.
+    fn loop_level(&self, step: usize) -> Option<(String, [Arc<Mesh>; 2])> {
+        let (object, before) = self.played_object(step)?;
+        let after = self.scene_before(step + 1)?;
+        let mesh = |scene: &Scene| scene.object(&object)?.as_mesh().cloned();
+        let meshes = [mesh(&before)?, mesh(&after)?];
+        is_loop_level(&meshes[0], &meshes[1]).then_some((object, meshes))
+    }
+}
+
+/// Whether a mesh is one level of Loop subdivision of all faces of another, with at most [`MAX_EDITS`] edits.
+fn is_loop_level(before: &Mesh, after: &Mesh) -> bool {
+    // The splits add three edges inside of each triangle, of which one leads to an old vertex and is flipped.
+    let n_edits = before.n_edges() + before.n_faces() + 1;
+    n_edits <= MAX_EDITS
+        && after.n_vertices() == before.n_vertices() + before.n_edges()
+        && after.n_faces() == 4 * before.n_faces()
+        && before.is_dense()
+        && before.faces().all(|f| before.is_triangle(f))
 }
 
 #[derive(Clone, Copy, Debug)]

@@ -71,7 +71,7 @@ impl Parts {
     pub(crate) fn play(&mut self, step: usize) {
         let Some((object, play)) = self.editor.play(step) else {
             self.inform(
-                "These edits cannot be played: the step must flip, split or collapse edges of a mesh, without `until`, or be one level of Loop subdivision of a small mesh.",
+                "These edits cannot be played: the step must flip, split or collapse edges of a mesh, without `until`.",
             );
             return;
         };

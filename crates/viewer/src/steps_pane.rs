@@ -8,7 +8,7 @@ use eframe::egui::{
 
 use crate::app::Parts;
 use crate::theme::Colors;
-use crate::widgets::{dot, duration, grouped};
+use crate::widgets::{dot, duration, size};
 
 /// Something to do with a step.
 enum Edit {
@@ -122,7 +122,7 @@ fn steps(ui: &mut Ui, parts: &Parts) -> Option<Edit> {
                             .selectable(false),
                     );
                     ui.add(
-                        Label::new(RichText::new(&state.faces).small().color(colors.weak))
+                        Label::new(RichText::new(&state.size).small().color(colors.weak))
                             .selectable(false)
                             .truncate(),
                     );
@@ -241,7 +241,7 @@ impl NotSelectable for Ui {
 struct Summary {
     is_known: bool,
     time: String,
-    faces: String,
+    size: String,
     doc: &'static str,
     notes: Vec<String>,
     losses: Vec<String>,
@@ -282,12 +282,10 @@ impl Summary {
             } else {
                 String::new()
             },
-            faces: results
+            size: results
                 .last()
                 .filter(|_| is_known)
-                .map_or_else(String::new, |result| {
-                    format!("{} faces", grouped(result.done.faces))
-                }),
+                .map_or_else(String::new, |result| size(&result.scene)),
             doc: editor
                 .registry()
                 .get(name)

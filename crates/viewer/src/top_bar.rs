@@ -5,7 +5,7 @@ use eframe::egui::{self, Align, Button, Frame, Layout, Margin, Panel, RichText, 
 
 use crate::app::{Parts, Pending};
 use crate::theme::Colors;
-use crate::widgets::{counts, dot, duration, grouped};
+use crate::widgets::{counts, dot, duration, grouped, size};
 
 /// The bar at the top.
 pub(crate) fn top(ui: &mut Ui, parts: &mut Parts) {
@@ -184,17 +184,12 @@ pub(crate) fn status(ui: &mut Ui, parts: &mut Parts) {
             }
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let at = parts.editor.view();
-                let [v, e, f] = counts(&at.scene);
-                ui.label(
-                    RichText::new(format!(
-                        "{} vertices   {} edges   {} faces",
-                        grouped(v),
-                        grouped(e),
-                        grouped(f)
-                    ))
-                    .size(12.0)
-                    .color(colors.weak),
-                );
+                let [v, e, _] = counts(&at.scene);
+                let mut text = size(&at.scene);
+                if v > 0 {
+                    text = format!("{} vertices   {} edges   {text}", grouped(v), grouped(e));
+                }
+                ui.label(RichText::new(text).size(12.0).color(colors.weak));
                 ui.add_space(12.0);
                 let view = &parts.view;
                 let element = view.hovered.as_ref();

@@ -20,6 +20,27 @@ pub(crate) fn counts(scene: &scene::Scene) -> [usize; 3] {
     })
 }
 
+/// Returns the number of faces of a scene, or if it has no meshes, of its patches, curves or polylines.
+pub(crate) fn size(scene: &scene::Scene) -> String {
+    let of = |kind: &scene::Geometry| match kind {
+        scene::Geometry::Mesh(mesh) => [mesh.n_faces(), 0, 0, 0],
+        scene::Geometry::Patches(patches) => [0, patches.len(), 0, 0],
+        scene::Geometry::Curve(_) => [0, 0, 1, 0],
+        scene::Geometry::Polylines(lines) => [0, 0, 0, lines.len()],
+    };
+    let objects = scene.objects().iter().map(|object| of(&object.geometry));
+    let sums = objects.fold([0; 4], |sums, of| std::array::from_fn(|i| sums[i] + of[i]));
+    let kinds = ["face", "patch", "curve", "polyline"];
+    let first = sums.iter().position(|&n| n > 0).unwrap_or(0);
+    let (n, kind) = (sums[first], kinds[first]);
+    let plural = match (n, kind) {
+        (1, _) => "",
+        (_, "patch") => "es",
+        _ => "s",
+    };
+    format!("{} {kind}{plural}", grouped(n))
+}
+
 /// Writes a count with groups of three digits.
 pub(crate) fn grouped(n: usize) -> String {
     let digits = n.to_string();

@@ -97,3 +97,18 @@ fn splits_flips_and_moves_give_one_level_of_loop_subdivision() {
         assert!(Play::of_loop_level(&before, &twice).is_none());
     }
 }
+
+#[test]
+fn one_level_of_a_small_mesh_has_edits_and_several_levels_have_none() {
+    for (levels, expected) in [(1, true), (2, false)] {
+        let steps = format!("Icosahedron(), LoopSubdivide(levels: {levels}), PokeFaces()");
+        let (editor, _) = super::opened(&format!("(recipe: 1, steps: [{steps}])"));
+        let has = [0, 1, 2, 3].map(|step| editor.has_edits(step));
+        assert_eq!(has, [false, expected, false, false], "{levels}");
+        let played = editor
+            .play(1)
+            .map(|(object, play)| (object, play.edits().len()));
+        // 30 splits, 20 flips and one move.
+        assert_eq!(played, expected.then(|| ("icosahedron".to_owned(), 51)));
+    }
+}

@@ -2,7 +2,7 @@
 
 mod picked;
 
-use editor::{Command, FieldKind, Panel, Play, SelectionText};
+use editor::{Command, FieldKind, Panel, SelectionText};
 use eframe::egui::{self, Align, Button, Label, Layout, Margin, RichText, ScrollArea, Ui};
 use recipe::Param;
 
@@ -173,7 +173,7 @@ fn step(ui: &mut Ui, parts: &mut Parts) {
     });
     weak(ui, &panel.summary);
     let play = Button::new("Play the edits").small();
-    if Play::plays(&panel.operation)
+    if parts.editor.has_edits(step)
         && parts.player.is_none()
         && ui
             .add(play)

@@ -1,4 +1,5 @@
-//! Diagnostics and reports of steps as JSON, for programs that read the output of the program, and for the browser.
+//! Diagnostics and reports of steps as JSON, for other programs that read the output of `meshwright`, and for the
+//! browser.
 
 use op::{Loss, ReadingChange, ReadingElements};
 use recipe::{Diagnostic, LineIndex, Source, StepDone};
@@ -50,8 +51,8 @@ pub fn losses(losses: &[Loss]) -> Vec<Json> {
     losses.iter().map(json).collect()
 }
 
-/// Returns the event `done` of a step: its number, counted from 1, its label, the counts after the step, its report, and
-/// its time. `number` is the index of the step.
+/// Returns the event `done` of a step, which contains the label of the step, the counts after the step, its report and
+/// its time. `number` is the index of the step, counted from 0. The field `number` of the event is counted from 1.
 pub fn step_done(number: usize, done: &StepDone) -> Json {
     json!({
         "event": "done",
@@ -72,7 +73,8 @@ pub fn step_done(number: usize, done: &StepDone) -> Json {
     })
 }
 
-/// Converts a change to JSON. The field `text` names only some of the elements, but the list contains all of them.
+/// Converts a change to JSON. The field `text` names only some of the changed elements. The field `vertices`, `edges`
+/// or `faces` lists all of them.
 fn change(change: &ReadingChange) -> Json {
     let mut json = json!({
         "code": change.code, "count": change.count, "text": change.message,

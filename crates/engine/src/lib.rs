@@ -10,7 +10,7 @@
 //!
 //! # Examples
 //!
-//! A recipe in memory, run to a scene:
+//! Runs a recipe that is stored in memory:
 //!
 //! ```
 //! use std::sync::Arc;

@@ -7,7 +7,7 @@ use recipe::Reader;
 use render::PictureError;
 use scene::Scene;
 
-/// Reads scenes of every format, and compares PNG files by their pixels.
+/// Reads scenes of every supported format, and compares PNG files by their pixels.
 #[derive(Clone, Copy, Debug)]
 pub struct FileReader;
 

@@ -35,7 +35,7 @@ impl Parser<'_> {
             ),
             "enable" => (
                 "recipes cannot enable extensions of RON",
-                "remove it: `Some(..)` can always be omitted, and other extensions are not supported",
+                "remove the attribute: `Some(..)` can always be omitted, and other extensions are not supported",
             ),
             _ => (
                 "unknown attribute",

@@ -72,7 +72,7 @@ impl Value {
         })
     }
 
-    /// Gives an error without a span the span of this value.
+    /// If the result is an error without a span, sets the span of the error to the span of this value.
     fn locate<T>(&self, result: Result<T>) -> Result<T> {
         result.map_err(|error| Error {
             span: error.span.or(Some(self.span)),
@@ -336,7 +336,8 @@ impl<'de> Key<'de> {
     }
 }
 
-/// The fields of a struct, or the entries of a map. One type for both: each type of a parameter is compiled only once.
+/// The fields of a struct, or the entries of a map. One type is used for both, so that the deserialization of each
+/// parameter type is compiled only once.
 struct Pairs<'de> {
     fields: slice::Iter<'de, Field>,
     entries: slice::Iter<'de, (Value, Value)>,

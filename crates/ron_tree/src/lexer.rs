@@ -368,8 +368,8 @@ fn after(prefix: usize, (kind, length): (TokenKind, usize)) -> (TokenKind, usize
     (kind, prefix + length)
 }
 
-/// Whether a raw string follows the `r`, because the text goes on with `"`, `#"` or `##`. `ron` distinguishes raw
-/// strings from names such as `r#name` in the same way.
+/// Whether the text after an `r` makes it the start of a raw string: the text starts with `"`, `#"` or `##`. `ron`
+/// distinguishes raw strings from names such as `r#name` in the same way.
 fn is_raw_string(rest: &str) -> bool {
     rest.starts_with('"') || rest.starts_with("#\"") || rest.starts_with("##")
 }

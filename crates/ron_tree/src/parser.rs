@@ -157,7 +157,8 @@ impl<'s> Parser<'s> {
                         Diagnostic::error(start, "this comment is not closed")
                             .with_help("end it with `*/`"),
                     );
-                    // Errors at the end of the text may be mere consequences of the unclosed comment.
+                    // Errors at the end of the text may be mere consequences of the unclosed comment, so they are not
+                    // reported.
                     after_invalid = true;
                 }
                 _ => break (Some(kind), span),

@@ -21,7 +21,7 @@ pub fn field_span(value: &Value, path: &[String]) -> Span {
                 (value, deepest, rest, is_variant_matched) = (inner, inner, after, false);
             }
             Step::Variant => (deepest, rest, is_variant_matched) = (value, after, true),
-            // The inner value can match the item of the path.
+            // The item of the path is not used up: the next iteration looks it up in the inner value.
             Step::Through(inner) => (value, is_variant_matched) = (inner, false),
             Step::NotFound => break,
         }

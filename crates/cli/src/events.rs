@@ -20,7 +20,7 @@
 //!
 //! `format` is the version of the event format. New events and fields can be added without a new version; readers must
 //! ignore events and fields that they do not know. Steps are numbered from 1. `end` is always the last line, even if
-//! the recipe has errors and does not run. Unknown values are `null`.
+//! the recipe has errors and does not run. Fields without a value are `null`.
 
 use std::io::{self, Write as _};
 use std::sync::Mutex;

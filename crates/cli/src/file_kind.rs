@@ -89,7 +89,7 @@ impl FileKind {
     }
 }
 
-/// Whether a text has the field `sweep`, and not the steps of a recipe.
+/// Whether a text has the field `sweep` but not the field `steps`.
 fn is_sweep(text: &str) -> bool {
     if !text.contains("sweep") {
         return false;

@@ -1,6 +1,6 @@
 //! The program: command line, output and exit codes, for any registry of operations.
 //!
-//! A program with additional operations needs only this function:
+//! A program with additional operations needs only the function [`run`]:
 //!
 //! ```no_run
 //! fn main() -> std::process::ExitCode {
@@ -9,7 +9,8 @@
 //! }
 //! ```
 //!
-//! Exit codes: 0 success, 1 failure, 2 wrong usage, 130 interrupted by Ctrl-C (0 for `watch`). `diff` also exits with 2 after an error.
+//! Exit codes: 0 success, 1 failure, 2 wrong usage, 130 interrupted by Ctrl-C (0 for `watch`). If `diff` cannot compare
+//! the files because of an error, its exit code is also 2.
 
 mod args;
 mod cache;

@@ -56,7 +56,7 @@ pub(crate) fn load_text(
     Ok(engine.load(source, &options))
 }
 
-/// The path of a recipe, with how it was found.
+/// The path of a recipe, and how the recipe was found.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct RecipeFile {
     /// The path of the recipe.

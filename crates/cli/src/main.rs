@@ -11,7 +11,7 @@ fn main() -> ExitCode {
     cli::run(ops_all::registry())
 }
 
-/// Prints the backtraces of panics in place of the standard library, if `RUST_BACKTRACE` requests them.
+/// If `RUST_BACKTRACE` requests backtraces, lets a panic hook print them instead of the standard library.
 ///
 /// The standard library would also print a backtrace when memory runs out. Printing takes a lock and needs memory, so a
 /// second failed allocation would wait for this lock forever.

@@ -15,7 +15,8 @@ use crate::listener::{INTERRUPT, lock};
 use crate::output::{STAMP, escape_control, print_error, write_atomically};
 
 impl PictureErrorsArgs {
-    /// Creates the pictures of a file's failures. `budget` is the memory for each picture, in bytes.
+    /// Creates a value that draws the failures of a file, if pictures are requested. `budget` is the memory budget of
+    /// each picture, in bytes.
     pub(crate) fn of(&self, file: &Path, budget: u64) -> Pictures {
         self.named(Path::new(store::stem(file)), budget)
     }

@@ -118,8 +118,7 @@ pub(crate) fn write_mesh(
 ) -> anyhow::Result<WriteReport> {
     let format = Format::from_path(name);
     if format == Some(Format::Gltf) {
-        let message =
-            "a glTF file needs a second file, and standard output takes one: use --to glb";
+        let message = "a glTF file needs a second file, but standard output takes only one file: use --to glb";
         return Err(WrongUsage(message.to_owned()).into());
     }
     let mut scene = scene.clone();
@@ -140,7 +139,7 @@ pub(crate) fn write_mesh(
     let n = report.files.len();
     anyhow::ensure!(
         n == 1,
-        "the output needs {}, and standard output takes one: write to a file, or use --to glb without --images",
+        "the output needs {}, but standard output takes only one: write to a file, or use --to glb without --images",
         counted(n, "file")
     );
     let bytes = memory.read(name)?;
@@ -172,8 +171,9 @@ fn remove_materials(scene: &mut Scene) -> Vec<Loss> {
             domain: None,
             attribute: "materials".to_owned(),
             count,
-            reason: "OBJ stores materials in a second file, and standard output takes one"
-                .to_owned(),
+            reason:
+                "OBJ stores materials in a second file, but standard output takes only one file"
+                    .to_owned(),
         });
     }
     losses

@@ -14,7 +14,7 @@ use crate::loading::load_recipe;
 use crate::output::{print_diagnostics, print_error};
 use crate::pipes;
 
-/// A scene at one point of a recipe, or of a file.
+/// A scene of a mesh file, or a scene at one point of a recipe.
 pub(crate) struct SceneAtStep {
     pub(crate) scene: Scene,
     /// The label of the step before which the recipe stopped; empty if it did not stop before a step. The label seeds

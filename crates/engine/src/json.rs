@@ -6,7 +6,7 @@ use recipe::{Diagnostic, LineIndex, Source, StepDone};
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 
-/// A diagnostic, for serialization as JSON. Unknown values are `null`.
+/// A diagnostic, for serialization as JSON. Fields without a value are `null`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Problem {
     /// `error` or `warning`.

@@ -14,7 +14,8 @@ pub(crate) struct CacheArgs {
     /// Run every step, and neither read nor write the cache
     #[arg(long)]
     pub(crate) no_cache: bool,
-    /// Maximum size of the cache, such as 512MiB or 8GiB; the least recently used results are removed
+    /// Maximum size of the cache, such as 512MiB or 8GiB; if the cache is larger, the least recently used results are
+    /// removed
     #[arg(long, default_value = "4GiB", value_name = "SIZE", value_parser = size)]
     pub(crate) cache_limit: u64,
 }

@@ -84,7 +84,7 @@ pub(crate) fn command() -> Command {
         }
     }
     template += "\nOptions:\n{options}\n\n`meshwright COMMAND --help` describes a command and its options.\n";
-    // Names of values can be written in lower or upper case.
+    // Values that are names can be written in lower or upper case.
     command
         .help_template(template)
         .mut_subcommands(|command| command.mut_args(in_any_case))

@@ -38,8 +38,9 @@ impl ManyArgs {
     after_help = "Example: meshwright test scenes --filter cube --junit tests.xml
 
 Folders are searched recursively, except hidden folders and folders named `assets`. Recipes without
-expectations, and recipes called by other tested recipes, are checked for syntax and listed, but not run
-and not counted as passed. A recipe given by its own path is run even if other recipes call it."
+expectations, and recipes called by other tested recipes, are read and listed, but not run and not counted
+as passed. An error in their text is a failure. A recipe given by its own path is run even if other recipes
+call it."
 )]
 pub(crate) struct TestArgs {
     /// Recipes, or folders of recipes
@@ -59,8 +60,8 @@ pub(crate) struct TestArgs {
     /// Output format
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
-    /// Replace recorded values in the recipes (eq, is, Bounds, Digest) and reference files of `Output` with the
-    /// actual ones
+    /// Replace recorded values in the recipes (eq, is, Bounds, Digest) with the actual values, and reference files of
+    /// `Output` with the written files
     #[arg(long)]
     pub(crate) update: bool,
     #[command(flatten)]
@@ -85,11 +86,11 @@ pub(crate) struct BatchArgs {
     /// Input files, as paths or patterns: `*` and `?` match within one folder, `**` matches any number of folders
     #[arg(long, value_name = "PATTERN", num_args = 1.., required_unless_present_any = ["merge", "sets"])]
     pub(crate) inputs: Vec<String>,
-    /// Parameter sets, as a JSON list of objects such as [{"levels": 1}, {"levels": 2}]; the recipe runs with each set
-    /// (for each input file), with the outputs in a folder named after the number of the set
+    /// Parameter sets, as a JSON list of objects such as [{"levels": 1}, {"levels": 2}]; the recipe runs once for each
+    /// set (and input file) and writes its outputs to a folder named after the number of the set
     #[arg(long, value_name = "FILE.json")]
     pub(crate) sets: Option<PathBuf>,
-    /// The parameter that receives the input file; required if the recipe has several of type Path
+    /// The parameter that receives the input file; required if the recipe has several parameters of type Path
     #[arg(long, value_name = "NAME", requires = "inputs")]
     pub(crate) param: Option<String>,
     #[command(flatten)]
@@ -106,10 +107,11 @@ pub(crate) struct BatchArgs {
     /// Also write the results as JUnit XML, with a test case for each input file
     #[arg(long, value_name = "FILE")]
     pub(crate) junit: Option<PathBuf>,
-    /// Process only part I of N of the input files; the path of a file alone determines its part
+    /// Process only part I of N of the input files; the part of a file depends only on its path and, with --sets, on
+    /// the number of its parameter set
     #[arg(long, value_name = "I/N")]
     pub(crate) shard: Option<Shard>,
-    /// Estimate the memory of each of N parts of the batch, and run nothing
+    /// Estimate the memory that each of N parts of the batch needs, and run nothing
     #[arg(
         long,
         value_name = "N",
@@ -178,13 +180,14 @@ impl fmt::Display for Shard {
 
 The recipe runs once for each combination of the values in `over`; the last parameter changes fastest.
 Lists under `zip` must have the same length and are combined value by value. Each combination is a cell
-of the sweep. A failed cell is a row with its error.
+of the sweep. In the table, the row of a failed cell contains its error.
 
   meshwright sweep levels.sweep.ron --sheet levels.png --wireframe --from Front
 
-draws the final scene of each cell. If exactly two parameters vary, the values of the first label the rows
-and those of the second the columns; otherwise each cell has its values below it. All cells share one camera,
-one scale and one color range. A failed cell shows its error instead of a scene."
+draws the final scene of each cell. If exactly two parameters vary (all lists under `zip` count as one), the
+values of the first label the rows and the values of the second label the columns; otherwise the values of
+a cell are shown below it. All cells share one camera, one scale and one color range. A failed cell shows
+its error instead of a scene."
 )]
 #[command(mut_group("DrawArgs", |group| group.requires("sheet")))]
 pub(crate) struct SweepArgs {
@@ -206,7 +209,7 @@ pub(crate) struct SweepArgs {
     /// Draw the scenes of all cells in one image (.png); the values of `keep` are shown where they fit
     #[arg(long, value_name = "FILE", help_heading = SHEET)]
     pub(crate) sheet: Option<PathBuf>,
-    /// Number of cells in a row; each cell has its values below it
+    /// Number of cells in a row; the parameter values of each cell are then shown below it
     #[arg(
         long,
         value_name = "N",

@@ -59,7 +59,7 @@ pub(crate) enum Command {
     Sweep(SweepArgs),
     /// Open the editor, a window that turns every edit into a step of a recipe
     ///
-    /// The editor is a program of its own, `meshwright-viewer`.
+    /// The editor is a separate program, `meshwright-viewer`.
     Edit(EditArgs),
     /// Write a small commented recipe to start from
     New(NewArgs),
@@ -152,8 +152,8 @@ pub(crate) struct ConvertArgs {
     pub(crate) from: Option<String>,
     #[command(flatten)]
     pub(crate) read: ReadArgs,
-    /// The file to write; its extension determines the format. `-` writes to standard output, and reports to standard
-    /// error
+    /// The file to write; its extension determines the format. With `-`, the file is written to standard output and the
+    /// report to standard error
     pub(crate) output: PathBuf,
     /// The format of standard output, such as `ply`
     #[arg(long, value_name = "FORMAT")]
@@ -162,7 +162,7 @@ pub(crate) struct ConvertArgs {
     /// and Copy for other files
     #[arg(long, value_name = "POLICY", value_parser = read::policy::<Images>)]
     pub(crate) images: Option<Images>,
-    /// Compress the geometry of .glb and .gltf files without loss: Meshopt
+    /// Compress the geometry of .glb and .gltf files without loss; the only codec is Meshopt
     #[arg(long, value_name = "CODEC", value_parser = read::policy::<Compression>)]
     pub(crate) compress: Option<Compression>,
     /// Store the geometry of .glb and .gltf files with fewer bits

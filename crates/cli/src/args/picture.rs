@@ -22,8 +22,8 @@ pub(crate) struct DrawArgs {
     /// Use a camera without perspective
     #[arg(long)]
     pub(crate) orthographic: bool,
-    /// Point the z axis upwards; defaults to the y axis, unless the model stands on the plane z = 0 and not on the
-    /// plane y = 0
+    /// Draw the z axis upwards; by default, the y axis points upwards, unless the model stands on the plane z = 0 and
+    /// not on the plane y = 0
     #[arg(long)]
     pub(crate) z_up: bool,
     /// Shading: Flat, Smooth, Phong, Matcap or Plain
@@ -79,9 +79,9 @@ pub(crate) struct PictureErrorsArgs {
   meshwright picture scenes/cube.ron --change split --color-by Valence
   meshwright picture 'models/**/*.obj' --sheet --columns 6
 
-`meshwright ops Picture` describes all parameters of a picture. Pass those without an option of their own with
---with, written as in recipes: --with 'style: (occlusion: 0, ids: Vertices)'. Paths in them are relative to the
-working directory.")]
+`meshwright ops Picture` describes all parameters of a picture. Pass parameters that have no option of
+their own with --with, written as in recipes: --with 'style: (occlusion: 0, ids: Vertices)'. Paths in these
+parameters are relative to the working directory.")]
 pub(crate) struct PictureArgs {
     /// Mesh, patch or curve files, or recipes (*.ron); patterns such as 'models/*.obj' are allowed
     #[arg(required = true, value_name = "FILES")]

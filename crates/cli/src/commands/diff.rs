@@ -174,7 +174,7 @@ fn column_text(attribute: &AttributeDifference, files: &[String; 2]) -> String {
         ColumnDifference::OnlySecond => format!("only in {}", files[1]),
         ColumnDifference::Types([a, b]) => format!("{a} in {}, {b} in {}", files[0], files[1]),
         ColumnDifference::Rules => "different edit rules".to_owned(),
-        ColumnDifference::Unknown => "in both, but on different elements".to_owned(),
+        ColumnDifference::Unknown => "in both, not compared because the elements differ".to_owned(),
         ColumnDifference::Values { count, by, element } => {
             let n = group_digits(*count as u64);
             format!(

@@ -1,4 +1,4 @@
-//! `meshwright edit`: starts the editor, which is a program of its own.
+//! `meshwright edit`: starts the editor, which is a separate program.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -11,7 +11,7 @@ use crate::args::EditArgs;
 const EDITOR: &str = "meshwright-viewer";
 
 pub(crate) fn run(args: &EditArgs) -> anyhow::Result<bool> {
-    let program = std::env::current_exe().context("the folder of the program is unknown")?;
+    let program = std::env::current_exe().context("cannot determine the path of this program")?;
     let editor = beside(&program);
     if !editor.is_file() {
         bail!(

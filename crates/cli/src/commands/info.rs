@@ -22,7 +22,7 @@ pub(crate) fn run(args: &InfoArgs) -> anyhow::Result<bool> {
     let path = &pipes::mesh_name(&args.file, args.from.as_deref(), "stdin", "--from")?;
     let (scene, notes) = read_file_or_input(&args.file, path, &args.read.options())?;
     let pictures = args.picture_errors.of(path, BUDGET);
-    // The locations of notes have coordinates in the space of their object.
+    // The locations of notes are in object space, so the objects are drawn without the nodes of the scene.
     let mut unplaced = Scene::new();
     unplaced.append(scene.objects().to_vec(), Graph::default())?;
     for note in &notes {
@@ -178,7 +178,8 @@ fn show(path: &Path, scene: Scene) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Converts a note to JSON. The field `text` names only some of the elements, but the list contains all of them.
+/// Converts a note to JSON. The field `text` names only some of the elements. The field `vertices`, `edges` or `faces`
+/// lists all of them.
 pub(crate) fn note_json(note: &Note) -> serde_json::Value {
     let places = (note.places.iter()).map(|points| points.iter().map(DVec3::to_array).collect());
     let places: Vec<Vec<_>> = places.collect();

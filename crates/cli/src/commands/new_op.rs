@@ -21,7 +21,7 @@ const RESERVED_MODULES: &str = "abstract alloc as async await become box break c
     ops_all override priv proc_macro pub ref return schemars self serde static std struct super test \
     trait true try type typeof unsafe unsized use virtual where while yield";
 
-/// Types that the generated source uses.
+/// Names that a new operation cannot have, because the generated source uses types with these names.
 const RESERVED_TYPES: &str = "Context DVec3 Deserialize JsonSchema Mesh MeshOperation MeshPlan OpError PlanContext \
     Problem Report Result Select Serialize Vec Vector VertexSelection";
 

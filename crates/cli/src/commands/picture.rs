@@ -75,7 +75,7 @@ fn output_path(args: &PictureArgs, first: &Path) -> PathBuf {
 pub(crate) const SHEET_CELL: [u32; 2] = [320, 240];
 
 /// Parses the options as a `Picture` step of a recipe, with the same checks and suggestions. `default_size` is in
-/// pixels; `more` are further parameters.
+/// pixels. `more` contains further fields of the step.
 pub(crate) fn parameters(
     args: &DrawArgs,
     out: &Path,
@@ -195,7 +195,7 @@ fn draw(
 }
 
 /// Tags the faces in which two scenes differ, and returns a selection of these faces. Returns `None` if no faces
-/// differ, or if most faces differ, as after a subdivision.
+/// differ, or if more than half of the faces differ, as after a subdivision.
 fn highlight_changes(before: &mut Scene, after: &mut Scene) -> Option<Elements> {
     const TAG: &str = "changed by the step";
     let tag = TagName::try_from(TAG.to_owned()).ok()?;

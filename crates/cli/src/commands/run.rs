@@ -65,8 +65,8 @@ pub(crate) fn load_to_run(args: &RunArgs, engine: &Engine) -> anyhow::Result<Loa
     Ok(loaded)
 }
 
-/// Runs a recipe until the recipe ends or `go_on` returns false, and draws failures. Prints the errors of a recipe that
-/// cannot be run and returns `None`. With `--format json`, prints events.
+/// Runs a recipe until the recipe ends or `go_on` returns false, and draws failures. If the recipe has errors, prints
+/// them and returns `None`. With `--format json`, prints events.
 pub(crate) fn execute(
     args: &RunArgs,
     loaded: &Loaded,

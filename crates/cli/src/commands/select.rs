@@ -59,7 +59,7 @@ pub(crate) fn run(args: &SelectArgs, engine: &Engine) -> anyhow::Result<bool> {
     Ok(true)
 }
 
-/// Returns the meshes to select on: the named ones, or all.
+/// Returns the meshes to select on: the meshes that `--on` names, or all meshes.
 fn meshes<'s>(
     args: &SelectArgs,
     objects: &'s [Object],

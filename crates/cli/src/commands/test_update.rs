@@ -1,4 +1,5 @@
-//! `meshwright test --update`: replaces recorded values in recipes, and reference files, by the actual ones.
+//! `meshwright test --update`: replaces recorded values in recipes by the actual values, and reference files by the
+//! written files.
 
 use std::path::Path;
 

@@ -3,8 +3,8 @@
 //! The program watches the folders of these files, since many editors save by replacing the file. Other files in the
 //! watched folders are ignored, and so are the files that the run writes. The cache compares contents, so steps whose
 //! inputs did not change are not run again, and saving an unchanged file prints no results. If a file is saved during a
-//! run, the run is canceled and the next one starts. Ctrl-C cancels the run, if one is running, and ends the program with
-//! exit code 0.
+//! run, the run is canceled and the next one starts. Ctrl-C cancels the run, if one is running, and ends the program
+//! with exit code 0.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -116,7 +116,7 @@ struct FolderWatcher {
     folders: BTreeSet<PathBuf>,
     /// The store that records the files that the recipe reads. Changes of other files are ignored.
     disk: Arc<RecordingDisk>,
-    /// Files that the runs write. Changes of files that the runs write are ignored.
+    /// Files that the runs write. Changes of these files are ignored.
     ignored: Mutex<BTreeSet<PathBuf>>,
     /// A file that has changed since the last call of [`wait`](Self::wait), if any.
     pending: Mutex<Option<PathBuf>>,

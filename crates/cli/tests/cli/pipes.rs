@@ -125,7 +125,7 @@ fn standard_output_takes_one_file() {
     folder
         .run("convert in.obj - --to gltf")
         .with_code(2)
-        .complains(&["standard output takes one: use --to glb"]);
+        .complains(&["standard output takes only one file: use --to glb"]);
     let ended = folder.run("convert in.obj - --to obj").with_code(0);
     assert!(!ended.stdout.contains("mtl") && ended.stdout.contains("f 1 2 3 4"));
     ended.complains(&["object `in`: `materials` (1): OBJ stores materials in a second file"]);
@@ -136,7 +136,7 @@ fn standard_output_takes_one_file() {
     let ended = folder
         .run("convert in.obj - --to glb --images Copy")
         .with_code(1);
-    ended.complains(&["the output needs 2 files, and standard output takes one"]);
+    ended.complains(&["the output needs 2 files, but standard output takes only one"]);
 }
 
 #[test]

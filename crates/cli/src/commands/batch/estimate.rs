@@ -5,7 +5,8 @@
 //! {"parts": [{"part": 1, "runs": 12, "bytes": 34603008}]}
 //! ```
 //!
-//! `bytes` is the largest estimate of a run of the part, for a process that makes one run at a time (`--threads 1`).
+//! `bytes` is the largest of the estimates for the runs of the part. This is the memory of a process that makes one run
+//! at a time (`--threads 1`).
 
 use anyhow::ensure;
 use recipe::shape::counted;
@@ -30,7 +31,7 @@ struct Estimate {
     parts: Vec<Memory>,
 }
 
-/// Estimates the memory of `n` parts. A run that has errors needs no memory.
+/// Estimates the memory of `n` parts. A run whose recipe has errors counts as 0 bytes, because it is not started.
 pub(super) fn run(batch: &Batch, n: u32) -> anyhow::Result<bool> {
     let args = batch.args;
     if let Some(path) = &args.report {
@@ -69,12 +70,13 @@ pub(super) fn run(batch: &Batch, n: u32) -> anyhow::Result<bool> {
     Ok(true)
 }
 
-/// Returns the estimated memory of a run: the largest meshes after a step, and the smaller meshes of two consecutive
-/// steps, because a step holds the meshes before and after it. Meshes cannot exceed the budget.
+/// Returns the estimated memory of a run: the peak memory of the forecast, plus a copy of meshes, because a step holds
+/// the meshes before and after it. For two consecutive steps, the copy is as large as the smaller of the two forecasts;
+/// the largest copy counts. Each of the two terms is at most the budget, because meshes cannot exceed it.
 fn memory(forecast: &Forecast, budget: u64) -> u64 {
     let steps = forecast.steps.windows(2);
     let smaller = steps.map(|pair| pair[0].bytes.max.min(pair[1].bytes.max));
-    // If a step has no limit, the estimate of the largest meshes includes a copy.
+    // Steps without an upper limit are skipped, because the estimate of `peak_bytes` for such a step includes a copy.
     let copy = smaller.filter(|&bytes| bytes < u64::MAX).max();
     forecast.peak_bytes().min(budget) + copy.unwrap_or(0).min(budget)
 }

@@ -25,7 +25,7 @@ impl Input {
         self.set.as_ref().map_or(0, |set| set.number)
     }
 
-    /// Returns the text for the file and its parameter set.
+    /// Returns the text that names the file and its parameter set in messages.
     pub(super) fn label(&self) -> String {
         let values = self.set.as_ref().map(|set| set.values.clone());
         label(&self.path, &values.unwrap_or_default())
@@ -58,7 +58,7 @@ pub(crate) fn list(patterns: &[String]) -> anyhow::Result<Vec<Input>> {
     for pattern in patterns {
         let before = inputs.len();
         let path = Path::new(pattern);
-        // If a file has the name `pattern`, the pattern is the path of this file.
+        // If `pattern` is the path of an existing file, it stands for this file and is not expanded.
         if path.is_file() {
             inputs.push(Input {
                 path: pattern.clone(),

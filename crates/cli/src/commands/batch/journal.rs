@@ -1,7 +1,7 @@
 //! The journal of a batch: records finished files, so that an interrupted batch can be resumed.
 //!
 //! Each line is one JSON object. Lines that are appended together are written in one piece and synced to disk before
-//! the next ones. An incomplete last line is ignored and overwritten.
+//! the next lines are written. An incomplete last line is ignored and overwritten.
 //!
 //! ```text
 //! {"meshwright": "0.1.0", "process": 4711}       a process started on the batch

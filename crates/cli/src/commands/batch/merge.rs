@@ -89,7 +89,7 @@ fn merge(reports: &[(&Path, Report)]) -> anyhow::Result<Report> {
     }
     ensure!(
         contradictions == 0,
-        "{}, no report was written: leave out the outdated reports",
+        "{}, so no report was written: leave out the outdated reports",
         counted(contradictions, "contradiction")
     );
     let missing = n_parts(reports).map_or(Vec::new(), |of| {

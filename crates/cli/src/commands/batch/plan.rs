@@ -1,4 +1,4 @@
-//! The plan of a batch: the recipe, the input files, and the outputs of each.
+//! The plan of a batch: the recipe, the input files, and the outputs for each input file.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -33,8 +33,8 @@ pub(super) struct Batch<'a> {
 }
 
 impl<'a> Batch<'a> {
-    /// Reads the recipe, lists the input files, and checks that their outputs do not collide. If the recipe has
-    /// errors for every file, prints them and returns `None`.
+    /// Reads the recipe, lists the input files, and checks that their outputs do not collide. If the text of the recipe
+    /// has errors, prints them and returns `None`.
     pub(super) fn plan(
         args: &'a BatchArgs,
         engine: &'a Engine<'a>,
@@ -42,7 +42,7 @@ impl<'a> Batch<'a> {
         let path = args.recipe.as_deref().unwrap_or(Path::new(""));
         expect_kind(path, FileKind::Recipe)?;
         let source = Source::open(path).map_err(anyhow::Error::msg)?;
-        // Loads the recipe with its default file, which can be missing.
+        // Loads the recipe with the default value of its path parameter. The file at this path can be missing.
         let loaded = load_text(&source, &args.values, &args.out, args.many.budget, engine)?;
         if !loaded.is_read {
             report_errors(&loaded, false)?;
@@ -85,7 +85,7 @@ impl<'a> Batch<'a> {
     fn check_outputs(&self) -> anyhow::Result<()> {
         let [stem, name] = ["\u{1}", "\u{1}.\u{2}"];
         let below = |path: &PathBuf| path.strip_prefix(&self.args.out).unwrap_or(path).to_owned();
-        // The outputs for each parameter set.
+        // For each parameter set, the outputs for the marker.
         let mut marked: HashMap<usize, Vec<PathBuf>> = HashMap::new();
 
         let place = |path: &Path| absolute(path).unwrap_or_else(|_| path.to_path_buf());

@@ -29,7 +29,8 @@ pub(crate) struct ParameterSet {
 ///
 /// # Errors
 ///
-/// If the file is not a list of objects, or a name or a value is not possible.
+/// If the file is not a list of objects, the recipe has no parameter of a given name, a parameter already has a value,
+/// or a value has the wrong type.
 pub(super) fn read(
     path: &Path,
     parameters: &[Parameter],

@@ -65,7 +65,7 @@ pub(crate) fn run(args: &SweepArgs, engine: &Engine) -> anyhow::Result<bool> {
         return Ok(false);
     };
     catch_interrupts();
-    // Times are only meaningful if every step runs.
+    // Times are meaningful only if every step runs, so the cache is not used if times are recorded.
     let is_timed = |(metric, _): &(Metric, recipe::Span)| matches!(metric, Metric::Seconds);
     let cache = if plan.sweep.keep.iter().any(is_timed) {
         None
@@ -221,7 +221,7 @@ fn check_files(sweep: &Sweep, loaded: &Loaded, diagnostics: &mut Vec<Diagnostic>
     }
 }
 
-/// Prints and writes the results.
+/// Prints and writes the results. Returns whether every cell succeeded.
 fn finish(args: &SweepArgs, plan: &Plan, results: &[CellResult]) -> anyhow::Result<bool> {
     let failed = results.iter().filter(|r| r.error.is_some()).count();
     let not_run = results.iter().filter(|r| r.is_not_run).count();

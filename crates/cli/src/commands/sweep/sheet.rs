@@ -288,7 +288,8 @@ pub(super) fn kept_bytes(budget: u64) -> u64 {
 /// The positions of cells on a sheet, in order from left to right and from top to bottom.
 struct Layout {
     columns: usize,
-    /// The labels of rows and columns, if exactly two parameters vary; otherwise empty.
+    /// The labels of rows and columns, if exactly two axes have several values and `--columns` is not given; otherwise
+    /// empty.
     heads: [Vec<String>; 2],
 }
 

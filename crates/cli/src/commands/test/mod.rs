@@ -6,7 +6,7 @@
 //! {
 //!   "succeeded": true,            at least one passed, none failed, Ctrl-C was not pressed
 //!   "passed": 1, "failed": 0,
-//!   "no_expectations": 1,         checked, but not run
+//!   "no_expectations": 1,         read, but not run
 //!   "called_by_others": 0,        called by other tested recipes, and not run by themselves
 //!   "not_run": 0,                 because of Ctrl-C
 //!   "recipes": [{

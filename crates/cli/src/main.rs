@@ -23,7 +23,7 @@ fn print_backtraces_in_a_hook() {
     }
     #[expect(
         unsafe_code,
-        reason = "no safe function exists, and without the change a run that is out of memory could wait forever"
+        reason = "no safe function changes the environment, and without the change, a run could wait forever"
     )]
     // SAFETY: `main` has started no threads yet, so no other thread reads the environment.
     unsafe {

@@ -475,7 +475,7 @@ pub fn run_step(
     cx.on = on.as_deref();
     cx.stream = step.label();
     cx.budget = budget;
-    // `AssertUnwindSafe` is correct here, because the scene is replaced and the run ends after a panic.
+    // `AssertUnwindSafe` is correct here: after a panic, the scene is replaced and the run ends.
     let apply = AssertUnwindSafe(|| operation.apply(scene, &mut cx));
     let result = match catch_unwind(apply) {
         Ok(result) => result,

@@ -231,7 +231,7 @@ fn step_fields(operation: &Json, defined: &mut SchemaGenerator) -> Json {
             },
             "enabled": {
                 "type": "boolean",
-                "description": "Whether the step runs. Defaults to `true`. A disabled step is not checked, and expectations after it are not checked either.",
+                "description": "Whether the step runs. Defaults to `true`. A disabled step is not checked, and expectations whose `after` names it are not checked either.",
             },
             "note": { "type": "string", "description": "A comment on the step, which `meshwright run --explain` and `check --explain` print." },
             "refused": described(

@@ -137,7 +137,7 @@ mod tests {
             wrong("All", None),
             [(
                 "All".to_owned(),
-                "this can select vertices or edges or faces: specify which".to_owned(),
+                "this selection can select vertices or edges or faces: specify which".to_owned(),
                 "write `Vertices(All)` or `Edges(All)` or `Faces(All)`".to_owned()
             )]
         );

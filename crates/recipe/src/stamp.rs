@@ -23,7 +23,7 @@ use crate::source::below;
 pub struct Stamp {
     /// The program and its version.
     pub program: String,
-    /// The digest of the recipe, with its parameters.
+    /// The digest of the recipe with the values of its parameters.
     pub recipe: String,
     /// The remaining content, unless the stamp was truncated.
     pub run: Option<Run>,

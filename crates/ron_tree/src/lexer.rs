@@ -218,7 +218,7 @@ impl<'s> Lexer<'s> {
         (TokenKind::UnclosedString, end.max(1))
     }
 
-    /// Lexes a raw string after its prefix. `text` starts with its hashes or its quote.
+    /// Lexes a raw string after its prefix. `text` starts with the hashes or the quote that follow the prefix.
     fn raw_string(&mut self, text: &str, kind: TokenKind) -> (TokenKind, usize) {
         let hashes = length_while(text, |c| c == '#');
         let Some(inside) = text[hashes..].strip_prefix('"') else {

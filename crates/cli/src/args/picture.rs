@@ -41,8 +41,8 @@ pub(crate) struct DrawArgs {
     /// Highlight elements, such as 'Sharp(above: 30)' or 'Faces(Boundary)'
     #[arg(long, value_name = "SELECTION")]
     pub(crate) highlight: Option<String>,
-    /// Color the surface by a quantity, such as Valence or Area; `meshwright ops Picture` lists all. Paths, as in
-    /// 'DistanceTo("other.obj")', are relative to the working directory
+    /// Color the surface by a quantity, such as Valence or Area; `meshwright ops Picture` lists all quantities. Paths,
+    /// as in 'DistanceTo("other.obj")', are relative to the working directory
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) color_by: Option<String>,
     /// Folder with images that are not next to their model, relative to the working directory; defaults to the folder
@@ -60,8 +60,8 @@ pub(crate) struct DrawArgs {
 /// The option that draws failures.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct PictureErrorsArgs {
-    /// Write a picture of each failure to this folder, with the affected elements enlarged and highlighted; without
-    /// DIR, to the working directory
+    /// Write a picture of each failure (at most 20) to this folder, with the affected elements enlarged and
+    /// highlighted; without DIR, to the working directory
     #[arg(
         long,
         value_name = "DIR",

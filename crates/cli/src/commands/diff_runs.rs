@@ -80,7 +80,7 @@ impl Run {
                     let version = event["format"].as_u64().unwrap_or(0);
                     if version > FORMAT {
                         let message = format!(
-                            "{shown} has version {version}, expected at most {FORMAT}: a newer meshwright wrote it"
+                            "{shown} has version {version}, expected at most {FORMAT}: a newer version of meshwright wrote it"
                         );
                         return Err(WrongUsage(message).into());
                     }

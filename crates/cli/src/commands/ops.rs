@@ -61,7 +61,7 @@ fn list(registry: &Registry) -> String {
     for (name, schema) in step_kinds() {
         text += &row(name, schema["description"].as_str().unwrap_or_default());
     }
-    text + "\n`meshwright ops NAME` describes one operation, `meshwright ops --selections` the selections.\n"
+    text + "\n`meshwright ops NAME` describes one operation, `meshwright ops --selections` lists the selections.\n"
 }
 
 fn selections() -> String {

@@ -56,7 +56,7 @@ pub(crate) fn reference(registry: &Registry, pictures: Option<&Path>) -> String 
     text + &variants_table(&recipe::refusals())
 }
 
-/// Adds the types that are not in the list yet. Different types with the same name are all added.
+/// Adds the types that are not in the list yet. Types that differ are all added, even if they have the same name.
 fn add_types(used: &mut Vec<TypeDoc>, types: Vec<TypeDoc>) {
     for t in types {
         if !used.contains(&t) {

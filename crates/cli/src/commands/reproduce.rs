@@ -217,7 +217,7 @@ impl Rerun {
             match now.get(name) {
                 Some(same) if same == digest => {}
                 Some(_) => reasons.push(format!("{name} has changed")),
-                None => reasons.push(format!("{name} is no longer read")),
+                None => reasons.push(format!("the recipe no longer reads {name}")),
             }
         }
         if reasons.is_empty() {

@@ -172,7 +172,7 @@ fn a_recipe_of_a_newer_version_is_refused() {
     fails(&Folder::with_recipe("(recipe: 2, stages: [])")).complains(&[
         "error: this recipe has version 2, expected 1\n",
         "recipe.ron:1:10\n",
-        "help: a newer meshwright may be able to read it\n",
+        "help: a newer version of meshwright may be able to read the file\n",
     ]);
 }
 

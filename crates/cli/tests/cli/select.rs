@@ -64,7 +64,7 @@ fn a_selection_valid_for_several_kinds_needs_a_kind() {
         .run_all(&["select", "cube.obj", "All"])
         .with_code(2)
         .complains(&[
-            "this can select vertices or edges or faces: specify which",
+            "this selection can select vertices or edges or faces: specify which",
             "write `Vertices(All)` or `Edges(All)` or `Faces(All)`",
         ]);
     let ended = folder

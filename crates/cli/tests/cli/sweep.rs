@@ -204,7 +204,7 @@ fn all_errors_are_reported_with_their_places_and_no_cell_runs() {
             "error: expected a whole number, found `8.5`\n",
             "a.sweep.ron:6:23\n",
             "error: expected a whole number, found the string \"9\"\n",
-            "error: expected a value, found none\n",
+            "error: expected at least one value, found an empty list\n",
             "a.sweep.ron:7:18\n",
             "error: 4 is above the maximum 3\n",
             "a.sweep.ron:9:22\n",

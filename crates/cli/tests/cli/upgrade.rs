@@ -45,7 +45,7 @@ fn a_newer_recipe_is_refused_and_the_next_one_is_upgraded() {
         .prints(&["2 recipes, nothing to rewrite\n"])
         .complains(&[
             "this recipe has version 7, expected 1",
-            "a newer meshwright may be able to read it",
+            "a newer version of meshwright may be able to read the file",
             "error: a.ron cannot be upgraded\n",
         ]);
     folder.run("upgrade").with_code(2);

@@ -92,7 +92,7 @@ impl Attributes {
                 let message = if need.is_tag {
                     format!("no element of \"{object}\" is tagged \"{name}\"")
                 } else {
-                    format!("\"{object}\" has no attribute \"{name}\" here")
+                    format!("\"{object}\" has no attribute \"{name}\" before this step")
                 };
                 found.push(Diagnostic::error(need.span, message).with_help(help));
             }
@@ -117,7 +117,7 @@ impl Attributes {
         let lacking = self.lacking(plan, placed.on.as_deref(), domain, name);
         if let Some((object, help)) = lacking {
             let kind = domain.map_or(String::new(), |domain| format!("{domain} "));
-            let message = format!("\"{object}\" has no {kind}attribute \"{name}\" here");
+            let message = format!("\"{object}\" has no {kind}attribute \"{name}\" at this point");
             found.push(Diagnostic::error(placed.span, message).with_help(help));
         }
     }
@@ -146,7 +146,7 @@ impl Attributes {
             d.object == object && d.name == name && domain.is_none_or(|domain| d.domain == domain)
         };
         if let Some(dropped) = self.dropped.iter().rev().find(is_missing) {
-            return format!("the step {} dropped it", dropped.step);
+            return format!("the step {} dropped \"{name}\"", dropped.step);
         }
         let attributes = mesh.attributes.iter();
         let attributes = attributes.filter(|a| domain.is_none_or(|domain| a.domain == domain));

@@ -48,7 +48,8 @@ pub struct Counts {
 /// Whether the faces of two meshes have the same vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Connectivity {
-    /// The vertices have the same ids. In the order of their ids, the faces have the same vertices.
+    /// Both meshes have the same vertex ids, and the n-th face of one mesh has the same vertices as the n-th face of
+    /// the other mesh, in the order of face ids.
     Same,
     /// The vertices have the same positions and the faces are the same, but ids differ.
     Reordered,

@@ -12,7 +12,7 @@ use store::TemporaryFolder;
 
 use super::subject::{ActualValue, Subject, Violation, fails_unless};
 
-/// The largest file, in bytes, that `test --update` copies over its reference file.
+/// The maximum size, in bytes, of a written file that `test --update` copies over its reference file.
 const MAX_RECORDED: u64 = 64 << 20;
 
 /// Whether the path has the extension of a picture. The pixels of pictures are compared, not the bytes of the files.
@@ -23,7 +23,8 @@ pub(super) fn is_picture(path: &str) -> bool {
         .any(|e| extension.eq_ignore_ascii_case(e))
 }
 
-/// Returns the full path of a reference file. `test --update` may write the file.
+/// Returns the full path of a reference file. The allowed paths are restricted, because `test --update` writes to the
+/// file.
 ///
 /// # Errors
 ///

@@ -160,7 +160,7 @@ impl<'a> Subject<'a> {
             ref meshes => {
                 let n = meshes.len();
                 Err(format!(
-                    "this expectation needs exactly 1 mesh, found {n}: name one with `on:`"
+                    "this expectation needs exactly 1 mesh, found {n}: name the mesh with `on:`"
                 ))
             }
         }

@@ -66,7 +66,7 @@ impl Reader<'_, '_> {
             self.error(
                 *span,
                 message,
-                "the expectation is not about single objects",
+                "this expectation checks the whole scene or a file, not single objects",
             );
             return None;
         }

@@ -124,7 +124,7 @@ pub(crate) fn wrong_version(root: &Value, kind: &str, expected: i128) -> Option<
     let found = number.to_int().filter(|&found| found != expected)?;
     let message = format!("this {kind} has version {found}, expected {expected}");
     let help = if found > expected {
-        "a newer meshwright may be able to read it"
+        "a newer version of meshwright may be able to read the file"
     } else {
         "write 1"
     };

@@ -97,7 +97,7 @@ impl Reader<'_, '_> {
             return;
         }
         let help = if self.presets.is_empty() {
-            "it has no presets; declare one with `presets: {\"name\": {\"parameter\": value}}`"
+            "the recipe has no presets; declare one with `presets: {\"name\": {\"parameter\": value}}`"
                 .to_owned()
         } else {
             did_you_mean(name, self.presets.iter().map(|p| p.name.as_str()))

@@ -213,7 +213,7 @@ impl Checker {
 
     fn mismatch(&mut self, value: &Value, expected: &str, place: Place, help: Option<String>) {
         if value.has_errors() {
-            // The value could not be read, so the intended value is unknown.
+            // The parser has already reported why the value could not be read.
             return;
         }
         let message = format!(

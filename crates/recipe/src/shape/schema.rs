@@ -27,7 +27,7 @@ pub(super) struct Choice<'s> {
     pub(super) others: Vec<Schema<'s>>,
 }
 
-/// The maximum number of layers, because a schema can refer to itself.
+/// The maximum number of layers. A limit is necessary, because a schema can refer to itself.
 const MAX_LAYERS: usize = 32;
 
 impl<'s> Schema<'s> {
@@ -91,7 +91,7 @@ impl<'s> Schema<'s> {
         self.all(keyword).filter_map(Json::as_number)
     }
 
-    /// Returns the value of a keyword that is a count.
+    /// Returns the value of a keyword whose value is a count, such as `minItems`.
     pub(super) fn count(&self, keyword: &str) -> Option<u64> {
         self.all(keyword).find_map(Json::as_u64)
     }

@@ -61,7 +61,10 @@ impl Checker {
             [] => self.take_closest(value, trials),
             _ => {
                 let words: Vec<String> = fitting.iter().map(|name| name.to_lowercase()).collect();
-                let message = format!("this can select {}: specify which", words.join(" or "));
+                let message = format!(
+                    "this selection can select {}: specify which",
+                    words.join(" or ")
+                );
                 let full: Vec<String> = (fitting.iter())
                     .map(|name| format!("`{}`", in_full(value, name)))
                     .collect();
@@ -93,9 +96,9 @@ impl Checker {
                 Some(help),
             );
         }
-        // The variant that fits best is the one whose content can have most of the names in the value. If several
-        // variants are equal in this, the one with the fewest errors fits best. If they also have equally many errors,
-        // the first of them fits best.
+        // The variant that fits best is the one whose content type declares the most names that occur in the value. If
+        // several variants are equal in this, the one with the fewest errors fits best. If they also have equally many
+        // errors, the first of them fits best.
         let fit = |((_, _, trial), names): &((&str, Schema, Self), Vec<String>)| {
             (n_known(value, names), Reverse(trial.diagnostics.len()))
         };
@@ -153,7 +156,8 @@ impl Checked {
 
 /// Adds the omitted names to the values in `value`.
 fn complete(value: &mut Value, shorts: &[Short]) {
-    // If several nested values have the same span, the outermost one was checked against the schema.
+    // If several nested values have the same span, the name belongs to the outermost one, because that value was
+    // checked against the schema.
     match shorts.iter().find(|short| short.span == value.span) {
         Some(short) => *value = in_full(value, &short.name),
         None => value.for_each_part(|part| complete(part, shorts)),

@@ -146,7 +146,7 @@ fn all_errors_in_the_values_are_reported_at_once() {
         ("1.5", "expected a whole number, found `1.5`"),
         ("12", "12 is above the maximum 9"),
         ("\"2\"", "expected a whole number, found the string \"2\""),
-        ("[]", "expected a value, found none"),
+        ("[]", "expected at least one value, found an empty list"),
         (
             "true",
             "expected a list of values `[..]` or `Range(from: .., to: .., steps: ..)`, found `true`",

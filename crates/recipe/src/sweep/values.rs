@@ -37,7 +37,7 @@ pub(super) fn settings(
 ) -> Result<Vec<Setting>, Vec<Diagnostic>> {
     if let ValueKind::List(items) = &value.kind {
         if items.is_empty() {
-            let message = "expected a value, found none";
+            let message = "expected at least one value, found an empty list";
             return Err(vec![Diagnostic::error(value.span, message)]);
         }
         return collect(items.iter().map(|item| setting(param, item, folder)));
@@ -137,7 +137,7 @@ fn range(
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
-    reason = "too large numbers become the maximum"
+    reason = "numbers that are too large become the maximum"
 )]
 fn whole_numbers(from: f64, to: f64) -> u32 {
     ((to - from).abs() + 1.0) as u32

@@ -395,7 +395,7 @@ fn a_where_without_a_bound_or_with_an_attribute_that_no_element_can_have_is_an_e
         found,
         [
             "`Where` has no bound",
-            "\"sheet\" has no attribute \"wall\" here"
+            "\"sheet\" has no attribute \"wall\" before this step"
         ]
     );
 }
@@ -408,6 +408,6 @@ fn an_expected_attribute_that_cannot_exist_is_an_error_before_the_run() {
     assert_eq!(found.len(), 1);
     assert_eq!(
         found[0].message,
-        "\"sheet\" has no corner attribute \"uv\" here"
+        "\"sheet\" has no corner attribute \"uv\" at this point"
     );
 }

@@ -99,7 +99,7 @@ fn a_recipe_with_a_different_version_gives_one_error() {
         "(recipe: 2, stages: {\"new\": Things})",
         "2",
         "this recipe has version 2, expected 1",
-        "a newer meshwright may be able to read it",
+        "a newer version of meshwright may be able to read the file",
     );
     has_one_error(
         "(recipe: 0, steps: [])",
@@ -323,7 +323,7 @@ fn on_is_only_for_expectations_about_objects() {
             &text,
             "[\"sheet\"]",
             &format!("{name} does not take `on`"),
-            "the expectation is not about single objects",
+            "this expectation checks the whole scene or a file, not single objects",
         );
     }
 }
@@ -480,7 +480,7 @@ fn the_kind_of_a_selection_can_be_omitted_if_only_one_fits() {
         assert_eq!(short, of(&format!("Edges({selection})")).0);
     }
     let (_, wrong) = of("Boundary");
-    let message = "this can select vertices or edges or faces: specify which";
+    let message = "this selection can select vertices or edges or faces: specify which";
     let help = "write `Vertices(Boundary)` or `Edges(Boundary)` or `Faces(Boundary)`";
     assert_eq!(wrong, [["Boundary", message, help]]);
 }

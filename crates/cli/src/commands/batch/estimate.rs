@@ -37,7 +37,7 @@ pub(super) fn run(batch: &Batch, n: u32) -> anyhow::Result<bool> {
     if let Some(path) = &args.report {
         ensure!(
             path.extension().is_some_and(|e| e == "json"),
-            "{}: expected an estimate with the extension .json",
+            "{}: expected a file with the extension .json for the estimate",
             path.display()
         );
     }

@@ -34,7 +34,7 @@ pub(super) fn write(batch: &Batch, file: &Input, row: &Row, text: &str) -> anyho
     let command = command(batch, file);
     let folder = std::env::current_dir().unwrap_or_default();
     let text = format!(
-        "{} failed{step}\n\n{text}\nTo repeat the run, in the folder {}:\n\n{command}\n",
+        "{} failed{step}\n\n{text}\nTo repeat the run, use this command in the folder {}:\n\n{command}\n",
         file.label(),
         folder.display()
     );

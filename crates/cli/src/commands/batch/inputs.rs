@@ -11,7 +11,7 @@ use super::sets::{ParameterSet, label};
 /// An input file of a batch.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Input {
-    /// The path, with the same beginning as the pattern. Empty if the recipe runs without an input file.
+    /// The path, which starts with the same folders as the pattern. Empty if the recipe runs without an input file.
     pub(crate) path: String,
     /// The path relative to the folder in which the pattern starts.
     pub(crate) relative: PathBuf,

@@ -21,14 +21,14 @@ use serde::{Deserialize, Serialize};
 
 use super::row::{Row, json_lines};
 
-/// A row, with the digest of everything that it depends on.
+/// A row, with the digest of everything that the row depends on.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub(super) struct Entry {
     pub(super) key: String,
     pub(super) row: Row,
 }
 
-/// The first line of each process.
+/// The first line that each process writes.
 #[derive(Deserialize, Serialize)]
 struct ProcessStart {
     meshwright: String,

@@ -17,7 +17,7 @@ use crate::many::{JobResult, error_message, first_error, run_all};
 /// The cells of a sweep, and how they are run.
 pub(super) struct Cells<'a> {
     pub(super) args: &'a SweepArgs,
-    /// The cache, so that a cell can use the results of equal steps of earlier cells.
+    /// The cache, so that a cell can use the results of the same steps in earlier cells.
     pub(super) cache: Option<&'a Cache>,
     pub(super) engine: &'a Engine<'a>,
     /// The text of the recipe.
@@ -28,7 +28,7 @@ pub(super) struct Cells<'a> {
     pub(super) keep: &'a [(Metric, Span)],
     /// Whether the recipe's expectations are checked.
     pub(super) expects: bool,
-    /// Receives the scene of each cell and the peak memory of its run in bytes; `None` if no sheet is drawn.
+    /// Receives the scene of each cell and the estimated peak memory of its run in bytes. `None` if no sheet is drawn.
     pub(super) collect: Option<&'a (dyn Fn(Scene, u64) -> CellScene + Sync)>,
 }
 

@@ -52,7 +52,7 @@ pub(super) struct DrawnSheet {
     pub(super) image: Image,
     /// The indices of cells that succeeded but cannot be drawn, with the reason.
     pub(super) errors: Vec<(usize, String)>,
-    /// Notes on what the images do not show.
+    /// Notes on parts of the scenes that the images do not show.
     pub(super) notes: BTreeSet<String>,
 }
 
@@ -129,7 +129,8 @@ impl<'a> Sheet<'a> {
         Ok(())
     }
 
-    /// Takes the scene of a cell, whose run needed `bytes` of memory. Keeps the scene if the budget allows.
+    /// Takes the scene of a cell. The estimated peak memory of its run is `bytes`. Keeps the scene if the budget
+    /// allows.
     pub(super) fn collect(&self, scene: Scene, bytes: u64) -> CellScene {
         let check = check_names(&self.args.draw.on, &[&scene]);
         let extent = check.map_err(|e| e.to_string()).and_then(|()| {

@@ -128,7 +128,7 @@ fn the_distance_to_another_surface_is_below_a_limit() {
     );
     assert_eq!(
         check_on(&two, None, "DistanceTo(other: Object(\"far\"), below: 1)"),
-        Err("this expectation needs exactly 1 mesh, found 2: name one with `on:`".to_owned())
+        Err("this expectation needs exactly 1 mesh, found 2: name the mesh with `on:`".to_owned())
     );
 }
 

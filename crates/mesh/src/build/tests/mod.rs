@@ -155,8 +155,8 @@ fn refuse_reverses_inconsistent_polygons_but_refuse_as_given_does_not() {
     let built = build(points(4), &[0, 3, 6], &corners, NonManifold::RefuseAsGiven);
     assert_eq!(
         built.unwrap_err().to_string(),
-        "the faces are not a manifold: the edge v0-v1 has more than two faces, or two with the same \
-         direction"
+        "the faces are not a manifold: the edge v0-v1 has more than two faces, or two faces \
+         that run along it in the same direction"
     );
 }
 
